@@ -23,11 +23,11 @@ case $mode in
     *) echo "usage: ./test.sh [--quick|--long|--screens [--update]|--sound|--devices|--figures]" >&2; exit 2 ;;
 esac
 
-packages+=(python3 python3-jsonschema)
+packages+=(python3 python3-jsonschema xvfb xdotool)
 [ "$mode" = --long ] && packages+=(clang-14 libclang-rt-14-dev)
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
-[ "$mode" = --screens ] && packages+=(xvfb xauth xdotool imagemagick)
-[ "$mode" = --sound ] && packages+=(xvfb xauth xdotool imagemagick jackd2 jack-capture python3-numpy)
+[ "$mode" = --screens ] && packages+=(xauth imagemagick)
+[ "$mode" = --sound ] && packages+=(xauth imagemagick jackd2 jack-capture python3-numpy)
 install_packages
 
 # Without these packages the guest is skipped, with a message.

@@ -81,8 +81,13 @@ struct Reading
     bool valid = true;                   ///< false while the device has nothing to report
     Vec3 true_position = Vec3::Zero();   ///< in m; known only for a simulated device
     Vec3 true_velocity = Vec3::Zero();   ///< in m/s; known only for a simulated device
-    Channels axes {};                    ///< in the order of DeviceLayout::axes
-    Channels signals {};                 ///< signal inputs, channel 1 first
+
+    // What the limits of the motors took away from the last effort that was written.
+    Vec3 unrendered_force = Vec3::Zero();    ///< written minus rendered, in N
+    Vec3 unrendered_torque = Vec3::Zero();   ///< likewise, in N m
+
+    Channels axes {};      ///< in the order of DeviceLayout::axes
+    Channels signals {};   ///< signal inputs, channel 1 first
 };
 
 /// What a device should apply.
@@ -114,7 +119,8 @@ inline int indexOf (const std::vector<std::string>& names, std::string_view name
     return -1;
 }
 
-/// One role as the nodes see it: the reading of this tick, and what the guard let through on the last tick.
+/// One role as the nodes see it: the reading of this tick, and the effort on the device since the last tick, as the guard and the
+/// limits of the motors let it through.
 /// The engine owns it, and its address never changes; device nodes hold a pointer to it. The layout is empty until the role
 /// has a device, and constant from then on. Nodes read it only when they are bound.
 struct DeviceState

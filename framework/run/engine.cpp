@@ -268,9 +268,11 @@ void Engine::beforePlan() noexcept
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i]->device)
         {
-            auto& reading = plan->roles()[i].state->reading;
+            auto& [reading, applied, layout] = *plan->roles()[i].state;
             reading = used[i]->device->read();
             reading.valid = reading.valid && ! readings_invalid;
+            applied.force -= reading.unrendered_force;
+            applied.torque -= reading.unrendered_torque;
         }
 
     plan->beginTick (ticks);

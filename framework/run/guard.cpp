@@ -235,13 +235,13 @@ void Guard::watch (const Reading& reading, double elapsed_s) noexcept
     speed (moved, motion.elapsed);
     if (const double v = speed.speed(); ! (v <= limits.max_speed)) latch (Stop::speed, v);
 
-    double work = last.force.dot (moved);
+    double work = (last.force - reading.unrendered_force).dot (moved);
     if (watches_turns)
     {
         const Vec3 turned = motion.turned (reading);
         angular_speed (turned, motion.elapsed);
         if (const double w = angular_speed.speed(); ! (w <= limits.max_angular_speed)) latch (Stop::speed, w, Event::Part::torque);
-        work += last.torque.dot (turned);
+        work += (last.torque - reading.unrendered_torque).dot (turned);
     }
     if (watches_axes) work += watchAxes (reading, motion.elapsed);
     if (limits.max_energy != GuardLimits::none)

@@ -23,15 +23,20 @@ namespace
 std::string reason (int error) { return std::generic_category().message (error); }
 }   // namespace
 
+std::optional<std::string> raisePriority (int wanted) noexcept
+{
+    const sched_param how { wanted };
+    const int error = pthread_setschedparam (pthread_self(), SCHED_FIFO, &how);
+    return error == 0 ? std::nullopt : std::optional (reason (error));
+}
+
 std::vector<std::string> becomeRealTime (std::optional<int> core)
 {
     std::vector<std::string> refused;
     prctl (PR_SET_TIMERSLACK, 1UL);   // in ns; no effect under SCHED_FIFO; the default is 50 us
 
-    constexpr int priority = 70;   // above interrupt threads, which have priority 50
-    const sched_param wanted { priority };
-    if (const int error = pthread_setschedparam (pthread_self(), SCHED_FIFO, &wanted))
-        refused.push_back ("the tick thread has no real-time priority (" + reason (error)
+    if (const auto why = raisePriority (priority::tick))
+        refused.push_back ("the tick thread has no real-time priority (" + *why
                            + "), so other programs can delay it: allow real-time priority with rtprio in /etc/security/limits.conf");
 
     if (core)
@@ -55,6 +60,11 @@ std::optional<std::string> lockMemory()
 }
 
 #else
+
+std::optional<std::string> raisePriority (int) noexcept
+{
+    return "not known on this system";
+}
 
 std::vector<std::string> becomeRealTime (std::optional<int>)
 {

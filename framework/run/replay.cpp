@@ -101,6 +101,11 @@ Result<> Replay::fetch()
     auto fetched = log.next();
     if (! fetched) return fetched.error();
     next = std::move (*fetched);
+    if (next && ! most && next->tick > most_ticks_unasked)
+        return here (Message::error ("log/too_long", {},
+                                     "the log asks for " + std::to_string (next->tick) + " ticks; without a duration, " + std::to_string (most_ticks_unasked)
+                                         + " are the most",
+                                     "give a --duration in s"));
     return {};
 }
 

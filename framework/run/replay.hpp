@@ -22,6 +22,9 @@ namespace tactus
 class Replay
 {
 public:
+    /// The longest run that a file may ask for by itself: seven hours at 4 kHz. A duration that the user gives may be longer.
+    static constexpr std::uint64_t most_ticks_unasked = 100'000'000;
+
     struct Options
     {
         const graph::Graph* graph = nullptr;        ///< played instead of the graph in the log; must outlive the replay
@@ -29,11 +32,11 @@ public:
         std::vector<plan::Override> overrides {};   ///< in addition to the overrides in the log
         Assets* assets = nullptr;
         Services services {};      ///< not used for answers to async queries, which come from the log
-        double duration_s = 0.0;   ///< 0: the whole log
+        double duration_s = 0.0;   ///< 0: the whole log, up to most_ticks_unasked
         std::string program {};    ///< this program and its version, as in RunHead
     };
 
-    /// Ids: those of RunLogReader and compile(), log/empty, log/graph, log/asset_missing, log/asset_changed.
+    /// Ids: those of RunLogReader and compile(), log/empty, log/too_long, log/graph, log/asset_missing, log/asset_changed.
     static Result<std::unique_ptr<Replay>> open (const std::string& log, Options);
 
     Run& run() noexcept { return *running; }

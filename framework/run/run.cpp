@@ -2,6 +2,7 @@
 #include "run.hpp"
 
 #include "device/guard_limits.hpp"
+#include "included_guards.hpp"
 #include "log/graph_snapshot.hpp"
 
 #include <tactus/text/number_text.hpp>
@@ -78,30 +79,48 @@ bool Run::hasDevice (const std::string& role) const
     return std::ranges::any_of (by_role, [&] (const auto& d) { return d.first == role; });
 }
 
-/// Opens the device of a role. The guard that the graph describes for the role applies even if an option or a session chose another
-/// device.
-Run::RoleDevice Run::openOne (const std::string& role, const graph::Graph& graph, const Plan& plan, Messages& messages)
+namespace
+{
+GuardLimits readGuard (Json guard, const std::string& where, Messages& messages, const DeviceLayout& layout)
+{
+    for (const auto* key : { "max_signal", "max_signal_slew" })   // may be text in the unit of the calibration: keep only the value
+        if (guard.is_object() && guard.contains (key) && guard[key].is_string())
+            if (const auto limit = parseMeasure (guard[key].asString())) guard[key] = limit->value;
+    return readGuardLimits (guard, where, messages, layout);
+}
+}   // namespace
+
+/// Opens the device of a role. The guards that the graph and the graphs that it includes describe for the role apply even if an
+/// option or a session chose another device.
+Run::RoleDevice Run::openOne (const std::string& role, const graph::Graph& graph, const std::vector<IncludedGuard>& guards, const Plan& plan,
+                              Messages& messages)
 {
     auto opened = open (role, graph, plan, messages);
     if (! opened.device) return opened;
 
     Messages found;
     const auto where = "/devices/" + role + "/guard";
+    const auto layout = opened.device->layout();
     const auto* description = graph.device (role);
     if (description != nullptr && description->is_object() && description->contains ("guard"))
+        opened.limits = tightest (opened.limits, readGuard (description->at ("guard"), where, found, layout));
+    for (const auto& included : guards)
     {
-        auto guard = description->at ("guard");
-        for (const auto* key : { "max_signal", "max_signal_slew" })   // may be text in the unit of the calibration: keep only the value
-            if (guard.is_object() && guard.contains (key) && guard[key].is_string())
-                if (const auto limit = parseMeasure (guard[key].asString())) guard[key] = limit->value;
-        opened.limits = tightest (opened.limits, readGuardLimits (guard, where, found, opened.device->layout()));
+        if (included.role != role) continue;
+        Messages of_file;
+        opened.limits = tightest (opened.limits, readGuard (included.guard, included.where, of_file, layout));
+        for (auto& m : of_file)
+        {
+            m.file = included.file;
+            found.push_back (std::move (m));
+        }
     }
     checkStops (opened.limits, where, found);
     if (hasErrors (found)) opened = {};   // better no device than a device without its limits
     if (messages.size() >= most_messages && hasErrors (messages)) return opened;
     for (auto& m : found)
     {
-        const auto isKnown = [&m] (const Message& other) { return other.id == m.id && other.where == m.where; };
+        const auto isKnown = [&m] (const Message& other) { return other.id == m.id && other.where == m.where && other.file == m.file; };
         if (std::ranges::none_of (messages, isKnown)) messages.push_back (std::move (m));
     }
     return opened;
@@ -110,10 +129,11 @@ Run::RoleDevice Run::openOne (const std::string& role, const graph::Graph& graph
 void Run::openDevices (const graph::Graph& graph, Messages& messages)
 {
     const auto& plan = running->newest();
+    const auto guards = includedGuards (graph);
     for (const auto& role : plan.roles())
     {
         if (! open || hasDevice (role.name)) continue;
-        auto opened = openOne (role.name, graph, plan, messages);
+        auto opened = openOne (role.name, graph, guards, plan, messages);
         if (! opened.device) continue;
         running->attach (role.name, *opened.device, opened.limits);
         by_role.emplace_back (role.name, std::move (opened));
@@ -235,10 +255,12 @@ void Run::Edit::drop()
 
 void Run::Edit::openDevices()
 {
+    const auto guards = includedGuards (graph);
     for (const auto& role : compiled.plan->roles())
     {
         if (! run->open || run->hasDevice (role.name)) continue;
-        if (auto made = run->openOne (role.name, graph, *compiled.plan, compiled.messages); made.device) opened.emplace_back (role.name, std::move (made));
+        auto made = run->openOne (role.name, graph, guards, *compiled.plan, compiled.messages);
+        if (made.device) opened.emplace_back (role.name, std::move (made));
     }
 }
 

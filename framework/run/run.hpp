@@ -24,6 +24,8 @@
 namespace tactus
 {
 
+struct IncludedGuard;
+
 /// Takes part in every tick of a run, for example a feed, a recording, probes or sound.
 class RunListener
 {
@@ -218,7 +220,7 @@ private:
     Compiled compile (const graph::Graph&, const Plan* before, const Plan* withdrawn, std::vector<std::string> kept);
     bool isOptional (const std::string& port) const;
     bool hasDevice (const std::string& role) const;
-    RoleDevice openOne (const std::string& role, const graph::Graph&, const Plan&, Messages&);
+    RoleDevice openOne (const std::string& role, const graph::Graph&, const std::vector<IncludedGuard>&, const Plan&, Messages&);
     void logNext (const std::shared_ptr<Plan>&, const graph::Graph&, const std::vector<std::pair<std::string, RoleDevice>>& joining);
 
     const Catalogue& catalogue;

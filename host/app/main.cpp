@@ -51,7 +51,7 @@ public:
     {
         look = std::make_unique<Look>();
         juce::LookAndFeel::setDefaultLookAndFeel (look.get());
-        MainView::Start how { .home = homeFolder() };
+        MainView::Start how { .home = homeFolder(), .stops_directly = true };
         if (! readArguments (how)) return quit();
         window = std::make_unique<Window> (*look, how);
         watchForStop();

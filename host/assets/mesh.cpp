@@ -62,8 +62,10 @@ void MeshBuilder::face (std::span<const long long> corners, std::size_t line)
     const auto at = [&] (std::size_t i) { return joined[static_cast<std::size_t> (corners[i])]; };
     for (std::size_t i = 2; i < corners.size(); ++i)
         if (const std::array<int, 3> t { at (0), at (i - 1), at (i) }; t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
+        {
             made.triangles.push_back (t);
-    checkBudget (&Budgets::triangles, made.triangles.size(), line);
+            checkBudget (&Budgets::triangles, made.triangles.size(), line);
+        }
 }
 
 namespace

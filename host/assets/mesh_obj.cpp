@@ -21,6 +21,7 @@ void readObj (std::string_view bytes, MeshBuilder& mesh)
         {
             const auto number = wholeNumber (word.substr (0, word.find ('/')), lines.number());
             corners.push_back (number < 0 ? mesh.points() + number : number - 1);
+            if (corners.size() > 2) checkBudget (&Budgets::triangles, corners.size() - 2, lines.number());
         }
         mesh.face (corners, lines.number());
     }

@@ -45,7 +45,9 @@ void readOff (std::string_view bytes, MeshBuilder& mesh)
     {
         auto face = nextLine (lines);
         corners.clear();
-        for (auto left = wholeNumber (takeWord (face), lines.number()); left > 0; --left)
+        auto left = wholeNumber (takeWord (face), lines.number());
+        if (left > 2) checkBudget (&Budgets::triangles, static_cast<std::size_t> (left - 2), lines.number());   // before they are kept
+        for (; left > 0; --left)
             corners.push_back (wholeNumber (takeWord (face), lines.number()));
         mesh.face (corners, lines.number());
     }

@@ -8,7 +8,9 @@
 #include <host/sessions/needs.hpp>
 #include <tactus/graph/reconcile.hpp>
 #include <tactus/plan/missing_parts.hpp>
+#include <tactus/run/replay.hpp>
 #include <tactus/text/closest_match.hpp>
+#include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <cmath>
@@ -49,7 +51,7 @@ CommandRun::CommandRun (const RunOptions& o, Pace pace) : options (o), loaded (l
     running = std::make_unique<Run> (catalogue(), std::move (compile), opener, pace == Pace::live ? Run::Queries::on_thread : Run::Queries::within_tick);
     load();
     openDevices();
-    decideLength();
+    decideLength (pace);
     auto outputs = options.outputs;
     for (const auto* file : { &options.log, &options.capture })
         if (! file->empty()) outputs.push_back (*file);
@@ -233,12 +235,21 @@ std::vector<RealDevice> CommandRun::realDevices() const
     return all;
 }
 
-void CommandRun::decideLength()
+void CommandRun::decideLength (Pace pace)
 {
     double seconds = options.duration_s;
     if (seconds == 0.0)
         for (const auto& [role, d] : running->devices())
             seconds = std::max (seconds, d.device->duration());
+
+    // A file of some bytes must not keep the computer busy for hours. Who gives --duration knows what it asks for.
+    constexpr auto most_unasked = static_cast<double> (Replay::most_ticks_unasked);
+    const double by_files = feed ? static_cast<double> (feed->ticks()) : seconds * rate();
+    if (pace == Pace::offline && options.duration_s == 0.0 && by_files > most_unasked)
+    {
+        const auto asks = (feed ? "the feed asks for " : "a device's path asks for ") + numberText (std::ceil (by_files)) + " ticks";
+        fail ("run/too_long", asks + "; without --duration, " + numberText (most_unasked) + " are the most", "give a --duration in s or a lower --rate");
+    }
 
     if (feed) count = feed->ticks();
     if (options.duration_s > 0.0 || (! feed && seconds > 0.0))
@@ -265,7 +276,7 @@ void CommandRun::attend()
     if (const auto trouble = running->attend())
     {
         const auto ending = trouble->id == "log/broken" ? "; the run continues\n    " + trouble->remedy : ", and the log ends here; the run continues";
-        std::cerr << printableName (options.log) << ": warning: " << printable (trouble->text) << printable (ending) << " [" << trouble->id << "]\n";
+        std::cerr << printableName (options.log) << ": warning: " << inOneLine (trouble->text) << printable (ending) << " [" << trouble->id << "]\n";
     }
 }
 

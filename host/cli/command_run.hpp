@@ -87,7 +87,7 @@ private:
     void load();
     void openDevices();
     void checkDeviceOptions();
-    void decideLength();
+    void decideLength (Pace);
     void startAudio();
     std::vector<Described> devicesByRole() const;
     Run::RoleDevice open (const std::string& role, const graph::Graph&, const Plan&, Messages&);

@@ -126,7 +126,7 @@ std::string textOf (const Listed& l)
     {
         text += "no profile fits this device\n";
         for (const auto& m : l.unable)
-            text += "    " + printable (m.text) + "\n";
+            text += "    " + inOneLine (m.text) + "\n";
         return text;
     }
 
@@ -153,7 +153,7 @@ std::string textOf (const audio::ListedCard& c)
 {
     const auto name = printableName (c.type + ":" + c.name);
     auto text = "sound card " + name + "\n    ";
-    if (! c.trouble.empty()) return text + printable (c.trouble) + "\n";
+    if (! c.trouble.empty()) return text + inOneLine (c.trouble) + "\n";
     text += std::to_string (c.outputs.size()) + " outputs, " + std::to_string (c.inputs.size()) + " inputs; ";
     text += inARow (c.rates) + " Hz; blocks of " + inARow (c.blocks) + "\n    ";
     return text + "--audio \"" + name + "\" --route PORT=CHANNEL, or --device ROLE=audio\n";
@@ -283,7 +283,7 @@ std::vector<std::unique_ptr<Probed>> openAll (const std::vector<Listed>& all)
         if (opened)
             probed.push_back (std::make_unique<Probed> (std::move (*opened)));
         else
-            std::cerr << printableName (opened.error().where) << ": error: " << printable (opened.error().text) << "\n    "
+            std::cerr << printableName (opened.error().where) << ": error: " << inOneLine (opened.error().text) << "\n    "
                       << printable (opened.error().remedy) << " [" << opened.error().id << "]\n";
     }
     return probed;
@@ -341,7 +341,7 @@ void run (const Options& options)
 {
     const auto profiles = loadProfileLibrary();
     for (const auto& m : profiles.messages)
-        std::cerr << printableName (m.file + m.where) << ": warning: " << printable (m.text) << "\n    " << printable (m.remedy) << " [" << m.id << "]\n";
+        std::cerr << printableName (m.file + m.where) << ": warning: " << inOneLine (m.text) << "\n    " << inOneLine (m.remedy) << " [" << m.id << "]\n";
 
     const auto all = listAll (profiles);
     Json json = Json::array();

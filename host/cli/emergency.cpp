@@ -3,6 +3,7 @@
 
 #include <host/platform/failsafe.hpp>
 #include <host/platform/signals.hpp>
+#include <tactus/run/realtime.hpp>
 
 #include <chrono>
 #include <limits>
@@ -29,8 +30,7 @@ Emergency::Emergency (Engine& e)
     asked_by_signal = false;
     watchForEmergency ([]() noexcept { under_signals.load()->press(); },
                        []() noexcept { asked_by_signal = true; });
-    if (hasKeys())
-        reading = std::jthread ([this] (const std::stop_token& stop) { readKeys (stop); });
+    listening = std::jthread ([this] (const std::stop_token& stop) { listen (stop); });
 }
 
 Emergency::~Emergency() { watchForEmergency (nullptr, nullptr); }
@@ -56,11 +56,17 @@ Result<> Emergency::rearm (std::chrono::steady_clock::time_point asked)
     return {};
 }
 
-void Emergency::readKeys (const std::stop_token& stop)
+/// Handles the keys, and the signals, which the other threads hold.
+void Emergency::listen (const std::stop_token& stop)
 {
+    static_cast<void> (raisePriority (priority::stop));   // if real-time priority is refused, the run reports that
+    takeEmergencySignals();
+    constexpr auto patience = std::chrono::milliseconds (20);
     double r_at = -repeat_s;
     while (! stop.stop_requested())
-        if (const char key = keys.next (std::chrono::milliseconds (20)); key == ' ')
+        if (! hasKeys())
+            std::this_thread::sleep_for (patience);   // a signal interrupts the sleep
+        else if (const char key = keys.next (patience); key == ' ')
             press();
         else if (key == '\x03')   // Ctrl-C in a terminal that sends no signal for it
             requestStop();

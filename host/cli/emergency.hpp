@@ -14,9 +14,11 @@ namespace tactus::host
 {
 
 /// The emergency stop of a run, while this object exists: the space bar in a terminal, SIGUSR1 from anywhere, press(), and an
-/// alarm of the failsafe. A thread of its own reads the keys, so a stop takes effect however long the main thread compiles, prints
-/// or waits. As a listener of the run, this object looks for alarms before every tick. R rearms, but not within a second of the
-/// stop, so that two keys pressed in a hurry do not undo the stop. Only one may exist at a time. [main thread]
+/// alarm of the failsafe. A thread of its own reads the keys and handles the signals, with a priority above the
+/// tick's where the system allows that. So a stop takes effect however long the main thread compiles, prints or waits, and however
+/// busy the tick thread is. For the signals, call holdEmergencySignals() before other threads are started. As a listener of the
+/// run, this object looks for alarms before every tick. R rearms, but not within a second of the stop, so that two keys pressed in
+/// a hurry do not undo the stop. Only one may exist at a time. [main thread]
 class Emergency final : public RunListener
 {
 public:
@@ -44,7 +46,7 @@ public:
     void before (Plan&, std::uint64_t tick) noexcept override;
 
 private:
-    void readKeys (const std::stop_token&);
+    void listen (const std::stop_token&);
 
     Engine& engine;
     Keys keys;
@@ -53,7 +55,7 @@ private:
     std::atomic<bool> came_too_early { false };
     std::uint32_t alarms_told;      // number of alarms that the user has been told about
     std::uint32_t alarms_stopped;   // number of alarms that have stopped the run   [tick thread]
-    std::jthread reading;           // declared last: it uses the other members
+    std::jthread listening;         // declared last: it uses the other members
 };
 
 }   // namespace tactus::host

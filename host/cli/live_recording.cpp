@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "live_recording.hpp"
+#include "report.hpp"
 
 #include <tactus/text/quote.hpp>
 
@@ -38,7 +39,7 @@ void LiveRecording::giveUp (std::vector<Message> failed)
     for (auto& error : failed)
     {
         std::fprintf (stderr, "%s: warning: %s; this file is no longer written, but the run continues [%s]\n",
-                      printableName (error.where).c_str(), printable (error.text).c_str(), error.id.c_str());
+                      printableName (error.where).c_str(), inOneLine (error.text).c_str(), error.id.c_str());
         if (! failure) failure = std::move (error);
     }
 }

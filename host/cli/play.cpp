@@ -46,7 +46,7 @@ std::unique_ptr<OscPort> openPort (const Options& options)
         return std::move (*opened);
     }
     if (options.osc_asked_for) fail (opened.error());
-    std::fprintf (stderr, "warning: %s\n", printable (describe (opened.error())).c_str());
+    std::fprintf (stderr, "warning: %s\n", inOneLine (describe (opened.error())).c_str());
     return nullptr;
 }
 
@@ -76,7 +76,7 @@ std::unique_ptr<RunClock> clockOf (const CommandRun& command)
 void warnOfCapture (const std::string& file, const Message& error)
 {
     std::fprintf (stderr, "%s: warning: %s, and the signal to the sound card is no longer written; the run continues [%s]\n",
-                  printableName (file).c_str(), printable (error.text).c_str(), error.id.c_str());
+                  printableName (file).c_str(), inOneLine (error.text).c_str(), error.id.c_str());
 }
 
 /// A play command, from its first tick to its last.
@@ -208,6 +208,7 @@ void run (const Options& options)
 {
     if (! options.records.empty() && options.outputs.empty())
         throw UsageError ("--record names what to record but not where: --out FILE is required");
+    holdEmergencySignals();   // for the thread of the emergency stop
     Playing { options }.play();
 }
 }   // namespace

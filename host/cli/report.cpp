@@ -21,13 +21,13 @@ std::string placeOf (const Message& m, const LoadedGraph& loaded, const std::str
     return file + ":" + std::to_string (at.line) + ":" + std::to_string (at.column);
 }
 
-/// Makes the location of a message printable, on one line.
+}   // namespace
+
 std::string inOneLine (std::string text)
 {
     std::ranges::replace (text, '\n', ' ');
     return printable (text);
 }
-}   // namespace
 
 int report (const Messages& messages, const LoadedGraph& loaded, const std::string& file)
 {
@@ -38,18 +38,18 @@ int report (const Messages& messages, const LoadedGraph& loaded, const std::stri
         const bool error = m.severity == Message::Severity::error;
         errors += error;
         if (++count > most_messages) continue;
-        std::cerr << inOneLine (placeOf (m, loaded, file)) << ": " << (error ? "error: " : "warning: ") << printable (m.text);
+        std::cerr << inOneLine (placeOf (m, loaded, file)) << ": " << (error ? "error: " : "warning: ") << inOneLine (m.text);
         std::cerr << "\n    " << printable (m.remedy) << " [" << m.id << "]\n";
     }
     if (count > most_messages) std::cerr << inOneLine (file) << ": problems not listed: " << count - most_messages << "\n    fix the listed ones first\n";
     return errors;
 }
 
-void warn (const std::string& file, const Message& m) { std::cerr << inOneLine (file) << ": warning: " << printable (m.text) << " [" << m.id << "]\n"; }
+void warn (const std::string& file, const Message& m) { std::cerr << inOneLine (file) << ": warning: " << inOneLine (m.text) << " [" << m.id << "]\n"; }
 
 void fail (const Message& e)
 {
-    std::cerr << inOneLine (e.where) << (e.where.empty() ? "" : ": ") << "error: " << printable (e.text);
+    std::cerr << inOneLine (e.where) << (e.where.empty() ? "" : ": ") << "error: " << inOneLine (e.text);
     std::cerr << "\n    " << printable (e.remedy) << " [" << e.id << "]\n";
     throw Stop {};
 }

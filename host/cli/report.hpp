@@ -22,6 +22,9 @@ struct Stop
 {
 };
 
+/// Escapes what could disturb a terminal, and makes it one line, so that a name in a file cannot forge a message.
+std::string inOneLine (std::string);
+
 /// Prints each message, up to most_messages, to stderr: the location, the problem, the remedy. Returns the number of errors.
 int report (const Messages&, const LoadedGraph&, const std::string& file);
 

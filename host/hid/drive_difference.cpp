@@ -48,9 +48,16 @@ public:
     std::string all() const
     {
         for (const auto steps : { &Profile::init, &Profile::exit })
-            for (const auto& step : own.*steps)
-                if (! isStep (step, other.*steps)) return "its \"init\" or \"exit\" sends a report that the shipped one does not send";
+        {
+            const auto mine = sentBy (own.*steps), theirs = sentBy (other.*steps);
+            const auto isSent = [&] (const Step& s) { return std::ranges::any_of (theirs, [&] (const Step& t) { return sendsTheSame (s, t); }); };
+            if (! std::ranges::all_of (mine, isSent)) return "its \"init\" or \"exit\" sends a report that the shipped one does not send";
+            // A device that was not told its mode, or not told to rest, can act on the same reports in another way.
+            if (! own.outputs.empty() && ! std::ranges::equal (mine, theirs, sendsTheSame))
+                return "its \"init\" or \"exit\" leaves out a report of the shipped one, or sends them in another order";
+        }
         if (own.outputs.empty()) return {};
+        if (auto difference = inReadings(); ! difference.empty()) return difference;
         if (own.kinematics != other.kinematics) return "its kinematics differ";
         if (own.axes != other.axes) return "its axes differ";
         for (const auto& report : own.outputs)
@@ -59,10 +66,69 @@ public:
     }
 
 private:
-    static bool isStep (const Step& step, const std::vector<Step>& list)
+    static bool sendsTheSame (const Step& a, const Step& b) { return a.kind == b.kind && a.bytes == b.bytes && a.given == b.given; }
+
+    /// The steps that send something.
+    static std::vector<Step> sentBy (std::vector<Step> steps)
     {
-        const auto isSame = [&] (const Step& s) { return s.kind == step.kind && s.bytes == step.bytes; };
-        return step.kind == Step::Kind::get_feature || std::ranges::any_of (list, isSame);
+        std::erase_if (steps, [] (const Step& s) { return s.kind == Step::Kind::get_feature; });
+        return steps;
+    }
+
+    /// The field of an input report, and the id of that report; null if there is none.
+    static std::pair<const InputField*, std::optional<std::uint8_t>> fieldOf (const Profile& profile, const std::string& name)
+    {
+        for (const auto& report : profile.inputs)
+            for (const auto& field : report.fields)
+                if (field.name == name) return { &field, report.id };
+        return { nullptr, {} };
+    }
+
+    bool readTheSame (const std::string& mine, const std::string& theirs) const
+    {
+        if (theirs.empty()) return true;   // the limits of the other profile do not depend on it
+        const auto [a, a_id] = fieldOf (own, mine);
+        const auto [b, b_id] = fieldOf (other, theirs);
+        if (a == nullptr || b == nullptr) return a == b;
+        return a_id == b_id && a->bits == b->bits && a->scale == b->scale && a->offset == b->offset && a->unit == b->unit && a->unwrap == b->unwrap;
+    }
+
+    /// The axis of the other profile that an effort pushes, as the guard finds it: that of the same name, or axisN for effortN; "" for none.
+    std::string axisOf (const std::string& effort) const
+    {
+        constexpr std::string_view prefix = "effort";
+        if (fieldOf (other, effort).first != nullptr) return effort;
+        const auto axis = effort.starts_with (prefix) ? "axis" + effort.substr (prefix.size()) : std::string();
+        return fieldOf (other, axis).first != nullptr ? axis : std::string();
+    }
+
+    /// The limits of speed, energy and age, and the force of a device with kinematics, depend on the readings.
+    std::string inReadings() const
+    {
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+            if (! readTheSame (own.position[i], other.position[i])) return std::string ("its position ") + "xyz"[i] + " is read otherwise";
+            if (! readTheSame (own.rotation[i], other.rotation[i])) return std::string ("its rotation ") + "xyz"[i] + " is read otherwise";
+        }
+        if (! readTheSame (own.valid, other.valid)) return "its \"valid\" is read otherwise";
+        for (const auto& theirs : other.inputs)
+        {
+            const auto isSame = [&] (const InputReport& mine) {
+                return mine.id == theirs.id && readTheSame (mine.sequence, theirs.sequence) && readTheSame (mine.timestamp, theirs.timestamp);
+            };
+            if (std::ranges::none_of (own.inputs, isSame)) return "the number or the time of its reports is read otherwise";
+        }
+        for (const auto& report : own.outputs)
+            for (const auto& field : report.fields)
+                if (const auto axis = axisOf (field.name); ! readTheSame (axis, axis)) return "its axis " + quote (axis) + " is read otherwise";
+        for (const auto& theirs : other.alarms)
+        {
+            const auto isSame = [&] (const Alarm& mine) {
+                return mine.is == theirs.is && mine.while_driven <= theirs.while_driven && readTheSame (mine.field, theirs.field);
+            };
+            if (std::ranges::none_of (own.alarms, isSame)) return "it lacks the alarm of the shipped one on " + quote (theirs.field);
+        }
+        return {};
     }
 
     std::string in (const OutputReport& report) const

@@ -117,11 +117,37 @@ EffortValues HidModel::asked (const HidEffort& effort) const noexcept
     return all;
 }
 
+/// What the motors cannot render of a force, both in the device's own axes: the share that the pose or a current takes away, and
+/// components along axes without a motor.
+Vec3 HidModel::outOfReach (const Vec3& push) const noexcept
+{
+    const double share = pose.strength * kinematics.share (Kinematics::torques (pose, push));
+    Vec3 lost = push;
+    for (int axis = 0; axis < 3; ++axis)
+        for (int motor = 0; motor < 3; ++motor)
+            if (force[static_cast<std::size_t> (motor)] >= 0 && pose.jacobian (axis, motor) != 0.0) lost[axis] = push[axis] - share * push[axis];
+    return lost;
+}
+
 EffortValues HidModel::drive (const HidEffort& effort) noexcept
 {
     auto values = asked (effort);
-    limiter (values);
+    const auto [size, step] = limiter (values);
+    const auto& axes = description->axes;
+    Vec3 no_turn = axes.transpose() * effort.torque;
+    for (int i = 0; i < 3; ++i)
+        if (torque[static_cast<std::size_t> (i)] >= 0) no_turn[i] = 0.0;
+
+    const auto follow = [s = step] (Vec3& now, const Vec3& to) { now = s == 1.0 ? to : Vec3 (now + s * (to - now)); };
+    follow (rendered_force, size * (effort.force - axes * outOfReach (axes.transpose() * effort.force)));
+    follow (rendered_torque, size * (effort.torque - axes * no_turn));
     return values;
+}
+
+void HidModel::rest() noexcept
+{
+    limiter.forget();
+    rendered_force = rendered_torque = Vec3::Zero();
 }
 
 std::span<const std::uint8_t> HidModel::encodeValues (std::size_t report, const EffortValues& values, std::span<const float> samples) noexcept
@@ -148,7 +174,7 @@ void HidModel::reset()
 {
     decoder.reset();
     encoder.reset();
-    limiter.forget();
+    rest();
     forget();
 }
 

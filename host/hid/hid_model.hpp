@@ -71,7 +71,13 @@ public:
     EffortValues drive (const HidEffort&) noexcept;
 
     /// Neutral reports are sent on this tick, so the motors start from rest on the next one. [tick thread]
-    void rest() noexcept { limiter.forget(); }
+    void rest() noexcept;
+
+    /// The part of the force and the torque of the last drive() or rest() that the motors render, on the tool in Tactus axes, in N and
+    /// N m. A force is smaller than asked if the pose, a current, a motor or a slew limits it, and 0 along an axis without a
+    /// motor. A field that clamps one motor by itself, such as one that can only pull, is not considered. [tick thread]
+    const Vec3& renderedForce() const noexcept { return rendered_force; }
+    const Vec3& renderedTorque() const noexcept { return rendered_torque; }
 
     /// The n-th output report of the profile, ready for hid_write (or hid_send_feature_report): without an id it begins
     /// with 0. A field stays neutral if its value is not finite or if the pose has no solution. A report with a stream carries the
@@ -119,6 +125,7 @@ private:
     void place() noexcept;
     void forget() noexcept;
     EffortValues asked (const HidEffort&) const noexcept;
+    Vec3 outOfReach (const Vec3& force) const noexcept;
     ReadingFault fault (double driven_s) const noexcept;
 
     std::shared_ptr<const Profile> description;
@@ -128,6 +135,7 @@ private:
     MotorLimiter limiter;
     Kinematics::Pose pose;
     HidSample last;
+    Vec3 rendered_force = Vec3::Zero(), rendered_torque = Vec3::Zero();
     std::array<int, 3> position {}, rotation {}, force {}, torque {};   // indices of axes and efforts; -1: none
     std::vector<std::size_t> own;                                       // indices of the efforts in ownEffortNames()
     std::vector<std::string> own_names;

@@ -167,19 +167,28 @@ Vec3 Kinematics::torques (const Pose& pose, const Vec3& force) noexcept
     return isFinite (torques) ? torques : Vec3::Zero();
 }
 
-Vec3 Kinematics::motors (const Vec3& torques) const noexcept
+namespace
 {
-    Vec3 currents = torques;
+double currentOf (const Drive& d, double torque) noexcept { return torque * (d.ratio / d.torque_constant); }
+}   // namespace
+
+double Kinematics::share (const Vec3& torques) const noexcept
+{
     double share = 1.0;
     const auto drives = drivesOf (model);
     for (std::size_t i = 0; i < drives.size(); ++i)
-    {
-        const auto& d = drives[i];
-        double& current = currents[static_cast<int> (i)];
-        current *= d.ratio / d.torque_constant;
-        if (std::abs (current) > d.max_current) share = std::min (share, d.max_current / std::abs (current));
-    }
-    return finiteOrZero (Vec3 { share * currents });
+        if (const double current = std::abs (currentOf (drives[i], torques[static_cast<int> (i)])); current > drives[i].max_current)
+            share = std::min (share, drives[i].max_current / current);
+    return share;
+}
+
+Vec3 Kinematics::motors (const Vec3& torques) const noexcept
+{
+    Vec3 currents = torques;
+    const auto drives = drivesOf (model);
+    for (std::size_t i = 0; i < drives.size(); ++i)
+        currents[static_cast<int> (i)] = currentOf (drives[i], torques[static_cast<int> (i)]);
+    return finiteOrZero (Vec3 { share (torques) * currents });
 }
 
 }   // namespace tactus::host::hid

@@ -48,6 +48,9 @@ public:
     /// force. For direct and linear devices, the torques themselves.
     Vec3 motors (const Vec3& torques) const noexcept;
 
+    /// The share of these torques, 0…1, that motors() can render.
+    double share (const Vec3& torques) const noexcept;
+
 private:
     KinematicsModel model;
 };

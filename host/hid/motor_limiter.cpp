@@ -43,7 +43,7 @@ MotorLimiter::MotorLimiter (const Profile& profile, const std::vector<std::strin
 }
 
 /// A motor that cannot pull, for example on a string, does not take the others' force away: its own field is clamped later.
-void MotorLimiter::shrink (EffortValues& values) const noexcept
+double MotorLimiter::shrink (EffortValues& values) const noexcept
 {
     double share = 1.0;
     for (const auto& [effort, least, most, slew] : motors)
@@ -51,14 +51,15 @@ void MotorLimiter::shrink (EffortValues& values) const noexcept
         const double limit = values[effort] < 0.0 ? -least : most, size = std::abs (values[effort]);
         if (limit > 0.0 && size > limit && std::isfinite (size)) share = std::min (share, limit / size);
     }
-    if (share == 1.0) return;
+    if (share == 1.0) return share;
     for (const auto& motor : motors)
         values[motor.effort] *= share;
+    return share;
 }
 
-void MotorLimiter::operator() (EffortValues& values) noexcept
+MotorLimiter::Shares MotorLimiter::operator() (EffortValues& values) noexcept
 {
-    shrink (values);
+    const double size = shrink (values);
     double share = 1.0;
     for (const auto& [effort, least, most, slew] : motors)
     {
@@ -71,6 +72,7 @@ void MotorLimiter::operator() (EffortValues& values) noexcept
         if (share < 1.0) value = last[motor.effort] + share * (value - last[motor.effort]);
         last[motor.effort] = std::isfinite (value) ? value : at_rest[motor.effort];
     }
+    return { size, share };
 }
 
 }   // namespace tactus::host::hid

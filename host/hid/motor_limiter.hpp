@@ -28,11 +28,17 @@ public:
 
     void prepare (double dt_s) noexcept { dt = dt_s; }
 
-    /// Scales the efforts so that each motor stays within its limit. [any thread that owns it]
-    void shrink (EffortValues&) const noexcept;
+    /// The factors k and s.
+    struct Shares
+    {
+        double size = 1.0, step = 1.0;
+    };
+
+    /// Scales the efforts so that each motor stays within its limit, and returns k. [any thread that owns it]
+    double shrink (EffortValues&) const noexcept;
 
     /// Applies both limits. Call once per tick. [tick thread]
-    void operator() (EffortValues&) noexcept;
+    Shares operator() (EffortValues&) noexcept;
 
     /// The neutral reports are sent instead of efforts. [tick thread]
     void forget() noexcept { last = at_rest; }

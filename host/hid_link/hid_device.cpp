@@ -182,6 +182,8 @@ Reading HidDevice::read() noexcept
     reading.age = only_changes && connected && has_one ? 0.0 : static_cast<double> (ticks_without) * dt;
     if (reading.fault == ReadingFault::none && reading.age > 0.0) reading.fault = standing;
     reading.valid = reading.valid && ! has_to_rest;
+    reading.unrendered_force = unrendered_force;
+    reading.unrendered_torque = unrendered_torque;
 
     tally.age = reading.age;
     if (has_one) tally.oldest = std::max (tally.oldest, reading.age);
@@ -213,6 +215,8 @@ void HidDevice::write (const Effort& guarded) noexcept
 
     if (has_to_rest) values.rest();
     const auto driven = has_to_rest ? EffortValues {} : values.drive (effort);
+    unrendered_force = guarded.force - values.renderedForce();
+    unrendered_torque = guarded.torque - values.renderedTorque();
     for (std::size_t i = 0; i < values.outputs(); ++i)
         if (values.channelNames (i).empty()) link->offer (i, has_to_rest ? values.neutral (i) : values.encodeValues (i, driven), episode, latest);
     for (auto& [report, feed] : streams)

@@ -2,6 +2,8 @@
 #include "osc_port.hpp"
 #include "read_packet.hpp"
 
+#include <tactus/run/realtime.hpp>
+
 #include <vector>
 
 namespace tactus::host
@@ -89,6 +91,7 @@ std::size_t OscPort::dropped() const
 
 void OscPort::listen (const std::stop_token& stop)
 {
+    static_cast<void> (raisePriority (priority::messages));   // for emergency stops; if it is refused, the run reports that
     std::vector<char> buffer (largest_packet);
     while (! stop.stop_requested())
     {

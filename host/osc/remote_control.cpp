@@ -35,6 +35,13 @@ juce::String juceText (const std::string& s) { return juce::String::fromUTF8 (s.
 /// A name from the graph; the answer may be printed in a terminal.
 juce::String nameText (const std::string& s) { return juceText (printableName (s)); }
 
+/// A sentence for an answer. A name in it must not forge another line in the terminal that prints it.
+std::string inOneLine (std::string text)
+{
+    std::ranges::replace (text, '\n', ' ');
+    return printable (text);
+}
+
 /// A number, float or int.
 std::optional<double> numberOf (const OSCArgument& a)
 {
@@ -411,8 +418,8 @@ void RemoteControl::answer (const OscReturn& to, const std::string& address, con
     if (to.port == 0) return;
     if (done) return port.send (to, OSCMessage ("/tactus/done", juceText (address), juceText (subject)));
     const auto& why = done.error();
-    port.send (to, OSCMessage ("/tactus/error", juceText (address), juceText (subject), juceText (why.id), juceText (printable (why.text)),
-                               juceText (printable (why.remedy))));
+    port.send (to, OSCMessage ("/tactus/error", juceText (address), juceText (subject), juceText (why.id), juceText (inOneLine (why.text)),
+                               juceText (inOneLine (why.remedy))));
 }
 
 }   // namespace tactus::host

@@ -41,20 +41,37 @@ void call (const std::atomic<Act>& act) noexcept
     if (const auto a = act.load()) a();
 }
 
-/// The program that starts this one may have left signals blocked. Threads that start later inherit what this thread unblocks.
-void unblockAll() noexcept
+/// The program that starts this one may have left signals blocked. Threads that start later inherit what this thread unblocks. The
+/// emergency signals stay as they are: see holdEmergencySignals.
+void unblockOthers() noexcept
 {
 #if defined(__unix__) || defined(__APPLE__)
-    sigset_t all;
-    sigfillset (&all);
-    pthread_sigmask (SIG_UNBLOCK, &all, nullptr);
+    sigset_t others;
+    sigfillset (&others);
+    sigdelset (&others, SIGUSR1);
+    sigdelset (&others, SIGUSR2);
+    pthread_sigmask (SIG_UNBLOCK, &others, nullptr);
+#endif
+}
+
+void maskEmergencySignals ([[maybe_unused]] bool blocks) noexcept
+{
+#if defined(__unix__) || defined(__APPLE__)
+    sigset_t both;
+    sigemptyset (&both);
+    sigaddset (&both, SIGUSR1);
+    sigaddset (&both, SIGUSR2);
+    pthread_sigmask (blocks ? SIG_BLOCK : SIG_UNBLOCK, &both, nullptr);
 #endif
 }
 }   // namespace
 
+void holdEmergencySignals() noexcept { maskEmergencySignals (true); }
+void takeEmergencySignals() noexcept { maskEmergencySignals (false); }
+
 void watchForStop() noexcept
 {
-    unblockAll();
+    unblockOthers();
     for (const int number : stopping)
         std::signal (number, note);
 #if defined(__unix__) || defined(__APPLE__)

@@ -13,7 +13,7 @@ namespace tactus
 
 /// The part of a reading that every device has, as numbers in the order of reading_fields. A double holds each of these values
 /// exactly.
-inline constexpr std::size_t reading_size = 17;
+inline constexpr std::size_t reading_size = 23;
 using ReadingNumbers = std::array<double, reading_size>;
 
 struct ReadingField
@@ -32,6 +32,8 @@ inline constexpr ReadingField reading_fields[] {
     { "true_position", 10, 3 },
     { "true_velocity", 13, 3 },
     { "fault", 16, 1 },
+    { "unrendered_force", 17, 3 },
+    { "unrendered_torque", 20, 3 },
 };
 static_assert (sizeof (Reading) == (reading_size - 1) * sizeof (double) + 2 * sizeof (Channels),   // buttons and fault share eight bytes
                "a new field of a reading must be added to the log too");
@@ -57,9 +59,9 @@ inline constexpr ChannelField channel_fields[] {
 
 inline ReadingNumbers toNumbers (const Reading& r) noexcept
 {
-    const auto &p = r.position, &w = r.rotation, &x = r.true_position, &v = r.true_velocity;
+    const auto &p = r.position, &w = r.rotation, &x = r.true_position, &v = r.true_velocity, &f = r.unrendered_force, &t = r.unrendered_torque;
     return { p.x(), p.y(), p.z(), w.x(), w.y(), w.z(), r.pressure, static_cast<double> (r.buttons), r.age, r.valid ? 1.0 : 0.0,
-             x.x(), x.y(), x.z(), v.x(), v.y(), v.z(), static_cast<double> (r.fault) };
+             x.x(), x.y(), x.z(), v.x(), v.y(), v.z(), static_cast<double> (r.fault), f.x(), f.y(), f.z(), t.x(), t.y(), t.z() };
 }
 
 inline LoggedReading toLogged (const Reading& r) noexcept { return { toNumbers (r), r.axes, r.signals }; }
@@ -81,6 +83,8 @@ inline Reading toReading (const LoggedReading& logged) noexcept
         .valid = n[9] != 0.0,
         .true_position = vector (10),
         .true_velocity = vector (13),
+        .unrendered_force = vector (17),
+        .unrendered_torque = vector (20),
         .axes = logged.axes,
         .signals = logged.signals,
     };

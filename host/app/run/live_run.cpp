@@ -126,6 +126,7 @@ std::unique_ptr<Run> LiveRun::makeRun (Run::Queries queries)
 
 void LiveRun::begin()
 {
+    if (stop_switch != nullptr && stop_switch->isAhead()) return stop();
     end();
     begins = false;
     const auto& graph = document.graph();
@@ -156,6 +157,7 @@ void LiveRun::begin()
     note (run->engine().newest());
     probes.clear();
     run->openDevices (graph, said);
+    if (stop_switch != nullptr) obeyed = stop_switch->noticed();
     alarms_told = alarms_stopped = Failsafe::alarms();   // what happened before concerns no device of this run
     if (held) run->engine().emergencyStop();
     std::ranges::move (missingParts (run->engine().newest()), std::back_inserter (said));
@@ -231,13 +233,18 @@ void LiveRun::emergencyStop() noexcept
     run->engine().emergencyStop();
 }
 
-bool LiveRun::canRearm() const noexcept { return std::chrono::steady_clock::now() - std::chrono::seconds (1) > stopped_at; }
+bool LiveRun::canRearm() const noexcept
+{
+    return std::chrono::steady_clock::now() - std::chrono::seconds (1) > stopped_at && (stop_switch == nullptr || ! stop_switch->isAhead());
+}
 
 void LiveRun::rearm() noexcept
 {
     if (! canRearm()) return;
     held = false;
-    if (isLive()) run->engine().rearm();
+    if (! isLive()) return;
+    run->engine().rearm();
+    if (stop_switch != nullptr && stop_switch->isAhead()) run->engine().emergencyStop();   // pressed since the first line: a rearm must not undo it
 }
 
 bool LiveRun::isStoppedForGood() const
@@ -310,6 +317,11 @@ std::optional<LiveRun::Tool> LiveRun::tool() const
 void LiveRun::before (Plan&, std::uint64_t) noexcept
 {
     if (const auto now = Failsafe::alarms(); std::exchange (alarms_stopped, now) != now) run->engine().emergencyStop();
+    if (stop_switch == nullptr) return;
+    const auto now = stop_switch->presses();
+    const auto before = std::exchange (obeyed, now);
+    if (now.emergencies != before.emergencies) run->engine().emergencyStop();
+    if (now.stops != before.stops) run->live().stop();
 }
 
 void LiveRun::after (const Plan& plan, std::uint64_t, bool) noexcept

@@ -3,6 +3,7 @@
 
 #include "pointer_path.hpp"
 #include "sound.hpp"
+#include "stop_switch.hpp"
 #include "traces.hpp"
 #include "transport_path.hpp"
 
@@ -62,6 +63,10 @@ public:
     /// outlive this object. If something that the run uses changes, the run restarts.
     void use (const DeviceSetup&);
     void setupChanged();
+
+    /// From now on, the tick thread obeys this switch, and no run begins while there is a press that has not been noticed. The caller
+    /// must notice the presses, and then call stop() or emergencyStop(). The switch must outlive this object.
+    void obey (const StopSwitch& s) noexcept { stop_switch = &s; }
 
     /// The state of the run's sound; empty if it neither plays nor records.
     std::optional<audio::AudioStatus> audioStatus() const;
@@ -188,7 +193,9 @@ private:
     bool mutes_sound = false;   // a role of this run limits a channel that the sound may share
     Hand moved_by;
     std::chrono::steady_clock::time_point stopped_at = std::chrono::steady_clock::time_point::min();
-    bool held = false;                                       // an emergency stop or another latched stop holds the forces at zero until rearm()
+    bool held = false;   // an emergency stop or another latched stop holds the forces at zero until rearm()
+    const StopSwitch* stop_switch = nullptr;
+    StopSwitch::Presses obeyed;                              // [tick thread]
     std::uint32_t alarms_told = 0, alarms_stopped = 0;       // alarms of the failsafe; the second is for the tick thread
     bool begins = false;                                     // starts once the previous run is over
     bool wanted = false;                                     // started and not stopped: the run begins as soon as the graph compiles

@@ -39,6 +39,7 @@ private:
     Result<> start() override;
     void stop() override { playback.stop(); }
     void emergencyStop() override { playback.emergencyStop(); }
+    void emergencyNow() noexcept override { playback.stopSwitch().emergencyStop(); }
     Result<> rearm (std::chrono::steady_clock::time_point asked) override;
 
     void checkProbes();

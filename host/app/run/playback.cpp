@@ -7,6 +7,7 @@ namespace tactus::host
 Playback::Playback (Document& document, const Catalogue& c, Sound& sound, DeviceSetup& setup, std::function<void()> b)
     : catalogue (c), before_run (std::move (b)), live_run (document, c, &sound)
 {
+    live_run.obey (stop_switch);
     live_run.use (setup);
     setup.onChange = [this] { live_run.setupChanged(); };
 }
@@ -36,6 +37,7 @@ void Playback::preview (graph::Graph g)
     live_run.letGo();
     preview_document = std::make_unique<Document> (std::move (g));
     preview_run = std::make_unique<LiveRun> (*preview_document, catalogue);
+    preview_run->obey (stop_switch);
     before_run();
     preview_run->start (LiveRun::Hand {});
 }
@@ -50,6 +52,11 @@ void Playback::endPreview()
 
 void Playback::attend()
 {
+    if (stop_switch.isAhead())
+    {
+        const auto before = stop_switch.notice();
+        stop_switch.noticed().emergencies != before.emergencies ? emergencyStop() : stop();
+    }
     live_run.attend();
     if (preview_run) preview_run->attend();
 }

@@ -27,11 +27,15 @@ public:
     void endPreview();   ///< runs the document again if it ran before
     bool isPreviewing() const noexcept { return preview_run != nullptr; }
 
+    /// Stops what runs, however busy the message thread is. Valid as long as this object.
+    StopSwitch& stopSwitch() noexcept { return stop_switch; }
+
     void attend();   ///< call many times a second
 
 private:
     const Catalogue& catalogue;
     std::function<void()> before_run;
+    StopSwitch stop_switch;   // declared before the runs that obey it
     LiveRun live_run;
     std::unique_ptr<Document> preview_document;
     std::unique_ptr<LiveRun> preview_run;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "safety_strip.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tactus::host
@@ -9,6 +10,7 @@ namespace tactus::host
 namespace
 {
 constexpr int button_width = 112;
+constexpr double pause_before_start_s = 1.0;
 
 juce::String newtonText (double force) { return juce::String (force, 3) + " N"; }
 
@@ -60,6 +62,23 @@ class SafetyStrip::StopButton final : public juce::Button
 public:
     StopButton() : Button ("STOP") {}
 
+    void show (const juce::String& label)
+    {
+        if (label == getButtonText()) return;
+        setButtonText (label);
+        shown_at = juce::Time::getCurrentTime();
+    }
+
+    /// True if the latest click was so soon after the text had changed that it was meant for the text before.
+    bool isTooSoon() const noexcept { return too_soon; }
+
+    /// JUCE's times of events can be in the future, if the first event had to wait.
+    void mouseDown (const juce::MouseEvent& e) override
+    {
+        too_soon = std::min (e.eventTime, juce::Time::getCurrentTime()) < shown_at + juce::RelativeTime (pause_before_start_s);
+        Button::mouseDown (e);
+    }
+
     void paintButton (juce::Graphics& g, bool over, bool down) override
     {
         const auto& look = lookOf (*this);
@@ -72,6 +91,10 @@ public:
         g.setFont (look.font (14.0f, true));
         g.drawText (getButtonText(), getLocalBounds(), juce::Justification::centred, false);
     }
+
+private:
+    juce::Time shown_at;   // when the text became what it is
+    bool too_soon = false;
 };
 
 SafetyStrip::SafetyStrip (Playback& p) : playback (p), button (std::make_unique<StopButton>()), rearm (std::make_unique<StopButton>())
@@ -80,7 +103,12 @@ SafetyStrip::SafetyStrip (Playback& p) : playback (p), button (std::make_unique<
     rearm->setTooltip ("Lets the forces rise again, slowly. Press it only when it is safe.");
     rearm->onClick = [this] { playback.current().rearm(); };
     addChildComponent (*rearm);
-    button->onClick = [this] { shown.running ? playback.stop() : playback.restart(); };
+    button->onClick = [this] {
+        if (shown.running)
+            playback.stop();
+        else if (! button->isTooSoon())   // the second click of a double click on STOP must not start again
+            playback.restart();
+    };
     button->setTooltip ("Ramps all forces to zero immediately. Esc does the same. With Shift+Esc, the graph keeps running without forces.");
     addAndMakeVisible (*button);
 }
@@ -92,7 +120,7 @@ void SafetyStrip::refresh()
     rearm->setEnabled (playback.current().canRearm());
     auto now = stateOf (playback.current());
     if (now == shown) return;
-    button->setButtonText (now.running ? "STOP" : "START");
+    button->show (now.running ? "STOP" : "START");
     rearm->setVisible (now.stopped_for_good);
     shown = std::move (now);
     repaint();
@@ -147,6 +175,8 @@ void SafetyStrip::showGuards (const LiveRun& run, const RunStatus& status, Shown
         now.alarmed = true;
     }
 }
+
+juce::Rectangle<int> SafetyStrip::stopPlace() const { return shown.running ? button->getBounds() : juce::Rectangle<int> {}; }
 
 void SafetyStrip::resized()
 {

@@ -20,6 +20,9 @@ public:
 
     void refresh();   ///< call many times a second
 
+    /// Where a click is a stop; empty while there is nothing to stop.
+    juce::Rectangle<int> stopPlace() const;
+
     void paint (juce::Graphics&) override;
     void resized() override;
 

@@ -77,6 +77,7 @@ void MainView::begin (const Start& how)
     applySettings();
     presets.reload();
     files.setSafe (how.safe);
+    if (how.stops_directly) direct_stop.emplace (playback.stopSwitch());
     if (how.osc) openOscPort (*how.osc);
     files.beginSession (home);
     for (const auto& file : how.files)
@@ -138,6 +139,9 @@ void MainView::timerCallback()
     playback.attend();
     if (osc_server) osc_server->attend();
     strip.refresh();
+    if (direct_stop)
+        if (const auto why = direct_stop->follow (strip, strip.stopPlace()))
+            status.notify ("While the window is busy, Esc and STOP have to wait: " + juce::String (messageText (*why)));
     hand.refresh();
     live.refresh();
     problems.show (run().messages());

@@ -15,6 +15,7 @@
 #include <host/app/layers/layers_panel.hpp>
 #include <host/app/presets/browser.hpp>
 #include <host/app/problems/problem_list.hpp>
+#include <host/app/run/direct_stop.hpp>
 #include <host/app/run/hand_panel.hpp>
 #include <host/app/run/live_feed.hpp>
 #include <host/app/run/osc_server.hpp>
@@ -41,6 +42,7 @@ public:
         bool light = false;           ///< light theme, whatever the settings say
         std::vector<std::filesystem::path> files {};
         std::optional<OscListen> osc {};   ///< where to listen for OSC
+        bool stops_directly = false;       ///< the view is in a window of the system, which DirectStop can watch
     };
 
     /// Reads the settings, offers to recover crashed sessions, and opens the files or the welcome page.
@@ -115,6 +117,7 @@ private:
     Playback playback;   // declared before the panels that show it
     std::unique_ptr<OscServer> osc_server;
     SafetyStrip strip { playback };
+    std::optional<DirectStop> direct_stop;
     HandPanel hand { playback, sound };
     Tabs left, bottom;
     Splitter left_edge { Splitter::Edge::right, 232, 160 }, right_edge { Splitter::Edge::left, 304, 220 }, bottom_edge { Splitter::Edge::top, 264, 140 };

@@ -89,6 +89,24 @@ TEST_CASE ("guard: a torque that drives the hand counts as energy, whatever the 
     });
 }
 
+TEST_CASE ("guard: energy counts only the force and the torque that the motors rendered", "[framework][guard]")
+{
+    const auto stopped = [] (const Vec3& lost_force, const Vec3& lost_torque) {
+        auto guard = guardWith ({ .max_energy = 0.01, .energy_window = 1.0 });
+        return stopsAt (guard, 1000, [&] (int k) {
+            Reading reading { .position = { 0.5 * k * dt, 0.0, 0.0 }, .rotation = { 0.5 * k * dt, 0.0, 0.0 } };
+            reading.unrendered_force = lost_force;
+            reading.unrendered_torque = lost_torque;
+            guard ({ .force = { 1.0, 0.0, 0.0 }, .torque = { 1.0, 0.0, 0.0 } }, reading);
+        });
+    };
+    const Vec3 none = Vec3::Zero(), all { 1.0, 0.0, 0.0 };
+    CHECK (stopped (none, none) == Approx (0.01 / (1.0 - 0.01) / dt).margin (2.0));
+    CHECK (stopped (all, none) == Approx (0.01 / (0.5 - 0.01) / dt).margin (2.0));
+    CHECK (stopped (none, 0.5 * all) == Approx (0.01 / (0.75 - 0.01) / dt).margin (2.0));
+    CHECK (stopped (all, all) == 0);
+}
+
 TEST_CASE ("guard: an effort that drives an axis counts as energy, if the guard knows which axis it pushes", "[framework][guard]")
 {
     const auto stopped = [] (const DeviceLayout& layout, int axis, double effort) {

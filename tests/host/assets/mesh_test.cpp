@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/with_limits.hpp"
+
 #include <host/assets/mesh.hpp>
 
 #include <catch2/catch.hpp>
@@ -206,6 +208,11 @@ TEST_CASE ("a face with more corners than the budget allows is refused before th
     const std::string head = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nelement face 1\nproperty list int int vertex_index\nend_header\n0\n";
     CHECK (problem (head + "2000000000 0 0 0\n", "a.ply") == "mesh/too_large at a.ply:9");
     CHECK (problem (head + "1000 0 0 0\n", "a.ply") == "mesh/truncated at a.ply:9");
+
+    CHECK (problem ("OFF\n1 1 0\n0 0 0\n2000000000 0 0 0\n", "a.off") == "mesh/too_large at a.off:4");
+    CHECK (problem ("OFF\n1 1 0\n0 0 0\n1000 0 0 0\n", "a.off") == "mesh/syntax at a.off:4");   // a word is missing
+    const WithLimits limits { "triangles=3" };
+    CHECK (problem ("v 0 0 0\nf 1 1 1 1 1 1 x\n", "a.obj") == "mesh/too_large at a.obj:2");
 }
 
 TEST_CASE ("no damaged mesh crashes the reader", "[host][assets][mesh]")

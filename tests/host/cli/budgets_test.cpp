@@ -157,3 +157,44 @@ TEST_CASE ("attack: the name of a graph cannot write to the terminal", "[cli]")
     CHECK_THAT (ran.err, Contains ("\\x1B]0;title\\x07") && Contains ("reversed\\x0Aline") && Contains ("x… at "));
     CHECK (ran.err.find (std::string (200, 'x')) == std::string::npos);
 }
+
+TEST_CASE ("attack: a trace, a feed or a log of a few bytes cannot ask for 10^9 ticks", "[cli][budget]")
+{
+    const Scratch scratch;
+    const auto g = scratch.write ("g.json", graph (hand, R"(, "rate_hz": 1000)"));
+    const auto trace = scratch.write ("trace.csv", "t,x,y,z\n0,0,0,0\n1e6,0,0,1\n");
+    const auto out = scratch.path ("out.csv");
+    const auto long_trace = runTactus ({ "render", g, "--device", "pen=trace:" + trace, "--out", out });
+    CHECK (long_trace.status == 1);
+    CHECK_THAT (long_trace.err, Contains ("2e+09 ticks") && Contains ("--duration") && Contains ("[run/too_long]"));
+    CHECK (runTactus ({ "render", g, "--device", "pen=trace:" + trace, "--duration", "0.1", "--record", "hand.position", "--out", out }).status == 0);
+
+    const auto parameter = scratch.write ("p.json", graph (R"("a": { "type": "signal.gain" })", R"(, "rate_hz": 1000)"));
+    const auto fed = scratch.write ("fed.csv", "t,a.in\n0,0\n1e6,1\n");
+    const auto long_feed = runTactus ({ "render", parameter, "--feed", fed, "--rate", "1000", "--record", "a.out", "--out", out });
+    CHECK (long_feed.status == 1);
+    CHECK_THAT (long_feed.err, Contains ("[run/too_long]"));
+
+    const auto log = scratch.path ("run.jsonl");
+    REQUIRE (runTactus ({ "play", g, "--device", "pen=sim", "--duration", "0.1", "--osc", "off", "--log", log }).status == 0);
+    auto text = textOf (log);
+    text.resize (text.rfind ("{\"tick\""));
+    const auto longer = scratch.write ("longer.jsonl", text + "{\"tick\":1000000000,\"end\":true}\n");
+    const auto long_log = runTactus ({ "render", "--replay", longer, "--record", "hand.position", "--out", out });
+    CHECK (long_log.status == 1);
+    CHECK_THAT (long_log.err, Contains ("1000000000 ticks") && Contains ("[log/too_long]"));
+    CHECK (runTactus ({ "render", "--replay", longer, "--duration", "0.05", "--record", "hand.position", "--out", out }).status == 0);
+}
+
+TEST_CASE ("attack: a line end in a name cannot forge a message", "[cli][budget]")
+{
+    const Scratch scratch;
+    const auto g = scratch.write ("g.json", graph (hand, R"(, "devices": { "pen": { "driver": "trace", "path": "no\nwarning: forged.csv" } })"));
+    const auto ran = runTactus ({ "render", g });
+    CHECK (ran.status == 1);
+    CHECK_THAT (ran.err, Contains ("forged"));
+    CHECK_THAT (ran.err, ! Contains ("\nwarning: forged"));
+    const auto option = runTactus ({ "render", g, "--device", "pen=trace:no\nwarning: forged.csv" });
+    CHECK (option.status == 1);
+    CHECK_THAT (option.err, Contains ("forged") && ! Contains ("\nwarning: forged"));
+}

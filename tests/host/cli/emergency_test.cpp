@@ -8,9 +8,13 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -95,4 +99,48 @@ TEST_CASE ("every signal that would end or suspend a play ends it as Ctrl-C does
         REQUIRE (table);
         CHECK (table->rows() > 0);
     }
+}
+
+TEST_CASE ("one thread of a play handles the emergency signals, and where real-time priority is allowed, it comes before the tick", "[cli][safety]")
+{
+    const Scratch scratch;
+    const auto graph = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000,
+      "nodes": { "motor": { "type": "device.force", "role": "tip" } }, "wires": [] })");
+    Running play { { "play", graph, "--device", "tip=sim", "--osc", "0", "--duration", "600" } };
+    REQUIRE (play.says ("Ctrl-C stops"));
+
+    /// A thread, as the kernel reports it.
+    struct Thread
+    {
+        bool handles_signals = false;
+        int priority = 0;
+    };
+    const auto threads = [&] {
+        std::vector<Thread> all;
+        for (const auto& task : std::filesystem::directory_iterator ("/proc/" + std::to_string (play.id()) + "/task"))
+        {
+            auto& thread = all.emplace_back();
+            std::ifstream status (task.path() / "status"), stat (task.path() / "stat");
+            for (std::string line; std::getline (status, line);)
+                if (line.starts_with ("SigBlk:")) thread.handles_signals = (std::stoull (line.substr (7), nullptr, 16) >> (SIGUSR1 - 1) & 1) == 0;
+            std::string text, field;
+            std::getline (stat, text);
+            std::istringstream fields (text.substr (text.rfind (')') + 1));
+            for (int i = 3; i <= 40; ++i)   // the name, the second field, may contain anything
+                fields >> field;
+            thread.priority = std::stoi (field);
+        }
+        return all;
+    };
+    const auto handlers = [&] { return std::ranges::count (threads(), true, &Thread::handles_signals); };
+    REQUIRE (test::eventually ([&] { return handlers() == 1; }));
+    const auto all = threads();
+    const auto handler = std::ranges::find (all, true, &Thread::handles_signals);
+    const auto highest = std::ranges::max (all, {}, &Thread::priority).priority;
+    CHECK (handler->priority == highest);
+    if (highest > 0) CHECK (std::ranges::count (all, highest, &Thread::priority) == 1);
+    play.signal (SIGUSR1);
+    play.signal (SIGUSR2);
+    CHECK (play.says ("SIGUSR2 does not rearm"));
+    CHECK (play.stop().status == 0);
 }

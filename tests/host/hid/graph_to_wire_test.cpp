@@ -33,11 +33,14 @@ struct Wired final : Device
     {
         const auto report = reports[tick++ % reports.size()];
         model.decode (report);
-        return model.reading();
+        auto reading = model.reading();
+        reading.unrendered_force = guarded_force - model.renderedForce();
+        return reading;
     }
 
     void write (const Effort& guarded) noexcept override
     {
+        guarded_force = guarded.force;
         HidEffort effort { guarded.force, guarded.torque, model.restEfforts() };
         model.take (guarded.axes, effort);
         const auto values = model.drive (effort);
@@ -59,6 +62,7 @@ struct Wired final : Device
     std::vector<Bytes> reports;
     std::size_t tick = 0;
     EffortValues sent {};
+    Vec3 guarded_force = Vec3::Zero();
 };
 
 std::shared_ptr<const Profile> anyProfile()
@@ -187,4 +191,44 @@ TEST_CASE ("no report on the wire exceeds a limit or a slew of its device, whate
         }
     });
     CHECK (driven > 100);
+}
+
+TEST_CASE ("device.force.applied shows the force that the motors render, decoded from the wire", "[hid][property]")
+{
+    int limited = 0, whole = 0;
+    rc::prop ("any graph", [&] {
+        auto changed = *anyProfile();
+        changed.kinematics = Direct {};
+        changed.axes = Mat3::Identity();
+        const auto profile = std::make_shared<const Profile> (changed);
+        Wired device (profile);
+        device.reports = anyReports (*profile);
+        Sketch s;
+        s.node ("push", "signal.lfo", { { "amplitude", any (0.0, 6.0) }, { "frequency", any (1.0, 300.0) } });
+        s.node ("motor", "device.force").wire ("push.out -> motor.force.x").wire ("push.out -> motor.force.y");
+        const auto compiled = s.compile ({ .rate_hz = rate_hz });
+        RC_ASSERT (compiled.plan != nullptr);
+        Engine engine { compiled.plan };
+        engine.attach (compiled.plan->roles()[0].name, device, profile->limits.guard);
+
+        constexpr double count = 1e-3;   // in N or A, for the coarser device
+        for (int k = 0; k < 40; ++k)
+        {
+            const auto before = device.sent;
+            const Vec3 guarded = device.guarded_force;
+            Vec3 applied;
+            engine.tick ([&] (Plan& plan) noexcept {
+                applied = plan.roles()[0].state->applied.force;   // as the nodes see it on this tick
+                plan.tick();
+            });
+            for (int i = 0; i < 2; ++i)
+            {
+                const auto at = static_cast<std::size_t> (indexOf (device.model.effortNames(), profile->force[static_cast<std::size_t> (i)]));
+                RC_ASSERT (std::abs (applied[i] - before[at]) <= 2.0 * count);
+            }
+            (applied == guarded ? whole : limited) += 1;
+        }
+    });
+    CHECK (limited > 100);
+    CHECK (whole > 100);
 }

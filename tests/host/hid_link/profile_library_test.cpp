@@ -68,6 +68,12 @@ OutputField& fieldOf (Profile& profile, const std::string& name)
     REQUIRE (at != profile.outputs[0].fields.end());
     return *at;
 }
+InputField& inputOf (Profile& profile, const std::string& name)
+{
+    const auto at = std::ranges::find (profile.inputs[0].fields, name, &InputField::name);
+    REQUIRE (at != profile.inputs[0].fields.end());
+    return *at;
+}
 }   // namespace
 
 TEST_CASE ("own profiles: one with the id of a shipped profile is refused, unless it says that it replaces it", "[hid]")
@@ -181,6 +187,16 @@ TEST_CASE ("own profiles: one that drives the device of a shipped profile otherw
         { "stream", [] (Profile& p) { p.outputs[0].stream = Stream { .at = 48, .frames = 4, .rate = 1000.0, .channels = { "l" } }; } },
         { "kinematics", [] (Profile& p) { p.kinematics = LinearMap { .matrix = 10.0 * Mat3::Identity() }; } },
         { "axes", [] (Profile& p) { p.axes.col (0) = -p.axes.col (0); } },
+        // The limits depend on the readings.
+        { "position y", [] (Profile& p) { inputOf (p, "y").scale *= 1e-3; } },
+        { "position x", [] (Profile& p) { p.position[0] = "axis1"; } },
+        { "position z", [] (Profile& p) { p.position[2].clear(); } },
+        { "rotation x", [] (Profile& p) { inputOf (p, "rx").bits.at += 32; } },
+        { "valid", [] (Profile& p) { p.valid.clear(); } },
+        { "alarm", [] (Profile& p) { p.alarms.pop_back(); } },
+        { "alarm", [] (Profile& p) { p.alarms.back().while_driven = 1e9; } },
+        { "the number or the time", [] (Profile& p) { p.inputs[0].sequence.clear(); } },
+        { "axis 'axis4'", [] (Profile& p) { p.inputs[0].fields.pop_back(); } },
         { "init", [] (Profile& p) { p.init.push_back ({ .kind = Step::Kind::output, .bytes = Bytes (64) }); } },
     };
     for (const auto& [differs, make] : cases)
@@ -204,7 +220,12 @@ TEST_CASE ("own profiles: one that drives the device of a shipped profile just a
         [] (Profile& p) { p.limits.guard.max_force = 50.0; },
         [] (Profile& p) { fieldOf (p, "fx").max = 1.0; },
         [] (Profile& p) { p.outputs[0].fields.pop_back(); },
-        [] (Profile& p) { p.inputs[0].fields.pop_back(); },
+        [] (Profile& p) {   // without the fourth axis
+            p.inputs[0].fields.pop_back();
+            p.outputs[0].fields.pop_back();
+        },
+        [] (Profile& p) { p.alarms.push_back ({ .field = "magic", .is = {} }); },
+        [] (Profile& p) { inputOf (p, "x").name = p.position[0] = "across"; },
         [] (Profile& p) { fieldOf (p, "fx").name = p.force[0] = "push"; },
         [] (Profile& p) {   // readings only
             p.outputs.clear();
@@ -247,4 +268,32 @@ TEST_CASE ("own profiles: where several shipped profiles fit a device, the same 
         CHECK (profileNamed (replacing, "mine"));
         CHECK_FALSE (profileNamed (replacing, id));
     }
+}
+
+TEST_CASE ("own profiles: one that leaves out an init or exit report of the shipped profile is refused, unless it drives nothing", "[hid]")
+{
+    auto shipped = having ("arm", 5.0, {}, Ids { 2 });
+    auto arm = *shipped.profiles[0];
+    arm.outputs.emplace_back();
+    using Kind = Step::Kind;
+    arm.init = { { .kind = Kind::feature, .bytes = { 1, 2 } }, { .kind = Kind::get_feature, .bytes = { 3 } }, { .kind = Kind::feature, .bytes = { 4, 5 } } };
+    arm.exit = { { .kind = Step::Kind::output, .bytes = { 6 } } };
+    shipped.profiles = { std::make_shared<const Profile> (arm) };
+    const auto isUsed = [&] (const Change& change) {
+        auto own = arm;
+        own.id = "mine";
+        change (own);
+        return profileNamed (joined ({ { std::make_shared<const Profile> (std::move (own)) }, {} }, shipped), "mine") != nullptr;
+    };
+    CHECK (isUsed ([] (Profile&) {}));
+    CHECK (isUsed ([] (Profile& p) { p.init.erase (p.init.begin() + 1); }));   // reads only
+    CHECK_FALSE (isUsed ([] (Profile& p) { p.init.pop_back(); }));
+    CHECK_FALSE (isUsed ([] (Profile& p) { std::swap (p.init.front(), p.init.back()); }));
+    CHECK_FALSE (isUsed ([] (Profile& p) { p.exit.clear(); }));
+    CHECK_FALSE (isUsed ([] (Profile& p) { p.init.front().given = Bits { .at = 8 }; }));
+    CHECK (isUsed ([] (Profile& p) {
+        p.outputs.clear();
+        p.init.clear();
+        p.exit.clear();
+    }));
 }

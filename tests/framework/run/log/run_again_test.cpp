@@ -65,6 +65,8 @@ public:
                                  -std::numeric_limits<double>::infinity(), -0.0, 5e-324, 1.7976931348623157e308 };
         if (random() % 20 == 0) r.position[static_cast<int> (random() % 3)] = odd[random() % 6];
         if (random() % 20 == 0) r.true_velocity[static_cast<int> (random() % 3)] = odd[random() % 6];
+        if (random() % 4 == 0) r.unrendered_force.x() = 1e-3 * static_cast<double> (random() % 1000);
+        if (random() % 20 == 0) r.unrendered_torque[static_cast<int> (random() % 3)] = odd[random() % 6];
         for (unsigned i = 0; i < random() % 4; ++i)
             r.axes.set (static_cast<int> (i), random() % 20 == 0 ? odd[random() % 6] : 1e-3 * static_cast<double> (random() % 1000));
         if (random() % 2 == 0) r.signals = { 0.1 * static_cast<double> (random() % 3), -0.0 };

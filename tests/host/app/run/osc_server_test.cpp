@@ -156,3 +156,19 @@ TEST_CASE ("random packets do not harm the window", "[app][osc]")
     CHECK (r.live_run.isRunning());
     CHECK (r.live_run.messages().empty());
 }
+
+TEST_CASE ("an emergency stop over OSC takes the force away while the message thread is stuck", "[app][osc][safety]")
+{
+    Rig r { "dry_wood" };
+    r.live_run.start ({});
+    REQUIRE (r.until ([&] { return r.live_run.status() && r.live_run.status()->force > 0.0; }));
+
+    r.other->send (r.server.port(), OSCMessage ("/tactus/emergency"));
+    const auto isLatched = [&] { return r.live_run.isStoppedForGood(); };   // asks only for what the tick thread has published
+    for (const auto end = std::chrono::steady_clock::now() + 20s; ! isLatched() && std::chrono::steady_clock::now() < end;)
+        std::this_thread::sleep_for (1ms);
+    REQUIRE (isLatched());
+    r.live_run.rearm();   // the message thread does not know of the stop yet, so it cannot undo the stop
+    std::this_thread::sleep_for (50ms);
+    CHECK (isLatched());
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "direct_stop.hpp"
+
+namespace tactus::host
+{
+
+std::optional<Message> DirectStop::follow (juce::Component& component, juce::Rectangle<int> part)
+{
+    auto* peer = component.getPeer();
+    const auto window = peer != nullptr ? reinterpret_cast<std::uintptr_t> (peer->getNativeHandle()) : 0;
+    std::optional<Message> why;
+    if (window != watched)
+    {
+        watched = window;
+        watch.reset();
+        if (window != 0)
+        {
+            auto opened = WindowStop::open (window, { [&s = pressed] { s.stop(); }, [&s = pressed] { s.emergencyStop(); } });
+            if (opened)
+                watch = std::move (*opened);
+            else
+                why = std::move (opened).error();
+        }
+    }
+    if (! watch) return why;
+    auto& top = peer->getComponent();
+    const double scale = top.getDesktopScaleFactor() * peer->getPlatformScaleFactor();
+    const auto pixels = (top.getLocalArea (&component, part).toDouble() * scale).toNearestInt();
+    watch->setArea ({ static_cast<std::int16_t> (pixels.getX()), static_cast<std::int16_t> (pixels.getY()),
+                      static_cast<std::uint16_t> (pixels.getWidth()), static_cast<std::uint16_t> (pixels.getHeight()) });
+    return why;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "window_stop.hpp"
+
+#include <tactus/run/realtime.hpp>
+
+#include <utility>
+
+#if defined(TACTUS_XCB)
+#include <poll.h>
+#include <xcb/xcb.h>
+
+#include <bitset>
+#include <cstdlib>
+#endif
+
+namespace tactus::host
+{
+
+#if defined(TACTUS_XCB)
+
+namespace
+{
+constexpr xcb_keysym_t escape_symbol = 0xff1b;      // XK_Escape
+constexpr std::uintptr_t largest_id = 0x1fffffff;   // the X protocol leaves the top three bits of all ids at 0
+constexpr int patience_ms = 20;
+
+template <typename T>
+using Owned = std::unique_ptr<T, decltype (&std::free)>;
+
+template <typename T>
+Owned<T> owned (T* p) noexcept
+{
+    return { p, std::free };
+}
+}   // namespace
+
+/// The connection, and what it has created. After open(), only the thread uses it. libxcb, unlike Xlib, has no error handlers that
+/// the whole process shares, and does not end the process if the server goes away.
+struct WindowStop::Server
+{
+    ~Server() { xcb_disconnect (connection); }   // the server then destroys `glass`
+
+    bool isThere() const noexcept { return xcb_connection_has_error (connection) == 0; }
+
+    void readKeyboard()
+    {
+        const auto* setup = xcb_get_setup (connection);
+        const auto first = setup->min_keycode;
+        const auto count = static_cast<std::uint8_t> (setup->max_keycode - first + 1);
+        const auto map = owned (xcb_get_keyboard_mapping_reply (connection, xcb_get_keyboard_mapping (connection, first, count), nullptr));
+        if (! map) return;
+        const auto* symbols = xcb_get_keyboard_mapping_keysyms (map.get());
+        escape.reset();
+        for (int i = 0; i < xcb_get_keyboard_mapping_keysyms_length (map.get()); ++i)
+            if (symbols[i] == escape_symbol) escape.set (static_cast<std::size_t> (first + i / map->keysyms_per_keycode));
+    }
+
+    /// True if the server carries out the request.
+    bool accepts (xcb_void_cookie_t request) const noexcept { return ! owned (xcb_request_check (connection, request)); }
+
+    bool watch (xcb_window_t window)
+    {
+        const std::uint32_t keys = XCB_EVENT_MASK_KEY_PRESS, clicks = XCB_EVENT_MASK_BUTTON_PRESS;
+        glass = xcb_generate_id (connection);
+        return accepts (xcb_change_window_attributes_checked (connection, window, XCB_CW_EVENT_MASK, &keys))
+               && accepts (xcb_create_window_checked (connection, 0, glass, window, 0, 0, 1, 1, 0, XCB_WINDOW_CLASS_INPUT_ONLY, XCB_COPY_FROM_PARENT,
+                                                      XCB_CW_EVENT_MASK, &clicks));
+    }
+
+    void place (const Area& area) noexcept
+    {
+        if (std::exchange (placed, area) == area) return;
+        if (area.isEmpty())
+            xcb_unmap_window (connection, glass);
+        else
+        {
+            const std::uint32_t values[] { static_cast<std::uint32_t> (area.x), static_cast<std::uint32_t> (area.y), area.width, area.height };
+            xcb_configure_window (connection, glass, XCB_CONFIG_WINDOW_X | XCB_CONFIG_WINDOW_Y | XCB_CONFIG_WINDOW_WIDTH | XCB_CONFIG_WINDOW_HEIGHT, values);
+            xcb_map_window (connection, glass);
+        }
+        xcb_flush (connection);
+    }
+
+    xcb_connection_t* connection = nullptr;
+    xcb_window_t glass = 0;       // the invisible window over the area
+    std::bitset<256> escape {};   // the codes of the keys that are Esc
+    Area placed {};
+};
+
+Result<std::unique_ptr<WindowStop>> WindowStop::open (std::uintptr_t window, Actions actions)
+{
+    auto server = std::make_unique<Server>();
+    server->connection = xcb_connect (nullptr, nullptr);
+    if (! server->isThere())
+        return Message::error ("stop/no_server", {}, "there is no second connection to the X server",
+                               "let the X server accept more clients, or run the graph with `tactus play`");
+    if (window == 0 || window > largest_id || ! server->watch (static_cast<xcb_window_t> (window)))
+        return Message::error ("stop/no_window", {}, "the X server does not know the window", "run the graph with `tactus play`");
+    server->readKeyboard();
+    return std::unique_ptr<WindowStop> (new WindowStop (std::move (server), std::move (actions)));
+}
+
+WindowStop::WindowStop (std::unique_ptr<Server> s, Actions a)
+    : server (std::move (s)), actions (std::move (a)), listening ([this] (const std::stop_token& stop) { listen (stop); })
+{
+}
+
+void WindowStop::listen (const std::stop_token& stop)
+{
+    static_cast<void> (raisePriority (priority::stop));   // if real-time priority is refused, the run reports that
+    while (! stop.stop_requested() && server->isThere())
+    {
+        server->place (wanted);
+        pollfd waiting { xcb_get_file_descriptor (server->connection), POLLIN, 0 };
+        poll (&waiting, 1, patience_ms);
+        while (const auto event = owned (xcb_poll_for_event (server->connection)))
+            switch (event->response_type & 0x7f)   // the top bit marks events that another client sent
+            {
+            case XCB_KEY_PRESS:
+            {
+                const auto& key = *reinterpret_cast<const xcb_key_press_event_t*> (event.get());
+                if (server->escape[key.detail]) (key.state & XCB_MOD_MASK_SHIFT) != 0 ? actions.emergency_stop() : actions.stop();
+                break;
+            }
+            case XCB_BUTTON_PRESS:   // button 4 and above are wheels
+                if (reinterpret_cast<const xcb_button_press_event_t*> (event.get())->detail <= 3) actions.stop();
+                break;
+            case XCB_MAPPING_NOTIFY:
+                server->readKeyboard();
+                break;
+            }
+    }
+}
+
+#else
+
+struct WindowStop::Server
+{
+};
+
+Result<std::unique_ptr<WindowStop>> WindowStop::open (std::uintptr_t, Actions)
+{
+    return Message::error ("stop/no_server", {}, "this program was built without libxcb", "run the graph with `tactus play`");
+}
+
+WindowStop::WindowStop (std::unique_ptr<Server> s, Actions a) : server (std::move (s)), actions (std::move (a)) {}
+void WindowStop::listen (const std::stop_token&) {}
+
+#endif
+
+WindowStop::~WindowStop() = default;
+
+}   // namespace tactus::host

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tactus/text/result.hpp>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <thread>
+
+namespace tactus::host
+{
+
+/// Receives the stop keys and clicks on a part of a window directly from the X server, on a connection and a thread of its own, so
+/// a stop does not wait for the thread that draws the window.
+///
+/// Keys: a second client may select the key presses of a window. Both clients then receive each of them.
+///
+/// Clicks: only one client may select the button presses of a window. So this object lays an invisible window (InputOnly) over the
+/// part. The X server delivers clicks there to this object alone, and only where no other window covers the part.
+class WindowStop
+{
+public:
+    /// In pixels of the window. The numbers have the size that the X protocol gives them.
+    struct Area
+    {
+        std::int16_t x = 0, y = 0;
+        std::uint16_t width = 0, height = 0;
+
+        bool isEmpty() const noexcept { return width == 0 || height == 0; }
+        bool operator== (const Area&) const = default;
+    };
+
+    /// What to do. Both functions are called on the thread of this object and must not wait.
+    struct Actions
+    {
+        std::function<void()> stop;             ///< Esc, or a click on the area
+        std::function<void()> emergency_stop;   ///< Shift+Esc
+    };
+
+    /// `window` is the number that the X server gave the window. Ids: stop/no_server, stop/no_window. [main thread]
+    static Result<std::unique_ptr<WindowStop>> open (std::uintptr_t window, Actions);
+    ~WindowStop();
+    WindowStop (const WindowStop&) = delete;
+    WindowStop& operator= (const WindowStop&) = delete;
+
+    /// From 20 ms after this call at the latest, a click on the area is a stop. An empty area receives none. [main thread]
+    void setArea (const Area& a) noexcept { wanted = a; }
+
+private:
+    struct Server;
+
+    explicit WindowStop (std::unique_ptr<Server>, Actions);
+    void listen (const std::stop_token&);
+
+    static_assert (std::atomic<Area>::is_always_lock_free, "the main thread must not delay a stop");
+
+    std::unique_ptr<Server> server;
+    Actions actions;
+    std::atomic<Area> wanted { Area {} };
+    std::jthread listening;   // declared last: it uses the other members
+};
+
+}   // namespace tactus::host

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include <tactus/run/realtime.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <optional>
+#include <thread>
+
+#if defined(__linux__)
+
+#include <pthread.h>
+#include <sched.h>
+
+namespace
+{
+struct Scheduling
+{
+    int policy = -1, priority = -1;
+};
+
+/// The scheduling of a thread that has asked for it; empty if this user may not have it, for then it must not have changed.
+template <typename Ask>
+std::optional<Scheduling> after (Ask&& ask)
+{
+    std::optional<Scheduling> got;
+    std::thread ([&] {
+        Scheduling before, now;
+        sched_param how {};
+        pthread_getschedparam (pthread_self(), &before.policy, &how);
+        const bool is_granted = ask();
+        pthread_getschedparam (pthread_self(), &now.policy, &how);
+        now.priority = how.sched_priority;
+        if (is_granted)
+            got = now;
+        else
+            CHECK (now.policy == before.policy);
+    }).join();
+    return got;
+}
+}   // namespace
+
+TEST_CASE ("the thread of an emergency stop comes before the tick, and the thread that anyone can flood after the tick", "[run][safety]")
+{
+    CHECK (tactus::priority::stop > tactus::priority::tick);
+    CHECK (tactus::priority::messages < tactus::priority::tick);
+
+    const auto tick = after ([] { return tactus::becomeRealTime (std::nullopt).empty(); });
+    for (const int wanted : { tactus::priority::stop, tactus::priority::messages })
+    {
+        const auto got = after ([&] { return ! tactus::raisePriority (wanted); });
+        if (! got) continue;   // tested where the user has the right
+        CHECK (got->policy == SCHED_FIFO);
+        CHECK (got->priority == wanted);
+        REQUIRE (tick);
+        CHECK (tick->policy == SCHED_FIFO);
+        CHECK ((got->priority > tick->priority) == (wanted == tactus::priority::stop));
+    }
+    CHECK_FALSE (after ([] { return ! tactus::raisePriority (1000); }));   // no such priority
+}
+
+#endif

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The keys and the STOP button of the window stop the forces while the message thread does something else, as docs/safety.md claims.
+//
+// JUCE opens its display once per process. So each test runs itself again in a process of its own, on a virtual screen. There, the
+// thread of the test is the message thread: while it waits for xdotool or for the force, it handles no message.
+
+#include "host/app/support/canvas_rig.hpp"
+
+#include <host/app/run/direct_stop.hpp>
+#include <host/app/run/safety_strip.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace tactus;
+using namespace tactus::host;
+using namespace tactus::host::test;
+using namespace std::chrono_literals;
+
+namespace
+{
+/// An X server without a screen. `name` is empty if it cannot be started.
+struct Screen
+{
+    Screen()
+    {
+        int ends[2];
+        if (pipe (ends) != 0) return;
+        process = fork();
+        if (process == 0)
+        {
+            close (ends[0]);
+            const auto end = std::to_string (ends[1]);
+            if (std::freopen ("/dev/null", "w", stderr) != nullptr)
+                execlp ("Xvfb", "Xvfb", "-displayfd", end.c_str(), "-screen", "0", "1280x720x24", "-nolisten", "tcp", nullptr);
+            _exit (127);
+        }
+        close (ends[1]);
+        std::string number;
+        for (char digit = 0; read (ends[0], &digit, 1) == 1 && digit != '\n';)
+            number += digit;
+        if (! number.empty()) name = ":" + number;
+        close (ends[0]);
+    }
+    ~Screen()
+    {
+        if (process <= 0) return;
+        kill (process, SIGTERM);
+        waitpid (process, nullptr, 0);
+    }
+    Screen (const Screen&) = delete;
+    Screen& operator= (const Screen&) = delete;
+
+    pid_t process = -1;
+    std::string name;
+};
+
+/// Runs a hidden test case of this program on a virtual screen.
+void onScreen (const char* test)
+{
+    const Screen screen;
+    if (screen.name.empty() || std::system ("command -v xdotool > /dev/null") != 0)
+    {
+        std::puts ("skipped: Xvfb or xdotool is not installed");
+        return;
+    }
+    const auto command = "DISPLAY=" + screen.name + " " + std::filesystem::read_symlink ("/proc/self/exe").string() + " \"" + test + '"';
+    CHECK (std::system (command.c_str()) == 0);
+}
+
+void xdo (const std::string& what) { REQUIRE (std::system (("xdotool " + what).c_str()) == 0); }
+
+/// JUCE, as in an application: it then ignores errors of the X server, which a screen without a window manager causes.
+struct Application
+{
+    static bool isOne() noexcept
+    {
+        juce::JUCEApplicationBase::createInstance = []() -> juce::JUCEApplicationBase* { return nullptr; };
+        return true;
+    }
+
+    const bool is_one = isOne();   // before JUCE opens the display
+    const juce::ScopedJuceInitialiser_GUI juce_runs;
+};
+
+/// A window with only the strip, and a run that pushes with 2 N.
+struct Window final : private Application, public juce::Component
+{
+    Window() : rig (graph())
+    {
+        strip.setLookAndFeel (&look);
+        strip.setBounds (30, 50, 900, SafetyStrip::height);
+        addAndMakeVisible (strip);
+        setBounds (100, 100, 1000, 300);
+        setOpaque (true);
+        setWantsKeyboardFocus (true);
+        addToDesktop (0);
+        setVisible (true);
+    }
+    ~Window() override { strip.setLookAndFeel (nullptr); }
+
+    static graph::Graph graph()
+    {
+        return readGraph (R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000, "devices": { "tip": { "driver": "gesture", "path": "circle" } },
+          "nodes": { "push": { "type": "signal.constant", "params": { "value": 2 } }, "motor": { "type": "device.force", "role": "tip" } },
+          "wires": [ "push.out -> motor.force.x" ] })")
+            .graph;
+    }
+
+    void paint (juce::Graphics& g) override { g.fillAll (juce::Colours::black); }
+
+    /// What the timer of the window does.
+    void attend()
+    {
+        juce::MessageManager::getInstance()->runDispatchLoopUntil (10);
+        playback.attend();
+        strip.refresh();
+        if (const auto why = direct.follow (strip, strip.stopPlace())) FAIL (why->text);
+    }
+
+    template <typename F>
+    bool until (F&& isSo)
+    {
+        for (const auto end = std::chrono::steady_clock::now() + 20s; ! isSo() && std::chrono::steady_clock::now() < end;)
+            attend();
+        return isSo();
+    }
+
+    /// Waits without handling any message.
+    template <typename F>
+    static bool untilStuck (F&& isSo)
+    {
+        for (const auto end = std::chrono::steady_clock::now() + 20s; ! isSo() && std::chrono::steady_clock::now() < end;)
+            std::this_thread::sleep_for (1ms);
+        return isSo();
+    }
+
+    LiveRun& run() { return playback.run(); }
+    double force() { return run().status() ? run().status()->force : 0.0; }
+
+    /// Starts, and waits until the force is there and everything is in its place.
+    void start()
+    {
+        run().start ({});
+        REQUIRE (until ([&] { return force() == 2.0; }));
+        toFront (true);
+        const auto settled = std::chrono::steady_clock::now() + 200ms;
+        REQUIRE (until ([&] { return std::chrono::steady_clock::now() > settled && hasKeyboardFocus (true); }));
+    }
+
+    std::string stopPlace()
+    {
+        const auto place = strip.getScreenBounds().withTrimmedLeft (strip.getWidth() - 60).getCentre();
+        return std::to_string (place.x) + " " + std::to_string (place.y);
+    }
+
+    CanvasRig rig;
+    Look look;
+    Sound sound;
+    DeviceSetup setup;
+    Playback playback { rig.document, catalogue(), sound, setup, [] {} };
+    SafetyStrip strip { playback };
+    DirectStop direct { playback.stopSwitch() };
+};
+}   // namespace
+
+TEST_CASE ("Shift+Esc takes the force away while the message thread is stuck, and only a later REARM returns it", "[app][run][safety]")
+{
+    onScreen ("on a screen: Shift+Esc");
+}
+
+TEST_CASE ("on a screen: Shift+Esc", "[.screen]")
+{
+    Window w;
+    w.start();
+    xdo ("key a space Return ctrl+s");   // other keys are not stops
+    std::this_thread::sleep_for (100ms);
+    REQUIRE (w.force() == 2.0);
+
+    xdo ("key shift+Escape");
+    const auto pressed = std::chrono::steady_clock::now();
+    REQUIRE (Window::untilStuck ([&] { return w.force() == 0.0; }));
+    std::printf ("zero at most %.1f ms after xdotool has ended\n", 1e3 * std::chrono::duration<double> (std::chrono::steady_clock::now() - pressed).count());
+    CHECK (w.run().isRunning());          // the graph keeps running
+    CHECK (w.run().isStoppedForGood());   // latched
+    w.run().rearm();                      // a REARM that was clicked before the stop, but is handled after it
+    std::this_thread::sleep_for (100ms);
+    CHECK (w.force() == 0.0);
+    std::this_thread::sleep_for (2s);   // still stuck
+    CHECK (w.force() == 0.0);
+
+    w.attend();
+    CHECK_FALSE (w.run().canRearm());   // the pause counts from when the window has noticed
+    REQUIRE (w.until ([&] { return w.run().canRearm(); }));
+    CHECK (w.run().isStoppedForGood());
+    w.run().rearm();
+    CHECK (w.until ([&] { return w.force() == 2.0; }));
+}
+
+TEST_CASE ("a click on STOP ends a run while the message thread is stuck, and does not start it again", "[app][run][safety]")
+{
+    onScreen ("on a screen: a click on STOP");
+}
+
+TEST_CASE ("on a screen: a click on STOP", "[.screen]")
+{
+    Window w;
+    w.start();
+    xdo ("mousemove 200 300 click 1");                         // elsewhere in the window
+    xdo ("mousemove " + w.stopPlace() + " click 4 click 5");   // the wheel
+    std::this_thread::sleep_for (100ms);
+    REQUIRE (w.force() == 2.0);
+
+    xdo ("click --repeat 3 --delay 30 1");
+    REQUIRE (Window::untilStuck ([&] { return ! w.run().isRunning(); }));
+    CHECK (w.run().isWanted());   // the window has not noticed yet
+    std::this_thread::sleep_for (1s);
+    const auto shown = std::chrono::steady_clock::now();
+    for (int i = 0; i < 10; ++i)
+        w.attend();
+    CHECK_FALSE (w.run().isWanted());
+    CHECK_FALSE (w.run().isRunning());
+
+    xdo ("click 1");   // START is there now, but for less than a second
+    std::this_thread::sleep_for (50ms);
+    w.attend();
+    if (std::chrono::steady_clock::now() - shown < 950ms) CHECK_FALSE (w.run().isWanted());   // else the machine is too busy to tell
+    const auto later = std::chrono::steady_clock::now() + 1200ms;
+    w.until ([&] { return std::chrono::steady_clock::now() > later; });
+    if (! w.run().isWanted()) xdo ("click 1");
+    CHECK (w.until ([&] { return w.force() == 2.0; }));
+
+    xdo ("key Escape");
+    CHECK (Window::untilStuck ([&] { return ! w.run().isRunning(); }));
+}
+
+TEST_CASE ("a click on another window that covers STOP does not stop", "[app][run]")
+{
+    onScreen ("on a screen: a covered STOP");
+}
+
+TEST_CASE ("on a screen: a covered STOP", "[.screen]")
+{
+    Window w;
+    w.start();
+    juce::Component cover;
+    cover.setBounds (w.getBounds());
+    cover.addToDesktop (0);
+    cover.setVisible (true);
+    cover.toFront (false);
+    for (int i = 0; i < 20; ++i)
+        w.attend();
+    xdo ("mousemove " + w.stopPlace() + " click 1");
+    std::this_thread::sleep_for (200ms);
+    CHECK (w.force() == 2.0);
+    cover.removeFromDesktop();
+    for (int i = 0; i < 20; ++i)
+        w.attend();
+    xdo ("click 1");
+    CHECK (Window::untilStuck ([&] { return ! w.run().isRunning(); }));
+}
+
+TEST_CASE ("a press of the stop switch before a run begins is not lost", "[app][run][safety]")
+{
+    CanvasRig rig { Window::graph() };
+    Sound sound;
+    DeviceSetup setup;
+    Playback playback { rig.document, catalogue(), sound, setup, [] {} };
+    const bool is_emergency = GENERATE (false, true);
+    is_emergency ? playback.stopSwitch().emergencyStop() : playback.stopSwitch().stop();
+    playback.restart();   // a click on START that waited behind the press
+    CHECK_FALSE (playback.run().isWanted());
+    playback.attend();
+    CHECK_FALSE (playback.run().isRunning());
+
+    playback.restart();
+    CHECK (Window::untilStuck ([&] { return playback.run().isRunning() && playback.run().status()->force == 2.0; }));
+    playback.run().letGo();
+}
