@@ -125,9 +125,6 @@ std::vector<Simulation::Axis> readAxes (const Json& json, const std::string& whe
 
 std::unique_ptr<Device> makeSimulated (ObjectReader& in, const Folder& folder, Messages& messages, std::string& about)
 {
-    // In ticks. A longer delay would be several seconds, which must be a mistake.
-    constexpr int longest_delay = 10'000;
-
     Simulation sim;
     sim.mass = in.number ("mass", unit::kilogram, Bounds::positive(), sim.mass);
     sim.damping = in.number ("damping", unit::damping, Bounds::notNegative(), sim.damping);

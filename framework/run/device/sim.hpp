@@ -34,12 +34,15 @@ struct Simulation
         double hand_force = 0.0;   ///< constant, in N
     };
 
-    double mass = 0.1;            ///< kg, > 0
-    double damping = 1.0;         ///< of the mechanics, in N s/m
-    double quantum = 0.0;         ///< resolution of the position, in m; 0: exact
-    double force_quantum = 0.0;   ///< resolution of the force, in N; 0: exact
-    int delay = 0;                ///< delay of the force in ticks
-    double first_mode = 0.0;      ///< first resonance of the structure, in Hz; 0: unknown. For information only: it is not simulated
+    double mass = 0.1;                  ///< kg, > 0
+    double damping = 1.0;               ///< of the mechanics, in N s/m
+    double quantum = 0.0;               ///< resolution of the position, in m; 0: exact
+    double force_quantum = 0.0;         ///< resolution of the force, in N; 0: exact
+    int delay = 0;                      ///< delay of the force in ticks
+    double coulomb = 0.0;               ///< Coulomb friction of the mechanics, in N
+    double first_mode = 0.0;            ///< first resonance of the structure, in Hz; 0: a rigid tool
+    double first_mode_damping = 0.05;   ///< damping ratio of the first resonance
+    double end_mass = 0.0;              ///< part of the mass at the tool, beyond the compliance, in kg, < mass; 0: half of the mass
     Vec3 position = Vec3::Zero();
     Vec3 velocity = Vec3::Zero();
     Vec3 rotation = Vec3::Zero();     ///< constant; torque is accepted but has no effect
@@ -48,6 +51,12 @@ struct Simulation
     std::vector<Axis> axes {};   ///< at most Channels::most
     int signal_outputs = 0;      ///< channels that are accepted but have no effect
 };
+
+/// In ticks. A longer delay would be several seconds, which must be a mistake.
+inline constexpr int longest_delay = 10'000;
+
+/// The part of the mass at the tool, in kg.
+inline double endMassOf (const Simulation& sim) noexcept { return sim.end_mass > 0.0 ? sim.end_mass : 0.5 * sim.mass; }
 
 /// A tool of mass M with viscous damping B, pushed by the graph's force and by a hand. The total force F is held from tick to
 /// tick, as by an amplifier, and the motion in between is solved exactly:
