@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "numbers_only.hpp"
 #include "report.hpp"
 
 #include <framework/text/json.hpp>
@@ -359,6 +360,12 @@ void run (const Options& options)
     if (! options.json)
         for (const auto& card : cards)
             std::cout << textOf (card);
+    if (! options.probe)
+        for (const auto& profile : knownByNumbers (profiles))
+            if (options.json)
+                json.push_back (numbersJsonOf (*profile));
+            else
+                std::cout << numbersTextOf (*profile);
     if (options.probe && ! all.empty())
     {
         if (! options.json && std::ranges::all_of (all, [] (const Listed& l) { return l.profiles.empty(); }))
