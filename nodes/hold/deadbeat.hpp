@@ -87,12 +87,10 @@ struct DeadbeatHold
 
     Params params;
 
-    /// What is known of the device that the position comes from. [main or tick thread]
-    template <typename Layout>
-    void learn (const Layout& layout) noexcept
+    void learn (const DeviceLayout& device) noexcept
     {
-        device_mass = layout.mass;
-        device_damping = layout.damping;
+        device_mass = device.mass;
+        device_damping = device.damping;
     }
 
     void prepare (const Setup& setup) noexcept
@@ -103,12 +101,7 @@ struct DeadbeatHold
 
     void update() noexcept { n = direction (params.normal); }
 
-    void adopt (const DeadbeatHold& old) noexcept
-    {
-        past = old.past;
-        device_mass = old.device_mass;
-        device_damping = old.device_damping;
-    }
+    void adopt (const DeadbeatHold& old) noexcept { past = old.past; }
 
     Outputs tick (const Inputs& in) noexcept
     {

@@ -17,12 +17,6 @@ namespace
 {
 double between (double low, double high) { return low + (high - low) * 1e-6 * *rc::gen::inRange (0, 1'000'001); }
 
-/// What a device without a node of its own knows of its tool.
-struct KnownTool
-{
-    double mass, damping;
-};
-
 struct Trial
 {
     double mass = 0.1, damping = 2.0, dt = 1e-3, start = -1.3e-3, speed = 0.1, hand = 0.0, quantum = 0.0;   // depths and forces into the wall
@@ -191,13 +185,13 @@ TEST_CASE ("deadbeat: mass and damping 0 mean those of the device", "[nodes][hol
     const double stiffness = t.stiffnessOf (3.0);
     auto given = wallFor (t, stiffness), learnt = given;
     learnt.params.mass = learnt.params.damping = 0.0;
-    learnt.learn (KnownTool { t.mass, t.damping });
+    learnt.learn ({ .mass = t.mass, .damping = t.damping });
     std::vector<double> a, b;
     play (t, given, [&] (double e, double) { a.push_back (e); });
     play (t, learnt, [&] (double e, double) { b.push_back (e); });
     CHECK (a == b);
 
-    learnt.learn (KnownTool { 0.05, t.damping });
+    learnt.learn ({ .mass = 0.05, .damping = t.damping });
     play (t, learnt, [&] (double e, double) { b.push_back (e); });
     CHECK_FALSE (std::equal (a.begin(), a.end(), b.end() - t.ticks));
 }
