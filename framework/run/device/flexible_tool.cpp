@@ -15,11 +15,20 @@ constexpr double tie = 1e-12;                                         // relativ
 
 using Square = Eigen::Matrix<double, 6, 6>;
 
+/// How often a number must be halved to become at most 1, but not more often than `most`.
+int halvingsOf (double number, int most) noexcept
+{
+    int n = 0;
+    while (n < most && number > std::ldexp (1.0, n))
+        ++n;
+    return n;
+}
+
 /// e^A - 1, accurate also where A is small: the series for A / 2^n, then n doublings, e^2x - 1 = 2 (e^x - 1) + (e^x - 1)^2.
 Square expm1 (const Square& a)
 {
     const double norm = a.cwiseAbs().rowwise().sum().maxCoeff();
-    const int doublings = norm > 0.25 ? static_cast<int> (std::ceil (std::log2 (norm / 0.25))) : 0;
+    const int doublings = halvingsOf (norm / 0.25, 100);
     const Square part = std::ldexp (1.0, -doublings) * a;
 
     Square sum = Square::Zero();   // Horner's rule for part (1 + part/2 (1 + part/3 (...)))
@@ -55,7 +64,7 @@ FlexibleTool::FlexibleTool (const Properties& properties, double dt_s) : what (p
         const Square change = scale.asDiagonal() * expm1 (time * rates) * scale.cwiseInverse().asDiagonal();
         return change.block<4, 5> (0, 1);
     };
-    finest = what.coulomb > 0.0 ? std::clamp (static_cast<int> (std::ceil (std::log2 (dt_s / finest_s))), 1, finest_level) : 0;
+    finest = what.coulomb > 0.0 ? std::max (1, halvingsOf (dt_s / finest_s, finest_level)) : 0;
     for (int level = 0; level <= finest; ++level)
     {
         slips.push_back (changeIn (slip, std::ldexp (dt_s, -level)));
@@ -63,7 +72,7 @@ FlexibleTool::FlexibleTool (const Properties& properties, double dt_s) : what (p
     }
 
     const double share = 1.0 + e / m, fastest = w * std::sqrt (share) + c / e * share + what.damping / m;   // of both masses, free; 1/s
-    grid = std::clamp (static_cast<int> (std::ceil (std::log2 (dt_s * fastest / 0.4))), 0, std::min (finest_grid, finest));
+    grid = halvingsOf (dt_s * fastest / 0.4, std::min (finest_grid, finest));
 }
 
 void FlexibleTool::start (const Vec3& position, const Vec3& velocity) noexcept

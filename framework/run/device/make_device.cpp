@@ -125,7 +125,7 @@ std::vector<Simulation::Axis> readAxes (const Json& json, const std::string& whe
 
 void readStructure (ObjectReader& in, Simulation& sim)
 {
-    sim.first_mode = in.number ("first_mode", unit::hertz, Bounds::positive(), sim.first_mode);
+    sim.first_mode = in.number ("first_mode", unit::hertz, { .min = 0.0, .max = highest_first_mode, .without_min = true }, sim.first_mode);
     sim.first_mode_damping = in.number ("first_mode_damping", unit::gain, { .min = 0.0, .max = 1.0 }, sim.first_mode_damping);
     sim.end_mass = in.number ("end_mass", unit::kilogram, Bounds::positive(), sim.end_mass);
     if (! (sim.end_mass < sim.mass))

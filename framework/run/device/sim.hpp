@@ -57,6 +57,9 @@ struct Simulation
 /// In ticks. A longer delay would be several seconds, which must be a mistake.
 inline constexpr int longest_delay = 10'000;
 
+/// In Hz. A higher resonance does not differ from a rigid tool.
+inline constexpr double highest_first_mode = 1e6;
+
 /// The part of the mass at the tool, in kg.
 inline double endMassOf (const Simulation& sim) noexcept { return sim.end_mass > 0.0 ? sim.end_mass : 0.5 * sim.mass; }
 
