@@ -81,11 +81,11 @@ bool BouncingMass::leaves (State& from, State to, double& time, bool in_spring) 
 BouncingMass::Result BouncingMass::after (State s, double time) const noexcept
 {
     const double furthest = s.depth + time * (std::max (s.speed, 0.0) + 0.5 * time * std::max (force, 0.0) / mass);
-    if (furthest < 0.0) return { .state = moved (s, time, false) };
+    if (furthest < 0.0) return { .state = moved (s, time, false), .touched = false };
 
     const double apart_step = time / steps, spring_step = std::min (apart_step, 0.5 * std::sqrt (mass / stiffness));   // a sixth of a bounce
     bool in_spring = s.depth > 0.0;
-    Result result { .touched = in_spring };
+    Result result { .state = s, .touched = in_spring };
     double left = time;
     for (int i = 0; i < most_steps && left > 0.0; ++i)
     {

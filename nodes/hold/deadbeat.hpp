@@ -39,6 +39,7 @@ namespace tactus::nodes
 /// Good to know
 ///  - Forces act before the touch, by up to two samples, and may pull for one sample when the tool enters or leaves.
 ///  - `mass` 0 and `damping` 0 mean those of the device that the position comes from. If the device is unknown, 0.1 kg and 0 N s/m.
+///  - The speed is known from the second sample on. A tool that touches before it, at the start or after a fault, meets the wall late.
 ///  - Wire `force` straight to the motor, and nothing else that is strong: what is added, filtered, limited or delayed later counts as a
 ///    hand that the node learns too late.
 ///  - A wall on which the bounce lasts less than about four samples (K > 0.6 M/T^2) is computed right but felt as two pulses.
