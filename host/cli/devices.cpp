@@ -360,12 +360,12 @@ void run (const Options& options)
     if (! options.json)
         for (const auto& card : cards)
             std::cout << textOf (card);
-    if (! options.probe)
-        for (const auto& profile : knownByNumbers (profiles))
-            if (options.json)
-                json.push_back (numbersJsonOf (*profile));
-            else
-                std::cout << numbersTextOf (*profile);
+    const auto known = options.probe ? std::vector<std::shared_ptr<const Profile>> {} : knownByNumbers (profiles);
+    for (const auto& profile : known)
+        json.push_back (numbersJsonOf (*profile));
+    if (! options.json)
+        for (const auto& profile : known)
+            std::cout << numbersTextOf (*profile);
     if (options.probe && ! all.empty())
     {
         if (! options.json && std::ranges::all_of (all, [] (const Listed& l) { return l.profiles.empty(); }))
