@@ -79,7 +79,7 @@ TEST_CASE ("deadbeat: a bounce leaves as from the continuous wall, wherever the 
             if (k == t.ticks) worst = std::abs (v - ideal.speed) / t.speed;
         });
         RC_ASSERT (ideal.speed < 0.0);
-        RC_ASSERT (worst < 1e-6);
+        RC_ASSERT (worst < 1e-5);
     });
 }
 
