@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tactus/kit/rotation.hpp>
+#include <tactus/run/device/device_numbers.hpp>
 #include <tactus/run/guard.hpp>
 #include <tactus/text/message.hpp>
 
@@ -324,6 +325,7 @@ struct Profile
 
     KinematicsModel kinematics;
     Limits limits;
+    DeviceNumbers physics;
     double rate = 0.0;   ///< rate of input reports, in Hz; 0: unknown
     std::vector<std::string> quirks;
     std::vector<std::string> sources;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "profile_check.hpp"
 #include "bits.hpp"
+#include "physics.hpp"
 #include "report_encoder.hpp"
 
 #include <tactus/node/device.hpp>
@@ -61,7 +62,9 @@ public:
 
     void all()
     {
-        if (p.inputs.empty() && p.outputs.empty()) in.error ("inputs", "profile/missing", "the profile has no reports", "add \"inputs\" or \"outputs\"");
+        if (p.inputs.empty() && p.outputs.empty() && ! isNumbersOnly (p))
+            in.error ("inputs", "profile/missing", "the profile has no reports",
+                      "add \"inputs\" or \"outputs\"; or, for a device that Tactus cannot open, \"physics\" without \"match\"");
         count ("inputs", "axes", axes, most_axes);
         count ("inputs", "buttons", buttons, 32);
         count ("outputs", "efforts", efforts, most_efforts);

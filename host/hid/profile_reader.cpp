@@ -2,6 +2,7 @@
 #include "profile_reader.hpp"
 #include "hex.hpp"
 #include "kinematics_reader.hpp"
+#include "physics.hpp"
 #include "profile_check.hpp"
 #include "report_reader.hpp"
 
@@ -24,7 +25,8 @@ namespace
 std::vector<MatchRule> readMatch (ProfileFields& profile)
 {
     std::vector<MatchRule> rules;
-    profile.require ("match", "write \"match\": [{\"vid\": \"0x16c0\", \"pid\": \"0x0486\"}]");
+    const bool is_numbers_only = profile.has ("physics") && ! profile.has ("inputs") && ! profile.has ("outputs");
+    if (! is_numbers_only) profile.require ("match", "write \"match\": [{\"vid\": \"0x16c0\", \"pid\": \"0x0486\"}]");
     profile.each ("match", [&] (ProfileFields& in) {
         MatchRule rule;
         rule.vid = in.ids ("vid");
@@ -229,6 +231,7 @@ Profile read (ProfileFields& in)
     p.axes = readAxes (in);
     p.kinematics = readKinematics (in);
     p.limits = readLimits (in, motorUnit (p));
+    p.physics = readPhysics (in);
     p.rate = in.number ("rate", unit::hertz, Bounds::positive(), 0.0);
     p.quirks = in.texts ("quirks");
     p.sources = in.texts ("sources");

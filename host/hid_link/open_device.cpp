@@ -7,6 +7,7 @@
 #include <tactus/text/message.hpp>
 #include <tactus/text/object_reader.hpp>
 
+#include <host/hid/physics.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
@@ -130,6 +131,10 @@ FoundDevice findDevice (const Json& description, HidSystem& system, const Loaded
         found.messages.push_back (Message::error (id, "", std::move (text), std::move (remedy)));
         return found;
     };
+
+    if (named && isNumbersOnly (*named))
+        return refuse ("hid/numbers_only", "Tactus cannot open a " + named->name + ": its profile holds only numbers",
+                       "simulate it: write --device ROLE=" + named->id);
 
     const auto connected = eachOnce (system.connected(), all);
     std::vector<Match> matches;

@@ -39,6 +39,11 @@ bad = {
          (["tables", "amplitude", "x"], None), (["init", 0, "bytes"], None),
         (["init", 0, "kind"], "input"),
     ],
+    "numbers_only": [
+        (["physics"], None), (["physics"], {}), (["physics", "weight"], "75 g"), (["physics", "mass"], [1]), (["physics", "damping", "guess"], False),
+        (["physics", "damping", "value"], None), (["physics", "damping", "colour"], "red"), (["physics", "workspace", "min"], None),
+        (["physics", "workspace", "source"], None), (["match"], [{"vid": "0x1209"}]),
+    ],
     "dualsense_bluetooth_samples": [
         (["outputs", 1, "stream", "channels"], []), (["outputs", 1, "stream", "type"], "s12"), (["inputs", 0, "fields", 7, "hat"], ["up"]),
     ],
@@ -47,6 +52,10 @@ bad = {
 profiles = {path.stem: read_json(path) for path in sorted(folder.glob("*.json")) if path.stem != "profile.schema"}
 if not profiles:
     check.complain(f"there are no profiles in {folder}")
+profiles["numbers_only"] = {
+    "format": "tactus-profile", "version": 1, "id": "arm", "name": "Arm", "sources": ["a test"],
+    "physics": {"mass": "75 g", "damping": {"value": 0.1, "guess": True}, "workspace": {"min": [0, 0, 0], "max": [1, 1, 1], "source": "a test"}},
+}
 profiles["docs/devices.md"] = first_example(source / "docs/devices.md")
 for name, profile in profiles.items():
     check.must_fit(name, profile)
