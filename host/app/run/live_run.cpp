@@ -2,6 +2,7 @@
 #include "live_run.hpp"
 #include "device_setup.hpp"
 
+#include <framework/check/factors.hpp>
 #include <framework/plan/missing_parts.hpp>
 #include <framework/run/turn.hpp>
 #include <framework/text/message.hpp>
@@ -260,7 +261,7 @@ std::optional<double> LiveRun::stiffnessLeft() const
 {
     const auto ticks = delay();
     if (! run || hand_damping <= 0.0 || ! ticks) return std::nullopt;
-    return 2.0 * hand_damping * rate() / (2.0 * static_cast<double> (*ticks) + 1.0);
+    return check::stiffestWall (hand_damping, 1.0 / rate(), static_cast<double> (*ticks));
 }
 
 std::optional<double> LiveRun::mostForce() const

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "slopes.hpp"
+
+#include <framework/kit/at.hpp>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tactus::check
+{
+
+namespace
+{
+using Matrix = Eigen::Matrix3d;
+
+constexpr double nudge = 1e-9;              // m; far below any quantum or d_max, far above the rounding of a position
+constexpr std::size_t least_hold = 24;      // ticks; longer than the window of motion.velocity
+constexpr std::size_t longest_hold = 400;   // ticks
+
+/// The largest factor by which the matrix stretches a vector.
+double norm (const Matrix& m)
+{
+    const Matrix square = m.transpose() * m;
+    return std::sqrt (std::max (0.0, Eigen::SelfAdjointEigenSolver<Matrix> (square, Eigen::EigenvaluesOnly).eigenvalues()[2]));
+}
+
+/// The response of the force to a shift along one axis, per metre.
+struct Response
+{
+    Vec3 settled = Vec3::Zero();   // N/m
+    Vec3 late = Vec3::Zero();      // N s/m
+    Vec3 excess = Vec3::Zero();    // N s/m
+};
+
+class Pair
+{
+public:
+    Pair (const Subject& subject, const HandMotion& m, const SlopeWork& work) : motion (m), role (work.role), still (subject, m), nudged (subject, m)
+    {
+        still.silence (work.without);
+        nudged.silence (work.without);
+        for (std::size_t n = 0; n < still.plan().instances().size(); ++n)
+        {
+            forces.emplace_back (still.plan(), n);
+            nudged_forces.emplace_back (nudged.plan(), n);
+        }
+        for (const auto& f : forces)
+            numbers += f.size();
+        settled.resize (numbers);
+        before.resize (numbers);
+    }
+
+    std::size_t nodes() const noexcept { return forces.size(); }
+
+    /// Moves both copies on to a tick of the motion.
+    void moveTo (std::size_t tick) noexcept
+    {
+        for (; now < tick; ++now)
+        {
+            still.follow (motion, now);
+            nudged.follow (motion, now);
+            step();
+        }
+    }
+
+    /// Measures the response to a shift, with both tools at rest, and shifts the tool back.
+    Response respond (const Vec3& shift, std::size_t hold) noexcept
+    {
+        const Vec3 offset = difference();
+        note (before);
+        nudged.shift (role, shift);
+        path.clear();
+        for (std::size_t j = 0; j < hold; ++j)
+        {
+            step();
+            path.push_back ((difference() - offset) / nudge);
+        }
+        note (settled);
+        nudged.shift (role, Vec3::Zero());
+        wait (hold);
+        return summary();
+    }
+
+    void wait (std::size_t ticks) noexcept
+    {
+        for (std::size_t j = 0; j < ticks; ++j)
+            step();
+    }
+
+    /// How the own forces of all nodes responded to the last shift, per metre, one component after another.
+    std::vector<double> ownResponses() const
+    {
+        std::vector<double> all (numbers);
+        for (std::size_t i = 0; i < numbers; ++i)
+            all[i] = (settled[i] - before[i]) / nudge;
+        return all;
+    }
+
+    /// Calls f (node, i) for each of these components.
+    template <typename F>
+    void eachForce (F&& f) const
+    {
+        std::size_t i = 0;
+        for (std::size_t n = 0; n < forces.size(); ++n)
+            for (std::size_t c = 0; c < forces[n].size(); ++c)
+                f (n, i++);
+    }
+
+    void reserve (std::size_t hold) { path.reserve (hold); }
+    const Vec3& position() const noexcept { return motion.roles[role].readings[now > 0 ? now - 1 : 0].position; }
+    double time() const noexcept { return static_cast<double> (now > 0 ? now - 1 : 0) / motion.rate_hz; }
+
+private:
+    void step() noexcept
+    {
+        still.tick();
+        nudged.tick();
+    }
+
+    Vec3 difference() const noexcept { return nudged.force (role) - still.force (role); }
+
+    /// The differences between the two copies of all forces of all nodes.
+    void note (std::vector<double>& all) const noexcept
+    {
+        std::size_t i = 0;
+        for (std::size_t n = 0; n < forces.size(); ++n)
+            for (std::size_t c = 0; c < forces[n].size(); ++c)
+                all[i++] = nudged_forces[n][c] - forces[n][c];
+    }
+
+    /// A response that comes late lacks force at first; damping, which answers the speed of the shift, gives too much of it at first.
+    Response summary() const noexcept
+    {
+        Response r;
+        r.settled = path.back();
+        const double dt = 1.0 / motion.rate_hz;
+        for (const auto& then : path)
+            for (int i = 0; i < 3; ++i)
+            {
+                const double rest = then[i] - r.settled[i];
+                (rest * r.settled[i] < 0.0 ? r.late : r.excess)[i] += dt * rest;
+            }
+        return r;
+    }
+
+    const HandMotion& motion;
+    std::size_t role;
+    Bench still, nudged;
+    std::vector<NodeForces> forces, nudged_forces;
+    std::size_t numbers = 0, now = 0;
+    std::vector<double> before, settled;
+    std::vector<Vec3> path;
+};
+
+/// Of the responses to both sides of an axis, the matrices keep the larger one.
+struct Jacobians
+{
+    Matrix settled = Matrix::Zero(), late = Matrix::Zero(), excess = Matrix::Zero();
+
+    void take (int axis, double sign, const Response& r)
+    {
+        const auto keep = [&] (Matrix& m, const Vec3& column) {
+            if (column.norm() > m.col (axis).norm()) m.col (axis) = sign * column;
+        };
+        keep (settled, r.settled);
+        keep (late, r.late);
+        keep (excess, r.excess);
+    }
+};
+
+/// Keeps the largest response of each node.
+void raise (std::vector<double>& by_node, const Pair& pair, const std::vector<double>& responses)
+{
+    std::vector<double> squares (by_node.size(), 0.0);
+    pair.eachForce ([&] (std::size_t node, std::size_t i) { squares[node] += responses[i] * responses[i]; });
+    for (std::size_t n = 0; n < squares.size(); ++n)
+        by_node[n] = std::max (by_node[n], std::sqrt (squares[n]));
+}
+}   // namespace
+
+std::vector<Slope> measureSlopes (const Subject& subject, const HandMotion& motion, const SlopeWork& work, Directions& directions)
+{
+    Pair pair { subject, motion, work };
+    const auto hold = std::min (longest_hold, least_hold + static_cast<std::size_t> (std::max<std::int64_t> (work.longest_delay, 0)));
+    pair.reserve (hold);
+    directions.assign (pair.nodes(), Matrix::Zero());
+
+    std::vector<Slope> slopes;
+    const auto count = std::min (work.places, motion.ticks);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        pair.moveTo ((2 * i + 1) * motion.ticks / (2 * count) + 1);
+        pair.wait (hold);
+        Jacobians all;
+        Slope slope { .t_s = pair.time(), .position = pair.position(), .by_node = std::vector<double> (pair.nodes(), 0.0) };
+        std::array<std::vector<double>, 3> own;
+        for (int axis = 0; axis < 3; ++axis)
+            for (const double sign : { -1.0, 1.0 })
+            {
+                all.take (axis, sign, pair.respond (sign * nudge * Vec3::Unit (axis), hold));
+                own[at (axis)] = pair.ownResponses();
+                raise (slope.by_node, pair, own[at (axis)]);
+            }
+        pair.eachForce ([&] (std::size_t node, std::size_t component) {
+            const Vec3 gradient { own[0][component], own[1][component], own[2][component] };
+            directions[node] += gradient * gradient.transpose();
+        });
+        slope.stiffness = norm (all.settled);
+        slope.lag = norm (all.late);
+        slope.damping = norm (all.excess);
+        slopes.push_back (std::move (slope));
+    }
+    return slopes;
+}
+
+}   // namespace tactus::check
