@@ -40,18 +40,22 @@ std::optional<DeviceNumbers> numbersOf (const Json& description, const std::file
 RecordedMotion recordMotion (const Subject& subject, std::span<const HandChoice> choices, const std::filesystem::path& folder_of_graph, double duration_s)
 {
     RecordedMotion recorded;
-    auto plan = compile (subject.graph, subject.catalogue, subject.options).plan;
+    auto [plan, problems] = compile (subject.graph, subject.catalogue, subject.options);
+    if (! plan)
+    {
+        recorded.messages = std::move (problems);
+        return recorded;
+    }
     std::vector<std::unique_ptr<Device>> devices;
     std::vector<Hand> hands;
     double longest = 0.0;
     for (const auto& role : plan->roles())
     {
         const auto choice = std::ranges::find (choices, role.name, &HandChoice::role);
-        const bool is_chosen = choice != choices.end();
         const auto* described = subject.graph.device (role.name);
-        auto made = makeHand (is_chosen ? choice->description : described != nullptr ? *described
-                                                                                     : Json(),
-                              is_chosen ? choice->folder : folder_of_graph);
+        HandChoice hand { role.name, described != nullptr ? *described : Json(), folder_of_graph };
+        if (choice != choices.end()) hand = *choice;
+        auto made = makeHand (hand.description, hand.folder);
         for (auto& m : made.messages)
         {
             m.where = "/devices/" + role.name + m.where;

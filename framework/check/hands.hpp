@@ -35,11 +35,11 @@ inline constexpr double default_length_s = 2.0, longest_s = 6.0;
 struct RecordedMotion
 {
     HandMotion motion {};   ///< without ticks if there are errors
-    Messages messages {};   ///< `where` is /devices/ROLE/…
+    Messages messages {};   ///< of the devices, with `where` /devices/ROLE/…; of the graph, if it does not compile
 };
 
 /// Moves the hands of a graph once. Roles without a choice get the hand of the graph's description, or strokes. `duration_s` 0: as
-/// long as the longest path of a hand. The graph must compile. [main thread]
+/// long as the longest path of a hand. [main thread]
 RecordedMotion recordMotion (const Subject&, std::span<const HandChoice>, const std::filesystem::path& folder_of_graph, double duration_s = 0.0);
 
 }   // namespace tactus::check

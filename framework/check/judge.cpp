@@ -135,14 +135,17 @@ private:
         double total;
     };
 
+    Load loadAt (const Slope& s) const
+    {
+        const double b = isOverdamped() ? 0.0 : s.damping;
+        return { &s, b, s.stiffness * period_s * (0.5 + delay()) + s.lag + b };
+    }
+
     Load largestLoad (const std::vector<Slope>& slopes) const
     {
-        Load most { nullptr, 0.0, -1.0 };
+        auto most = loadAt (slopes.front());
         for (const auto& s : slopes)
-        {
-            const double b = isOverdamped() ? 0.0 : s.damping, total = s.stiffness * period_s * (0.5 + delay()) + s.lag + b;
-            if (total > most.total) most = { &s, b, total };
-        }
+            if (const auto load = loadAt (s); load.total > most.total) most = load;
         return most;
     }
 

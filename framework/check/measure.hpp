@@ -87,7 +87,7 @@ struct Thoroughness
 
 /// Measures a graph along a motion that was recorded at the same rate. The result is a pure function of the arguments. Takes about
 /// 60,000 ticks of the graph, twice that if it has textures, plus the length of the motion for each texture. The graph must compile
-/// without errors. [any thread]
+/// without errors. [any thread, as long as no other thread uses the assets]
 Demand measure (const Subject&, const HandMotion&, const Thoroughness& = {});
 
 }   // namespace tactus::check
