@@ -18,16 +18,23 @@ using Matrix = Eigen::Matrix3d;
 
 constexpr double nudge = 1e-9;              // m; far below any quantum or d_max, far above the rounding of a position
 constexpr std::size_t least_hold = 24;      // ticks; longer than the window of motion.velocity
-constexpr std::size_t longest_hold = 400;   // ticks
+constexpr std::size_t longest_hold = 240;   // ticks
 
-/// The largest factor by which the matrix stretches a vector.
-double norm (const Matrix& m)
+/// The largest factor by which the matrix stretches a vector, and that vector.
+struct Stretched
+{
+    double factor;
+    Vec3 direction;
+};
+
+Stretched mostStretched (const Matrix& m)
 {
     const Matrix square = m.transpose() * m;
-    return std::sqrt (std::max (0.0, Eigen::SelfAdjointEigenSolver<Matrix> (square, Eigen::EigenvaluesOnly).eigenvalues()[2]));
+    const Eigen::SelfAdjointEigenSolver<Matrix> parts (square);
+    return { std::sqrt (std::max (0.0, parts.eigenvalues()[2])), parts.eigenvectors().col (2) };
 }
 
-/// The response of the force to a shift along one axis, per metre.
+/// The response of the force to a shift in one direction, per metre.
 struct Response
 {
     Vec3 settled = Vec3::Zero();   // N/m
@@ -73,14 +80,14 @@ public:
         note (before);
         nudged.shift (role, shift);
         path.clear();
-        for (std::size_t j = 0; j < hold; ++j)
+        while (path.size() < hold || (path.size() < hold + longest_hold && ! hasSettled()))
         {
             step();
             path.push_back ((difference() - offset) / nudge);
         }
         note (settled);
         nudged.shift (role, Vec3::Zero());
-        wait (hold);
+        wait (path.size());
         return summary();
     }
 
@@ -109,7 +116,7 @@ public:
                 f (n, i++);
     }
 
-    void reserve (std::size_t hold) { path.reserve (hold); }
+    void reserve (std::size_t hold) { path.reserve (hold + longest_hold); }
     const Vec3& position() const noexcept { return motion.roles[role].readings[now > 0 ? now - 1 : 0].position; }
     double time() const noexcept { return static_cast<double> (now > 0 ? now - 1 : 0) / motion.rate_hz; }
 
@@ -118,6 +125,15 @@ private:
     {
         still.tick();
         nudged.tick();
+    }
+
+    /// True if the force has stayed the same for a while.
+    bool hasSettled() const noexcept
+    {
+        constexpr std::size_t recent = 12;
+        constexpr double tolerance = 1e-4;
+        const auto& last = path.back();
+        return std::all_of (path.end() - recent, path.end(), [&] (const Vec3& then) { return (then - last).norm() <= tolerance * last.norm(); });
     }
 
     Vec3 difference() const noexcept { return nudged.force (role) - still.force (role); }
@@ -184,7 +200,7 @@ void raise (std::vector<double>& by_node, const Pair& pair, const std::vector<do
 std::vector<Slope> measureSlopes (const Subject& subject, const HandMotion& motion, const SlopeWork& work, Directions& directions)
 {
     Pair pair { subject, motion, work };
-    const auto hold = std::min (longest_hold, least_hold + static_cast<std::size_t> (std::max<std::int64_t> (work.longest_delay, 0)));
+    const auto hold = std::min (longest_hold + least_hold, least_hold + static_cast<std::size_t> (std::max<std::int64_t> (work.longest_delay, 0)));
     pair.reserve (hold);
     directions.assign (pair.nodes(), Matrix::Zero());
 
@@ -208,9 +224,14 @@ std::vector<Slope> measureSlopes (const Subject& subject, const HandMotion& moti
             const Vec3 gradient { own[0][component], own[1][component], own[2][component] };
             directions[node] += gradient * gradient.transpose();
         });
-        slope.stiffness = norm (all.settled);
-        slope.lag = norm (all.late);
-        slope.damping = norm (all.excess);
+        // A response that is not linear, such as that of friction, has no matrix. So what counts is measured in the steepest direction.
+        const Vec3 steepest = mostStretched (all.settled).direction;
+        for (int axis = 0; axis < 3; ++axis)
+            slope.stiffness = std::max (slope.stiffness, all.settled.col (axis).norm());
+        for (const double sign : { -1.0, 1.0 })
+            slope.stiffness = std::max (slope.stiffness, pair.respond (sign * nudge * steepest, hold).settled.norm());
+        slope.lag = mostStretched (all.late).factor;
+        slope.damping = mostStretched (all.excess).factor;
         slopes.push_back (std::move (slope));
     }
     return slopes;

@@ -126,7 +126,7 @@ TEST_CASE ("a good device breaks no condition, and all of them are judged", "[ch
 
 TEST_CASE ("a graph or a device that breaks one condition breaks only that one", "[check]")
 {
-    CHECK (brokenBy ([] (Trial& t) { t.device.damping->value = 0.08; }) == Names { "stiffness" });
+    CHECK (brokenBy ([] (Trial& t) { t.device.damping->value = 0.03; }) == Names { "stiffness" });
     CHECK (brokenBy ([] (Trial& t) { t.board.stiffness = 12e3; t.device.coulomb->value = 1.0; t.device.peak_force->value = 50.0; }) == Names { "stiffness" });
     CHECK (brokenBy ([] (Trial& t) { t.device.mass->value = 1e-4; t.board.damping = 3.0; }) == Names { "damping" });
     CHECK (brokenBy ([] (Trial& t) { t.device.coulomb->value = 5e-4; }) == Names { "quantum" });
@@ -173,7 +173,7 @@ TEST_CASE ("a graph that breaks everything is told so, condition by condition", 
     }
     CHECK (named (all, "d_max").node == "drag");
     CHECK (named (all, "gain").node == "ribs");
-    CHECK (named (all, "stiffness").text.find ("sigma 1e+05 N/m") != std::string::npos);
+    CHECK (named (all, "stiffness").value >= 1e5 * 1e-3 / 2.0);
 }
 
 TEST_CASE ("the measured stiffness, damping and delay of a wall are those of its datasheet, whatever its orientation", "[check]")
@@ -231,7 +231,7 @@ TEST_CASE ("a low-pass in the loop counts as the delay that it has at low freque
     // 1/(pi sqrt 2 f_c) at low frequency; the overshoot is counted on its own, so that the sum is never too small.
     const double delay = 1.0 / (3.14159265 * 1.41421356 * 400.0);
     CHECK (slope.lag - slope.damping == Approx (500.0 * delay).epsilon (0.1));
-    CHECK (slope.lag >= 500.0 * delay * 0.95);
+    CHECK (slope.lag >= 500.0 * delay);
 }
 
 TEST_CASE ("the PHANTOM renders a 10 mm grating below 0.3 m/s and a 1 mm one below 0.03 m/s, the Pantograph up to 4 and 0.4 m/s", "[check]")
