@@ -61,7 +61,7 @@ NodeForces::NodeForces (const Plan& plan, std::size_t node)
     for (const auto& row : type.outputs)
         if (row.unit.kind == UnitRule::Kind::fixed && row.unit.unit.symbol == "N" && ! row.list)
         {
-            widths.push_back (static_cast<std::size_t> (row.width));
+            output_widths.push_back (static_cast<std::size_t> (row.width));
             for (int i = 0; i < row.width; ++i)
                 values.push_back (reinterpret_cast<const double*> (outputs + row.offset) + i);
         }
@@ -71,7 +71,7 @@ double NodeForces::largest() const noexcept
 {
     double most = 0.0;
     std::size_t i = 0;
-    for (const auto width : widths)
+    for (const auto width : output_widths)
     {
         double square = 0.0;
         for (const auto end = i + width; i < end; ++i)

@@ -63,9 +63,11 @@ public:
     double operator[] (std::size_t i) const noexcept { return *values[i]; }
     double largest() const noexcept;   ///< length of the largest output
 
+    const std::vector<std::size_t>& widths() const noexcept { return output_widths; }   ///< components of each output
+
 private:
     std::vector<const double*> values;
-    std::vector<std::size_t> widths;   // of the outputs
+    std::vector<std::size_t> output_widths;
 };
 
 }   // namespace tactus::check

@@ -231,7 +231,7 @@ private:
         directions.emplace_back();
         if (hasLoop (role.name))
         {
-            SlopeWork work { .role = r, .places = how.places, .longest_delay = d.longest };
+            SlopeWork work { .role = r, .places = how.places, .longest_delay = d.longest, .without = struckNodes() };
             d.slopes = measureSlopes (subject, motion, work, directions.back());
             for (const auto& t : textures)
                 work.without.push_back (t.node);
@@ -240,6 +240,19 @@ private:
         }
         d.has_other_efforts = hasOtherSinks (role.name);
         demand.roles.push_back (std::move (d));
+    }
+
+    /// The nodes that only play what they are hit for.
+    std::vector<std::size_t> struckNodes() const
+    {
+        std::vector<std::size_t> all;
+        const auto& nodes = plan->flat().nodes;
+        for (std::size_t n = 0; n < nodes.size(); ++n)
+        {
+            const auto& inputs = nodes[n].type->inputs;
+            if (nodes[n].runs() && ! inputs.empty() && std::ranges::all_of (inputs, plan::takesHits)) all.push_back (n);
+        }
+        return all;
     }
 
     bool belongs (const std::string& path, const std::string& role) const

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace tactus::check
 {
@@ -73,24 +74,18 @@ public:
         }
     }
 
-    /// Measures the response to a shift, with both tools at rest, and shifts the tool back.
-    Response respond (const Vec3& shift, std::size_t hold) noexcept
+    /// Measures the response to a small shift in a direction, with both tools at rest, and shifts the tool back. Empty if a shift of twice
+    /// the size does not get the same response per metre: it then set off an event, such as a click, and an event has no slope.
+    std::optional<Response> respond (const Vec3& direction, std::size_t hold) noexcept
     {
-        const Vec3 offset = difference();
-        note (before);
-        nudged.shift (role, shift);
-        path.clear();
-        while (path.size() < hold || (path.size() < hold + longest_hold && ! hasSettled()))
-        {
-            step();
-            path.push_back ((difference() - offset) / nudge);
-        }
-        note (settled);
-        nudged.shift (role, Vec3::Zero());
-        wait (path.size());
-        return summary();
+        constexpr double tolerance = 0.2;
+        const auto once = respondTo (nudge, direction, hold), twice = respondTo (2.0 * nudge, direction, hold);
+        const double most = std::max (once.settled.norm(), twice.settled.norm());
+        if ((once.settled - twice.settled).norm() > tolerance * most) return std::nullopt;
+        return once;
     }
 
+    /// Waits, with both tools at rest.
     void wait (std::size_t ticks) noexcept
     {
         for (std::size_t j = 0; j < ticks; ++j)
@@ -102,7 +97,7 @@ public:
     {
         std::vector<double> all (numbers);
         for (std::size_t i = 0; i < numbers; ++i)
-            all[i] = (settled[i] - before[i]) / nudge;
+            all[i] = (settled[i] - before[i]) / last_size;
         return all;
     }
 
@@ -116,11 +111,45 @@ public:
                 f (n, i++);
     }
 
+    std::size_t numberOfForces() const noexcept { return numbers; }
+
+    /// Keeps the largest response of a force of each node, in N/m.
+    void raise (std::vector<double>& by_node) const
+    {
+        std::size_t i = 0;
+        for (std::size_t n = 0; n < forces.size(); ++n)
+            for (const auto width : forces[n].widths())
+            {
+                double square = 0.0;
+                for (const auto end = i + width; i < end; ++i)
+                    square += (settled[i] - before[i]) * (settled[i] - before[i]);
+                by_node[n] = std::max (by_node[n], std::sqrt (square) / last_size);
+            }
+    }
+
     void reserve (std::size_t hold) { path.reserve (hold + longest_hold); }
     const Vec3& position() const noexcept { return motion.roles[role].readings[now > 0 ? now - 1 : 0].position; }
     double time() const noexcept { return static_cast<double> (now > 0 ? now - 1 : 0) / motion.rate_hz; }
 
 private:
+    Response respondTo (double size, const Vec3& direction, std::size_t hold) noexcept
+    {
+        const Vec3 offset = difference();
+        note (before);
+        nudged.shift (role, size * direction);
+        path.clear();
+        while (path.size() < hold || (path.size() < hold + longest_hold && ! hasSettled()))
+        {
+            step();
+            path.push_back ((difference() - offset) / size);
+        }
+        note (settled);
+        last_size = size;
+        nudged.shift (role, Vec3::Zero());
+        wait (path.size());
+        return summary();
+    }
+
     void step() noexcept
     {
         still.tick();
@@ -167,6 +196,7 @@ private:
     Bench still, nudged;
     std::vector<NodeForces> forces, nudged_forces;
     std::size_t numbers = 0, now = 0;
+    double last_size = nudge;   // m
     std::vector<double> before, settled;
     std::vector<Vec3> path;
 };
@@ -186,15 +216,6 @@ struct Jacobians
         keep (excess, r.excess);
     }
 };
-
-/// Keeps the largest response of each node.
-void raise (std::vector<double>& by_node, const Pair& pair, const std::vector<double>& responses)
-{
-    std::vector<double> squares (by_node.size(), 0.0);
-    pair.eachForce ([&] (std::size_t node, std::size_t i) { squares[node] += responses[i] * responses[i]; });
-    for (std::size_t n = 0; n < squares.size(); ++n)
-        by_node[n] = std::max (by_node[n], std::sqrt (squares[n]));
-}
 }   // namespace
 
 std::vector<Slope> measureSlopes (const Subject& subject, const HandMotion& motion, const SlopeWork& work, Directions& directions)
@@ -214,12 +235,16 @@ std::vector<Slope> measureSlopes (const Subject& subject, const HandMotion& moti
         Slope slope { .t_s = pair.time(), .position = pair.position(), .by_node = std::vector<double> (pair.nodes(), 0.0) };
         std::array<std::vector<double>, 3> own;
         for (int axis = 0; axis < 3; ++axis)
+        {
+            own[at (axis)].assign (pair.numberOfForces(), 0.0);
             for (const double sign : { -1.0, 1.0 })
-            {
-                all.take (axis, sign, pair.respond (sign * nudge * Vec3::Unit (axis), hold));
-                own[at (axis)] = pair.ownResponses();
-                raise (slope.by_node, pair, own[at (axis)]);
-            }
+                if (const auto response = pair.respond (sign * Vec3::Unit (axis), hold))
+                {
+                    all.take (axis, sign, *response);
+                    own[at (axis)] = pair.ownResponses();
+                    pair.raise (slope.by_node);
+                }
+        }
         pair.eachForce ([&] (std::size_t node, std::size_t component) {
             const Vec3 gradient { own[0][component], own[1][component], own[2][component] };
             directions[node] += gradient * gradient.transpose();
@@ -229,7 +254,7 @@ std::vector<Slope> measureSlopes (const Subject& subject, const HandMotion& moti
         for (int axis = 0; axis < 3; ++axis)
             slope.stiffness = std::max (slope.stiffness, all.settled.col (axis).norm());
         for (const double sign : { -1.0, 1.0 })
-            slope.stiffness = std::max (slope.stiffness, pair.respond (sign * nudge * steepest, hold).settled.norm());
+            if (const auto response = pair.respond (sign * steepest, hold)) slope.stiffness = std::max (slope.stiffness, response->settled.norm());
         slope.lag = mostStretched (all.late).factor;
         slope.damping = mostStretched (all.excess).factor;
         slopes.push_back (std::move (slope));

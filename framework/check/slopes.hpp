@@ -15,7 +15,7 @@ using Directions = std::vector<Eigen::Matrix3d>;
 ///
 /// Two copies of the graph run side by side. At each place, the motion halts in both, and the tool of one copy is shifted by a
 /// nanometre along each axis, to both sides. What differs between the two copies is the response to the shift alone: vibrations,
-/// noise and sounds are the same in both.
+/// noise and sounds are the same in both. Nodes that play when they are hit are silent: they answer an event, not a place.
 struct SlopeWork
 {
     std::size_t role = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <framework/check/hands.hpp>
 #include <framework/check/judge.hpp>
+#include <framework/file/graph_file.hpp>
 
 #include "support/sketch.hpp"
 
@@ -211,6 +212,20 @@ TEST_CASE ("a stiff friction counts twice on a reversal of Dahl's model, and onc
             most = std::max (most, slope.stiffness);
         INFO (adhesion);
         CHECK (most == Approx (factor * 500.0).epsilon (0.02));
+    }
+}
+
+TEST_CASE ("a tone that a slip sets off is an event, not a slope", "[check]")
+{
+    const auto graph = loadGraph (std::string (TACTUS_SOURCE_DIR) + "/graphs/singing_glass.json").graph;
+    const auto motion = check::recordMotion ({ graph, catalogue() }, {}, ".").motion;
+    REQUIRE (motion.ticks > 0);
+    const auto demand = check::measure ({ graph, catalogue() }, motion);
+    for (const auto& slope : demand.roles[0].slopes)
+    {
+        INFO (slope.t_s << " s");
+        CHECK (slope.stiffness < 2e4);
+        CHECK (slope.damping < 20.0);
     }
 }
 
