@@ -88,7 +88,8 @@ private:
     {
         c.value = value;
         c.limit = limit;
-        const auto isWithin = [&] (double v) { return strict == Strict::yes ? v < limit : v <= limit; };
+        constexpr double rounding = 1e-5;   // relative error of a measured slope
+        const auto isWithin = [&] (double v) { return strict == Strict::yes ? v < limit : v <= (1.0 + rounding) * limit; };
         c.verdict = ! isWithin (value) ? Verdict::broken : isWithin (better * value) ? Verdict::holds
                                                                                      : Verdict::close;
         if (c.verdict == Verdict::broken || c.verdict == Verdict::close) c.remedy = remedy;
