@@ -29,6 +29,16 @@ struct Biquad
     double b0 = 1.0, b1 = 0.0, b2 = 0.0, a1 = 0.0, a2 = 0.0;
 };
 
+/// The Butterworth low-pass of second order, discretised by the bilinear transform, prewarped so that the cutoff is exact.
+inline Biquad butterworth2 (double cutoff_hz, double rate_hz) noexcept
+{
+    const double k = prewarped (cutoff_hz, rate_hz);
+    const double damped = std::numbers::sqrt2 * k;
+    const double norm = 1.0 / (1.0 + damped + k * k);
+    const double b = k * k * norm;
+    return { b, 2.0 * b, b, 2.0 * (k * k - 1.0) * norm, (1.0 - damped + k * k) * norm };
+}
+
 /// The memory of a biquad in transposed direct form II, the form that tolerates moving coefficients best. A sample that the
 /// filter cannot process, non-finite or too large, gives 0 and resets the filter.
 class BiquadState

@@ -52,6 +52,7 @@ struct NodeType
     Claims (*claims) (const void* node);
     void (*bind) (void* node, const DeviceState&);
     std::string (*missing) (const void* node, const DeviceLayout&);
+    void (*learn) (void* node, const DeviceLayout&) noexcept;
     Effort (*effort) (const void* node) noexcept;
 };
 
@@ -272,6 +273,7 @@ NodeType describe()
     if constexpr (Claiming<N>) t.claims = [] (const void* n) { return static_cast<const N*> (n)->claims(); };
     if constexpr (DeviceBound<N>) t.bind = [] (void* n, const DeviceState& s) { static_cast<N*> (n)->bind (s); };
     if constexpr (NamesDeviceParts<N>) t.missing = [] (const void* n, const DeviceLayout& l) { return static_cast<const N*> (n)->missing (l); };
+    if constexpr (LearnsOfDevice<N>) t.learn = [] (void* n, const DeviceLayout& l) noexcept { static_cast<N*> (n)->learn (l); };
     if constexpr (Sink<N>) t.effort = [] (const void* n) noexcept { return static_cast<const N*> (n)->effort(); };
     return t;
 }

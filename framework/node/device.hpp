@@ -92,14 +92,17 @@ struct Effort
     Channels signals {};          ///< signal outputs, channel 1 first; in N, m/s2 or 1, depending on calibration
 };
 
-/// What a device has in addition to a tool that moves and can be pushed. Nodes find their part of a Reading and an Effort by these
-/// names. At most Channels::most axes and channels of each kind, and 32 buttons, are used; the rest is ignored.
+/// What a device has in addition to a tool that moves and can be pushed, and what is known of that tool. Nodes find their part of a
+/// Reading and an Effort by these names. At most Channels::most axes and channels of each kind, and 32 buttons, are used; the rest is
+/// ignored.
 struct DeviceLayout
 {
     std::vector<std::string> axes {};      ///< axes that can be read: triggers, sticks, joints. Each in m, rad or 1
     std::vector<std::string> efforts {};   ///< axes that can be pushed
     std::vector<std::string> buttons {};   ///< names by bit; "" for a button without a name
     int signal_inputs = 0, signal_outputs = 0;
+    double mass = 0.0;      ///< that the hand moves at the tool, in kg; 0: unknown
+    double damping = 0.0;   ///< of the mechanics at the tool, in N s/m; 0: unknown
 
     bool operator== (const DeviceLayout&) const = default;
 };

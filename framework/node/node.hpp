@@ -32,6 +32,10 @@
 ///                             and again when the role gets its device, then without allocating          [main or tick thread]
 ///   missing (layout) -> string  the part that a device node needs and the device of its role lacks, worded to follow "has";
 ///                             empty if none. Without that part the node reads 0, or has no effect       [main thread]
+///   learn (layout)            tells a node that is not bound to a device what is known of the device that its inputs come from,
+///                             directly or through other nodes; of a node without such inputs, the device that its outputs go
+///                             to. Called before warning with what the graph describes, before prepare, and again when the role
+///                             gets its device, then without allocating                                   [main or tick thread]
 ///   effort() -> Effort        makes the node a sink: the effort that it adds to its role, after tick    [tick thread]
 ///
 /// A tick is noexcept and total. On a non-finite input it gives 0 on all outputs (-1 on `state`), re-opens the contact, and
@@ -137,6 +141,9 @@ concept DeviceBound = requires (N node, const DeviceState& state) { node.bind (s
 
 template <typename N>
 concept NamesDeviceParts = DeviceBound<N> && requires (const N node, const DeviceLayout& layout) { { node.missing (layout) } -> std::same_as<std::string>; };
+
+template <typename N>
+concept LearnsOfDevice = ! DeviceBound<N> && requires (N node, const DeviceLayout& layout) { { node.learn (layout) } noexcept; };
 
 template <typename N>
 concept Sink = DeviceBound<N> && requires (const N node) { { node.effort() } noexcept -> std::same_as<Effort>; };

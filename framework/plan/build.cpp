@@ -229,6 +229,9 @@ private:
     {
         const auto& n = flat.node (i);
         auto& instance = parts.instances[at (i)];
+        if (n.type->learn)
+            if (const auto role = std::ranges::find (parts.roles, n.role, &RoleUse::name); role != parts.roles.end())
+                n.type->learn (instance.node.get(), role->state->layout);
         auto own = setup;
         own.rate_hz *= flat.speed (n.section);
         if (n.type->prepare) n.type->prepare (instance.node.get(), own);

@@ -2,6 +2,7 @@
 #include "compile.hpp"
 #include "aliasing.hpp"
 #include "build.hpp"
+#include "device_of.hpp"
 #include "make_node.hpp"
 #include "sections.hpp"
 #include "slots.hpp"
@@ -88,7 +89,7 @@ double bytesOf (const FlatNode& n)
 }
 
 /// Asks each node what it costs, whether its settings are usable, and whether it has a warning at its rate.
-void askNodes (Flat& flat, const Setup& setup)
+void askNodes (Flat& flat, const Setup& setup, const graph::Graph& graph)
 {
     for (int i = 0; i < flat.nodeCount(); ++i)
     {
@@ -99,6 +100,7 @@ void askNodes (Flat& flat, const Setup& setup)
         own.rate_hz *= flat.speed (n.section);
         const std::string id (n.type->info.id), remedy = "`tactus nodes " + id + "` lists its params and settings, with their ranges";
         const auto node = makeNode (flat, i);
+        if (n.type->learn && node) n.type->learn (node.get(), describedDevice (graph, n.role));
         const auto cost = n.type->cost && node ? n.type->cost (node.get()) : Cost {};
         if (! flat.spend (cost.work, cost.memory, n.origin)) return;
         const auto problem = n.type->problem ? n.type->problem (node.get()) : std::string {};
@@ -120,12 +122,13 @@ Spent spentOn (const Flat& flat)
 }
 
 /// All checks of a flat graph that do not involve feeds and records.
-PortUnits check (Flat& flat, const Setup& setup, Order& ordered)
+PortUnits check (Flat& flat, const Setup& setup, const graph::Graph& graph, Order& ordered)
 {
     auto units = checkUnits (flat);
     checkFanIn (flat, units);
     checkDelays (flat);
-    askNodes (flat, setup);
+    findDevices (flat);
+    askNodes (flat, setup, graph);
     ordered = order (flat);
     checkSections (flat, setup.rate_hz);
     warnOfAliasing (flat, units, setup);
@@ -244,14 +247,14 @@ Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const Compi
 
     const Setup setup { .rate_hz = rate, .services = options.services };
     Order ordered;
-    const auto units = check (flat, setup, ordered);
+    const auto units = check (flat, setup, g, ordered);
     auto spent = spentOn (flat);
     for (const auto& [name, patch] : g.graphs)   // an unused subgraph is checked on its own
         if (! used.contains (&patch) && ! spent.is_over)
         {
             auto alone = flattenUnused (g, name, patch, catalogue, options.assets, spent);
             Order unneeded;
-            check (alone.flat, setup, unneeded);
+            check (alone.flat, setup, g, unneeded);
             spent = spentOn (alone.flat);
             flat.messages.insert (flat.messages.end(), alone.flat.messages.begin(), alone.flat.messages.end());
         }

@@ -80,9 +80,10 @@ std::unique_ptr<Engine::Running> Engine::makeRunning (std::shared_ptr<Plan> p)
     for (std::size_t i = 0; i < plan->instances().size(); ++i)
     {
         const auto& node = plan->flat().nodes[i];
-        if (! node.type->bind || ! node.runs()) continue;
+        if ((! node.type->bind && ! node.type->learn) || ! node.runs()) continue;
         const auto role = std::ranges::find (plan->roles(), node.role, &Plan::RoleUse::name);
-        made->bound.push_back ({ node.type->bind, plan->instances()[i].node.get(), role->state.get(),
+        if (role == plan->roles().end()) continue;
+        made->bound.push_back ({ node.type->bind, node.type->learn, plan->instances()[i].node.get(), role->state.get(),
                                  used[static_cast<std::size_t> (role - plan->roles().begin())] });
     }
     return made;
@@ -101,11 +102,11 @@ void Engine::equip (Channel& channel, Device& device, const GuardLimits& limits,
     device.prepare (dt_s);
 }
 
-/// Binds nodes to the layouts of new devices.
+/// Binds nodes to new devices, and tells those that learn of them.
 void Engine::introduce (Running& plan) noexcept
 {
     for (const auto& node : plan.bound)
-        if (node.channel->is_news) node.bind (node.node, *node.state);
+        if (node.channel->is_news) node.bind ? node.bind (node.node, *node.state) : node.learn (node.node, node.state->layout);
     for (auto* channel : plan.channels)
         channel->is_news = false;
 }

@@ -164,10 +164,11 @@ private:
         bool is_news = false;           // the nodes are not bound to its device yet
     };
 
-    /// A node that belongs to a role.
+    /// A node that belongs to a role: it has either hook.
     struct BoundNode
     {
         void (*bind) (void* node, const DeviceState&);
+        void (*learn) (void* node, const DeviceLayout&) noexcept;
         void* node;
         const DeviceState* state;
         Channel* channel;

@@ -10,6 +10,7 @@
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/platform/home_folder.hpp>
 #include <host/sessions/needs.hpp>
+#include <host/sessions/numbers_device.hpp>
 
 #include <cmath>
 #include <iostream>
@@ -104,7 +105,7 @@ void CommandRun::chooseAudio()
 }
 
 /// The device for each role, described by an option, the session or the graph, in this order of precedence.
-std::vector<Described> CommandRun::devicesByRole() const
+std::vector<Described> CommandRun::devicesByRole()
 {
     auto described = loaded.graph.devices;
     const auto describe = [&] (const std::string& role, const Json& description) {
@@ -116,9 +117,16 @@ std::vector<Described> CommandRun::devicesByRole() const
     };
     for (const auto& role : rolesNamed (loaded.graph))
         if (const auto bound = bindingOf (device_session, role)) describe (role, bound->description);
+    Messages reported_later;
     for (const auto& text : options.devices)
-        if (const auto parsed = parseDeviceOption (text, loaded.graph.devices, folder())) describe (parsed->role, parsed->description);
+        if (const auto parsed = optionOf (text, reported_later)) describe (parsed->role, parsed->description);
     return described;
+}
+
+Result<DeviceOption> CommandRun::optionOf (const std::string& text, Messages& notes)
+{
+    return host::parseDeviceOption (
+        text, loaded.graph.devices, folder(), [this]() -> const hid::LoadedProfiles& { return real.profiles(); }, notes);
 }
 
 /// A device with its own clock ticks the run at its own rate, unless an option or the session says otherwise.
@@ -162,7 +170,9 @@ void CommandRun::checkDeviceOptions()
         roles.push_back (role.name);
     for (const auto& text : options.devices)
     {
-        auto parsed = parseDeviceOption (text, loaded.graph.devices, folder());
+        Messages notes;
+        auto parsed = optionOf (text, notes);
+        report (notes, loaded, options.graph);
         if (! parsed) fail (Message::error (parsed.error().id, "--device " + text, parsed.error().text, parsed.error().remedy));
         device_options.push_back (std::move (*parsed));
         const auto& role = device_options.back().role;
@@ -343,7 +353,7 @@ std::vector<std::filesystem::path> CommandRun::inputs() const
     for (const auto& text : options.devices)
     {
         all.emplace_back (text.substr (text.find ('=') + 1));
-        if (const auto parsed = parseDeviceOption (text, loaded.graph.devices, folder())) add (parsed->folder, parsed->description);
+        if (const auto parsed = tactus::parseDeviceOption (text, loaded.graph.devices, folder())) add (parsed->folder, parsed->description);
     }
     return all;
 }

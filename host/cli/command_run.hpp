@@ -89,7 +89,8 @@ private:
     void checkDeviceOptions();
     void decideLength();
     void startAudio();
-    std::vector<Described> devicesByRole() const;
+    std::vector<Described> devicesByRole();
+    Result<DeviceOption> optionOf (const std::string& text, Messages& notes);
     Run::RoleDevice open (const std::string& role, const graph::Graph&, const Plan&, Messages&);
     Run::RoleDevice openBySession (const std::string& role, RoleBinding, const Plan&, Messages&);
     Messages notTakenOver (const graph::Graph&) const;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "numbers_only.hpp"
 #include "report.hpp"
 
 #include <framework/text/json.hpp>
@@ -359,6 +360,12 @@ void run (const Options& options)
     if (! options.json)
         for (const auto& card : cards)
             std::cout << textOf (card);
+    const auto known = options.probe ? std::vector<std::shared_ptr<const Profile>> {} : knownByNumbers (profiles);
+    for (const auto& profile : known)
+        json.push_back (numbersJsonOf (*profile));
+    if (! options.json)
+        for (const auto& profile : known)
+            std::cout << numbersTextOf (*profile);
     if (options.probe && ! all.empty())
     {
         if (! options.json && std::ranges::all_of (all, [] (const Listed& l) { return l.profiles.empty(); }))

@@ -48,8 +48,8 @@ void RunOptions::addTo (const Command& app)
     app.addOption ("--duration", duration_s, "Length of the run in s").check (finiteWithin (1e-9, 1e9));
     app.addOption ("--set", sets, "Set a parameter, NODE.PARAM=VALUE, or a control, CONTROL=0…1; may be given more than once").oneValueEach();
     app.addOption ("--device", devices,
-                   "The device of a role: ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME, ROLE=hid:PROFILE (hid:auto) or "
-                   "ROLE=audio:CARD; may be given more than once")
+                   "The device of a role: ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME, ROLE=hid:PROFILE (hid:auto), "
+                   "ROLE=audio:CARD, or ROLE=ID with a profile that holds only numbers, to simulate its device; may be given more than once")
         .oneValueEach();
     addLimits (app);
 }

@@ -12,6 +12,7 @@
 #include <host/hid_link/profile_library.hpp>
 #include <host/platform/home_folder.hpp>
 #include <host/sessions/choose_clock.hpp>
+#include <host/sessions/numbers_device.hpp>
 #include <host/sessions/role_fits.hpp>
 
 #include <algorithm>
@@ -55,7 +56,10 @@ void nameProfile (Json& description, const hid::LoadedProfiles& profiles)
 Json read (const std::string& option, std::string& role, const std::optional<LoadedGraph>& graph, const hid::LoadedProfiles& profiles)
 {
     const auto folder = graph ? fs::path (graph->graph.folder) : fs::path();
-    auto parsed = parseDeviceOption (option, graph ? graph->graph.devices : std::vector<Described> {}, folder);
+    Messages notes;
+    auto parsed = host::parseDeviceOption (
+        option, graph ? graph->graph.devices : std::vector<Described> {}, folder, [&]() -> const hid::LoadedProfiles& { return profiles; }, notes);
+    report (notes, LoadedGraph {}, "--bind " + option);
     if (! parsed) fail (Message::error (parsed.error().id, "--bind " + option, parsed.error().text, parsed.error().remedy));
     auto& [name, description, from] = *parsed;
     role = name;

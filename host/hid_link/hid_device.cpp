@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hid_device.hpp"
 
+#include <host/hid/physics.hpp>
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -28,7 +30,14 @@ DeviceLayout layoutOf (const HidModel& model)
     auto signals = model.profile().signals.size();
     for (std::size_t i = 0; i < model.outputs(); ++i)
         signals += model.channelNames (i).size();
-    return { .axes = model.axisNames(), .efforts = model.ownEffortNames(), .buttons = model.buttonNames(), .signal_outputs = static_cast<int> (signals) };
+    const auto numbers = numbersOf (model.profile());
+    const auto known = [] (const DeviceNumbers::Number& number) { return number ? number->value : 0.0; };
+    return { .axes = model.axisNames(),
+             .efforts = model.ownEffortNames(),
+             .buttons = model.buttonNames(),
+             .signal_outputs = static_cast<int> (signals),
+             .mass = known (numbers.mass),
+             .damping = known (numbers.damping) };
 }
 
 namespace

@@ -8,6 +8,7 @@
 #include <framework/text/object_reader.hpp>
 
 #include <framework/text/quote.hpp>
+#include <host/hid/physics.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -130,6 +131,10 @@ FoundDevice findDevice (const Json& description, HidSystem& system, const Loaded
         found.messages.push_back (Message::error (id, "", std::move (text), std::move (remedy)));
         return found;
     };
+
+    if (named && isNumbersOnly (*named))
+        return refuse ("hid/numbers_only", "Tactus cannot open a " + named->name + ": its profile holds only numbers",
+                       "simulate it: write --device ROLE=" + named->id);
 
     const auto connected = eachOnce (system.connected(), all);
     std::vector<Match> matches;

@@ -36,6 +36,14 @@ GuardLimits inWorkspace (GuardLimits limits, const Workspace& w) noexcept
     return limits;
 }
 
+DeviceLayout WorkspaceDevice::layout() const
+{
+    auto has = device->layout();
+    has.mass /= workspace.scale;
+    has.damping /= workspace.scale;
+    return has;
+}
+
 Reading WorkspaceDevice::read() noexcept
 {
     auto reading = device->read();

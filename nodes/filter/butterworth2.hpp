@@ -4,8 +4,6 @@
 #include <framework/kit/biquad.hpp>
 #include <framework/node/generic.hpp>
 
-#include <numbers>
-
 namespace tactus::nodes
 {
 
@@ -16,7 +14,7 @@ namespace tactus::nodes
 /// discretised by the bilinear transform, prewarped so that the cutoff is exact. With a cutoff at or below the first resonance
 /// of a device, it keeps textures from exciting that resonance. A step overshoots by 4 %. The delay is about
 /// sqrt (2) / (2 pi cutoff) s at low frequencies. The cutoff is limited to 1e-6 … 0.4999 of the tick rate. The filter starts from
-/// rest, even after a non-finite input.
+/// rest, even after a non-finite input. For the force of a motor, a vector, see filter.reconstruction.
 ///
 /// Source: Butterworth 1930; Hayward 2007, section 5 (reconstruction filter).
 struct Butterworth2
@@ -42,14 +40,7 @@ struct Butterworth2
 
     void prepare (const Setup& setup) noexcept { rate = setup.rate_hz; }
 
-    void update() noexcept
-    {
-        const double k = prewarped (params.cutoff, rate);
-        const double damped = std::numbers::sqrt2 * k;
-        const double norm = 1.0 / (1.0 + damped + k * k);
-        const double b = k * k * norm;
-        filter = { b, 2.0 * b, b, 2.0 * (k * k - 1.0) * norm, (1.0 - damped + k * k) * norm };
-    }
+    void update() noexcept { filter = butterworth2 (params.cutoff, rate); }
 
     Outputs tick (const Inputs& in) noexcept { return { .out = state (filter, in.in) }; }
 

@@ -17,7 +17,7 @@ std::span<const DeviceNumberRow> deviceNumberRows() noexcept
         { "quantum", unit::metre, Bounds::notNegative(), &D::quantum },
         { "force_quantum", unit::newton, Bounds::notNegative(), &D::force_quantum },
         { "delay", unit::count, { .min = 0.0, .max = longest_delay }, &D::delay, true },
-        { "first_mode", unit::hertz, Bounds::positive(), &D::first_mode },
+        { "first_mode", unit::hertz, { .min = 0.0, .max = highest_first_mode, .without_min = true }, &D::first_mode },
         { "first_mode_damping", unit::gain, { .min = 0.0, .max = 1.0 }, &D::first_mode_damping },
         { "end_mass", unit::kilogram, Bounds::positive(), &D::end_mass },
         { "peak_force", unit::newton, Bounds::positive(), &D::peak_force, false, false },

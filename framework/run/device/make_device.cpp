@@ -123,6 +123,20 @@ std::vector<Simulation::Axis> readAxes (const Json& json, const std::string& whe
     return axes;
 }
 
+void readStructure (ObjectReader& in, Simulation& sim)
+{
+    sim.first_mode = in.number ("first_mode", unit::hertz, { .min = 0.0, .max = highest_first_mode, .without_min = true }, sim.first_mode);
+    sim.first_mode_damping = in.number ("first_mode_damping", unit::gain, { .min = 0.0, .max = 1.0 }, sim.first_mode_damping);
+    sim.end_mass = in.number ("end_mass", unit::kilogram, Bounds::positive(), sim.end_mass);
+    if (! (sim.end_mass < sim.mass))
+        in.error ("end_mass", "device/out_of_range", "end_mass is " + numberText (sim.end_mass) + " kg, which is not less than mass",
+                  "end_mass is the part of the mass at the tool: write less than " + numberText (sim.mass) + " kg");
+    for (const auto* key : { "first_mode_damping", "end_mass" })
+        if (in.has (key) && ! in.has ("first_mode"))
+            in.error (key, "device/missing", std::string (key) + " has no effect without first_mode",
+                      "add \"first_mode\", in Hz, or remove " + std::string (key));
+}
+
 std::unique_ptr<Device> makeSimulated (ObjectReader& in, const Folder& folder, Messages& messages, std::string& about)
 {
     Simulation sim;
@@ -131,7 +145,8 @@ std::unique_ptr<Device> makeSimulated (ObjectReader& in, const Folder& folder, M
     sim.quantum = in.number ("quantum", unit::metre, Bounds::notNegative(), sim.quantum);
     sim.force_quantum = in.number ("force_quantum", unit::newton, Bounds::notNegative(), sim.force_quantum);
     sim.delay = in.whole ("delay", 0, longest_delay, sim.delay);
-    sim.first_mode = in.number ("first_mode", unit::hertz, Bounds::positive(), sim.first_mode);
+    sim.coulomb = in.number ("coulomb", unit::newton, Bounds::notNegative(), sim.coulomb);
+    readStructure (in, sim);
     if (in.has ("hand")) sim.hand = readHand (in.object ("hand"), "/hand", folder, messages);
     sim.position = in.vector ("position", unit::metre, sim.hand.path ? sim.hand.path->at (0.0).position : Vec3 (Vec3::Zero()));
     sim.velocity = in.vector ("velocity", unit::speed, sim.velocity);
@@ -198,8 +213,9 @@ std::vector<std::string> driverNames()
 }
 
 // The keys that a simulated device can use from the description of a real one.
-constexpr std::string_view known_to_sim[] { "mass", "damping", "quantum", "force_quantum", "delay", "first_mode", "position",
-                                            "velocity", "rotation", "hand_force", "hand", "axes", "signal_outputs", "guard", "about", "ui" };
+constexpr std::string_view known_to_sim[] { "mass", "damping", "quantum", "force_quantum", "delay", "coulomb", "first_mode",
+                                            "first_mode_damping", "end_mass", "position", "velocity", "rotation", "hand_force", "hand",
+                                            "axes", "signal_outputs", "guard", "about", "ui" };
 }   // namespace
 
 MadeDevice makeDevice (const Json& description, const Folder& folder)

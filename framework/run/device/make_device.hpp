@@ -26,8 +26,8 @@ struct MadeDevice
 /// Makes the device that is described, or reports all problems in the description. [main thread]
 ///
 ///     {"driver": "sim", "mass": "50 g", "damping": 2.0, "quantum": "10 um", "force_quantum": "1 mN", "delay": 0,
-///      "first_mode": "30 Hz", "position": [0, 0, "5 mm"], "velocity": [0, 0, 0], "rotation": [0, 0, 0],
-///      "hand_force": [0, 0, "-0.5 N"],
+///      "coulomb": "40 mN", "first_mode": "30 Hz", "first_mode_damping": 0.05, "end_mass": "25 g",
+///      "position": [0, 0, "5 mm"], "velocity": [0, 0, 0], "rotation": [0, 0, 0], "hand_force": [0, 0, "-0.5 N"],
 ///      "hand": {"stiffness": 100.0, "damping": 2.0, "path": "stroke"},
 ///      "axes": {"trigger": {"mass": "50 g", "damping": 1.0, "stiffness": 0, "position": 0, "hand_force": 0}}, "signal_outputs": 0}
 ///     {"driver": "trace", "path": "pen.csv"}
@@ -36,7 +36,8 @@ struct MadeDevice
 /// A `path` is the name of a gesture or a CSV file, relative to `folder`; "offset" (v3, m) and "scale" (1) may accompany it.
 /// Each device may have a "guard"; "about" and "ui" are ignored here.
 ///
-/// Defaults of a simulated device: mass 0.1 kg, damping 1 N s/m; for a hand, stiffness 100 N/m and damping 2 N s/m. The default
+/// Defaults of a simulated device: mass 0.1 kg, damping 1 N s/m; with a first mode, a damping ratio of 0.05 and half of the mass at
+/// the end; for a hand, stiffness 100 N/m and damping 2 N s/m. The default
 /// position is the start of the hand's path, because the tool is in the hand, or 0 without a hand.
 ///
 /// The drivers "hid" and "audio" are for real devices, which are opened by hid::openDevice and audio::openAudio; here they are

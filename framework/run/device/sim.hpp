@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "flexible_tool.hpp"
 #include "path.hpp"
+#include "rigid_tool.hpp"
 #include <framework/node/device.hpp>
 
 #include <cstdint>
@@ -55,20 +57,22 @@ struct Simulation
 /// In ticks. A longer delay would be several seconds, which must be a mistake.
 inline constexpr int longest_delay = 10'000;
 
+/// In Hz. A higher resonance does not differ from a rigid tool.
+inline constexpr double highest_first_mode = 1e6;
+
 /// The part of the mass at the tool, in kg.
 inline double endMassOf (const Simulation& sim) noexcept { return sim.end_mass > 0.0 ? sim.end_mass : 0.5 * sim.mass; }
 
-/// A tool of mass M with viscous damping B, pushed by the graph's force and by a hand. The total force F is held from tick to
-/// tick, as by an amplifier, and the motion in between is solved exactly:
+/// A tool of mass M with viscous damping B and Coulomb friction, pushed by the graph's force and by a hand. Both forces are held
+/// from tick to tick, as by an amplifier, and the motion in between is solved exactly (RigidTool), so energy changes only through
+/// the physics of a sampled loop, not through integration errors.
 ///
-///     a = e^(-B T/M)     g = M (1 - a)/B
-///     x += g v + (T - g)/B F
-///     v += (a - 1) v + (1 - a)/B F
-///
-/// so energy changes only through the physics of a sampled loop, not through integration errors.
+/// With a `first_mode`, the tool is a structure that bends (FlexibleTool): the graph's force acts on the motor, where the sensor is
+/// and where damping and friction act; the hand acts on the end, and true position and velocity are those of the end. Without
+/// one, motor and end are the same.
 ///
 /// On each tick, read() reports the position, rounded half up to the quantum. write() takes the guarded force, rounds it to the
-/// force quantum, holds the force from `delay` ticks ago (0 before the first one) plus the force of the hand, and steps. The
+/// force quantum, holds the force from `delay` ticks ago (0 before the first one) and the force of the hand, and steps. The
 /// hand's force is not delayed, because the hand is at the tool. It is computed from the true motion at the tick.
 ///
 /// Good to know
@@ -92,37 +96,27 @@ public:
     const Simulation& simulation() const noexcept { return what; }
 
 private:
-    /// How a force that is held for one tick moves a mass; see above.
-    struct Step
-    {
-        Step (double mass, double damping, double dt_s) noexcept;
-
-        template <typename T>
-        void operator() (T& position, T& velocity, const T& force) const noexcept
-        {
-            position += x_per_v * velocity + x_per_f * force;
-            velocity += v_loss * velocity + v_per_f * force;
-        }
-
-        double x_per_v, x_per_f, v_loss, v_per_f;   // g, (T - g)/B, a - 1, (1 - a)/B
-    };
-
     struct MovingAxis
     {
-        Step step;
+        HeldStep step;
         double x, v = 0.0;
     };
 
     Vec3 delayed (const Vec3& force) noexcept;
     Vec3 handForce() const noexcept;
 
+    bool bends() const noexcept { return what.first_mode > 0.0; }
+    Vec3 motor() const noexcept { return bends() ? flexible.motor() : rigid.position(); }
+    Vec3 end() const noexcept { return bends() ? flexible.end() : rigid.position(); }
+    Vec3 endVelocity() const noexcept { return bends() ? flexible.endVelocity() : rigid.velocity(); }
+
     Simulation what;
     double dt = 1e-3;
-    Step step { 1.0, 0.0, dt };
+    RigidTool rigid { 1.0, 0.0, 0.0, dt };
+    FlexibleTool flexible;          // used instead if there is a first mode
     std::vector<MovingAxis> axes;   // in the order of what.axes
     std::vector<Vec3> on_the_way;   // forces of the last `delay` ticks
     std::size_t oldest = 0;
-    Vec3 x = Vec3::Zero(), v = Vec3::Zero();
     std::int64_t tick = 0;
 };
 

@@ -14,7 +14,7 @@ namespace tactus
 
 inline constexpr std::string_view run_format = "tactus-run";
 /// Version 1 had no axes, signals, device layouts or emergency stops; 2 had no hits; 3 had no faults of readings and no lost time.
-inline constexpr int run_version = 4;
+inline constexpr int run_version = 5;
 
 /// The fixed properties of a run, stored in the first line of its log.
 struct RunHead

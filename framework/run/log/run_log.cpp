@@ -54,7 +54,7 @@ Json toJson (const std::map<std::string, GuardLimits>& guards)
     return json;
 }
 
-/// Includes only devices that have more than a tool: axes, efforts, buttons or signals.
+/// Includes only devices of which something is known: axes, efforts, buttons, signals, or the tool's mass and damping.
 Json toJson (const std::map<std::string, DeviceLayout>& devices)
 {
     auto json = Json::object();
@@ -64,7 +64,9 @@ Json toJson (const std::map<std::string, DeviceLayout>& devices)
                            { "efforts", has.efforts },
                            { "buttons", has.buttons },
                            { "signal_inputs", has.signal_inputs },
-                           { "signal_outputs", has.signal_outputs } };
+                           { "signal_outputs", has.signal_outputs },
+                           { "mass", toLog (has.mass) },
+                           { "damping", toLog (has.damping) } };
     return json;
 }
 

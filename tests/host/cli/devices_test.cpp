@@ -7,6 +7,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 using namespace tactus;
 using test::runTactus;
 using test::Scratch;
@@ -72,4 +74,26 @@ TEST_CASE ("a graph that names a real device is valid on any machine", "[cli][hi
     const auto unknown = runTactus ({ "validate", graphWith ("tactus_bord") });
     CHECK (unknown.status == 1);
     CHECK (holds (unknown.err, "hid/unknown_profile"));
+}
+
+TEST_CASE ("a device that is known only by its numbers is listed, simulated on request, and never opened", "[cli][hid]")
+{
+    const auto listed = runTactus ({ "devices" });
+    CHECK (holds (listed.out, "phantom_1_0"));
+    CHECK (holds (listed.out, "numbers only, no open driver; simulate it: --device ROLE=pantograph_mk2"));
+    const auto json = Json::parse (runTactus ({ "devices", "--json" }).out);
+    const auto phantom = std::find_if (json.begin(), json.end(), [] (const Json& d) { return d.value ("profile", "") == "phantom_1_0"; });
+    REQUIRE (phantom != json.end());
+    CHECK (phantom->at ("physics").at ("first_mode").at ("value").get<double>() == 30.0);
+    CHECK_FALSE (phantom->at ("physics").at ("first_mode").at ("guess").get<bool>());
+
+    Scratch scratch;
+    const auto rendered = runTactus ({ "render", wood, "--duration", "0.05", "--device", "stylus=phantom_1_0", "--out", scratch.path ("out.csv") });
+    CHECK (rendered.status == 0);
+    CHECK (holds (rendered.err, "device/numbers_only"));
+    CHECK (holds (rendered.err, "PHANTOM 1.0 has no open driver"));
+
+    const auto opened = runTactus ({ "play", wood, "--osc", "off", "--duration", "1", "--device", "stylus=hid:phantom_1_0" });
+    CHECK (opened.status == 1);
+    CHECK (holds (opened.err, "hid/numbers_only"));
 }

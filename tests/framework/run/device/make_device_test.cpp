@@ -52,7 +52,8 @@ Message refused (std::string_view text)
 TEST_CASE ("device description: units are read and converted", "[host][devices]")
 {
     const auto m = made (R"({"driver": "sim", "mass": "50 g", "damping": 2.0, "quantum": "10 um", "force_quantum": "1 mN", "delay": 2,
-        "first_mode": "0.4 kHz", "position": [0, "2 mm", 0.01], "velocity": ["0.1 m/s", 0, 0], "rotation": [0, 0, "180 deg"],
+        "coulomb": "40 mN", "first_mode": "0.4 kHz", "first_mode_damping": 0.1, "end_mass": "20 g",
+        "position": [0, "2 mm", 0.01], "velocity": ["0.1 m/s", 0, 0], "rotation": [0, 0, "180 deg"],
         "hand_force": [0, 0, "-0.5 N"], "hand": {"stiffness": "0.1 N/mm", "damping": 2.0, "path": "stroke"},
         "guard": {"max_force": "3.3 N", "max_torque": "20 N*mm", "max_slew": "0.5 kN/s", "ramp": "0.2 s", "watchdog": "20 ms"}})");
     REQUIRE (m.messages.empty());
@@ -63,7 +64,10 @@ TEST_CASE ("device description: units are read and converted", "[host][devices]"
     CHECK (sim.quantum == Approx (1e-5));
     CHECK (sim.force_quantum == Approx (1e-3));
     CHECK (sim.delay == 2);
+    CHECK (sim.coulomb == Approx (0.04));
     CHECK (sim.first_mode == Approx (400.0));
+    CHECK (sim.first_mode_damping == 0.1);
+    CHECK (sim.end_mass == Approx (0.02));
     CHECK ((sim.position - Vec3 (0, 0.002, 0.01)).norm() < 1e-15);
     CHECK (sim.velocity.x() == Approx (0.1));
     CHECK (sim.rotation.z() == Approx (3.14159265358979));
@@ -200,7 +204,7 @@ TEST_CASE ("device description: a simulated device may have axes in addition to 
     const auto m = made (R"({"driver": "sim", "axes": {"trigger": {"mass": "20 g", "damping": 0.5, "stiffness": "0.2 N/mm", "position": "1 mm",
         "hand_force": "1 N"}, "wheel": {}}, "signal_outputs": 2})");
     REQUIRE (m.messages.empty());
-    CHECK (m.device->layout() == DeviceLayout { .axes = { "trigger", "wheel" }, .efforts = { "trigger", "wheel" }, .signal_outputs = 2 });
+    CHECK (m.device->layout() == DeviceLayout { .axes = { "trigger", "wheel" }, .efforts = { "trigger", "wheel" }, .signal_outputs = 2, .mass = 0.1, .damping = 1.0 });
     const auto& trigger = simulationOf (m).axes.at (0);
     CHECK (trigger.mass == Approx (0.02));
     CHECK (trigger.stiffness == Approx (200.0));
@@ -319,4 +323,15 @@ TEST_CASE ("the option --device: unreadable text is refused with a list of the v
     folder.write ("broken.json", "{\"driver\": }");
     CHECK (refused ("stylus=" + (folder / "broken.json").string()).id == "device/syntax");
     CHECK (refused ("stylus=" + (folder / "none.json").string()).id == "device/unreadable");
+}
+
+TEST_CASE ("device description: a first mode needs an end that is lighter than the whole, and nothing of it stands without it", "[host][devices]")
+{
+    CHECK (found (made (R"({"driver": "sim", "mass": "50 g", "first_mode": 30, "end_mass": "50 g"})"))
+           == std::vector<std::string> { "device/out_of_range /end_mass" });
+    CHECK (found (made (R"({"driver": "sim", "first_mode": 30, "first_mode_damping": 1.5})"))
+           == std::vector<std::string> { "device/out_of_range /first_mode_damping" });
+    CHECK (found (made (R"({"driver": "sim", "end_mass": "20 g"})")) == std::vector<std::string> { "device/missing /end_mass" });
+    CHECK (found (made (R"({"driver": "sim", "first_mode_damping": 0.1})")) == std::vector<std::string> { "device/missing /first_mode_damping" });
+    CHECK (found (made (R"({"driver": "sim", "coulomb": "-1 N"})")) == std::vector<std::string> { "device/out_of_range /coulomb" });
 }

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "device_of.hpp"
+#include "grouped.hpp"
+
+#include <framework/text/object_reader.hpp>
+
+#include <algorithm>
+#include <vector>
+
+namespace tactus::plan
+{
+
+namespace
+{
+constexpr int none = -1;
+
+/// For each node, the device node that is the nearest against the direction of `next`, or none. All device nodes advance along
+/// `next` by one wire at a time.
+std::vector<int> nearestDevice (const Flat& flat, const Grouped<int>& next)
+{
+    std::vector<int> nearest (flat.nodes.size(), none), front;
+    for (int n = 0; n < flat.nodeCount(); ++n)
+        if (flat.node (n).type->bind && flat.node (n).runs()) front.push_back (n);
+    std::ranges::sort (front, {}, [&] (int n) -> const std::string& { return flat.node (n).path; });
+    for (const int n : front)
+        nearest[at (n)] = n;
+    while (! front.empty())
+    {
+        std::vector<int> reached;
+        for (const int n : front)
+            for (const int m : next[at (n)])
+                if (nearest[at (m)] == none)
+                {
+                    nearest[at (m)] = nearest[at (n)];
+                    reached.push_back (m);
+                }
+        front = std::move (reached);
+    }
+    return nearest;
+}
+}   // namespace
+
+void findDevices (Flat& flat)
+{
+    if (std::ranges::none_of (flat.nodes, [] (const FlatNode& n) { return n.type->learn != nullptr; })) return;
+
+    const Grouped<int> onward (flat.nodes.size(), [&] (auto visit) {
+        for (const auto& w : flat.wires)
+            if (w.from) visit (w.from->node, w.to.node);
+    });
+    const Grouped<int> back (flat.nodes.size(), [&] (auto visit) {
+        for (const auto& w : flat.wires)
+            if (w.from) visit (w.to.node, w.from->node);
+    });
+    const auto before = nearestDevice (flat, onward), after = nearestDevice (flat, back);
+    for (int n = 0; n < flat.nodeCount(); ++n)
+        if (flat.node (n).type->learn)
+            if (const int device = before[at (n)] != none ? before[at (n)] : after[at (n)]; device != none) flat.nodes[at (n)].role = flat.node (device).role;
+}
+
+DeviceLayout describedDevice (const graph::Graph& graph, const std::string& role)
+{
+    const auto* description = graph.device (role);
+    if (description == nullptr || ! description->is_object()) return {};
+
+    Messages unheeded;   // whoever makes the device reports them
+    ObjectReader in (*description, {}, unheeded);
+    return { .mass = in.number ("mass", unit::kilogram, Bounds::positive(), 0.0), .damping = in.number ("damping", unit::damping, Bounds::notNegative(), 0.0) };
+}
+
+}   // namespace tactus::plan

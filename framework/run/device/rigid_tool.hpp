@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/kit/held_step.hpp>
+#include <framework/kit/vec3.hpp>
+
+namespace tactus
+{
+
+/// A rigid tool with viscous damping and Coulomb friction, solved exactly while the force is held:
+///
+///     M v' = F - B v - f_f sgn (v)
+///
+/// Axis by axis: each axis has its own dry friction, as if driven by a motor of its own. With friction, an axis stops at most once
+/// per tick, at a time that has a closed form, and then sticks (|F| <= f_f) or moves on in the direction of the force.
+class RigidTool
+{
+public:
+    /// Mass in kg (> 0), damping in N s/m, Coulomb friction in N.
+    RigidTool (double mass, double damping, double coulomb, double dt_s) noexcept
+        : m (mass), b (damping), friction (coulomb), dt (dt_s), whole (mass, damping, dt_s)
+    {
+    }
+
+    void start (const Vec3& position, const Vec3& velocity) noexcept
+    {
+        x = position;
+        v = velocity;
+    }
+
+    /// The force is in N, held for a tick.
+    void step (const Vec3& force) noexcept;
+
+    const Vec3& position() const noexcept { return x; }
+    const Vec3& velocity() const noexcept { return v; }
+
+private:
+    void slide (double& position, double& velocity, double force) const noexcept;
+
+    double m, b, friction, dt;
+    HeldStep whole;   // for a whole tick
+    Vec3 x = Vec3::Zero(), v = Vec3::Zero();
+};
+
+}   // namespace tactus
