@@ -94,3 +94,28 @@ TEST_CASE ("`tactus check` refuses a role, a profile and a file that do not exis
     CHECK (id ("tip=tactus_bored").find ("did you mean 'tactus_board'") != std::string::npos);
     CHECK (id ("tip=missing.json").find ("device/unreadable") != std::string::npos);
 }
+
+TEST_CASE ("the profiles of PHANTOM and Pantograph limit the speed over a grating as the chapter says", "[check][cli]")
+{
+    Scratch scratch;
+    struct Case
+    {
+        const char *device, *frequency, *slow, *fast;
+    };
+    const std::vector<Case> cases {
+        { "phantom_1_0", "100 1/m", "0.299", "0.301" },
+        { "phantom_1_0", "1000 1/m", "0.0299", "0.0301" },
+        { "pantograph_mk2", "100 1/m", "3.99", "4.01" },
+        { "pantograph_mk2", "1000 1/m", "0.399", "0.401" },
+    };
+    const auto file = scratch.write ("wall.json", graphWith ("100 N/m"));
+    for (const auto& [device, frequency, slow, fast] : cases)
+        for (const auto* speed : { slow, fast })
+        {
+            const auto ran = runTactus ({ "check", file, "--rate", "10000", "--json", "--speed", speed, "--device", std::string ("tip=") + device, "--set",
+                                          std::string ("ribs.spatial_frequency=") + frequency });
+            INFO (device << ' ' << frequency << ' ' << speed << ran.err);
+            const auto verdict = conditionOf (Json::parse (ran.out), "structural").at ("verdict").asString();
+            CHECK (verdict == (speed == slow ? "holds" : "broken"));
+        }
+}
