@@ -3,7 +3,7 @@
 
 #include "hand_motion.hpp"
 
-#include <framework/run/engine.hpp>
+#include <tactus/run/engine.hpp>
 
 #include <memory>
 #include <string>

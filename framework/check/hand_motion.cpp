@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hand_motion.hpp"
 
-#include <framework/run/engine.hpp>
+#include <tactus/run/engine.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/graph/graph.hpp>
-#include <framework/node/device.hpp>
-#include <framework/plan/compile.hpp>
+#include <tactus/graph/graph.hpp>
+#include <tactus/node/device.hpp>
+#include <tactus/plan/compile.hpp>
 
 #include <cstddef>
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hands.hpp"
 
-#include <framework/run/device/sim.hpp>
+#include <tactus/run/device/sim.hpp>
 
 #include <algorithm>
 #include <cmath>

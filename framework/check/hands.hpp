@@ -3,8 +3,8 @@
 
 #include "hand_motion.hpp"
 
-#include <framework/run/device/device_numbers.hpp>
-#include <framework/run/device/make_device.hpp>
+#include <tactus/run/device/device_numbers.hpp>
+#include <tactus/run/device/make_device.hpp>
 
 #include <optional>
 #include <utility>

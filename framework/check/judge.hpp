@@ -10,7 +10,7 @@
 #include "factors.hpp"
 #include "measure.hpp"
 
-#include <framework/run/device/device_numbers.hpp>
+#include <tactus/run/device/device_numbers.hpp>
 
 #include <span>
 #include <string>

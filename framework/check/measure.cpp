@@ -3,7 +3,7 @@
 #include "bench.hpp"
 #include "slopes.hpp"
 
-#include <framework/plan/knobs.hpp>
+#include <tactus/plan/knobs.hpp>
 
 #include <Eigen/Eigenvalues>
 

@@ -6,8 +6,8 @@
 
 #include "hand_motion.hpp"
 
-#include <framework/kit/vec3.hpp>
-#include <framework/text/message.hpp>
+#include <tactus/kit/vec3.hpp>
+#include <tactus/text/message.hpp>
 
 #include <cstdint>
 #include <limits>

@@ -3,7 +3,7 @@
 
 #include "judge.hpp"
 
-#include <framework/text/json.hpp>
+#include <tactus/text/json.hpp>
 
 namespace tactus::check
 {

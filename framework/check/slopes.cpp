@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slopes.hpp"
 
-#include <framework/kit/at.hpp>
+#include <tactus/kit/at.hpp>
 
 #include <Eigen/Eigenvalues>
 

@@ -3,18 +3,18 @@
 #include "report.hpp"
 #include "run_options.hpp"
 
-#include <framework/check/hands.hpp>
-#include <framework/check/report.hpp>
-#include <framework/file/text_file.hpp>
-#include <framework/text/closest_match.hpp>
-#include <framework/text/json_text.hpp>
-#include <framework/text/json_writer.hpp>
-#include <framework/text/quote.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/hid/physics.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/hid_link/profile_library.hpp>
+#include <tactus/check/hands.hpp>
+#include <tactus/check/report.hpp>
+#include <tactus/file/text_file.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/json_text.hpp>
+#include <tactus/text/json_writer.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cstdio>

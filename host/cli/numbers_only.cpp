@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numbers_only.hpp"
 
-#include <framework/text/quote.hpp>
 #include <host/hid/physics.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <iterator>

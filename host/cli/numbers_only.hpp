@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/text/json.hpp>
 #include <host/hid/profile_reader.hpp>
+#include <tactus/text/json.hpp>
 
 #include <memory>
 #include <string>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numbers_device.hpp"
 
-#include <framework/graph/text.hpp>
-#include <framework/run/device/guard_limits.hpp>
-#include <framework/text/quote.hpp>
 #include <host/hid/physics.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/run/device/guard_limits.hpp>
+#include <tactus/text/quote.hpp>
 
 namespace tactus::host
 {

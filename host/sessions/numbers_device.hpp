@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/run/device/make_device.hpp>
 #include <host/hid/profile_reader.hpp>
+#include <tactus/run/device/make_device.hpp>
 
 #include <functional>
 

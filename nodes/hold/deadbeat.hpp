@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/bouncing_mass.hpp>
-#include <framework/kit/held_step.hpp>
-#include <framework/node/node.hpp>
+#include <tactus/kit/bouncing_mass.hpp>
+#include <tactus/kit/held_step.hpp>
+#include <tactus/node/node.hpp>
 
 #include <algorithm>
 #include <cmath>

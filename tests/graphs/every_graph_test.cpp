@@ -3,16 +3,16 @@
 
 #include "support/sketch.hpp"
 
-#include <framework/check/hands.hpp>
-#include <framework/check/judge.hpp>
-#include <framework/file/graph_file.hpp>
-#include <framework/run/device/make_device.hpp>
-#include <framework/run/engine.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/hid/physics.hpp>
 #include <host/hid/profile_reader.hpp>
 #include <host/sessions/needs.hpp>
+#include <tactus/check/hands.hpp>
+#include <tactus/check/judge.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/run/device/make_device.hpp>
+#include <tactus/run/engine.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/held_step.hpp>
-#include <framework/kit/vec3.hpp>
+#include <tactus/kit/held_step.hpp>
+#include <tactus/kit/vec3.hpp>
 
 namespace tactus
 {

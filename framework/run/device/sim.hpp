@@ -4,7 +4,7 @@
 #include "flexible_tool.hpp"
 #include "path.hpp"
 #include "rigid_tool.hpp"
-#include <framework/node/device.hpp>
+#include <tactus/node/device.hpp>
 
 #include <cstdint>
 #include <memory>

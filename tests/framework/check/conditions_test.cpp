@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <framework/check/hands.hpp>
-#include <framework/check/judge.hpp>
-#include <framework/file/graph_file.hpp>
+#include <tactus/check/hands.hpp>
+#include <tactus/check/judge.hpp>
+#include <tactus/file/graph_file.hpp>
 
 #include "support/sketch.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <framework/check/hands.hpp>
-#include <framework/check/judge.hpp>
-#include <framework/run/device/sim.hpp>
-#include <framework/run/engine.hpp>
+#include <tactus/check/hands.hpp>
+#include <tactus/check/judge.hpp>
+#include <tactus/run/device/sim.hpp>
+#include <tactus/run/engine.hpp>
 
 #include "support/sketch.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <framework/kit/bouncing_mass.hpp>
+#include <tactus/kit/bouncing_mass.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <framework/run/device/sim.hpp>
 #include <host/hid/physics.hpp>
 #include <host/sessions/numbers_device.hpp>
+#include <tactus/run/device/sim.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/filter/butterworth2.hpp>
-#include <nodes/filter/reconstruction.hpp>
+#include <tactus/nodes/filter/butterworth2.hpp>
+#include <tactus/nodes/filter/reconstruction.hpp>
 
-#include <framework/kit/rotation.hpp>
 #include <support/ready.hpp>
+#include <tactus/kit/rotation.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/hold/deadbeat.hpp>
+#include <tactus/nodes/hold/deadbeat.hpp>
 
-#include <framework/run/device/sim.hpp>
-#include <nodes/deform/plane.hpp>
+#include <tactus/nodes/deform/plane.hpp>
+#include <tactus/run/device/sim.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <framework/run/device/flexible_tool.hpp>
-#include <framework/run/device/rigid_tool.hpp>
-#include <framework/run/device/sim.hpp>
+#include <tactus/run/device/flexible_tool.hpp>
+#include <tactus/run/device/rigid_tool.hpp>
+#include <tactus/run/device/sim.hpp>
 
 #include <golden/golden.hpp>
 #include <support/no_allocation.hpp>
