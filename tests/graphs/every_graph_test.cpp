@@ -5,7 +5,11 @@
 
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
+#include <host/hid/physics.hpp>
+#include <host/hid/profile_reader.hpp>
 #include <host/sessions/needs.hpp>
+#include <tactus/check/hands.hpp>
+#include <tactus/check/judge.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/engine.hpp>
@@ -102,12 +106,44 @@ Run run (const graph::Graph& g, const std::vector<plan::Override>& overrides = {
     return result;
 }
 
+/// The devices on which a preset was checked, and the conditions of docs/check.md that it breaks there: on the simulated device that it
+/// describes, and on those of the profiles whose damping is known, because without it the first condition cannot be judged.
+std::string devicesFor (const graph::Graph& g, const host::hid::LoadedProfiles& profiles)
+{
+    static host::FileAssets assets;
+    const check::Subject subject { g, catalogue(), { .assets = &assets, .services = { .nearest_triangle = host::nearestByEmbree } } };
+    const auto demand = check::measure (subject, check::recordMotion (subject, {}, folder).motion, { .places = 32 });
+    std::string names;
+    const auto tryOn = [&] (const std::string& name, const std::vector<check::RoleDevice>& devices) {
+        std::string broken;
+        for (const auto& c : check::judge (demand, devices))
+            if (c.verdict == check::Verdict::broken && broken.find (c.id) == broken.npos) broken += (broken.empty() ? "" : ", ") + std::string (c.id);
+        names += (names.empty() ? "" : "; ") + name + ": " + (broken.empty() ? "fine" : broken);
+    };
+    std::vector<check::RoleDevice> own;
+    for (const auto& [role, description] : g.devices)
+        own.push_back ({ role, check::numbersOf (description, folder).value_or (DeviceNumbers {}) });
+    tryOn ("its own", own);
+    for (const auto& profile : profiles.profiles)
+    {
+        const auto numbers = host::hid::numbersOf (*profile);
+        std::vector<check::RoleDevice> devices;
+        for (const auto& [role, description] : g.devices)
+            devices.push_back ({ role, numbers });
+        if (numbers.damping) tryOn (profile->id, devices);
+    }
+    return names;
+}
+
 std::string readme()
 {
+    const auto profiles = host::hid::loadProfiles (fs::path (TACTUS_SOURCE_DIR) / "host" / "profiles");
     std::string text = "# Presets\n\nOpen one in the host, or run `tactus play graphs/NAME.json`. This list is generated from the preset files: "
                        "`TACTUS_UPDATE=1 build/release/bin/tactus_tests \"the list of presets*\"`. "
-                       "[Why their guards have the limits that they have](../docs/safety.md#the-limits-of-presets-and-profiles).\n\n"
-                       "| preset | what it feels like | controls | needs | tags |\n|---|---|---|---|---|\n";
+                       "[Why their guards have the limits that they have](../docs/safety.md#the-limits-of-presets-and-profiles). The column "
+                       "`devices` lists what [`tactus check`](../docs/check.md) finds broken on each: on the simulated device of the preset (its own), and on "
+                       "the devices whose profile tells their damping.\n\n"
+                       "| preset | what it feels like | controls | needs | devices | tags |\n|---|---|---|---|---|---|\n";
     for (const auto& path : presets())
     {
         const auto g = loadGraph (path).graph;
@@ -118,7 +154,10 @@ std::string readme()
             controls += (controls.empty() ? "" : ", ") + c.name;
         for (const auto& t : g.tags)
             tags += (tags.empty() ? "" : ", ") + t;
-        text += "| [" + g.name + "](" + path.filename().string() + ") | " + g.about + " | " + controls + " | " + needs + " | " + tags + " |\n";
+        const std::string cells[] { "[" + g.name + "](" + path.filename().string() + ")", g.about, controls, needs, devicesFor (g, profiles), tags };
+        for (const auto& cell : cells)
+            text += "| " + cell + " ";
+        text += "|\n";
     }
     return text;
 }
@@ -250,6 +289,7 @@ TEST_CASE ("every control of every preset can be set to both ends and changes th
 TEST_CASE ("the list of presets is up to date", "[graphs]")
 {
     const auto path = folder / "README.md";
-    if (std::getenv ("TACTUS_UPDATE")) std::ofstream (path) << readme();
-    CHECK (textOf (path) == readme());
+    const auto now = readme();
+    if (std::getenv ("TACTUS_UPDATE")) std::ofstream (path) << now;
+    CHECK (textOf (path) == now);
 }

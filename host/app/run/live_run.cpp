@@ -6,6 +6,7 @@
 #include <host/platform/failsafe.hpp>
 #include <host/platform/signals.hpp>
 #include <host/sessions/binding.hpp>
+#include <tactus/check/factors.hpp>
 #include <tactus/plan/missing_parts.hpp>
 #include <tactus/run/turn.hpp>
 #include <tactus/text/message.hpp>
@@ -267,7 +268,7 @@ std::optional<double> LiveRun::stiffnessLeft() const
 {
     const auto ticks = delay();
     if (! run || hand_damping <= 0.0 || ! ticks) return std::nullopt;
-    return 2.0 * hand_damping * rate() / (2.0 * static_cast<double> (*ticks) + 1.0);
+    return check::stiffestWall (hand_damping, 1.0 / rate(), static_cast<double> (*ticks));
 }
 
 std::optional<double> LiveRun::mostForce() const

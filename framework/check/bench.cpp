@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "bench.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::check
+{
+
+Bench::Bench (const Subject& subject, const HandMotion& motion)
+{
+    auto options = subject.options;
+    options.rate_hz = motion.rate_hz;
+    its_plan = compile (subject.graph, subject.catalogue, options).plan;
+    engine = std::make_unique<Engine> (its_plan);
+    for (const auto& role : motion.roles)
+    {
+        tools.push_back (std::make_unique<Placed>());
+        tools.back()->parts = role.layout;
+        engine->attach (role.role, *tools.back());
+    }
+}
+
+void Bench::follow (const HandMotion& motion, std::size_t tick) noexcept
+{
+    for (std::size_t r = 0; r < tools.size(); ++r)
+    {
+        auto& tool = *tools[r];
+        tool.now = motion.roles[r].readings[tick];
+        tool.home = tool.now.position;
+        tool.true_home = tool.now.true_position;
+    }
+}
+
+void Bench::shift (std::size_t role, const Vec3& by) noexcept
+{
+    auto& tool = *tools[role];
+    tool.now.position = tool.home + by;
+    tool.now.true_position = tool.true_home + by;
+}
+
+void Bench::tick() noexcept
+{
+    if (silent.empty()) return engine->tick();
+    engine->tick ([this] (Plan& plan) noexcept {
+        plan.tick ([&] (std::size_t record, auto step) noexcept {
+            step();
+            const auto node = plan.owners()[record];
+            if (std::ranges::count (silent, node) == 0) return;
+            const auto& instance = plan.instances()[node];
+            if (plan.records()[record].outputs == instance.outputs) plan.flat().nodes[node].type->initialiseOutputs (instance.outputs);
+        });
+    });
+}
+
+NodeForces::NodeForces (const Plan& plan, std::size_t node)
+{
+    const auto& type = *plan.flat().nodes[node].type;
+    const auto* outputs = static_cast<const char*> (plan.instances()[node].outputs);
+    if (outputs == nullptr || type.effort != nullptr) return;   // a sink shows what the guard let through, which is not its own
+    for (const auto& row : type.outputs)
+        if (row.unit.kind == UnitRule::Kind::fixed && row.unit.unit.symbol == "N" && ! row.list)
+        {
+            output_widths.push_back (static_cast<std::size_t> (row.width));
+            for (int i = 0; i < row.width; ++i)
+                values.push_back (reinterpret_cast<const double*> (outputs + row.offset) + i);
+        }
+}
+
+double NodeForces::largest() const noexcept
+{
+    double most = 0.0;
+    std::size_t i = 0;
+    for (const auto width : output_widths)
+    {
+        double square = 0.0;
+        for (const auto end = i + width; i < end; ++i)
+            square += *values[i] * *values[i];
+        most = std::max (most, square);
+    }
+    return std::sqrt (most);
+}
+
+}   // namespace tactus::check

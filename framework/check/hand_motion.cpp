@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "hand_motion.hpp"
+
+#include <tactus/run/engine.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tactus::check
+{
+
+HandMotion recordMotion (std::shared_ptr<Plan> plan, std::span<const Hand> hands, std::size_t ticks)
+{
+    HandMotion motion { .rate_hz = plan->rateHz(), .ticks = ticks };
+    for (const auto& role : plan->roles())
+    {
+        motion.roles.push_back ({ .role = role.name });
+        motion.roles.back().readings.reserve (ticks);
+    }
+    Engine engine { std::move (plan) };
+    for (const auto& hand : hands)
+        if (const auto at = std::ranges::find (motion.roles, hand.role, &RoleMotion::role); at != motion.roles.end())
+        {
+            engine.attach (hand.role, hand.device);
+            at->layout = hand.device.layout();
+        }
+    for (std::size_t k = 0; k < ticks; ++k)
+    {
+        engine.tick();
+        for (std::size_t r = 0; r < motion.roles.size(); ++r)
+            motion.roles[r].readings.push_back (engine.plan().roles()[r].state->reading);
+    }
+    return motion;
+}
+
+void SweepDevice::prepare (double dt_s)
+{
+    dt = dt_s;
+    tick = 0;
+}
+
+Reading SweepDevice::read() noexcept
+{
+    // Without common factors, the periods close the curve only after `lasts`, so that it crosses the box along many lines.
+    constexpr double periods[] { 13.0, 11.0, 8.0 };
+    const double turn = 2.0 * std::numbers::pi * static_cast<double> (tick++) * dt / lasts;
+    Reading reading;
+    for (int i = 0; i < 3; ++i)
+        reading.position[i] = 0.5 * (min[i] + max[i]) + 0.5 * (max[i] - min[i]) * std::cos (periods[i] * turn);
+    reading.true_position = reading.position;
+    return reading;
+}
+
+}   // namespace tactus::check

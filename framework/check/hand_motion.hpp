@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <tactus/graph/graph.hpp>
+#include <tactus/node/device.hpp>
+#include <tactus/plan/compile.hpp>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tactus::check
+{
+
+/// The graph under test. The catalogue, and the assets and services in the options, must outlive it.
+struct Subject
+{
+    const graph::Graph& graph;
+    const Catalogue& catalogue;
+    CompileOptions options {};   ///< the rate, the assets, the values that take precedence over the file
+};
+
+/// What the device of a role reported on each tick.
+struct RoleMotion
+{
+    std::string role;
+    DeviceLayout layout {};
+    std::vector<Reading> readings {};   ///< as many as the motion has ticks
+};
+
+/// How the hands move while a graph is measured.
+struct HandMotion
+{
+    double rate_hz = 0.0;
+    std::size_t ticks = 0;
+    std::vector<RoleMotion> roles {};   ///< in the order of the plan's roles
+};
+
+/// The device that moves the hand of a role.
+struct Hand
+{
+    std::string role;
+    Device& device;
+};
+
+/// Runs the graph with these devices and keeps what they report. A role without a hand stays at the origin. The plan must not have
+/// run yet. [main thread]
+HandMotion recordMotion (std::shared_ptr<Plan>, std::span<const Hand>, std::size_t ticks);
+
+/// Moves a tool through a box, for a device without a hand: a Lissajous curve that comes close to every point. It does not react to
+/// forces. `lasts_s` is the time for the whole curve.
+class SweepDevice final : public Device
+{
+public:
+    SweepDevice (const Vec3& min_m, const Vec3& max_m, double lasts_s = 4.0) : min (min_m), max (max_m), lasts (lasts_s) {}
+
+    void prepare (double dt_s) override;
+    Reading read() noexcept override;
+    void write (const Effort&) noexcept override {}
+    double duration() const noexcept override { return lasts; }
+
+private:
+    Vec3 min, max;   // m
+    double lasts, dt = 1e-3;
+    std::size_t tick = 0;
+};
+
+}   // namespace tactus::check

@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: MIT
+#include "judge.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+
+namespace tactus::check
+{
+
+namespace
+{
+/// Three digits are enough for a condition that is necessary and not sufficient.
+std::string text (double v)
+{
+    char buffer[32];
+    return { buffer, static_cast<std::size_t> (std::snprintf (buffer, sizeof buffer, "%.3g", v)) };
+}
+
+std::string text (double v, std::string_view unit) { return text (v) + " " + std::string (unit); }
+
+enum class Strict
+{
+    no,
+    yes
+};
+
+/// All conditions of one role.
+class RoleJudge
+{
+public:
+    RoleJudge (const Demand& d, const RoleDemand& r, const DeviceNumbers& n, const JudgeOptions& o)
+        : demand (d), role (r), numbers (n), options (o), period_s (1.0 / d.rate_hz)
+    {
+        // A device that is slower than the graph holds each force for longer.
+        if (n.rate && n.rate->value > 0.0) period_s = std::max (period_s, 1.0 / n.rate->value);
+    }
+
+    std::vector<Condition> all()
+    {
+        if (! role.slopes.empty())
+        {
+            stiffness();
+            damping();
+            quantum();
+        }
+        if (! role.slopes.empty() || role.peak_force > 0.0)
+        {
+            peakForce();
+            slew();
+        }
+        for (const auto& s : demand.stretches)
+            if (s.role == role.role) stretch (s);
+        for (const auto& t : demand.textures)
+            if (t.role == role.role) texture (t);
+        return std::move (conditions);
+    }
+
+private:
+    const Demand& demand;
+    const RoleDemand& role;
+    const DeviceNumbers& numbers;
+    const JudgeOptions& options;
+    double period_s;
+    std::vector<Condition> conditions {};
+
+    using Number = DeviceNumbers::Number;
+
+    double delay() const noexcept { return numbers.delay ? numbers.delay->value : 0.0; }
+
+    Condition& add (std::string_view id, std::string_view law, std::string_view unit, std::string sentence)
+    {
+        return conditions.emplace_back (Condition { .id = id, .role = role.role, .law = law, .unit = unit, .text = std::move (sentence) });
+    }
+
+    Condition& add (std::size_t node, std::string_view id, std::string_view law, std::string_view unit, std::string sentence)
+    {
+        auto& c = add (id, law, unit, std::move (sentence));
+        c.node = demand.nodes[node].path;
+        return c;
+    }
+
+    /// Sets the verdict. `better`: the value should grow by this factor before it reaches the limit.
+    static void decide (Condition& c, double value, double limit, Strict strict, double better, const std::string& remedy)
+    {
+        c.value = value;
+        c.limit = limit;
+        constexpr double rounding = 1e-5;   // relative error of a measured slope
+        const auto isWithin = [&] (double v) { return strict == Strict::yes ? v < limit : v <= (1.0 + rounding) * limit; };
+        c.verdict = ! isWithin (value) ? Verdict::broken : isWithin (better * value) ? Verdict::holds
+                                                                                     : Verdict::close;
+        if (c.verdict == Verdict::broken || c.verdict == Verdict::close) c.remedy = remedy;
+    }
+
+    static void unknown (Condition& c, double value, std::string_view missing)
+    {
+        c.value = value;
+        c.remedy = "the device's " + std::string (missing) + " is not known: write it into \"physics\" of its profile";
+    }
+
+    /// The node whose own force is steepest at a place.
+    std::string steepestNode (const Slope& s) const
+    {
+        const auto most = std::ranges::max_element (s.by_node);
+        if (most == s.by_node.end() || ! (*most > 0.0)) return "";
+        const auto& node = demand.nodes[static_cast<std::size_t> (most - s.by_node.begin())];
+        return "'" + node.path + "' (" + node.type + ", " + text (*most, "N/m") + ")";
+    }
+
+    /// The largest b, in N s/m.
+    double virtualDamping() const
+    {
+        double most = 0.0;
+        for (const auto& s : role.slopes)
+            most = std::max (most, s.damping);
+        return most;
+    }
+
+    /// True if b breaks the condition `damping`. It is then left out of `stiffness`, which it would break too.
+    bool isOverdamped() const
+    {
+        return numbers.damping && numbers.mass && ! (virtualDamping() < numbers.damping->value + 2.0 * numbers.mass->value / period_s);
+    }
+
+    /// The stiffest slope of a texture, in N/m.
+    double stiffestTexture() const { return numbers.damping ? stiffestWall (numbers.damping->value, period_s, delay()) : inf; }
+
+    /// A place, and what the device has to dissipate there, in N s/m.
+    struct Load
+    {
+        const Slope* at;
+        double damping;   // b, as counted
+        double total;
+    };
+
+    Load loadAt (const Slope& s) const
+    {
+        const double b = isOverdamped() ? 0.0 : s.damping;
+        return { &s, b, s.stiffness * period_s * (0.5 + delay()) + s.lag + b };
+    }
+
+    Load largestLoad (const std::vector<Slope>& slopes) const
+    {
+        auto most = loadAt (slopes.front());
+        for (const auto& s : slopes)
+            if (const auto load = loadAt (s); load.total > most.total) most = load;
+        return most;
+    }
+
+    /// The load of the whole graph; without the textures if one of them is too steep on its own, and they alone are to blame.
+    Load countedLoad (std::string& left_out) const
+    {
+        auto load = largestLoad (role.slopes);
+        if (isOverdamped()) left_out = ", without b, which breaks 'damping'";
+        if (! numbers.damping || load.total <= numbers.damping->value || role.nominal.empty()) return load;
+        for (const auto& t : demand.textures)
+            if (t.role == role.role && t.slope > stiffestTexture())
+            {
+                left_out += ", without the textures, of which '" + demand.nodes[t.node].path + "' breaks 'gain'";
+                return largestLoad (role.nominal);
+            }
+        return load;
+    }
+
+    void stiffness()
+    {
+        std::string left_out;
+        const auto [s, b, value] = countedLoad (left_out);
+        const double late = delay() + (s->stiffness > 0.0 ? s->lag / (s->stiffness * period_s) : 0.0);   // d, in ticks
+        auto& c = add ("stiffness", "(2d + 1) sigma T/2 + |b| <= B", "N*s/m",
+                       "sigma " + text (s->stiffness, "N/m") + ", b " + text (b, "N*s/m") + ", d " + text (late) + ", T " + text (1e3 * period_s, "ms")
+                           + left_out);
+        if (! numbers.damping) return unknown (c, value, "damping");
+
+        const double limit = numbers.damping->value, room = limit - b;
+        std::string remedy = "a virtual damping below that of the device, or ";
+        if (room > 0.0)
+            remedy = "a stiffness of at most " + text (stiffestWall (room, period_s, late), "N/m") + ", a rate of at least "
+                     + text ((value - b) / (room * period_s), "Hz") + ", or ";
+        remedy += "a device with a damping of at least " + text (value, "N*s/m");
+        if (const auto node = steepestNode (*s); ! node.empty()) remedy += "; the steepest is " + node;
+        decide (c, value, limit, Strict::no, 1.0, remedy);
+    }
+
+    void damping()
+    {
+        const double most = virtualDamping();
+        auto& c = add ("damping", "b < B + 2M/T", "N*s/m", "b " + text (most, "N*s/m") + ", T " + text (1e3 * period_s, "ms"));
+        if (! numbers.damping) return unknown (c, most, "damping");
+        if (! numbers.mass) return unknown (c, most, "mass");
+        const double limit = numbers.damping->value + 2.0 * numbers.mass->value / period_s;
+        const double rate = (most - numbers.damping->value) / (2.0 * numbers.mass->value);
+        decide (c, most, limit, Strict::yes, 1.0, "a virtual damping below " + text (limit, "N*s/m") + ", or a rate above " + text (rate, "Hz"));
+    }
+
+    void quantum()
+    {
+        double most = 0.0;
+        for (const auto& s : role.slopes)
+            most = std::max (most, s.stiffness);
+        auto& c = add ("quantum", "sigma delta/2 <= f_f", "N", "sigma " + text (most, "N/m"));
+        if (! numbers.quantum) return unknown (c, 0.0, "quantum");
+        const double delta = numbers.quantum->value, value = 0.5 * most * delta;
+        c.text += ", delta " + text (1e6 * delta, "um");
+        if (! numbers.coulomb && value > 0.0) return unknown (c, value, "Coulomb friction");
+        const double limit = numbers.coulomb ? numbers.coulomb->value : 0.0;
+        auto remedy = "a device with a dry friction of at least " + text (value, "N");
+        if (limit > 0.0)
+            remedy = "a stiffness of at most " + text (2.0 * limit / delta, "N/m") + ", a quantum of at most " + text (2e6 * limit / most, "um")
+                     + ", or " + remedy;
+        decide (c, value, limit, Strict::no, 1.0, remedy);
+    }
+
+    void peakForce()
+    {
+        auto& c = add ("peak_force", "|f| <= f_max", "N", "the largest force along the motion");
+        if (! numbers.peak_force) return unknown (c, role.peak_force, "peak force");
+        decide (c, role.peak_force, numbers.peak_force->value, Strict::no, 1.0, "weaker forces, or a device that gives " + text (role.peak_force, "N"));
+    }
+
+    /// A structure that follows a sine of the peak force up to F_0 lets 2 pi F_0 f_max through.
+    void slew()
+    {
+        auto& c = add ("slew", "|df/dt| <= 2 pi F_0 f_max", "N/s", "the fastest change of force along the motion, from tick to tick");
+        if (! numbers.first_mode) return unknown (c, role.fastest_force, "first mode");
+        if (! numbers.peak_force && numbers.first_mode->value < inf) return unknown (c, role.fastest_force, "peak force");
+        const double limit = numbers.first_mode->value < inf ? 2.0 * std::numbers::pi * numbers.first_mode->value * numbers.peak_force->value : inf;
+        decide (c, role.fastest_force, limit, Strict::no, 1.0,
+                "a filter.butterworth2 at " + text (numbers.first_mode->value, "Hz") + " before the motor, a softer onset, or a stiffer device");
+    }
+
+    void stretch (const Stretch& s)
+    {
+        auto& c = add (s.node, "d_max", "delta < d_max, better 10 delta < d_max", "m", "d_max " + text (1e6 * s.d_max, "um"));
+        if (! numbers.quantum) return unknown (c, 0.0, "quantum");
+        const double delta = numbers.quantum->value;
+        decide (c, delta, s.d_max, Strict::yes, Factors::better,
+                "a d_max of at least " + text (1e7 * delta, "um") + ", or a quantum of at most " + text (1e5 * s.d_max, "um"));
+    }
+
+    //==========================================================================
+    // Table 1.
+
+    void texture (const Texture& t)
+    {
+        scanning (t);
+        lowSpeed (t);
+        highSpeed (t);
+        forceResolution (t);
+        gain (t);
+        structure (t);
+    }
+
+    double speedOf (const Texture& t) const noexcept { return options.speed > 0.0 ? options.speed : t.speed; }
+
+    static double betterThan (double factor) noexcept { return std::max (1.0, Factors::better / factor); }
+
+    static std::string wave (const Texture& t) { return "k " + text (t.spatial_frequency, "1/m"); }
+
+    void scanning (const Texture& t)
+    {
+        const double alpha = options.factors.alpha, k = t.spatial_frequency, v = speedOf (t);
+        auto& c = add (t.node, "scanning", "alpha k v T < 1", "1", wave (t) + ", v " + text (v, "m/s") + ", alpha " + text (alpha));
+        decide (c, alpha * k * v * period_s, 1.0, Strict::yes, betterThan (alpha),
+                "strokes slower than " + text (1.0 / (alpha * k * period_s), "m/s") + ", a rate above " + text (alpha * k * v, "Hz")
+                    + ", or a texture.antialias");
+    }
+
+    void lowSpeed (const Texture& t)
+    {
+        const double beta = options.factors.beta, k = t.spatial_frequency;
+        auto& c = add (t.node, "low_speed", "beta k delta < 1", "1", wave (t) + ", beta " + text (beta));
+        if (! numbers.quantum) return unknown (c, 0.0, "quantum");
+        decide (c, beta * k * numbers.quantum->value, 1.0, Strict::yes, betterThan (beta), finerSensor (beta, k));
+    }
+
+    /// As printed: the first row at the speed of one quantum per sample. What counts at high speed is the step from sample to sample, which
+    /// the sentence gives.
+    void highSpeed (const Texture& t)
+    {
+        const double alpha = options.factors.alpha, k = t.spatial_frequency, step = speedOf (t) * period_s;
+        auto& c = add (t.node, "high_speed", "alpha k delta < 1", "1", wave (t) + ", alpha " + text (alpha));
+        if (! numbers.quantum) return unknown (c, 0.0, "quantum");
+        const double sampling = options.factors.beta * k * std::max (numbers.quantum->value, step);
+        c.text += ", a stroke moves " + text (1e6 * step, "um") + " per tick, and beta k times that is " + text (sampling);
+        decide (c, alpha * k * numbers.quantum->value, 1.0, Strict::yes, betterThan (alpha), finerSensor (alpha, k));
+    }
+
+    static std::string finerSensor (double factor, double k)
+    {
+        return "a quantum below " + text (1e6 / (factor * k), "um") + ", or a coarser texture";
+    }
+
+    void forceResolution (const Texture& t)
+    {
+        const double gamma = options.factors.gamma;
+        auto& c = add (t.node, "force_resolution", "gamma b < A", "N", "A " + text (t.amplitude, "N") + ", gamma " + text (gamma));
+        if (! numbers.force_quantum) return unknown (c, 0.0, "force quantum");
+        const double b = numbers.force_quantum->value;
+        c.text += ", b " + text (b, "N");
+        decide (c, gamma * b, t.amplitude, Strict::yes, betterThan (gamma),
+                "an amplitude above " + text (gamma * b, "N") + ", or a force quantum below " + text (t.amplitude / gamma, "N"));
+    }
+
+    /// The chapter bounds A k, "proportional to the slope". The slope itself is 2 pi A k, and the hold bounds it like any stiffness.
+    void gain (const Texture& t)
+    {
+        auto& c = add (t.node, "gain", "2 pi A k <= 2B/((2d + 1) T)", "N/m",
+                       "A k " + text (t.amplitude * t.spatial_frequency, "N/m") + ", A " + text (t.amplitude, "N") + ", " + wave (t));
+        if (! numbers.damping) return unknown (c, t.slope, "damping");
+        const double limit = stiffestTexture();
+        decide (c, t.slope, limit, Strict::no, 1.0,
+                "an amplitude of at most " + text (t.amplitude * limit / t.slope, "N") + ", a rate of at least " + text (t.slope / limit / period_s, "Hz")
+                    + ", or a coarser texture");
+    }
+
+    void structure (const Texture& t)
+    {
+        const double v = speedOf (t), k = t.spatial_frequency;
+        auto& c = add (t.node, "structural", "v k < F_0", "Hz", wave (t) + ", v " + text (v, "m/s"));
+        if (! numbers.first_mode) return unknown (c, v * k, "first mode");
+        const double limit = numbers.first_mode->value;
+        decide (c, v * k, limit, Strict::yes, 1.0,
+                "strokes slower than " + text (limit / k, "m/s") + ", a texture.antialias with f_max " + text (limit, "Hz")
+                    + ", or a device whose first mode is above " + text (v * k, "Hz"));
+    }
+};
+}   // namespace
+
+std::string_view nameOf (Verdict verdict) noexcept
+{
+    constexpr std::array<std::string_view, 4> names { "holds", "close", "broken", "unknown" };
+    return names[static_cast<std::size_t> (verdict)];
+}
+
+double Condition::margin() const noexcept
+{
+    if (verdict == Verdict::unknown) return 0.0;
+    return value > 0.0 ? limit / value : inf;
+}
+
+std::vector<Condition> judge (const Demand& demand, std::span<const RoleDevice> devices, const JudgeOptions& options)
+{
+    std::vector<Condition> all;
+    for (const auto& role : demand.roles)
+    {
+        const auto device = std::ranges::find (devices, role.role, &RoleDevice::role);
+        const DeviceNumbers none;
+        std::ranges::move (RoleJudge (demand, role, device == devices.end() ? none : device->numbers, options).all(), std::back_inserter (all));
+    }
+    return all;
+}
+
+bool isBroken (std::span<const Condition> all) noexcept
+{
+    return std::ranges::any_of (all, [] (const Condition& c) { return c.verdict == Verdict::broken; });
+}
+
+}   // namespace tactus::check

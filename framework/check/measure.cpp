@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: MIT
+#include "measure.hpp"
+#include "bench.hpp"
+#include "slopes.hpp"
+
+#include <tactus/plan/knobs.hpp>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tactus::check
+{
+
+namespace
+{
+constexpr double speed_window_s = 5e-3;   // a speed is taken over this time, so that a recording with held samples has no peaks
+constexpr double felt_part = 0.1;         // a texture is felt while its part of the force is at least this part of its largest one
+
+/// The forces of all roles along the motion, with one node's outputs taken away or without a change.
+using Forces = std::vector<std::vector<Vec3>>;   // by role, then tick
+
+template <typename AfterTick>
+Forces forcesAlong (const Subject& subject, const HandMotion& motion, std::vector<std::size_t> without, AfterTick&& after)
+{
+    Bench bench { subject, motion };
+    bench.silence (std::move (without));
+    Forces forces (motion.roles.size());
+    for (std::size_t k = 0; k < motion.ticks; ++k)
+    {
+        bench.follow (motion, k);
+        bench.tick();
+        for (std::size_t r = 0; r < forces.size(); ++r)
+            forces[r].push_back (bench.force (r));
+        after (bench.plan());
+    }
+    return forces;
+}
+
+/// The velocity of a tool at a tick, in m/s.
+Vec3 velocityAt (const HandMotion& motion, std::size_t role, std::size_t tick)
+{
+    const auto half = static_cast<std::size_t> (std::max (1.0, std::round (0.5 * speed_window_s * motion.rate_hz)));
+    const auto& readings = motion.roles[role].readings;
+    const auto first = tick > half ? tick - half : 0, last = std::min (tick + half, readings.size() - 1);
+    if (last == first) return Vec3::Zero();
+    return (readings[last].position - readings[first].position) * (motion.rate_hz / static_cast<double> (last - first));
+}
+
+/// The nodes that lie on a way from a source of a role to a sink of the same role.
+std::vector<bool> nodesOf (const Plan& plan, const std::string& role)
+{
+    const auto& flat = plan.flat();
+    const auto reached = [&] (bool forwards) {
+        std::vector<bool> is (flat.nodes.size(), false);
+        std::vector<int> open;
+        for (int n = 0; n < flat.nodeCount(); ++n)
+        {
+            const auto& node = flat.node (n);
+            if (node.runs() && node.role == role && node.type->bind != nullptr && (node.type->effort == nullptr) == forwards) open.push_back (n);
+        }
+        while (! open.empty())
+        {
+            const int n = open.back();
+            open.pop_back();
+            if (is[static_cast<std::size_t> (n)]) continue;
+            is[static_cast<std::size_t> (n)] = true;
+            for (const auto& w : flat.wires)
+                if (w.from && (forwards ? w.from->node : w.to.node) == n) open.push_back (forwards ? w.to.node : w.from->node);
+        }
+        return is;
+    };
+    auto both = reached (true);
+    const auto back = reached (false);
+    for (std::size_t n = 0; n < both.size(); ++n)
+        both[n] = both[n] && back[n] && flat.nodes[n].runs();
+    return both;
+}
+
+/// The smallest d_max of a node while the node gives a force.
+struct StretchWatch
+{
+    std::size_t node;
+    std::size_t knob;
+    NodeForces forces;
+    double least = inf;
+
+    void look (const Plan& plan)
+    {
+        if (forces.largest() > 0.0) least = std::min (least, *plan.instances()[node].param (knob));
+    }
+};
+
+std::vector<StretchWatch> stretchesIn (const Plan& plan)
+{
+    std::vector<StretchWatch> all;
+    for (std::size_t n = 0; n < plan.flat().nodes.size(); ++n)
+    {
+        const auto& node = plan.flat().nodes[n];
+        if (! node.runs()) continue;
+        const auto row = std::ranges::find (node.type->params, "d_max", &PortSheet::id);
+        if (row == node.type->params.end() || row->unit.unit.symbol != "m") continue;
+        const auto knob = plan::Knobs::indexOf (*node.type, static_cast<std::size_t> (row - node.type->params.begin()), 0);
+        all.push_back ({ n, knob, NodeForces (plan, n) });
+    }
+    return all;
+}
+
+/// What a node that renders a spatial frequency claims while it runs, and how strong it gets.
+struct TextureWatch
+{
+    std::size_t node;
+    NodeForces forces;
+    bool is_driven;         // a wire drives one of its params, so that its claims change while it runs
+    Claims claims {};       // the largest of each
+    double loudest = 0.0;   // N
+
+    void look (const Plan& plan, bool with_claims)
+    {
+        loudest = std::max (loudest, forces.largest());
+        if (! with_claims) return;
+        const auto now = plan.flat().nodes[node].type->claims (plan.instances()[node].node.get());
+        claims.spatial_frequency = std::max (claims.spatial_frequency, now.spatial_frequency);
+        claims.stiffness = std::max (claims.stiffness, now.stiffness);
+        claims.amplitude = claims.amplitude == inf ? now.amplitude : std::max (claims.amplitude, now.amplitude);
+    }
+};
+
+std::vector<TextureWatch> texturesIn (const Plan& plan)
+{
+    std::vector<TextureWatch> all;
+    for (std::size_t n = 0; n < plan.flat().nodes.size(); ++n)
+    {
+        const auto& node = plan.flat().nodes[n];
+        const auto& instance = plan.instances()[n];
+        if (! node.runs() || node.type->claims == nullptr || ! (node.type->claims (instance.node.get()).spatial_frequency > 0.0)) continue;
+        all.push_back ({ n, NodeForces (plan, n), std::ranges::count (instance.driven, true) > 0 });
+        all.back().look (plan, true);
+    }
+    return all;
+}
+
+/// Removes from a velocity the directions in which a node does not feel a displacement.
+Vec3 across (const Eigen::Matrix3d& directions, const Vec3& velocity)
+{
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts (directions);
+    const double most = parts.eigenvalues()[2];
+    if (! (most > 0.0)) return velocity;
+    Vec3 kept = Vec3::Zero();
+    for (int i = 0; i < 3; ++i)
+        if (parts.eigenvalues()[i] > 1e-3 * most) kept += parts.eigenvectors().col (i).dot (velocity) * parts.eigenvectors().col (i);
+    return kept;
+}
+
+/// The work of measure, in parts.
+class Survey
+{
+public:
+    Survey (const Subject& s, const HandMotion& m) : subject (s), motion (m), plan (compiled (s, m)) {}
+
+    Demand measure (const Thoroughness& how)
+    {
+        demand.rate_hz = motion.rate_hz;
+        demand.lasts_s = static_cast<double> (motion.ticks) / motion.rate_hz;
+        for (const auto& node : plan->flat().nodes)
+            demand.nodes.push_back ({ node.path, std::string (node.type->info.id) });
+        followMotion();
+        for (std::size_t r = 0; r < motion.roles.size(); ++r)
+            addRole (r, how);
+        for (const auto& watched : textures)
+            addTexture (watched);
+        return std::move (demand);
+    }
+
+private:
+    const Subject& subject;
+    const HandMotion& motion;
+    std::shared_ptr<Plan> plan;   // never runs; the benches have their own
+    Demand demand {};
+    Forces forces {};
+    std::vector<TextureWatch> textures {};
+    std::vector<Directions> directions {};   // by role, then node
+
+    static std::shared_ptr<Plan> compiled (const Subject& s, const HandMotion& m)
+    {
+        auto options = s.options;
+        options.rate_hz = m.rate_hz;
+        return compile (s.graph, s.catalogue, options).plan;
+    }
+
+    /// Runs the graph once along the motion.
+    void followMotion()
+    {
+        std::vector<StretchWatch> stretches;
+        std::size_t ticks = 0;
+        forces = forcesAlong (subject, motion, {}, [&] (const Plan& running) {
+            if (ticks == 0)
+            {
+                stretches = stretchesIn (running);
+                textures = texturesIn (running);
+            }
+            for (auto& w : stretches)
+                w.look (running);
+            for (auto& w : textures)
+                w.look (running, w.is_driven && ticks % 16 == 0);
+            ++ticks;
+        });
+        for (const auto& role : plan->roles())
+        {
+            const auto its = nodesOf (*plan, role.name);
+            for (const auto& w : stretches)
+                if (its[w.node] && w.least < inf) demand.stretches.push_back ({ w.node, role.name, w.least });
+        }
+    }
+
+    void addRole (std::size_t r, const Thoroughness& how)
+    {
+        const auto& role = plan->roles()[r];
+        RoleDemand d { .role = role.name };
+        for (const auto& path : plan->delays())
+            if (belongs (path.source, role.name) && belongs (path.sink, role.name))
+                d.longest = std::max (d.longest, path.longest);
+        for (std::size_t k = 0; k < motion.ticks; ++k)
+        {
+            d.peak_force = std::max (d.peak_force, forces[r][k].norm());
+            if (k > 0) d.fastest_force = std::max (d.fastest_force, (forces[r][k] - forces[r][k - 1]).norm() * motion.rate_hz);
+            d.speed = std::max (d.speed, velocityAt (motion, r, k).norm());
+        }
+        directions.emplace_back();
+        if (hasLoop (role.name))
+        {
+            SlopeWork work { .role = r, .places = how.places, .longest_delay = d.longest, .without = struckNodes() };
+            d.slopes = measureSlopes (subject, motion, work, directions.back());
+            for (const auto& t : textures)
+                work.without.push_back (t.node);
+            Directions unused;
+            if (! textures.empty()) d.nominal = measureSlopes (subject, motion, work, unused);
+        }
+        d.has_other_efforts = hasOtherSinks (role.name);
+        demand.roles.push_back (std::move (d));
+    }
+
+    /// The nodes that only play what they are hit for.
+    std::vector<std::size_t> struckNodes() const
+    {
+        std::vector<std::size_t> all;
+        const auto& nodes = plan->flat().nodes;
+        for (std::size_t n = 0; n < nodes.size(); ++n)
+        {
+            const auto& inputs = nodes[n].type->inputs;
+            if (nodes[n].runs() && ! inputs.empty() && std::ranges::all_of (inputs, plan::takesHits)) all.push_back (n);
+        }
+        return all;
+    }
+
+    bool belongs (const std::string& path, const std::string& role) const
+    {
+        const auto at = std::ranges::find (plan->flat().nodes, path, &plan::FlatNode::path);
+        return at != plan->flat().nodes.end() && at->role == role;
+    }
+
+    bool hasLoop (const std::string& role) const
+    {
+        return std::ranges::count (nodesOf (*plan, role), true) > 0;
+    }
+
+    /// True if a sink other than device.force pushes this role, or if a torque is wired. A sink of a force has an input in N of three components.
+    bool hasOtherSinks (const std::string& role) const
+    {
+        const auto& flat = plan->flat();
+        return std::ranges::any_of (flat.wires, [&] (const plan::FlatWire& w) {
+            const auto& node = flat.node (w.to);
+            if (! node.runs() || node.role != role || node.type->effort == nullptr || w.to.role != Role::input) return false;
+            const auto& row = flat.sheet (w.to);
+            return row.width != 3 || row.unit.unit.symbol != "N";
+        });
+    }
+
+    void addTexture (const TextureWatch& watched)
+    {
+        const auto without = forcesAlong (subject, motion, { watched.node }, [] (const Plan&) {});
+        for (std::size_t r = 0; r < motion.roles.size(); ++r)
+            addTexture (watched, r, without[r]);
+    }
+
+    void addTexture (const TextureWatch& watched, std::size_t r, const std::vector<Vec3>& without)
+    {
+        const auto part = [&] (std::size_t k) { return (forces[r][k] - without[k]).norm(); };
+        double most = 0.0;
+        for (std::size_t k = 0; k < motion.ticks; ++k)
+            most = std::max (most, part (k));
+        if (! (most > 0.0)) return;
+
+        const auto& [node, own, is_driven, claims, loudest] = watched;
+        Texture t { .node = node, .role = motion.roles[r].role, .spatial_frequency = claims.spatial_frequency };
+        const double reach = loudest > 0.0 ? most / loudest : 1.0;   // what the wires and layers make of the node's force
+        t.amplitude = claims.amplitude < inf ? std::max (most, reach * claims.amplitude) : most;
+        t.slope = claims.stiffness > 0.0 && claims.stiffness < inf ? reach * claims.stiffness : 2.0 * std::numbers::pi * t.amplitude * t.spatial_frequency;
+        const auto& ways = directions[r];
+        for (std::size_t k = 0; k < motion.ticks; ++k)
+            if (part (k) >= felt_part * most)
+            {
+                const auto v = velocityAt (motion, r, k);
+                t.speed = std::max (t.speed, (node < ways.size() ? across (ways[node], v) : v).norm());
+            }
+        demand.textures.push_back (std::move (t));
+    }
+};
+}   // namespace
+
+Demand measure (const Subject& subject, const HandMotion& motion, const Thoroughness& how) { return Survey (subject, motion).measure (how); }
+
+}   // namespace tactus::check

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace tactus::check
+{
+
+namespace
+{
+Json number (double v) { return std::isfinite (v) ? Json (v) : Json(); }
+
+Json toJson (const DeviceNumbers& numbers)
+{
+    auto j = Json::object();
+    for (const auto& row : deviceNumberRows())
+        if (const auto& n = numbers.*row.member)
+        {
+            auto entry = Json::object();
+            entry["value"] = number (n->value);
+            if (! n->source.empty()) entry["source"] = n->source;
+            if (n->guess) entry["guess"] = true;
+            j[std::string (row.id)] = std::move (entry);
+        }
+    return j;
+}
+
+/// The steepest place of a role, and how steep the forces of its nodes are there.
+Json toJson (const Demand& demand, const RoleDemand& role)
+{
+    Json j { { "role", role.role } };
+    j["peak_force"] = number (role.peak_force);
+    j["fastest_force"] = number (role.fastest_force);
+    j["speed"] = number (role.speed);
+    j["path_delay"] = role.longest;
+    if (role.has_other_efforts) j["not_judged"] = "torques, axes and signals";
+    const auto most = std::ranges::max_element (role.slopes, {}, &Slope::stiffness);
+    if (most == role.slopes.end()) return j;
+    j["stiffness"] = number (most->stiffness);
+    j["lag"] = number (most->lag);
+    j["damping"] = number (most->damping);
+    j["t"] = number (most->t_s);
+    j["position"] = Json::array();
+    for (int i = 0; i < 3; ++i)
+        j["position"].push_back (number (most->position[i]));
+    j["nodes"] = Json::array();
+    for (std::size_t n = 0; n < most->by_node.size(); ++n)
+        if (most->by_node[n] > 0.0)
+            j["nodes"].push_back (Json { { "node", demand.nodes[n].path }, { "type", demand.nodes[n].type }, { "stiffness", number (most->by_node[n]) } });
+    return j;
+}
+
+Json toJson (const Condition& c)
+{
+    Json j { { "id", c.id }, { "role", c.role } };
+    if (! c.node.empty()) j["node"] = c.node;
+    j["law"] = c.law;
+    j["verdict"] = nameOf (c.verdict);
+    j["value"] = number (c.value);
+    j["limit"] = c.verdict == Verdict::unknown ? Json() : number (c.limit);
+    j["margin"] = c.verdict == Verdict::unknown ? Json() : number (c.margin());
+    j["unit"] = c.unit;
+    j["text"] = c.text;
+    if (! c.remedy.empty()) j["remedy"] = c.remedy;
+    return j;
+}
+}   // namespace
+
+Json toJson (const Demand& demand, std::span<const RoleDevice> devices, std::span<const Condition> conditions, const JudgeOptions& options)
+{
+    Json j { { "rate_hz", demand.rate_hz }, { "duration", demand.lasts_s } };
+    j["alpha"] = options.factors.alpha;
+    j["beta"] = options.factors.beta;
+    j["gamma"] = options.factors.gamma;
+    if (options.speed > 0.0) j["speed"] = options.speed;
+    j["roles"] = Json::array();
+    for (const auto& role : demand.roles)
+    {
+        auto entry = toJson (demand, role);
+        const auto device = std::ranges::find (devices, role.role, &RoleDevice::role);
+        if (device != devices.end())
+        {
+            entry["device"] = device->name;
+            entry["numbers"] = toJson (device->numbers);
+        }
+        j["roles"].push_back (std::move (entry));
+    }
+    j["conditions"] = Json::array();
+    for (const auto& c : conditions)
+        j["conditions"].push_back (toJson (c));
+    j["broken"] = std::ranges::count (conditions, Verdict::broken, &Condition::verdict);
+    return j;
+}
+
+std::string describe (const DeviceNumbers& numbers)
+{
+    struct Symbol
+    {
+        const char* name;
+        DeviceNumbers::Number DeviceNumbers::*member;
+        double factor;
+        const char* unit;
+    };
+    constexpr Symbol symbols[] {
+        { "M", &DeviceNumbers::mass, 1.0, " kg" },
+        { "B", &DeviceNumbers::damping, 1.0, " N*s/m" },
+        { "f_f", &DeviceNumbers::coulomb, 1.0, " N" },
+        { "delta", &DeviceNumbers::quantum, 1e6, " um" },
+        { "b", &DeviceNumbers::force_quantum, 1e3, " mN" },
+        { "d", &DeviceNumbers::delay, 1.0, "" },
+        { "F_0", &DeviceNumbers::first_mode, 1.0, " Hz" },
+        { "f_max", &DeviceNumbers::peak_force, 1.0, " N" },
+        { "1/T", &DeviceNumbers::rate, 1.0, " Hz" },
+    };
+    std::string text;
+    for (const auto& s : symbols)
+        if (const auto& n = numbers.*s.member)
+        {
+            char value[32];
+            std::snprintf (value, sizeof value, "%.3g", s.factor * n->value);
+            text += (text.empty() ? "" : ", ") + std::string (s.name) + " " + value + s.unit + (n->guess ? " (guess)" : "");
+        }
+    return text.empty() ? "nothing is known" : text;
+}
+
+}   // namespace tactus::check

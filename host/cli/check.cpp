@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+#include "report.hpp"
+#include "run_options.hpp"
+
+#include <host/assets/file_assets.hpp>
+#include <host/assets/nearest_by_embree.hpp>
+#include <host/hid/physics.hpp>
+#include <host/hid_link/open_device.hpp>
+#include <host/hid_link/profile_library.hpp>
+#include <tactus/check/hands.hpp>
+#include <tactus/check/report.hpp>
+#include <tactus/file/text_file.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/json_text.hpp>
+#include <tactus/text/json_writer.hpp>
+#include <tactus/text/quote.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+namespace tactus::host
+{
+
+namespace
+{
+namespace fs = std::filesystem;
+
+struct CheckOptions
+{
+    std::string graph;
+    std::vector<std::string> devices, sets;
+    double rate_hz = 0.0, duration_s = 0.0;
+    bool json = false, sweep = false;
+    check::JudgeOptions judge {};
+};
+
+/// What a role of the graph is checked with.
+struct CheckedRole
+{
+    check::RoleDevice device;
+    std::optional<check::HandChoice> hand {};   // empty: that of the graph
+};
+
+/// The devices of --device: each option gives a role numbers, a hand, or both.
+class Choices
+{
+public:
+    Choices (const LoadedGraph& g, const fs::path& f) : graph (g.graph), folder (f), profiles (hid::loadProfileLibrary()) {}
+
+    std::vector<CheckedRole> read (const Plan& plan, const std::vector<std::string>& options)
+    {
+        for (const auto& role : plan.roles())
+            roles.push_back (fromGraph (role.name));
+        for (const auto& option : options)
+            take (option);
+        return std::move (roles);
+    }
+
+    const hid::LoadedProfiles& library() const noexcept { return profiles; }
+
+private:
+    const graph::Graph& graph;
+    fs::path folder;
+    hid::LoadedProfiles profiles;
+    std::vector<CheckedRole> roles {};
+
+    CheckedRole fromGraph (const std::string& role) const
+    {
+        CheckedRole r { .device = { .role = role, .name = "an unknown device" } };
+        const auto* description = graph.device (role);
+        if (description != nullptr) describe (r, *description, folder);
+        return r;
+    }
+
+    void describe (CheckedRole& r, const Json& description, const fs::path& from) const
+    {
+        if (const auto numbers = check::numbersOf (description, from))
+        {
+            r.device.numbers = *numbers;
+            r.device.name = "sim";
+        }
+        else if (hid::isHid (description) && description.contains ("profile") && description.at ("profile").is_string())
+            if (const auto profile = hid::profileNamed (profiles, description.at ("profile").asString())) take (r, *profile);
+    }
+
+    static void take (CheckedRole& r, const hid::Profile& profile)
+    {
+        r.device.numbers = hid::numbersOf (profile);
+        r.device.name = profile.id;
+    }
+
+    void take (const std::string& option)
+    {
+        const auto equals = option.find ('=');
+        const auto name = option.substr (0, equals), what = equals == option.npos ? std::string() : option.substr (equals + 1);
+        const auto role = std::ranges::find (roles, name, [] (const CheckedRole& r) { return r.device.role; });
+        if (role == roles.end())
+        {
+            std::vector<std::string> names;
+            for (const auto& r : roles)
+                names.push_back (r.device.role);
+            fail (Message::error ("device/unknown_role", "--device " + option, "the graph has no role " + quote (name) + didYouMean (name, names),
+                                  "write ROLE=PROFILE or ROLE=FILE.json"));
+        }
+        if (const auto profile = hid::profileNamed (profiles, what)) return take (*role, *profile);
+        if (what.ends_with (".json") && takeProfileFile (*role, what)) return;
+        if (what.find_first_of (":.") == what.npos && what != "sim") failOnProfile (option, what);
+
+        auto parsed = orFail (parseDeviceOption (option, graph.devices, folder));
+        describe (*role, parsed.description, parsed.folder);
+        if (const auto driver = parsed.description.value ("driver", std::string()); driver == "gesture" || driver == "trace" || driver == "sim")
+            role->hand = check::HandChoice { role->device.role, std::move (parsed.description), std::move (parsed.folder) };
+    }
+
+    [[noreturn]] void failOnProfile (const std::string& option, const std::string& what) const
+    {
+        std::vector<std::string> ids;
+        for (const auto& p : profiles.profiles)
+            ids.push_back (p->id);
+        fail (Message::error ("device/option", "--device " + option, "there is no profile " + quote (what) + didYouMean (what, ids),
+                              "write the id of a profile, sim, gesture:NAME, trace:FILE.csv, or a .json file with a profile or a device"));
+    }
+
+    /// False if the file is not a profile; it may then be the description of a device.
+    static bool takeProfileFile (CheckedRole& role, const std::string& file)
+    {
+        const auto text = readFile (fs::path (file));
+        if (! text) fail (Message::error ("device/unreadable", file, "the file cannot be read: " + text.error().text, "check its name"));
+        const auto json = Json::tryParse (*text);
+        if (! json || ! json->is_object() || json->contains ("driver")) return false;
+        const auto loaded = hid::readProfileText (*text);
+        if (! loaded.profile)
+            for (const auto& m : loaded.messages)
+                if (m.severity == Message::Severity::error) fail (Message::error (m.id, file + ", " + m.where, m.text, m.remedy));
+        take (role, *loaded.profile);
+        return true;
+    }
+};
+
+std::string padded (std::string_view text, std::size_t width) { return std::string (text) + std::string (width > text.size() ? width - text.size() : 1, ' '); }
+
+std::string number (double v)
+{
+    char buffer[32];
+    std::snprintf (buffer, sizeof buffer, "%.3g", v);
+    return buffer;
+}
+
+std::string describe (const check::Condition& c)
+{
+    const bool is_known = c.verdict != check::Verdict::unknown;
+    auto line = "  " + padded (nameOf (c.verdict), 9) + padded (c.id, 18) + padded (printableName (c.node.empty() ? "-" : c.node), 16);
+    line += padded (number (c.value) + " of " + (is_known ? number (c.limit) : "?") + (c.unit == "1" ? "" : " " + std::string (c.unit)), 28);
+    if (is_known) line += padded ("margin " + number (c.margin()), 18);
+    line += std::string (c.law) + '\n';
+    if (c.verdict == check::Verdict::holds) return line;
+    line += "           " + c.text + '\n';
+    if (! c.remedy.empty()) line += "           " + std::string (is_known ? "would help: " : "") + c.remedy + '\n';
+    return line;
+}
+
+/// The profiles with numbers that break no condition of a role.
+std::string ableDevices (const check::Demand& demand, const std::string& role, const check::JudgeOptions& options, const hid::LoadedProfiles& profiles)
+{
+    std::string names;
+    for (const auto& profile : profiles.profiles)
+    {
+        const std::vector<check::RoleDevice> devices { { role, hid::numbersOf (*profile), profile->id } };
+        auto all = check::judge (demand, devices, options);
+        std::erase_if (all, [&] (const check::Condition& c) { return c.role != role; });
+        const bool is_known = std::ranges::any_of (all, [] (const check::Condition& c) { return c.verdict != check::Verdict::unknown; });
+        if (is_known && ! check::isBroken (all)) names += (names.empty() ? "" : ", ") + profile->id;
+    }
+    return names;
+}
+
+void print (const CheckOptions& options, const check::Demand& demand, const std::vector<check::RoleDevice>& devices,
+            const std::vector<check::Condition>& conditions, const hid::LoadedProfiles& profiles)
+{
+    std::cout << printableName (options.graph) << " at " << number (demand.rate_hz) << " Hz, along " << number (demand.lasts_s) << " s of motion\n";
+    for (const auto& role : demand.roles)
+    {
+        const auto device = std::ranges::find (devices, role.role, &check::RoleDevice::role);
+        std::cout << printableName (role.role) << " on " << printableName (device->name) << ": " << check::describe (device->numbers) << '\n';
+        bool is_broken = false;
+        for (const auto& c : conditions)
+            if (c.role == role.role)
+            {
+                std::cout << describe (c);
+                is_broken = is_broken || c.verdict == check::Verdict::broken;
+            }
+        if (role.has_other_efforts) std::cout << "  its torques, axes and signals are not judged\n";
+        if (const auto able = is_broken ? ableDevices (demand, role.role, options.judge, profiles) : ""; ! able.empty())
+            std::cout << "  profiles that break no condition whose numbers are known: " << able << '\n';
+    }
+    const auto broken = std::ranges::count (conditions, check::Verdict::broken, &check::Condition::verdict);
+    std::cout << (broken == 0 ? "no condition is broken" : std::to_string (broken) + (broken == 1 ? " condition is broken" : " conditions are broken"))
+              << "; all are necessary, none is sufficient\n";
+}
+
+/// A sweep of the workspace of each role's device, or of a box of 10 cm around the origin.
+std::vector<check::HandChoice> handsOf (const std::vector<CheckedRole>& roles)
+{
+    std::vector<check::HandChoice> hands;
+    for (const auto& r : roles)
+        if (r.hand) hands.push_back (*r.hand);
+    return hands;
+}
+
+check::HandMotion sweep (std::shared_ptr<Plan> plan, const std::vector<CheckedRole>& roles, double duration_s)
+{
+    if (duration_s <= 0.0) duration_s = 4.0;
+    std::vector<std::unique_ptr<check::SweepDevice>> sweeps;
+    std::vector<check::Hand> hands;
+    for (const auto& r : roles)
+    {
+        const auto& box = r.device.numbers.workspace;
+        const Vec3 min = box ? box->min : Vec3 (Vec3::Constant (-0.05)), max = box ? box->max : Vec3 (Vec3::Constant (0.05));
+        sweeps.push_back (std::make_unique<check::SweepDevice> (min, max, duration_s));
+        hands.push_back ({ r.device.role, *sweeps.back() });
+    }
+    const auto ticks = static_cast<std::size_t> (duration_s * plan->rateHz());
+    return check::recordMotion (std::move (plan), hands, ticks);
+}
+
+void run (const CheckOptions& options)
+{
+    const auto loaded = loadGraph (options.graph);
+    if (report (loaded.messages, loaded, options.graph) > 0) throw Stop {};
+    FileAssets assets;
+    const check::Subject subject { loaded.graph,
+                                   catalogue(),
+                                   { .rate_hz = options.rate_hz,
+                                     .overrides = readSets (options.sets),
+                                     .assets = &assets,
+                                     .services = { .nearest_triangle = nearestByEmbree } } };
+    auto compiled = compile (subject.graph, subject.catalogue, subject.options);
+    if (report (compiled.messages, loaded, options.graph) > 0) throw Stop {};
+
+    const auto folder = fs::path (options.graph).parent_path();
+    Choices choices { loaded, folder };
+    const auto roles = choices.read (*compiled.plan, options.devices);
+    check::RecordedMotion recorded;
+    if (options.sweep)
+        recorded.motion = sweep (compiled.plan, roles, options.duration_s);
+    else
+        recorded = check::recordMotion (subject, handsOf (roles), folder, options.duration_s);
+    if (report (recorded.messages, loaded, options.graph) > 0) throw Stop {};
+
+    const auto demand = check::measure (subject, recorded.motion);
+    std::vector<check::RoleDevice> devices;
+    for (const auto& r : roles)
+        devices.push_back (r.device);
+    const auto conditions = check::judge (demand, devices, options.judge);
+    if (options.json)
+        std::cout << writeJson (check::toJson (demand, devices, conditions, options.judge));
+    else
+        print (options, demand, devices, conditions, choices.library());
+    if (check::isBroken (conditions))
+    {
+        std::cout.flush();
+        throw Stop {};
+    }
+}
+}   // namespace
+
+void addCheck (const Command& app)
+{
+    const auto options = std::make_shared<CheckOptions>();
+    const auto command = app.add ("check", "Check whether the devices of a graph can render it: stability, quanta, friction, textures, forces");
+    command.addOption ("graph", options->graph, "The graph file").required();
+    command.addOption ("--device", options->devices,
+                       "The device of a role: ROLE=PROFILE, ROLE=FILE.json (a profile or a device) or ROLE=sim; ROLE=gesture:NAME and ROLE=trace:FILE.csv "
+                       "choose its hand; may be given more than once")
+        .oneValueEach();
+    command.addFlag ("--sweep", options->sweep, "Sweep the workspaces of the devices instead of following hands");
+    command.addOption ("--speed", options->judge.speed, "Speed of strokes over textures in m/s; default: as measured").check (finiteWithin (1e-6, 1e3));
+    command.addOption ("--rate", options->rate_hz, "Ticks per second; default: that of the graph").check (finiteWithin (1.0, 1e6));
+    command.addOption ("--duration", options->duration_s, "Length of the motion in s").check (finiteWithin (1e-3, 60.0));
+    command.addOption ("--set", options->sets, "Set a parameter, NODE.PARAM=VALUE, or a control, CONTROL=0…1; may be given more than once").oneValueEach();
+    command.addOption ("--alpha", options->judge.factors.alpha, "Samples per period of a texture; default 2, better 10").check (finiteWithin (1e-3, 1e6));
+    command.addOption ("--beta", options->judge.factors.beta, "Position quanta per period of a texture; default 2, better 10").check (finiteWithin (1e-3, 1e6));
+    command.addOption ("--gamma", options->judge.factors.gamma, "Force quanta per amplitude of a texture; default 10").check (finiteWithin (1e-3, 1e6));
+    command.addFlag ("--json", options->json, "Print JSON, for use by programs");
+    addLimits (command);
+    command.footer ("Exit status 1 if a condition is broken. docs/check.md explains each condition.\n\n"
+                    "Examples:\n"
+                    "  tactus check graphs/dry_wood.json\n"
+                    "  tactus check graphs/dry_wood.json --device stylus=tactus_board --rate 1000\n"
+                    "  tactus check graphs/dry_wood.json --device stylus=gesture:circle --speed 0.3\n"
+                    "  tactus check graphs/dry_wood.json --json | jq '.conditions[] | select(.verdict == \"broken\")'");
+    command.callback ([options] { run (*options); });
+}
+
+}   // namespace tactus::host

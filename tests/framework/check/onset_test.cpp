@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include <tactus/check/hands.hpp>
+#include <tactus/check/judge.hpp>
+#include <tactus/run/device/sim.hpp>
+#include <tactus/run/engine.hpp>
+
+#include "support/sketch.hpp"
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+using namespace tactus;
+
+namespace
+{
+/// A wall that a constant force presses the tool against. It touches all the time, so that it is a spring.
+graph::Graph wall (double stiffness, double rate_hz)
+{
+    test::Sketch s;
+    s.node ("hand", "device.position").node ("motor", "device.force");
+    for (auto& node : s.graph.root.nodes)
+        node.role = "tip";
+    s.node ("wall", "deform.plane", { { "stiffness", stiffness } }).wire ("hand.position -> wall.position").wire ("wall.force -> motor.force");
+    s.graph.rate_hz = rate_hz;
+    return s.graph;
+}
+
+constexpr double push = 1.0;   // N
+
+/// A tool that rests in the wall, a little off its equilibrium.
+Simulation resting (Simulation sim, double stiffness)
+{
+    sim.hand_force = { 0, 0, -push };
+    sim.position = { 0, 0, -1.02 * push / stiffness };
+    return sim;
+}
+
+/// The stiffest wall that the conditions allow on a device: measured on a soft wall, and scaled up to the limit.
+double predicted (const Simulation& sim, double rate_hz, std::string_view id)
+{
+    const double soft = 10.0;
+    const auto graph = wall (soft, rate_hz);
+    SimulatedDevice still { resting (sim, soft) };
+    const std::vector<check::Hand> hands { { "tip", still } };
+    const auto motion = check::recordMotion (compile (graph, catalogue()).plan, hands, 8);
+    const auto demand = check::measure ({ graph, catalogue() }, motion, { .places = 2 });
+    const std::vector<check::RoleDevice> devices { { "tip", numbersOf (sim), "sim" } };
+    for (const auto& c : check::judge (demand, devices))
+        if (c.id == id) return soft * c.margin();
+    FAIL ("no condition " << id);
+    return 0.0;
+}
+
+/// Half the distance between the largest and the smallest position in the second half of a run, over that in the first half.
+double growth (const Simulation& sim, double stiffness, double rate_hz, int ticks)
+{
+    SimulatedDevice device { resting (sim, stiffness) };
+    Engine engine { compile (wall (stiffness, rate_hz), catalogue()).plan };
+    engine.attach ("tip", device);
+    double low[2] { 1e9, 1e9 }, high[2] { -1e9, -1e9 };
+    for (int k = 0; k < ticks; ++k)
+    {
+        engine.tick();
+        const double z = engine.plan().roles()[0].state->reading.true_position.z();
+        const auto part = k < ticks / 2 ? 0 : 1;
+        low[part] = std::min (low[part], z);
+        high[part] = std::max (high[part], z);
+    }
+    return high[0] > low[0] ? (high[1] - low[1]) / (high[0] - low[0]) : 0.0;
+}
+
+rc::Gen<double> between (double min, double max)
+{
+    return rc::gen::map (rc::gen::inRange (0, 1'000'001), [=] (int i) { return min * std::pow (max / min, 1e-6 * i); });
+}
+}   // namespace
+
+TEST_CASE ("a wall on a light damped tool starts to oscillate within 10 % of where the condition says", "[check]")
+{
+    // The condition is exact for a damping that takes many ticks to stop the tool, B T << M, and a delay that is short against the period.
+    rc::prop ("onset", [] {
+        const double rate_hz = *between (500.0, 10e3), mass = *between (0.02, 1.0), share = *between (0.003, 0.02);
+        const int delay = *rc::gen::inRange (0, 4);
+        const Simulation sim { .mass = mass, .damping = share * mass * rate_hz, .delay = delay };
+        const double stiffest = predicted (sim, rate_hz, "stiffness");
+        const int ticks = static_cast<int> (80.0 / share) + 200;
+        RC_LOG() << "stiffest " << stiffest << " N/m, at 0.9: " << growth (sim, 0.9 * stiffest, rate_hz, ticks)
+                 << ", at 1.1: " << growth (sim, 1.1 * stiffest, rate_hz, ticks) << '\n';
+        RC_ASSERT (growth (sim, 0.9 * stiffest, rate_hz, ticks) < 1.0);
+        RC_ASSERT (growth (sim, 1.1 * stiffest, rate_hz, ticks) > 1.0);
+    });
+}
+
+TEST_CASE ("on a heavily damped or compliant tool, a wall within the condition never oscillates", "[check]")
+{
+    rc::prop ("safe side", [] {
+        const double rate_hz = *between (500.0, 10e3), mass = *between (0.02, 1.0), share = *between (0.02, 1.5);
+        Simulation sim { .mass = mass, .damping = share * mass * rate_hz, .delay = *rc::gen::inRange (0, 4) };
+        if (*rc::gen::arbitrary<bool>()) sim.first_mode = *between (10.0, 400.0);
+        const double stiffest = predicted (sim, rate_hz, "stiffness");
+        RC_ASSERT (growth (sim, 0.95 * stiffest, rate_hz, 20'000) < 1.0);
+    });
+}
+
+TEST_CASE ("a wall within the conditions for quanta and damping comes to rest", "[check]")
+{
+    rc::prop ("rest", [] {
+        const double rate_hz = *between (500.0, 10e3), mass = *between (0.02, 0.5), share = *between (0.005, 0.5);
+        Simulation sim { .mass = mass, .damping = share * mass * rate_hz };
+        sim.quantum = *between (1e-7, 5e-5);
+        sim.coulomb = *between (1e-3, 0.1);
+        const double stiffest = std::min (predicted (sim, rate_hz, "stiffness"), predicted (sim, rate_hz, "quantum"));
+        RC_ASSERT (growth (sim, 0.95 * stiffest, rate_hz, 60'000) < 1e-3);
+    });
+}

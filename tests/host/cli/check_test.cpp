@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "program.hpp"
+
+#include <tactus/text/json.hpp>
+
+#include <catch2/catch.hpp>
+
+using namespace tactus;
+using namespace tactus::test;
+
+namespace
+{
+/// A ribbed wall at 1 kHz.
+std::string graphWith (const std::string& stiffness, const std::string& device = R"({ "driver": "gesture", "path": "stroke" })")
+{
+    return R"({ "format": "tactus-graph", "version": 1, "name": "wall", "rate_hz": 1000, "devices": { "tip": )" + device + R"( }, "nodes": {
+        "hand": { "type": "device.position", "role": "tip" }, "motor": { "type": "device.force", "role": "tip" },
+        "wall": { "type": "deform.plane", "params": { "stiffness": ")"
+           + stiffness + R"(" } },
+        "ribs": { "type": "texture.grating", "params": { "spatial_frequency": "100 1/m" } } },
+        "wires": ["hand.position -> wall.position", "wall.force -> motor.force", "hand.position -> ribs.position", "ribs.force -> motor.force"] })";
+}
+
+const char* profile = R"({ "format": "tactus-profile", "version": 1, "id": "numbers", "name": "Numbers", "sources": ["made up"],
+    "physics": { "mass": "75 g", "damping": { "value": "1 N*s/m", "guess": true }, "coulomb": "50 mN", "quantum": "10 um", "first_mode": "30 Hz",
+                 "peak_force": "8.5 N" } })";
+
+Json conditionOf (const Json& report, std::string_view id)
+{
+    for (const auto& c : report.at ("conditions").asArray())
+        if (c.at ("id") == Json (id)) return c;
+    return {};
+}
+}   // namespace
+
+TEST_CASE ("`tactus check` says which condition a wall breaks, by how much, and what would help", "[check][cli]")
+{
+    Scratch scratch;
+    const auto file = scratch.write ("wall.json", graphWith ("100 N/mm")), device = scratch.write ("numbers.json", profile);
+    const auto ran = runTactus ({ "check", file, "--device", "tip=" + device });
+    INFO (ran.out << ran.err);
+    CHECK (ran.status == 1);
+    CHECK (ran.out.find ("tip on numbers: M 0.075 kg, B 1 N*s/m (guess)") != std::string::npos);
+    CHECK (ran.out.find ("broken   stiffness") != std::string::npos);
+    CHECK (ran.out.find ("would help: a stiffness of at most 2e+03 N/m, a rate of at least 5e+04 Hz") != std::string::npos);
+    CHECK (ran.out.find ("unknown  force_resolution") != std::string::npos);
+}
+
+TEST_CASE ("`tactus check --json` reports every condition, with the numbers of the device and their sources", "[check][cli]")
+{
+    Scratch scratch;
+    const auto file = scratch.write ("wall.json", graphWith ("1 N/mm")), device = scratch.write ("numbers.json", profile);
+    const auto ran = runTactus ({ "check", file, "--device", "tip=" + device, "--json", "--speed", "0.2" });
+    INFO (ran.out << ran.err);
+    CHECK (ran.status == 0);
+    const auto report = Json::parse (ran.out);
+    CHECK (report.at ("broken") == Json (0));
+    CHECK (report.at ("speed") == Json (0.2));
+    const auto& role = report.at ("roles").at (0);
+    CHECK (role.at ("device") == Json ("numbers"));
+    CHECK (role.at ("stiffness").get<double>() == Approx (1000.0).epsilon (1e-3));
+    CHECK (role.at ("numbers").at ("damping").at ("guess") == Json (true));
+    CHECK (role.at ("numbers").at ("mass").at ("source").asString().size() > 3);
+    CHECK (conditionOf (report, "stiffness").at ("value").get<double>() == Approx (0.5).epsilon (1e-3));
+    CHECK (conditionOf (report, "stiffness").at ("margin").get<double>() == Approx (2.0).epsilon (1e-3));
+    CHECK (conditionOf (report, "structural").at ("value").get<double>() == Approx (20.0));
+    CHECK (conditionOf (report, "structural").at ("node") == Json ("ribs"));
+    CHECK (conditionOf (report, "force_resolution").at ("limit").is_null());
+    CHECK (runTactus ({ "check", file, "--device", "tip=" + device, "--speed", "0.31" }).status == 1);
+}
+
+TEST_CASE ("`tactus check` takes the numbers of a simulated device from the graph, and the rate and the factors from options", "[check][cli]")
+{
+    Scratch scratch;
+    const auto file = scratch.write ("wall.json", graphWith ("3 N/mm", R"({ "driver": "sim", "mass": 0.1, "damping": 1, "hand": { "path": "press" } })"));
+    CHECK (runTactus ({ "check", file }).status == 1);
+    CHECK (runTactus ({ "check", file, "--rate", "2000" }).status == 0);
+    CHECK (runTactus ({ "check", file, "--rate", "2000", "--alpha", "1e6", "--speed", "0.1" }).status == 1);
+    CHECK (runTactus ({ "check", file, "--set", "wall.stiffness=1500" }).status == 0);
+    CHECK (runTactus ({ "check", file, "--sweep" }).status == 1);
+    CHECK (runTactus ({ "check", file, "--device", "tip=gesture:touch" }).status == 1);
+}
+
+TEST_CASE ("`tactus check` refuses a role, a profile and a file that do not exist", "[check][cli]")
+{
+    Scratch scratch;
+    const auto file = scratch.write ("wall.json", graphWith ("1 N/mm"));
+    const auto id = [&] (const std::string& device) {
+        const auto ran = runTactus ({ "check", file, "--device", device });
+        CHECK (ran.status == 1);
+        return ran.err;
+    };
+    CHECK (id ("top=sim").find ("device/unknown_role") != std::string::npos);
+    CHECK (id ("tip=tactus_bored").find ("did you mean 'tactus_board'") != std::string::npos);
+    CHECK (id ("tip=missing.json").find ("device/unreadable") != std::string::npos);
+}
+
+TEST_CASE ("the profiles of PHANTOM and Pantograph limit the speed over a grating as the chapter says", "[check][cli]")
+{
+    Scratch scratch;
+    struct Case
+    {
+        const char *device, *frequency, *slow, *fast;
+    };
+    const std::vector<Case> cases {
+        { "phantom_1_0", "100 1/m", "0.299", "0.301" },
+        { "phantom_1_0", "1000 1/m", "0.0299", "0.0301" },
+        { "pantograph_mk2", "100 1/m", "3.99", "4.01" },
+        { "pantograph_mk2", "1000 1/m", "0.399", "0.401" },
+    };
+    const auto file = scratch.write ("wall.json", graphWith ("100 N/m"));
+    for (const auto& [device, frequency, slow, fast] : cases)
+        for (const auto* speed : { slow, fast })
+        {
+            const auto ran = runTactus ({ "check", file, "--rate", "10000", "--json", "--speed", speed, "--device", std::string ("tip=") + device, "--set",
+                                          std::string ("ribs.spatial_frequency=") + frequency });
+            INFO (device << ' ' << frequency << ' ' << speed << ran.err);
+            const auto verdict = conditionOf (Json::parse (ran.out), "structural").at ("verdict").asString();
+            CHECK (verdict == (speed == slow ? "holds" : "broken"));
+        }
+}
