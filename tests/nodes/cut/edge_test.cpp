@@ -307,17 +307,21 @@ TEST_CASE ("edge: what is spent does not depend on the rate, and a jump ends whe
     Dice dice { 3 };
     for (int trial = 0; trial < 8; ++trial)
     {
-        const Walk walk (dice, 0.02, 0.005, 0.006, 0.4);
+        // Within one plane: whether the edge finds an old cut, which needs both ends within a column's width, may depend on the sample.
+        const Walk walk (dice, 0.02, 0.0, 0.006, 0.4);
         double spent[2] {};
         for (int fast = 0; fast < 2; ++fast)
         {
             Bench bench;
             const int steps = fast ? 40'000 : 2'000;
             for (int k = 0; k <= steps; ++k)
-                bench.tick (walk.position (static_cast<double> (k) / steps), walk.rotation (static_cast<double> (k) / steps));
+            {
+                const double s = static_cast<double> (k) / steps;
+                bench.tick (walk.position (s), walk.rotation (s).cwiseProduct (Vec3::UnitY()));
+            }
             spent[fast] = bench.out.dissipated_energy;
         }
-        CHECK (spent[0] == Approx (spent[1]).epsilon (0.02).margin (1e-4));
+        CHECK (spent[0] == Approx (spent[1]).epsilon (0.01).margin (1e-4));
     }
 
     const Vec3 tilt { 0.0, 0.2, 0.1 };
