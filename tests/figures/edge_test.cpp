@@ -15,7 +15,8 @@ constexpr double f_cut = 4.0, width = 0.02, stiffness = 2000.0, rupture = 0.003;
 
 TEST_CASE ("figure: the force of a tilted edge ramps over width times sine of the angle, up to the cost of its surface", "[figures]")
 {
-    const auto run = test::renderFigure ("edge", "edge_tilted", { "--duration", "8", "--record", "down.out,level.resistance,tilted.resistance,steep.resistance" });
+    const auto ports = "down.out,level.resistance,tilted.resistance,steep.resistance";
+    const auto run = test::renderFigure ("edge", "edge_tilted", { "--duration", "8", "--record", ports });
     for (const auto& [edge, degrees] : { std::pair { "level", 0.0 }, { "tilted", 10.0 }, { "steep", 20.0 } })
     {
         INFO (edge);
