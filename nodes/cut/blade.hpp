@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/cutting.hpp>
-#include <framework/node/node.hpp>
+#include <tactus/kit/cutting.hpp>
+#include <tactus/node/node.hpp>
 
 #include <algorithm>
 #include <string>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/cut_places.hpp>
-#include <framework/kit/line_over_columns.hpp>
-#include <framework/kit/rotation.hpp>
-#include <framework/node/node.hpp>
+#include <tactus/kit/cut_places.hpp>
+#include <tactus/kit/line_over_columns.hpp>
+#include <tactus/kit/rotation.hpp>
+#include <tactus/node/node.hpp>
 
 #include <algorithm>
 #include <cmath>

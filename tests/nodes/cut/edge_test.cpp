@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/cut/blade.hpp>
-#include <nodes/cut/edge.hpp>
+#include <tactus/nodes/cut/blade.hpp>
+#include <tactus/nodes/cut/edge.hpp>
 
 #include <golden/golden.hpp>
 
