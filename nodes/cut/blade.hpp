@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/cutting.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
-#include <sstream>
 #include <string>
 
 namespace tactus::nodes
@@ -107,53 +107,38 @@ struct Blade
     Params params;
     Settings settings;
 
-    std::string problem() const;
+    std::string problem() const { return Cutting::problem (params.width, params.toughness, params.rupture_force, settings.law, cracked()); }
 
     void adopt (const Blade& old) noexcept
     {
         sample = old.sample;
-        if (sample.touching) sample.material = read (old.sample.material.params);
+        if (sample.touching) read (sample, old.sample.params);
     }
 
     /// `law` is only felt up to rupture, and `cracked_law` only up to the start of cutting.
     Claims claims() const
     {
-        const Material m = read (params);
-        return { .passive = true, .stiffness = std::max (settings.law.steepest (m.d_rupture), cracked().steepest (m.e_cut)) };
+        Sample s;
+        read (s, params);
+        return { .passive = true, .stiffness = std::max (settings.law.steepest (s.cutting.ruptureDepth()), cracked().steepest (s.cutting.cutStretch())) };
     }
 
     Outputs tick (const Inputs&) noexcept;
 
 private:
-    static constexpr double eps_cut = 1e-9;   // relative; keeps steady cutting away from the branch point
-
-    /// Derived from the params that were read when the blade touched.
-    struct Material
-    {
-        Params params;
-        double cost = 0.0;        // energy per metre of crack, J_c w, in N
-        double last = inf;        // length of the crack at which the sample falls in two, in m
-        double e_cut = inf;       // the crack grows while the blade is further than this beyond its tip, in m
-        double d_rupture = inf;   // depth at which a virgin sample bursts, m
-        double burst = 0.0;       // length of the crack right after the burst, in m
-        double loss = 0.0;        // energy lost in the burst, in J
-    };
-
     struct Sample
     {
-        Material material;
-        bool touching = false, virgin = true, in_two = false;
-        double crack = 0.0, dissipated = 0.0;   // m, J
+        Params params;   // read when the blade touched
+        Cutting cutting;
+        Cutting::Crack crack;
+        bool touching = false;
+        double dissipated = 0.0;   // J
     };
 
     const Law& cracked() const noexcept { return settings.cracked_law ? settings.cracked_law : settings.law; }
 
-    Material read (const Params&) const noexcept;
-    double burstLength (const Material&) const noexcept;
+    void read (Sample&, const Params&) const noexcept;
     static double stateOf (const Sample&, double depth) noexcept;
-    bool burst (Sample&, double depth) const noexcept;
-    bool cut (Sample&, double depth) const noexcept;
-    Outputs answer (const Sample&, double depth, double state) const noexcept;
     Outputs fault() noexcept;
 
     Sample sample;
@@ -162,139 +147,58 @@ private:
 //==============================================================================
 // Implementation below.
 
-inline std::string Blade::problem() const
-{
-    const double cost = params.width * params.toughness;
-    const double d = settings.law.inverse (params.rupture_force);
-
-    std::ostringstream text;
-    if (! settings.law.rises() || ! cracked().rises())
-        text << (settings.law.rises() ? "cracked_law" : "law") << " must not fall with depth";
-    else if (params.rupture_force < cost * (1.0 - eps_cut))
-        text << "rupture_force is " << params.rupture_force << " N; it must be at least width times toughness, which is " << cost << " N";
-    else if (isFinite (d) && cracked().energy (d) > settings.law.energy (d) * (1.0 + eps_cut))
-        text << "at rupture, " << d << " m deep, cracked_law stores " << cracked().energy (d)
-             << " J; it must not store more than law does, " << settings.law.energy (d) << " J";
-    return text.str();
-}
-
 inline Blade::Outputs Blade::tick (const Inputs& in) noexcept
 {
     const double depth = in.depth;
     if (! isFinite (depth)) return fault();
 
     Sample now = sample;
-    const bool touching = ! now.in_two && depth > now.crack;
+    const bool touching = ! now.crack.in_two && depth > now.crack.length;
     if (touching && ! now.touching)
     {
-        now.material = read (params);
-        now.in_two = now.crack >= now.material.last;
+        read (now, params);
+        now.crack.in_two = now.crack.length >= now.cutting.last();
     }
     now.touching = touching;
 
-    bool bursts = false, cuts = false;
-    if (touching && ! now.in_two)
-    {
-        bursts = burst (now, depth);
-        cuts = cut (now, depth);
-    }
+    Cutting::Event event;
+    if (touching && ! now.crack.in_two) event = now.cutting.press (now.crack, depth, cracked(), now.dissipated);
     double state = stateOf (now, depth);
-    if (bursts)
+    if (event.bursts)
         state = 2.0;
-    else if (cuts && ! now.in_two)
+    else if (event.cuts && ! now.crack.in_two)
         state = 4.0;
 
-    const Outputs out = answer (now, depth, state);
+    const Law::Point answer = Cutting::answer (now.crack, depth, settings.law, cracked());
+    const Outputs out {
+        .resistance = answer.force,
+        .crack = now.crack.length,
+        .stored_energy = answer.energy,
+        .dissipated_energy = now.dissipated,
+        .state = state,
+    };
     if (! isFinite (out.resistance, out.crack, out.stored_energy, out.dissipated_energy)) return fault();
     sample = now;
     return out;
 }
 
+inline void Blade::read (Sample& s, const Params& p) const noexcept
+{
+    s.params = p;
+    s.cutting = { { .cost = p.width * p.toughness, .rupture_force = p.rupture_force, .thickness = p.thickness }, settings.law, cracked() };
+}
+
 inline double Blade::stateOf (const Sample& s, double depth) noexcept
 {
-    if (s.in_two) return 5.0;
-    if (! (depth > s.crack)) return 0.0;
-    return s.virgin ? 1.0 : 3.0;
-}
-
-/// The outputs by branches 1, 3, 5 and 6, and by branch 4, whose force is g1 (e_c).
-inline Blade::Outputs Blade::answer (const Sample& s, double depth, double state) const noexcept
-{
-    const Law& law = s.virgin ? settings.law : cracked();
-    const double e = s.in_two ? 0.0 : depth - s.crack;
-    return {
-        .resistance = law (e),
-        .crack = s.crack,
-        .stored_energy = law.energy (e),
-        .dissipated_energy = s.dissipated,
-        .state = state,
-    };
-}
-
-/// Branch 2.
-inline bool Blade::burst (Sample& s, double depth) const noexcept
-{
-    const Material& m = s.material;
-    if (! s.virgin || ! (depth >= m.d_rupture)) return false;
-    s.virgin = false;
-    s.crack = m.burst;
-    s.dissipated += m.loss;
-    s.in_two = s.crack >= m.last;
-    return true;
-}
-
-/// Branch 4. When the crack reaches the end of the sample, the sample falls in two, and the pieces spring back.
-inline bool Blade::cut (Sample& s, double depth) const noexcept
-{
-    const Material& m = s.material;
-    const double tip = std::min (depth - m.e_cut, m.last);
-    if (s.virgin || s.in_two || ! (depth - s.crack > m.e_cut * (1.0 + eps_cut)) || ! (tip > s.crack)) return false;
-    s.dissipated += m.cost * (tip - s.crack);
-    s.crack = tip;
-    s.in_two = tip >= m.last;
-    if (s.in_two) s.dissipated += cracked().energy (m.e_cut);
-    return true;
-}
-
-inline Blade::Material Blade::read (const Params& p) const noexcept
-{
-    const double cost = p.width * p.toughness;
-    Material m { .params = p, .cost = cost, .last = p.thickness > 0.0 ? p.thickness : inf, .e_cut = cracked().inverse (cost) };
-
-    const double d = settings.law.inverse (std::max (p.rupture_force, cost)), stored = settings.law.energy (d);
-    if (! isFinite (d, stored, cost) || cracked().energy (d) > stored * (1.0 + eps_cut)) return m;
-    m.d_rupture = d;
-    m.burst = std::min (burstLength (m), m.last);
-    m.loss = m.burst >= m.last ? stored : std::max (0.0, stored - cracked().energy (d - m.burst));
-    return m;
-}
-
-/// The largest root c of h (c) = G0 (d_r) - G1 (d_r - c) - J_c w c, at most d_r. Because g1 rises, h is concave with its maximum
-/// at d_r - e_c, so Newton's steps from beyond the root come down to it and never pass it.
-inline double Blade::burstLength (const Material& m) const noexcept
-{
-    const double stored = settings.law.energy (m.d_rupture);
-    const auto left = [&] (double c) { return stored - cracked().energy (m.d_rupture - c) - m.cost * c; };
-
-    const double top = std::max (0.0, m.d_rupture - m.e_cut);
-    if (! (left (top) > 0.0)) return top;
-
-    double c = m.d_rupture;
-    for (int i = 0; i < 100; ++i)
-    {
-        const double short_of = -left (c), slope = m.cost - cracked() (m.d_rupture - c);
-        if (! (short_of > 0.0) || ! (slope > 0.0)) break;
-        const double next = std::max (top, c - short_of / slope);
-        if (! (next < c)) break;
-        c = next;
-    }
-    return c;
+    if (s.crack.in_two) return 5.0;
+    if (! (depth > s.crack.length)) return 0.0;
+    return s.crack.virgin ? 1.0 : 3.0;
 }
 
 inline Blade::Outputs Blade::fault() noexcept
 {
     sample.touching = false;
-    return { .crack = sample.crack, .dissipated_energy = sample.dissipated, .state = -1.0 };
+    return { .crack = sample.crack.length, .dissipated_energy = sample.dissipated, .state = -1.0 };
 }
 
 }   // namespace tactus::nodes

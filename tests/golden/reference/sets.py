@@ -8,6 +8,7 @@ import random
 import cutting
 import deformation
 import draw
+import edge
 import friction
 import laws
 import meshes
@@ -178,6 +179,50 @@ def cutting_set(rng):
                        ("stored_energy", "U"), ("state", "state"),
                        ("dissipated_energy", "dissipated")):
         set_.expect(f"blade.{port}", got[port], "cutting", like)
+    return set_
+
+
+def edge_set(rng):
+    """An edge that is pressed in, tilted, drawn, lifted and moved aside."""
+    rows = 300
+    set_ = Set(draw.rate(rng), rows, time_free=True)
+    params = {"width": draw.spread(rng, 0.003, 0.03),
+              "toughness": draw.spread(rng, 50.0, 2000.0)}
+    cost = params["width"] * params["toughness"]
+    depth = draw.spread(rng, 1e-3, 5e-3)
+    normal = draw.direction(rng)
+    settings = {"law": draw.law(rng, cost, depth), "normal": list(normal),
+                "offset": rng.uniform(-0.05, 0.05),
+                "grid": params["width"] * rng.uniform(0.03, 0.4)}
+    params["rupture_force"] = cost * rng.uniform(1.0, 3.0)
+    if draw.chance(rng, 0.4):
+        settings["cracked_law"] = draw.weaker(settings["law"], rng.uniform(0.3, 1.0))
+    deep = 2.0 * laws.inverse(settings["law"], params["rupture_force"])
+    if draw.chance(rng, 0.3):
+        params["thickness"] = deep * rng.uniform(0.2, 1.0)
+    surface = vec.scale(settings["offset"], normal)
+    aside = draw.chance(rng, 0.7)
+    wander = draw.motion3(rng, rows, params["width"] * rng.uniform(0.1, 0.8))
+    wander = [vec.across(normal, w) if aside else (0.0, 0.0, 0.0) for w in wander]
+    down = [-0.3 * deep + x for x in draw.motion(rng, rows, deep)]
+    positions = [vec.add(surface, vec.sub(w, vec.scale(d, normal))) for w, d in zip(wander, down)]
+    flat = vec.unit(vec.cross(normal, draw.direction(rng)))
+    start = vec.scale(math.acos(flat[0]), vec.unit(vec.cross((1.0, 0.0, 0.0), flat)))
+    size = rng.choice((0.0, 0.1, 0.5))
+    turns = [vec.add(start, vec.scale(size, t)) for t in zip(*(draw.stroke(rng, rows, 1.0) for _ in range(3)))]
+    draw.hold(rng, [positions, turns])
+    draw.spoil(rng, positions)
+    feed = {"position": positions, "rotation": turns}
+    got = edge.run({**params, **settings, "normal": normal}, feed)
+    set_.node("edge", "cut.edge", params, settings, feed)
+    for port, like in (("crack", "crack"), ("stored_energy", "U"),
+                       ("dissipated_energy", "dissipated"), ("state", "state")):
+        set_.expect(f"edge.{port}", got[port], "cutting", like)
+    # The model differentiates numerically, also across the kinks of V.
+    near = {"abs": 1e-6, "rel_of_peak": 2e-5}
+    for port in ("force", "torque", "resistance"):
+        for name, values in parts(f"edge.{port}", got[port]).items():
+            set_.expected.append(Expected(name, values, near))
     return set_
 
 
@@ -545,7 +590,7 @@ def deformation_set(rng):
 
 
 MODELS = {"friction": friction_set, "cutting": cutting_set,
-          "scissors": scissors_set, "texture": texture_set,
+          "edge": edge_set, "scissors": scissors_set, "texture": texture_set,
           "shock": shock_set, "modal": modal_set,
           "wavetable": wavetable_set, "passivity": passivity_set,
           "hold": hold_set, "coupling": coupling_set,
