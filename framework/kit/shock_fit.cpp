@@ -79,17 +79,16 @@ Result<Contact> contactOf (const RecordedLoop& loop)
     while (last + 1 < d.size() && d[last + 1] > 0.0)
         ++last;
 
+    const double nothing = 1e-3 * d[deepest];   // a row this close to the surface is the touch itself
     Contact contact;
-    if (first > 0) addTouch (loop, first - 1, first, contact);
+    if (first > 0 && d[first] > nothing) addTouch (loop, first - 1, first, contact);
     for (auto i = first; i <= last; ++i)
     {
         contact.d.push_back (d[i]);
         contact.f.push_back (loop.force[i]);
         if (! loop.time.empty()) contact.t.push_back (loop.time[i]);
     }
-    if (last + 1 < d.size()) addTouch (loop, last + 1, last, contact);
-    for (std::size_t i = 1; i < contact.t.size(); ++i)   // a row at depth 0 is the touch itself
-        if (! (contact.t[i] > contact.t[i - 1])) return wrong ("fit/time", "two rows have the same time", "leave one of them out");
+    if (last + 1 < d.size() && d[last] > nothing) addTouch (loop, last + 1, last, contact);
     if (contact.size() < fewest || deepest == first || deepest == last)
         return wrong ("fit/no_loop", "the contact around the deepest row has " + std::to_string (contact.size()) + " rows and is no way in and out",
                       "record the whole contact, with at least " + std::to_string (fewest) + " rows inside the object");

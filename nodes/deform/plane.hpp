@@ -229,7 +229,7 @@ inline double Plane::returned (double rate_hz, double phase) const
 /// Compares the hit with the same hit on the wall itself, of which every instant acts.
 inline std::string Plane::warning (const Setup& setup) const
 {
-    constexpr double tolerance = 0.1, many = 64.0;   // of the speed; in samples: a contact this long comes out right
+    constexpr double tolerance = 0.2, many = 64.0;   // of the speed; in samples: a contact this long comes out right
     if (! (tool.mass > 0.0)) return {};
 
     const auto force = [this] (double d, double v) noexcept { return d > 0.0 ? push (law (d), v) + tool.damping * v : 0.0; };

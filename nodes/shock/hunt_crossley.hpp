@@ -35,7 +35,8 @@ namespace tactus::nodes
 /// over depth. `gain` scales the output only and does not count in it.
 ///
 /// A contact of fewer than four samples has no shape that samples could show. It is solved on the hit, and each sample is its mean
-/// force over the sample before: so the impulse is m v (1 + e) however short the contact, and half a sample late.
+/// force over the sample before: so the impulse is m v (1 + e) however short the contact, and half a sample late. This costs the tick of
+/// each hit about 400 evaluations of K and D if the contact is that short, else 64.
 ///
 /// `mass` 0 means the mass of the device that the hit comes from: the tool as the hand feels it. Where the device does not say
 /// it, 50 g stand in.
