@@ -3,7 +3,7 @@
 
 #include "law.hpp"
 
-#include <framework/text/result.hpp>
+#include <tactus/text/result.hpp>
 
 #include <vector>
 

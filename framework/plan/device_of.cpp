@@ -2,7 +2,7 @@
 #include "device_of.hpp"
 #include "grouped.hpp"
 
-#include <framework/text/object_reader.hpp>
+#include <tactus/text/object_reader.hpp>
 
 #include <algorithm>
 #include <vector>

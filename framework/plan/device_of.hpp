@@ -3,7 +3,7 @@
 
 #include "flat.hpp"
 
-#include <framework/graph/graph.hpp>
+#include <tactus/graph/graph.hpp>
 
 namespace tactus::plan
 {

@@ -3,13 +3,13 @@
 #include "overwriting.hpp"
 #include "report.hpp"
 
-#include <framework/file/csv.hpp>
-#include <framework/file/graph_file.hpp>
-#include <framework/kit/shock_fit.hpp>
-#include <framework/text/json.hpp>
-#include <framework/text/quote.hpp>
-#include <framework/text/units.hpp>
 #include <host/io/plot.hpp>
+#include <tactus/file/csv.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/kit/shock_fit.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/quote.hpp>
+#include <tactus/text/units.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/free_impact.hpp>
-#include <framework/node/node.hpp>
+#include <tactus/kit/free_impact.hpp>
+#include <tactus/node/node.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "sim.hpp"
-#include <framework/run/guard.hpp>
-#include <framework/text/object_reader.hpp>
-#include <framework/text/quantity.hpp>
+#include <tactus/run/guard.hpp>
+#include <tactus/text/object_reader.hpp>
+#include <tactus/text/quantity.hpp>
 
 #include <optional>
 #include <span>

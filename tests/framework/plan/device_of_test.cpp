@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Which device a node learns of, and when.
 
-#include <framework/run/device/sim.hpp>
-#include <framework/run/engine.hpp>
+#include <tactus/run/device/sim.hpp>
+#include <tactus/run/engine.hpp>
 
 #include "support/sketch.hpp"
 

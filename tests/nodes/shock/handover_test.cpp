@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/deform/plane.hpp>
-#include <nodes/shock/handover.hpp>
-#include <nodes/shock/hunt_crossley.hpp>
+#include <tactus/nodes/deform/plane.hpp>
+#include <tactus/nodes/shock/handover.hpp>
+#include <tactus/nodes/shock/hunt_crossley.hpp>
 
 #include <support/ready.hpp>
 

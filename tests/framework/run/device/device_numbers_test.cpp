@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <framework/run/device/device_numbers.hpp>
+#include <tactus/run/device/device_numbers.hpp>
 
 #include <catch2/catch.hpp>
 
