@@ -18,5 +18,6 @@ void addProbe (const Command&);
 void addDevices (const Command&);
 void addSession (const Command&);
 void addBench (const Command&);
+void addFit (const Command&);
 
 }   // namespace tactus::host

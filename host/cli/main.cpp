@@ -23,6 +23,7 @@ int main (int argc, char** argv)
                 "  tactus probe drag.force                        while it plays\n"
                 "  tactus devices                                 connected devices and their profiles\n"
                 "  tactus session graphs/dry_wood.json            the devices bound to its roles\n"
+                "  tactus fit shock tap.csv -o tap.json           a preset from a recording\n"
                 "  tactus render --replay run.jsonl               repeat a run logged by `play --log run.jsonl`\n"
                 "\n`tactus COMMAND --help` shows the options and more examples.");
     app.version (TACTUS_VERSION);
@@ -38,6 +39,7 @@ int main (int argc, char** argv)
     addDevices (app);
     addSession (app);
     addBench (app);
+    addFit (app);
 
     try
     {

@@ -20,27 +20,40 @@ DEVICE = {"mass": 0.05, "damping": 0.0, "quantum": 0.0, "delay": 0,
           "position": ZERO, "velocity": ZERO, "hand_force": ZERO}
 
 
+def lost(now, law, start, end, rate):
+    """What the damping takes on a straight way; a wall that does not pull takes at
+    most what its spring gives back."""
+    start, end = max(0.0, start), max(0.0, end)
+    stored = laws.energy(law, end) - laws.energy(law, start)
+    taken = rate * (now["dissipation"] * stored + now["damping"] * (end - start))
+    return max(0.0, min(taken, -stored) if rate < 0.0 else taken)
+
+
 def plane_tick(dt):
     """A plane, evaluated tick by tick."""
-    before = None
+    before, dissipated = None, 0.0
 
     def tick(now):
-        nonlocal before
+        nonlocal before, dissipated
         p, n = now["position"], now["normal"]
         if not vec.finite(p, n):
             before = None
             return {"force": ZERO, "resistance": 0.0, "depth": 0.0,
-                    "stored_energy": 0.0, "state": -1}
+                    "stored_energy": 0.0, "dissipated_energy": dissipated,
+                    "state": -1}
         n = vec.unit(n)
         law = now["law"] or {"power": [now["stiffness"], 1.0]}
         depth = now["offset"] - vec.dot(n, p)
         rate = 0.0 if before is None else (depth - before) / dt
+        if before is not None:
+            dissipated += lost(now, law, before, depth, rate)
         before, push = depth, 0.0
         if depth > 0.0:
             elastic = laws.force(law, depth) * (1.0 + now["dissipation"] * rate)
             push = max(0.0, elastic + now["damping"] * rate)
         return {"force": vec.scale(push, n), "resistance": push, "depth": depth,
                 "stored_energy": laws.energy(law, depth),
+                "dissipated_energy": dissipated,
                 "state": 1 if depth > 0.0 else 0}
 
     return tick

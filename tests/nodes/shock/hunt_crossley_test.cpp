@@ -62,9 +62,10 @@ private:
 /// The effect of one hit, computed from its force alone.
 struct Impact
 {
-    double impulse = 0.0;   // N s
-    double loop = 0.0;      // J, the area of the loop of force against depth
-    double peak = 0.0;      // N
+    double impulse = 0.0;      // N s
+    double loop = 0.0;         // J, the area of the loop of force against depth
+    double peak = 0.0;         // N
+    double dissipated = 0.0;   // J, as the node counts it
     int samples = 0;
 };
 
@@ -75,7 +76,9 @@ Impact strike (HuntCrossley node, double v, double dt)
     double before = node.tick ({ .hit = v }).resistance, speed = v;
     do
     {
-        const double now = node.tick ({}).resistance, push = 0.5 * (before + now) * dt;
+        const auto out = node.tick ({});
+        const double now = out.resistance, push = 0.5 * (before + now) * dt;
+        impact.dissipated = out.dissipated_energy;
         impact.impulse += push;
         impact.loop += push * (speed - 0.5 * push / m);
         impact.peak = std::max (impact.peak, now);
@@ -131,6 +134,7 @@ TEST_CASE ("shock: restitution, impulse and loop area follow Hunt and Crossley, 
         const auto impact = strike (shock ({ .stiffness = power (k, n), .damping = damping }, rate, { .mass = m }), v, 1.0 / rate);
         RC_ASSERT (std::abs (impact.impulse / (m * v) - (1.0 + e)) <= 1e-3);
         RC_ASSERT (std::abs (impact.loop / (0.5 * m * v * v) - (1.0 - e * e)) <= 1e-3);
+        RC_ASSERT (std::abs (impact.dissipated / (0.5 * m * v * v) - (1.0 - e * e)) <= 1e-3);
     });
 }
 
@@ -140,8 +144,97 @@ TEST_CASE ("shock: without damping the mass returns at its initial speed", "[nod
     const auto impact = strike (shock ({ .stiffness = power (k, 1.5), .damping = dissipation (0.0) }, rate), v, 1.0 / rate);
     CHECK (impact.impulse == Approx (2.0 * m * v).epsilon (1e-4));
     CHECK (impact.loop == Approx (0.0).margin (1e-4 * m * v * v));
+    CHECK (impact.dissipated == 0.0);
     CHECK (impact.samples / rate == Approx (2.943275 * d_max / v).epsilon (2e-3));   // Hertz's duration of contact
     CHECK (impact.peak == Approx (k * std::pow (d_max, 1.5)).epsilon (1e-3));
+}
+
+TEST_CASE ("shock: a contact shorter than a tick still gives its impulse and takes its energy", "[nodes][shock][energy]")
+{
+    rc::prop ("any law, mass, speed and rate at which it lasts fewer than four samples", [] (unsigned seed) {
+        Dice dice { seed };
+        const double m = dice.size (0.005, 0.5), v = dice.size (0.02, 2.0), d_max = dice.size (1e-4, 5e-3), n = dice.uniform (1.0, 2.5);
+        const double k = 0.5 * (n + 1.0) * m * v * v / std::pow (d_max, n + 1.0), x = dice.size (0.01, 3.0), e = restitution (x);
+        const double rate = dice.size (1e-4, 0.8) * v / d_max;   // it lasts two to five times d_max / v
+
+        auto node = shock ({ .stiffness = power (k, n), .damping = dissipation (x / v) }, rate, { .mass = m });
+        RC_ASSERT (node.tick ({ .hit = v }).resistance == 0.0);
+        double impulse = 0.0, dissipated = 0.0;
+        int samples = 0;
+        for (int i = 0; i < 10; ++i)
+        {
+            const auto out = node.tick ({});
+            RC_ASSERT (out.resistance >= 0.0);
+            RC_ASSERT (out.dissipated_energy >= dissipated);
+            dissipated = out.dissipated_energy;
+            impulse += out.resistance / rate;
+            samples += out.resistance > 0.0;
+        }
+        RC_ASSERT (samples >= 1);
+        RC_ASSERT (samples <= 5);
+        const double tolerance = samples <= 4 ? 1e-3 : 0.05;   // from four samples on, the samples of the force itself are played
+        RC_ASSERT (std::abs (impulse / (m * v * (1.0 + e)) - 1.0) <= tolerance);
+        RC_ASSERT (std::abs (dissipated / (0.5 * m * v * v) - (1.0 - e * e)) <= tolerance);
+    });
+}
+
+TEST_CASE ("shock: the impulse is right at any rate", "[nodes][shock]")
+{
+    const double m = 0.05, v = 0.3, e = 0.832868868;   // of the default law; x = 0.3
+    for (double rate = 10.0; rate < 50'000.0; rate *= 1.07)
+    {
+        auto node = shock ({}, rate);
+        node.tick ({ .hit = v });
+        double impulse = 0.0;
+        for (int k = 0; k < int (0.02 * rate) + 4; ++k)
+            impulse += node.tick ({}).resistance / rate;
+        INFO (rate << " Hz");
+        const double samples = 0.006628937 * rate;
+        CHECK (impulse == Approx (m * v * (1.0 + e)).epsilon (samples < 4.0 ? 1e-4 : 0.02));
+    }
+}
+
+TEST_CASE ("shock: the dissipated energy adds up over hits, never falls, and ignores the gain", "[nodes][shock][energy]")
+{
+    rc::prop ("any hits", [] (unsigned seed) {
+        Dice dice { seed };
+        const HuntCrossley::Settings settings { .damping = dissipation (dice.size (1e-3, 3.0)), .voices = 16 };
+        const double rate = dice.size (200.0, 20'000.0);
+        auto node = shock (settings, rate), loud = shock (settings, rate, { .gain = -3.0 });
+        double last = 0.0, alone = 0.0;
+        for (int k = 0; k < 2000; ++k)
+        {
+            const double hit = k < 1500 && dice.below (200) == 0 ? dice.size (0.01, 2.0) : 0.0;
+            if (hit > 0.0) alone += strike (shock (settings, rate), hit, 1.0 / rate).dissipated;
+            const double now = node.tick ({ .hit = hit }).dissipated_energy;
+            RC_ASSERT (now >= last);
+            RC_ASSERT (loud.tick ({ .hit = hit }).dissipated_energy == now);
+            last = now;
+        }
+        RC_ASSERT (std::abs (last - alone) <= 1e-9 * alone);
+    });
+}
+
+TEST_CASE ("shock: a mass of 0 is that of the device, and of 50 g if the device does not tell it", "[nodes][shock]")
+{
+    const auto push = [] (double mass, double of_device) {
+        auto node = shock ({}, 4000.0, { .mass = mass });
+        node.learn ({ .mass = of_device });
+        node.tick ({ .hit = 0.5 });
+        for (int k = 0; k < 9; ++k)
+            node.tick ({});
+        return node.tick ({}).resistance;
+    };
+    CHECK (push (0.0, 0.2) == push (0.2, 0.0));
+    CHECK (push (0.0, 0.2) != push (0.0, 0.0));
+    CHECK (push (0.0, 0.0) == push (0.05, 0.0));
+    CHECK (push (0.03, 0.2) == push (0.03, 0.0));   // its own mass takes precedence
+
+    auto node = shock ({}, 4000.0, { .mass = 0.0 });
+    CHECK (node.warning ({ .rate_hz = 4000.0 })
+           == "mass is 0, so it is that of the device, which the graph does not give; until a device gives it, 0.05 kg are used");
+    node.learn ({ .mass = 0.08 });
+    CHECK (node.warning ({ .rate_hz = 4000.0 }) == "");
 }
 
 TEST_CASE ("shock: a hit starts and ends at exactly 0, and never pulls", "[nodes][shock]")

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+#include "shock_fit.hpp"
+#include "free_impact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace tactus
+{
+
+namespace
+{
+constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr std::size_t fewest = 8;   // rows
+
+Message wrong (const char* id, std::string text, std::string remedy) { return Message::error (id, {}, std::move (text), std::move (remedy)); }
+
+/// The contact around the deepest row, in the order of time.
+struct Contact
+{
+    std::vector<double> d, f, t, rate;   // m, N, s, m/s; t may be empty
+
+    std::size_t size() const noexcept { return d.size(); }
+
+    /// The integral of a force over depth, along the path.
+    template <typename Force>
+    double work (const Force& force, std::size_t end) const
+    {
+        double sum = 0.0;
+        for (std::size_t i = 1; i < end; ++i)
+            sum += 0.5 * (force (i - 1) + force (i)) * (d[i] - d[i - 1]);
+        return sum;
+    }
+
+    template <typename Force>
+    double work (const Force& force) const
+    {
+        return work (force, size());
+    }
+
+    std::size_t deepest() const { return static_cast<std::size_t> (std::ranges::max_element (d) - d.begin()); }
+};
+
+Result<> check (const RecordedLoop& loop)
+{
+    const auto n = loop.depth.size();
+    if (n < fewest || loop.force.size() != n || (! loop.time.empty() && loop.time.size() != n))
+        return wrong ("fit/too_short", "the recording has " + std::to_string (n) + " rows; " + std::to_string (fewest) + " are needed at least",
+                      "record the whole contact, from before the touch until after the tool has left");
+    for (const auto* column : { &loop.depth, &loop.force, &loop.time })
+        if (! std::ranges::all_of (*column, [] (double v) { return std::isfinite (v); }))
+            return wrong ("fit/not_finite", "the recording contains nan or inf", "leave out the rows without a measurement");
+    if (std::ranges::adjacent_find (loop.time, std::ranges::greater_equal {}) != loop.time.end())
+        return wrong ("fit/time", "the times do not rise from row to row", "sort the rows by time, or leave out the column t");
+    return {};
+}
+
+/// The point between two rows at which the depth is 0, with no force.
+void addTouch (const RecordedLoop& loop, std::size_t outside, std::size_t inside, Contact& contact)
+{
+    const double part = loop.depth[outside] / (loop.depth[outside] - loop.depth[inside]);
+    contact.d.push_back (0.0);
+    contact.f.push_back (0.0);
+    if (! loop.time.empty()) contact.t.push_back (loop.time[outside] + part * (loop.time[inside] - loop.time[outside]));
+}
+
+Result<Contact> contactOf (const RecordedLoop& loop)
+{
+    const auto& d = loop.depth;
+    const auto deepest = static_cast<std::size_t> (std::ranges::max_element (d) - d.begin());
+    if (! (d[deepest] > 0.0)) return wrong ("fit/no_contact", "the depth is never above 0", "give the depth in m, positive inside the object");
+    auto first = deepest, last = deepest;
+    while (first > 0 && d[first - 1] > 0.0)
+        --first;
+    while (last + 1 < d.size() && d[last + 1] > 0.0)
+        ++last;
+
+    const double nothing = 1e-3 * d[deepest];   // a row this close to the surface is the touch itself
+    Contact contact;
+    if (first > 0 && d[first] > nothing) addTouch (loop, first - 1, first, contact);
+    for (auto i = first; i <= last; ++i)
+    {
+        contact.d.push_back (d[i]);
+        contact.f.push_back (loop.force[i]);
+        if (! loop.time.empty()) contact.t.push_back (loop.time[i]);
+    }
+    if (last + 1 < d.size() && d[last] > nothing) addTouch (loop, last + 1, last, contact);
+    if (contact.size() < fewest || deepest == first || deepest == last)
+        return wrong ("fit/no_loop", "the contact around the deepest row has " + std::to_string (contact.size()) + " rows and is no way in and out",
+                      "record the whole contact, with at least " + std::to_string (fewest) + " rows inside the object");
+    return contact;
+}
+
+/// The speed at each row, from a parabola through the row and its neighbours.
+void setRatesByTime (Contact& c)
+{
+    const auto slope = [&] (std::size_t i) { return (c.d[i + 1] - c.d[i]) / (c.t[i + 1] - c.t[i]); };
+    const auto last = c.size() - 1;
+    c.rate.resize (c.size());
+    for (std::size_t i = 1; i < last; ++i)
+    {
+        const double before = c.t[i] - c.t[i - 1], after = c.t[i + 1] - c.t[i];
+        c.rate[i] = (slope (i - 1) * after + slope (i) * before) / (before + after);
+    }
+    c.rate[0] = 2.0 * slope (0) - c.rate[1];
+    c.rate[last] = 2.0 * slope (last - 1) - c.rate[last - 1];
+}
+
+/// The speed at each row of a free impact, from the energy that the mass has lost.
+void setRatesByEnergy (Contact& c, double mass)
+{
+    const auto deepest = c.deepest();
+    const auto recorded = [&] (std::size_t i) { return c.f[i]; };
+    const double most = c.work (recorded, deepest + 1);
+    double lost = 0.0;
+    c.rate.assign (c.size(), 0.0);
+    for (std::size_t i = 0; i < c.size(); ++i)
+    {
+        if (i > 0) lost += 0.5 * (c.f[i - 1] + c.f[i]) * (c.d[i] - c.d[i - 1]);
+        c.rate[i] = (i < deepest ? 1.0 : -1.0) * std::sqrt (std::max (0.0, 2.0 * (most - lost) / mass));
+    }
+}
+
+/// The momentum that the mass has lost, over the speed that it has lost.
+double massByTime (const Contact& c)
+{
+    double impulse = 0.0;
+    for (std::size_t i = 1; i < c.size(); ++i)
+        impulse += 0.5 * (c.f[i - 1] + c.f[i]) * (c.t[i] - c.t[i - 1]);
+    return impulse / (c.rate.front() - c.rate.back());
+}
+
+/// K = k d^n, and c d^n d' for the damping, so that c = k lambda.
+struct Candidate
+{
+    double n = 1.0, k = 0.0, c = 0.0;
+    double error = inf;   // sum of squares, N^2
+
+    double force (double d, double rate) const noexcept { return std::max (0.0, std::pow (std::max (0.0, d), n) * (k + c * rate)); }
+};
+
+/// The best k and c for this power, if the force may pull. Under the condition of the area, only k is free.
+Candidate bestOf (const Contact& x, double n, double area)
+{
+    const auto elastic = [&] (std::size_t i) { return std::pow (std::max (0.0, x.d[i]), n); };
+    const double spring = x.work (elastic), damper = x.work ([&] (std::size_t i) { return elastic (i) * x.rate[i]; });
+    double down = 0.0, across = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        const double e = elastic (i), free = e * (1.0 - x.rate[i] * spring / damper), fixed = e * x.rate[i] * area / damper;
+        down += free * free;
+        across += free * (x.f[i] - fixed);
+    }
+    Candidate best { .n = n, .k = across / down };
+    best.c = (area - best.k * spring) / damper;
+    best.error = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        const double off = x.f[i] - elastic (i) * (best.k + best.c * x.rate[i]);
+        best.error += off * off;
+    }
+    if (! (best.k > 0.0) || ! std::isfinite (best.error)) best.error = inf;
+    return best;
+}
+
+/// Tries powers in steps, then around the best one in finer steps.
+Candidate bestOf (const Contact& x, double area)
+{
+    constexpr double least = 0.5, most = 4.0;
+    Candidate best;
+    double from = least, to = most;
+    for (double step = 0.1; step > 1e-6; step *= 0.1)
+    {
+        for (double n = from; n <= to + 0.5 * step; n += step)
+            if (const auto one = bestOf (x, n, area); one.error < best.error) best = one;
+        from = std::max (least, best.n - step);
+        to = std::min (most, best.n + step);
+    }
+    return best;
+}
+
+double areaOf (const Contact& x, const Candidate& law)
+{
+    return x.work ([&] (std::size_t i) { return law.force (x.d[i], x.rate[i]); });
+}
+
+/// The force never pulls, which bestOf does not know: finds the damping that has the area after all.
+void matchArea (const Contact& x, double area, Candidate& law)
+{
+    double low = 0.0, high = std::max (law.c, 1e-12 * law.k);
+    const auto areaAt = [&] (double c) {
+        law.c = c;
+        return areaOf (x, law);
+    };
+    for (int i = 0; i < 100 && areaAt (high) < area; ++i)
+        high *= 2.0;
+    for (int i = 0; i < 200 && low < high; ++i)
+    {
+        const double middle = 0.5 * (low + high);
+        if (middle <= low || middle >= high) break;
+        (areaAt (middle) < area ? low : high) = middle;
+    }
+    law.c = high;
+}
+
+/// What a free impact of the fitted law loses.
+double playedArea (const Candidate& law, double mass, double speed, double duration)
+{
+    const auto force = [&] (double d, double v) noexcept { return law.force (d, v); };
+    for (double longest = duration; longest < 1e6 * duration; longest *= 4.0)
+        if (const auto out = freeImpact (force, mass, speed, longest); out.isKnown()) return 0.5 * mass * (speed * speed - out.speed * out.speed);
+    return 0.5 * mass * speed * speed;   // damping keeps it
+}
+}   // namespace
+
+Result<ShockFit> fitShock (const RecordedLoop& loop, double mass)
+{
+    if (auto checked = check (loop); ! checked) return checked.error();
+    auto found = contactOf (loop);
+    if (! found) return found.error();
+    auto& x = *found;
+
+    const bool has_times = ! x.t.empty();
+    if (has_times) setRatesByTime (x);
+    if (! (mass > 0.0) && has_times) mass = massByTime (x);
+    if (! (mass > 0.0) || ! std::isfinite (mass))
+        return wrong ("fit/mass", "the recording does not tell the mass that was thrown back", "give the mass, for example --mass \"50 g\"");
+    if (! has_times) setRatesByEnergy (x, mass);
+
+    const double area = x.work ([&] (std::size_t i) { return x.f[i]; });
+    if (! (area >= 0.0))
+        return wrong ("fit/gains_energy", "the recorded force is larger on the way out than on the way in, so the object would give energy",
+                      "check the order of the rows and the signs: depth and force are positive inside the object");
+    auto law = bestOf (x, area);
+    if (! std::isfinite (law.error))
+        return wrong ("fit/no_spring", "no law k d^n with a damping fits the recording", "check the columns: the force must grow with depth, in N and m");
+    matchArea (x, area, law);
+
+    ShockFit fit;
+    fit.stiffness = { .kind = Law::Kind::power, .a = law.k, .b = law.n };
+    fit.damping = { .kind = Law::Kind::dissipation, .a = law.c / law.k };
+    fit.mass = mass;
+    fit.speed = x.rate.front();
+    fit.recorded_area = area;
+    fit.fitted_area = areaOf (x, law);
+    fit.peak = *std::ranges::max_element (x.f);
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        fit.fitted.push_back (law.force (x.d[i], x.rate[i]));
+        fit.residual += (x.f[i] - fit.fitted[i]) * (x.f[i] - fit.fitted[i]);
+    }
+    fit.residual = std::sqrt (fit.residual / static_cast<double> (x.size()));
+    if (fit.speed > 0.0) fit.played_area = playedArea (law, mass, fit.speed, 4.0 * x.d[x.deepest()] / fit.speed);
+    fit.depth = std::move (x.d);
+    fit.recorded = std::move (x.f);
+    return fit;
+}
+
+}   // namespace tactus

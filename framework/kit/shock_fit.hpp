@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "law.hpp"
+
+#include <tactus/text/result.hpp>
+
+#include <vector>
+
+namespace tactus
+{
+
+/// A recorded impact or indentation: the force over the way in and out. Rows in the order of time.
+struct RecordedLoop
+{
+    std::vector<double> depth;     ///< in m, > 0 inside the object
+    std::vector<double> force;     ///< in N, > 0 out of the object
+    std::vector<double> time {};   ///< in s, rising; empty: not recorded
+};
+
+/// A spring and a damper that take as much energy on the way of a recording as the recorded object did.
+struct ShockFit
+{
+    Law stiffness;                                 ///< K = k d^n
+    Law damping;                                   ///< {"dissipation": lambda}: D = lambda K
+    double mass = 0.0;                             ///< that was thrown back, in kg: as given, or estimated from the times
+    double speed = 0.0;                            ///< on the way in, at the touch, in m/s
+    double recorded_area = 0.0;                    ///< of the recorded loop, in J
+    double fitted_area = 0.0;                      ///< of the fitted force over the recorded path, in J; equal to recorded_area
+    double played_area = 0.0;                      ///< of a free impact of the mass at this speed, m v^2 (1 - e^2) / 2, in J
+    double residual = 0.0;                         ///< root mean square of recorded minus fitted force, in N
+    double peak = 0.0;                             ///< largest recorded force, in N
+    std::vector<double> depth, recorded, fitted;   ///< the rows that were used, in m and N
+};
+
+/// Fits N = max (0, K + D d'), K = k d^n, D = lambda K, to the contact around the deepest row: by least squares among all laws whose
+/// loop has the recorded area. n is from 0.5 to 4.
+///
+/// d' comes from the times if there are any; the area is matched on any path then. Without times, the recording must be of a free
+/// impact: d' follows from the energy that the mass has lost on the way, v^2 = 2 (W_deepest - W) / m. `mass` is in kg; 0: from
+/// the times, as impulse over change of speed, which also needs a free impact.
+///
+/// Errors: fit/too_short, fit/not_finite, fit/time, fit/no_contact, fit/no_loop, fit/gains_energy, fit/mass, fit/no_spring.
+/// [any thread]
+///
+/// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 6: the area of the loop of force against deflection matters
+/// more than its shape. The law is eq. (10) with Hunt & Crossley's D = lambda K.
+Result<ShockFit> fitShock (const RecordedLoop&, double mass = 0.0);
+
+}   // namespace tactus

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include <tactus/kit/free_impact.hpp>
+#include <tactus/kit/shock_fit.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+
+using tactus::fitShock;
+using tactus::Passage;
+using tactus::RecordedLoop;
+
+namespace
+{
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// A law k d^n (1 + lambda d') and an impact on it.
+struct Blow
+{
+    double k = 5e5, n = 1.5, lambda = 0.5, m = 0.03, v = 0.8;
+
+    double force (double d, double rate) const { return d > 0.0 ? std::max (0.0, k * std::pow (d, n) * (1.0 + lambda * rate)) : 0.0; }
+};
+
+Blow randomBlow (std::mt19937& random)
+{
+    const auto size = [&] (double from, double to) { return std::exp (std::uniform_real_distribution { std::log (from), std::log (to) }(random)); };
+    Blow blow { .n = size (1.0, 2.5), .m = size (0.005, 0.5), .v = size (0.1, 2.0) };
+    const double deepest = size (1e-4, 5e-3);
+    blow.k = 0.5 * (blow.n + 1.0) * blow.m * blow.v * blow.v / std::pow (deepest, blow.n + 1.0);
+    blow.lambda = size (0.02, 2.0) / blow.v;
+    return blow;
+}
+
+/// A recording of a free impact, with rows before the touch and after it.
+RecordedLoop record (const Blow& blow, int rows = 400)
+{
+    const auto force = [&] (double d, double v) noexcept { return blow.force (d, v); };
+    const auto out = tactus::freeImpact (force, blow.m, blow.v, 1e3);
+    REQUIRE (out.isKnown());
+    const double step = out.duration / rows;
+    RecordedLoop loop;
+    const auto add = [&] (double t, double d, double v) {
+        loop.time.push_back (t);
+        loop.depth.push_back (d);
+        loop.force.push_back (force (d, v));
+    };
+    for (int i = -3; i <= 0; ++i)
+        add ((i - 0.5) * step, (i - 0.5) * step * blow.v, blow.v);
+    int row = 0;
+    tactus::freeImpact (force, blow.m, blow.v, 2.0 * out.duration, step, [&] (const Passage& x) noexcept { add (++row * step, x.d, x.v); });
+    for (int i = row + 1; i < row + 4; ++i)
+        add (i * step, (out.duration - i * step) * out.speed, -out.speed);
+    return loop;
+}
+
+double areaOf (const std::vector<double>& depth, const std::vector<double>& force)
+{
+    double sum = 0.0;
+    for (std::size_t i = 1; i < depth.size(); ++i)
+        sum += 0.5 * (force[i - 1] + force[i]) * (depth[i] - depth[i - 1]);
+    return sum;
+}
+
+std::string problem (const RecordedLoop& loop, double mass = 0.05)
+{
+    const auto fit = fitShock (loop, mass);
+    return fit ? "" : fit.error().id;
+}
+}   // namespace
+
+TEST_CASE ("fit of a shock: it finds the law of an impact, its mass and its speed", "[kit][shock]")
+{
+    rc::prop ("any impact", [] (unsigned seed) {
+        std::mt19937 random { seed };
+        const auto blow = randomBlow (random);
+        const auto fit = fitShock (record (blow));
+        RC_ASSERT (fit.has_value());
+        RC_ASSERT (std::abs (fit->stiffness.b - blow.n) <= 0.02);
+        RC_ASSERT (std::abs (fit->damping.a / blow.lambda - 1.0) <= 0.02);
+        RC_ASSERT (std::abs (fit->mass / blow.m - 1.0) <= 0.01);
+        RC_ASSERT (std::abs (fit->speed / blow.v - 1.0) <= 0.01);
+        RC_ASSERT (fit->residual <= 0.01 * fit->peak);
+        RC_ASSERT (std::abs (fit->fitted_area / fit->recorded_area - 1.0) <= 1e-9);
+        RC_ASSERT (std::abs (fit->played_area / fit->recorded_area - 1.0) <= 0.02);
+    });
+}
+
+TEST_CASE ("fit of a shock: without times it needs only the mass", "[kit][shock]")
+{
+    rc::prop ("any impact", [] (unsigned seed) {
+        std::mt19937 random { seed };
+        const auto blow = randomBlow (random);
+        auto loop = record (blow);
+        loop.time.clear();
+        const auto fit = fitShock (loop, blow.m);
+        RC_ASSERT (fit.has_value());
+        RC_ASSERT (std::abs (fit->stiffness.b - blow.n) <= 0.02);
+        RC_ASSERT (std::abs (fit->damping.a / blow.lambda - 1.0) <= 0.03);
+        RC_ASSERT (std::abs (fit->speed / blow.v - 1.0) <= 0.01);
+        RC_ASSERT (std::abs (fit->fitted_area / fit->recorded_area - 1.0) <= 1e-9);
+        RC_ASSERT (std::abs (fit->played_area / fit->recorded_area - 1.0) <= 0.02);
+    });
+}
+
+TEST_CASE ("fit of a shock: the areas match, whatever law, noise and path the recording has", "[kit][shock][energy]")
+{
+    rc::prop ("a driven indentation of a loop that no k d^n describes", [] (unsigned seed) {
+        std::mt19937 random { seed };
+        std::normal_distribution<double> noise;
+        const double deepest = std::uniform_real_distribution { 1e-4, 5e-3 }(random), loss = std::uniform_real_distribution { 0.05, 0.8 }(random);
+        RecordedLoop loop;
+        for (int i = 0; i <= 200; ++i)
+        {
+            const double x = i / 200.0, way = std::sin (M_PI * x), d = deepest * way * (x > 0.5 ? 1.0 : way);
+            loop.time.push_back (0.3 * x);
+            loop.depth.push_back (d);
+            loop.force.push_back (std::tanh (2.0 * d / deepest) * (x > 0.5 ? 1.0 - loss : 1.0) + 0.01 * noise (random));
+        }
+        const auto fit = fitShock (loop, 0.05);
+        RC_ASSERT (fit.has_value());
+        RC_ASSERT (fit->fitted_area > 0.0);
+        RC_ASSERT (std::abs (areaOf (fit->depth, fit->fitted) / areaOf (fit->depth, fit->recorded) - 1.0) <= 1e-9);
+        RC_ASSERT (fit->residual <= 0.5 * fit->peak);
+    });
+}
+
+TEST_CASE ("fit of a shock: a loop without area has no damping", "[kit][shock]")
+{
+    const auto fit = fitShock (record ({ .lambda = 0.0 }));
+    REQUIRE (fit);
+    CHECK (fit->damping.a == Approx (0.0).margin (1e-3));
+    CHECK (fit->stiffness.a == Approx (5e5).epsilon (0.02));
+}
+
+TEST_CASE ("fit of a shock: a recording that is none is refused, with the reason", "[kit][shock]")
+{
+    const auto good = record ({});
+    CHECK (problem (good) == "");
+
+    CHECK (problem ({}) == "fit/too_short");
+    CHECK (problem ({ .depth = good.depth, .force = { 1.0 } }) == "fit/too_short");
+
+    auto bad = good;
+    bad.force[50] = not_a_number;
+    CHECK (problem (bad) == "fit/not_finite");
+
+    bad = good;
+    std::swap (bad.time[10], bad.time[11]);
+    CHECK (problem (bad) == "fit/time");
+
+    bad = good;
+    for (double& d : bad.depth)
+        d = -std::abs (d);
+    CHECK (problem (bad) == "fit/no_contact");
+
+    bad = good;   // only the way in
+    const auto deepest = std::ranges::max_element (bad.depth) - bad.depth.begin();
+    for (auto* column : { &bad.depth, &bad.force, &bad.time })
+        column->resize (std::size_t (deepest) + 1);
+    CHECK (problem (bad) == "fit/no_loop");
+
+    bad = good;
+    std::ranges::reverse (bad.force);   // the object pushes harder on the way out
+    CHECK (problem (bad) == "fit/gains_energy");
+
+    bad = good;
+    bad.time.clear();
+    CHECK (problem (bad, 0.0) == "fit/mass");
+
+    bad = good;
+    for (std::size_t i = 0; i < bad.depth.size(); ++i)
+        bad.force[i] = bad.depth[i] > 0.0 && int (i) < deepest ? -1.0 : -2.0;
+    CHECK (problem (bad) == "fit/no_spring");
+}
