@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/patch_search.hpp>
-#include <framework/kit/surface_check.hpp>
-#include <framework/kit/surface_contact.hpp>
-#include <framework/node/node.hpp>
+#include <tactus/kit/patch_search.hpp>
+#include <tactus/kit/surface_check.hpp>
+#include <tactus/kit/surface_contact.hpp>
+#include <tactus/node/node.hpp>
 
 #include <algorithm>
 #include <cmath>

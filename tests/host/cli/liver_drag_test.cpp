@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program.hpp"
 
-#include <framework/file/csv.hpp>
+#include <tactus/file/csv.hpp>
 
 #include <catch2/catch.hpp>
 
