@@ -25,9 +25,11 @@ std::vector<std::array<bool, 3>> rimOf (const Mesh& mesh)
         rim.push_back ({ sides[edge (corners, 0)] == 1, sides[edge (corners, 1)] == 1, sides[edge (corners, 2)] == 1 });
     return rim;
 }
+
+bool hasRim (const std::array<bool, 3>& edges) noexcept { return edges[0] || edges[1] || edges[2]; }
 }   // namespace
 
-MeshWalk::MeshWalk (Mesh m) : body (std::move (m)), rim (rimOf (body)), first (body.points.size() + 1, 0), around (3 * body.triangles.size())
+MeshWalk::MeshWalk (Mesh m) : body (std::move (m)), rim (rimOf (body)), first (body.points.size() + 1, 0), sharing (3 * body.triangles.size())
 {
     double size = 0.0;
     for (const auto& point : body.points)
@@ -51,7 +53,9 @@ MeshWalk::MeshWalk (Mesh m) : body (std::move (m)), rim (rimOf (body)), first (b
     auto next = first;
     for (int t = 0; t < body.size(); ++t)
         for (const int c : body.triangles[at (t)])
-            around[at (next[at (c)]++)] = t;
+            sharing[at (next[at (c)]++)] = t;
+
+    is_open = std::ranges::any_of (rim, hasRim);
 }
 
 /// Everything within a distance of p.
@@ -109,7 +113,7 @@ Spot MeshWalk::nearestOfAll (const Vec3& p, int guess) const noexcept
     return best.triangle < 0 ? spotOn (0, p) : best;
 }
 
-Spot MeshWalk::nearest (int from, const Vec3& p) const noexcept
+Spot MeshWalk::nearestAmong (int from, const Vec3& p, const Vec3* way) const noexcept
 {
     constexpr int most = 1000;         // most steps of a walk: more than a hand needs in a tick on any mesh
     constexpr double nearer = 1e-12;   // relative margin: at a common edge, two triangles are equally near except for rounding
@@ -126,8 +130,9 @@ Spot MeshWalk::nearest (int from, const Vec3& p) const noexcept
             const auto corner = at (body.triangles[at (here.triangle)][c]);
             for (int i = first[corner]; i < first[corner + 1]; ++i)
             {
-                const int neighbour = around[at (i)];
+                const int neighbour = sharing[at (i)];
                 if (neighbour == here.triangle || reach.misses (boxes[at (neighbour)])) continue;
+                if (way && ! (areaNormal (cornersOf (body, neighbour)).dot (*way) < 0.0)) continue;
                 const Spot there = spotOn (neighbour, p);
                 if (const double distance2 = (there.on.point - p).squaredNorm(); distance2 < least)
                 {
@@ -141,6 +146,39 @@ Spot MeshWalk::nearest (int from, const Vec3& p) const noexcept
         here = best;
     }
     return here;
+}
+
+int MeshWalk::entered (const Vec3& from, const Vec3& to) const noexcept
+{
+    constexpr double slack = 1e-9;   // relative; far more than the rounding error of a weight
+    const Vec3 way = to - from;
+    const Box whole { from.cwiseMin (to), from.cwiseMax (to) };
+    const auto misses = [&] (const Box& box) { return (box.low.array() > whole.high.array() || box.high.array() < whole.low.array()).any(); };
+
+    int found = -1;
+    double soonest = 1.0 + slack;
+    for (int t = 0; t < body.size(); ++t)
+    {
+        if (t % block == 0 && misses (blocks[at (t / block)]))
+        {
+            t += block - 1;
+            continue;
+        }
+        if (misses (boxes[at (t)])) continue;
+        const auto corners = cornersOf (body, t);
+        const Vec3 normal = areaNormal (corners);
+        const double fall = -normal.dot (way);
+        if (! (fall > 0.0)) continue;
+        const double share = normal.dot (from - corners[0]) / fall;
+        if (! (share >= -slack && share < soonest)) continue;
+        const Vec3 there = from + share * way - corners[0];
+        const auto gradients = gradientsOf (corners);
+        const double second = gradients[1].dot (there), third = gradients[2].dot (there);
+        if (second < -slack || third < -slack || second + third > 1.0 + slack) continue;
+        soonest = share;
+        found = t;
+    }
+    return found;
 }
 
 bool MeshWalk::isBeyondRim (const Spot& spot, const Vec3& p) const noexcept
@@ -167,15 +205,14 @@ bool MeshWalk::isBeyondRim (const Spot& spot, const Vec3& p) const noexcept
         if (weights[i] == 1.0)
         {
             const auto corner = at (body.triangles[at (spot.triangle)][i]);
-            return std::any_of (around.begin() + first[corner], around.begin() + first[corner + 1], passes);
+            return std::any_of (sharing.begin() + first[corner], sharing.begin() + first[corner + 1], passes);
         }
     return std::ranges::count (weights, 0.0) > 0 && passes (spot.triangle);
 }
 
 bool isInsideOut (const Mesh& mesh)
 {
-    const auto isOpen = [] (const std::array<bool, 3>& edges) { return edges[0] || edges[1] || edges[2]; };
-    if (std::ranges::any_of (rimOf (mesh), isOpen)) return false;
+    if (std::ranges::any_of (rimOf (mesh), hasRim)) return false;
     double volume = 0.0;
     for (int t = 0; t < mesh.size(); ++t)
         volume += mesh.corner (t, 0).dot (mesh.corner (t, 1).cross (mesh.corner (t, 2)));

@@ -44,7 +44,22 @@ public:
 
     /// Walks from a triangle towards p while each step comes nearer, and returns the spot where the walk ends. If that is on an
     /// edge, the spot belongs to the triangle that the walk came from. [any thread]
-    Spot nearest (int from, const Vec3& p) const noexcept;
+    Spot nearest (int from, const Vec3& p) const noexcept { return nearestAmong (from, p, nullptr); }
+
+    /// The same, but the walk stays on triangles that are entered from outside by a way in this direction. [any thread]
+    Spot nearestFacing (int from, const Vec3& p, const Vec3& way) const noexcept { return nearestAmong (from, p, &way); }
+
+    /// The first triangle that the straight way between two points crosses from outside to inside; negative if there is none. A
+    /// way that crosses an edge is never missed because of rounding. [any thread]
+    int entered (const Vec3& from, const Vec3& to) const noexcept;
+
+    /// The triangles that have a corner in common with a spot: those of a corner, if the spot is on one; otherwise those of the ends
+    /// of its edge. Calls visit (triangle), also for the triangle of the spot. [any thread]
+    template <typename Visit>
+    void around (const Spot&, Visit visit) const;
+
+    /// True if the mesh has a rim: an edge that belongs to one triangle only.
+    bool isOpen() const noexcept { return is_open; }
 
     /// True if the spot lies on the rim of an open mesh and p is beyond it: p is farther out past the rim than it is above or
     /// below the mesh. [any thread]
@@ -62,14 +77,29 @@ private:
 
     class Reach;
 
+    Spot nearestAmong (int from, const Vec3& p, const Vec3* way) const noexcept;
+
     Mesh body;
     static constexpr int block = 8;   // in triangles; triangles that follow each other in a list are mostly neighbours on the mesh
 
     std::vector<Box> boxes;
     std::vector<Box> blocks;                // each encloses `block` successive triangles
     std::vector<std::array<bool, 3>> rim;   // by triangle, then corner: true if the edge opposite that corner belongs to no other triangle
-    std::vector<int> first, around;         // the triangles that share point i: from around[first[i]] to just before around[first[i + 1]]
+    std::vector<int> first, sharing;        // the triangles that share point i: from sharing[first[i]] to just before sharing[first[i + 1]]
+    bool is_open = false;
 };
+
+template <typename Visit>
+void MeshWalk::around (const Spot& spot, Visit visit) const
+{
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+        if (spot.on.weights[c] <= 0.0) continue;
+        const auto corner = at (body.triangles[at (spot.triangle)][c]);
+        for (int i = first[corner]; i < first[corner + 1]; ++i)
+            visit (sharing[at (i)]);
+    }
+}
 
 /// True for a closed mesh whose triangles run clockwise as seen from outside. An open mesh has no inside.
 bool isInsideOut (const Mesh&);

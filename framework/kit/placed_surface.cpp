@@ -37,6 +37,17 @@ PlacedSurface::PlacedSurface (std::shared_ptr<const Surface> s, double scale, co
 
     for (const auto& f : frames)
         squared.push_back (detail::orthonormal (f));
+    for (int t = 0; t < mesh_walk.mesh().size(); ++t)
+    {
+        const auto corners = cornersOf (mesh_walk.mesh(), t);
+        auto& foot = feet.emplace_back();
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+            const Vec3 edge = corners[(i + 2) % 3] - corners[(i + 1) % 3], centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
+            foot[i] = std::clamp (edge.dot (centroid - corners[(i + 1) % 3]) / edge.squaredNorm(), 0.0, 1.0);
+        }
+    }
+    if (frames.size() != mesh_walk.mesh().points.size()) return;
     for (const auto& [a, b, c] : mesh_walk.mesh().triangles)
         even.push_back (frames[at (a)] == frames[at (b)] && frames[at (a)] == frames[at (c)]);
 }

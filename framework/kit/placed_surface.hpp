@@ -3,6 +3,7 @@
 
 #include "mesh_walk.hpp"
 #include "rotation.hpp"
+#include "smooth_weights.hpp"
 #include "surface.hpp"
 
 #include <algorithm>
@@ -20,11 +21,17 @@ class PlacedSurface
 public:
     PlacedSurface (std::shared_ptr<const Surface>, double scale, const Vec3& origin, const Vec3& rotation);   // [main thread]
 
-    /// Two neighbouring tool shapes, and the share of the second one.
+    /// What a tool is made of: shapes, and the share of each. The sum of the shares is 1.
+    struct Share
+    {
+        int shape = 0;
+        double amount = 0.0;
+    };
     struct Tool
     {
-        int lower = 0, upper = 0;
-        double amount = 0.0;
+        std::vector<Share> shares;   ///< the first `count` are used
+        int count = 0;
+        bool smooth = false;   ///< the response is interpolated with smooth weights instead of barycentric ones
     };
 
     /// The response of the curves to a tool at p whose contact point is at a spot.
@@ -39,22 +46,30 @@ public:
 
     const MeshWalk& walk() const noexcept { return mesh_walk; }
 
-    /// The tool shapes around a number from 0 to the number of shapes - 1. [any thread]
-    Tool toolAt (double wanted) const noexcept;
+    Tool noTool() const { return { .shares = std::vector<Share> (surface->curves.size()) }; }   ///< with room for every shape
 
-    Felt feel (const Spot&, const Vec3& p, const Tool&) const noexcept;    // [any thread]
-    double ratio (const Spot&, double depth) const noexcept;               ///< mu_c: largest sideways deflection of the contact, over its depth
-    Vec3 slope (const Spot&, const Felt&, const Vec3& p) const noexcept;   ///< dU/dc of a contact point that follows the tool, N
+    /// Makes a tool what it is at a spot, given its number, from 0 to the number of tools - 1. A fraction blends two tools. `tool` must
+    /// come from noTool(). [any thread]
+    void choose (double number, const Spot&, Tool& tool) const noexcept;
+
+    Felt feel (const Spot&, const Vec3& p, const Tool&) const noexcept;                 // [any thread]
+    double ratio (const Spot&, double depth, const Tool&) const noexcept;               ///< mu_c: largest sideways deflection of the contact, over its depth
+    Vec3 slope (const Spot&, const Felt&, const Vec3& p, const Tool&) const noexcept;   ///< dU/dc of a contact point that follows the tool, N
 
 private:
-    Mat3 frameAt (const Spot&) const noexcept;
-    void add (Felt&, const Spot&, int tool, double amount) const noexcept;
+    using Weights = std::array<double, 3>;
+
+    Mat3 frameAt (const Spot&, const Weights&, const Tool&) const noexcept;
+    std::array<Vec3, 3> gradientsAt (const Spot&, const Tool&) const noexcept;
+    double shareOf (int shape, int tool, const Spot&) const noexcept;
+    void add (Felt&, const Spot&, const Weights&, int shape, double amount) const noexcept;
     const std::array<int, 3>& cornersAt (const Spot& spot) const noexcept { return mesh_walk.mesh().triangles[at (spot.triangle)]; }
 
     std::shared_ptr<const Surface> surface;
     MeshWalk mesh_walk;
-    std::vector<Mat3> frames, squared;   // by node: the frames as given, and the same frames made orthonormal
-    std::vector<bool> even;              // by triangle: true if its corners have the same frame
+    std::vector<Mat3> frames, squared;   // by node, or by shape and node: the frames as given, and the same frames made orthonormal
+    std::vector<Weights> feet;           // by triangle, then corner: where the foot of the centroid is on the opposite edge
+    std::vector<bool> even;              // by triangle: true if its corners have the same frame; empty if the shapes have frames of their own
 };
 
 //==============================================================================
@@ -74,47 +89,79 @@ inline Mat3 orthonormal (const Mat3& frame) noexcept
 }
 }   // namespace detail
 
-inline PlacedSurface::Tool PlacedSurface::toolAt (double wanted) const noexcept
+/// Eq. (8).
+inline void PlacedSurface::choose (double number, const Spot& spot, Tool& tool) const noexcept
 {
-    const int most = static_cast<int> (surface->curves.size()) - 1;
-    const double t = std::clamp (wanted, 0.0, static_cast<double> (most));
-    const int lower = static_cast<int> (t);
-    return { lower, std::min (lower + 1, most), t - lower };
+    const int shapes = static_cast<int> (surface->curves.size());
+    const int most = (surface->weights.empty() ? shapes : static_cast<int> (surface->weights.size())) - 1;
+    const double t = std::clamp (number, 0.0, static_cast<double> (most));
+    const int lower = static_cast<int> (t), upper = std::min (lower + 1, most);
+    const double second = t - lower;
+
+    tool.count = 0;
+    for (int shape = 0; shape < shapes; ++shape)
+    {
+        const double amount = (1.0 - second) * shareOf (shape, lower, spot) + (second > 0.0 ? second * shareOf (shape, upper, spot) : 0.0);
+        if (amount > 0.0) tool.shares[at (tool.count++)] = { shape, amount };
+    }
+}
+
+/// The share of a shape in a tool. Where the shares differ from node to node, they are interpolated.
+inline double PlacedSurface::shareOf (int shape, int tool, const Spot& spot) const noexcept
+{
+    if (surface->weights.empty()) return shape == tool ? 1.0 : 0.0;
+    const auto& nodes = surface->weights[at (tool)];
+    if (nodes.size() == 1) return nodes[0][at (shape)];
+    const auto& corners = cornersAt (spot);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 3; ++i)
+        sum += spot.on.weights[i] * nodes[at (corners[i])][at (shape)];
+    return sum;
 }
 
 inline PlacedSurface::Felt PlacedSurface::feel (const Spot& spot, const Vec3& p, const Tool& tool) const noexcept
 {
     Felt felt;
-    felt.frame = frameAt (spot);
+    const Weights n = tool.smooth ? smoothWeights (spot.on.weights, feet[at (spot.triangle)]) : spot.on.weights;
+    felt.frame = frameAt (spot, n, tool);
     felt.d = felt.frame * (p - spot.on.point);
-    add (felt, spot, tool.lower, 1.0 - tool.amount);
-    if (tool.amount > 0.0) add (felt, spot, tool.upper, tool.amount);
+    for (int i = 0; i < tool.count; ++i)
+        add (felt, spot, n, tool.shares[at (i)].shape, tool.shares[at (i)].amount);
     for (std::size_t i = 0; i < 3; ++i)
-        felt.energy += spot.on.weights[i] * felt.energies[i];
+        felt.energy += n[i] * felt.energies[i];
     return felt;
 }
 
-/// Eq. (5). On a triangle whose corners have the same frame, such as a flat patch, nothing is interpolated.
-inline Mat3 PlacedSurface::frameAt (const Spot& spot) const noexcept
+/// Eq. (5). On a triangle whose corners have the same frame, such as a flat patch, nothing is interpolated. If the shapes have
+/// frames of their own, these are interpolated by their shares too.
+inline Mat3 PlacedSurface::frameAt (const Spot& spot, const Weights& n, const Tool& tool) const noexcept
 {
     const auto& corners = cornersAt (spot);
-    if (even[at (spot.triangle)]) return squared[at (corners[0])];
+    if (! even.empty() && even[at (spot.triangle)]) return squared[at (corners[0])];
+
+    const auto interpolated = [&] (std::size_t first) {
+        Mat3 sum = Mat3::Zero();
+        for (std::size_t i = 0; i < 3; ++i)
+            sum += n[i] * frames[first + at (corners[i])];
+        return sum;
+    };
+    if (! even.empty()) return detail::orthonormal (interpolated (0));
 
     Mat3 sum = Mat3::Zero();
-    for (std::size_t i = 0; i < 3; ++i)
-        sum += spot.on.weights[i] * frames[at (corners[i])];
+    for (int i = 0; i < tool.count; ++i)
+        sum += tool.shares[at (i)].amount * interpolated (at (tool.shares[at (i)].shape) * mesh_walk.mesh().points.size());
     return detail::orthonormal (sum);
 }
 
-/// Eq. (6): the share of one tool shape in the forces and energies.
-inline void PlacedSurface::add (Felt& felt, const Spot& spot, int tool, double amount) const noexcept
+/// Eq. (6) and (9): the share of one shape in the forces and energies.
+inline void PlacedSurface::add (Felt& felt, const Spot& spot, const Weights& n, int shape, double amount) const noexcept
 {
-    const auto& curves = surface->curves[at (tool)];
+    const auto& curves = surface->curves[at (shape)];
     const auto& corners = cornersAt (spot);
     const bool alike = curves.size() == 1;
     for (std::size_t i = 0; i < 3; ++i)
     {
-        const double share = alike ? amount : amount * spot.on.weights[i];
+        const double share = alike ? amount : amount * n[i];
         const Surface::Curves& of = curves[alike ? 0 : at (corners[i])];
         double energy = 0.0;
         for (int axis = 0; axis < 3; ++axis)
@@ -134,24 +181,56 @@ inline void PlacedSurface::add (Felt& felt, const Spot& spot, int tool, double a
     }
 }
 
-inline double PlacedSurface::ratio (const Spot& spot, double depth) const noexcept
+inline double PlacedSurface::ratio (const Spot& spot, double depth, const Tool& tool) const noexcept
 {
     const auto& mu = surface->mu;
     if (mu.empty()) return 0.0;
     if (mu.size() == 1) return mu[0](depth);
     const auto& corners = cornersAt (spot);
+    const auto interpolated = [&] (std::size_t first) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < 3; ++i)
+            sum += spot.on.weights[i] * mu[first + at (corners[i])](depth);
+        return sum;
+    };
+    const auto nodes = mesh_walk.mesh().points.size();
+    if (mu.size() == nodes) return interpolated (0);
+
     double sum = 0.0;
-    for (std::size_t i = 0; i < 3; ++i)
-        sum += spot.on.weights[i] * mu[at (corners[i])](depth);
+    for (int i = 0; i < tool.count; ++i)
+        sum += tool.shares[at (i)].amount * interpolated (at (tool.shares[at (i)].shape) * nodes);
+    return sum;
+}
+
+/// The gradients of the weights of the corners.
+inline std::array<Vec3, 3> PlacedSurface::gradientsAt (const Spot& spot, const Tool& tool) const noexcept
+{
+    const auto corners = cornersOf (mesh_walk.mesh(), spot.triangle);
+    const auto barycentric = gradientsOf (corners);
+    if (! tool.smooth) return barycentric;
+
+    constexpr double h = 1e-5;   // half of the difference that replaces the derivative, in units of the edge
+    std::array<Vec3, 3> sum { Vec3::Zero(), Vec3::Zero(), Vec3::Zero() };
+    for (std::size_t k = 1; k < 3; ++k)   // along barycentric coordinate k, while coordinate 0 makes up for it
+    {
+        Weights more = spot.on.weights, less = more;
+        more[k] += h;
+        more[0] -= h;
+        less[k] -= h;
+        less[0] += h;
+        const auto after = smoothWeights (more, feet[at (spot.triangle)]), before = smoothWeights (less, feet[at (spot.triangle)]);
+        for (std::size_t i = 0; i < 3; ++i)
+            sum[i] += (after[i] - before[i]) / (2.0 * h) * barycentric[k];
+    }
     return sum;
 }
 
 /// The slope over the triangle; or, where a crease or the rim holds the contact point, along that edge.
-inline Vec3 PlacedSurface::slope (const Spot& spot, const Felt& felt, const Vec3& p) const noexcept
+inline Vec3 PlacedSurface::slope (const Spot& spot, const Felt& felt, const Vec3& p, const Tool& tool) const noexcept
 {
     const auto& [triangle, on] = spot;
     const auto corners = cornersOf (mesh_walk.mesh(), triangle);
-    const auto gradients = gradientsOf (corners);
+    const auto gradients = gradientsAt (spot, tool);
     Vec3 sum = Vec3::Zero();
     for (std::size_t i = 0; i < 3; ++i)
         sum += felt.energies[i] * gradients[i];

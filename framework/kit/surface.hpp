@@ -2,6 +2,7 @@
 #pragma once
 
 #include "assets.hpp"
+#include "curve.hpp"
 #include "law.hpp"
 
 #include <Eigen/Core>
@@ -9,25 +10,42 @@
 namespace tactus
 {
 
-/// A deflection ratio: a number, or a law of depth.
+/// A deflection ratio: a number, a law of depth, or a curve of depth whose ends are held.
 struct Ratio
 {
     double number = 0.0;
     Law law {};
+    Curve curve {};
 
-    double operator() (double depth) const noexcept { return law ? law (depth) : number; }
+    bool isNone() const noexcept { return ! law && curve.empty() && number == 0.0; }
+
+    double operator() (double depth) const noexcept
+    {
+        if (law) return law (depth);
+        return curve.empty() ? number : curve (depth);
+    }
 };
 
 /// A body that can be touched: a mesh with a frame and curves of force against deflection at each of its nodes. Section 4 of
-/// the chapter interpolates between the nodes. In files it is the value of a setting of kind `surface`; see docs/graph_file.md.
+/// the chapter interpolates between the nodes. The curves are given for one or more shapes of tools. In files it is the value of
+/// a setting of kind `surface`; see docs/graph_file.md.
 struct Surface
 {
     using Curves = std::array<Law, 3>;   ///< force against deflection along u^x, u^y and u^z
 
     std::shared_ptr<const Mesh> mesh;
-    std::vector<Eigen::Matrix3d> frames;       ///< one per node, rows u^x, u^y, u^z, with u^z inward; empty: derived from the mesh
-    std::vector<std::vector<Curves>> curves;   ///< by tool: one per node, or one for all nodes
-    std::vector<Ratio> mu;                     ///< largest sideways deflection of the contact, over its depth: one per node, or one for all nodes
+    /// Rows u^x, u^y, u^z, with u^z inward: one per node; or one per shape and node, those of the first shape first. Empty: derived
+    /// from the mesh.
+    std::vector<Eigen::Matrix3d> frames;
+    std::vector<std::vector<Curves>> curves;   ///< by shape: one per node, or one for all nodes
+
+    /// Largest sideways deflection of the contact, over its depth: one for all nodes; one per node; or one per shape and node, those
+    /// of the first shape first.
+    std::vector<Ratio> mu;
+
+    /// By tool, and then by node or once for all nodes: the share of each shape in the response, at least 0, with sum 1. Empty: tool
+    /// number t is shape t.
+    std::vector<std::vector<std::vector<double>>> weights {};
 };
 
 }   // namespace tactus

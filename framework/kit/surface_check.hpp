@@ -3,7 +3,6 @@
 
 #include "surface.hpp"
 
-#include <limits>
 #include <string>
 
 namespace tactus
@@ -13,17 +12,10 @@ namespace tactus
 std::string problemOf (const Surface&);
 
 // Warnings about a usable surface. Each is a sentence, or empty.
-std::string wrongSide (const Surface&);                ///< the surface faces inwards, and therefore attracts
-std::string leaning (const Surface&);                  ///< frames are tilted against their triangles, so without friction there is no potential
-std::string slipGain (const Surface&, double scale);   ///< a slip generates energy at a depth a hand can reach
+std::string wrongSide (const Surface&);   ///< the surface faces inwards, and therefore attracts
+std::string leaning (const Surface&);     ///< a flat patch has leaning frames, so without friction there is no potential
 
-/// The smallest depth at which a slip anywhere generates energy, f_t (mu_c d^z) < |dU/dc|, and the triangle where it does. The
-/// search uses a grid of depths.
-struct SlipGain
-{
-    int triangle = -1;
-    double depth = std::numeric_limits<double>::infinity();   ///< in m
-};
-SlipGain shallowestGain (const Surface&, double scale);
+bool isFlat (const Surface&);             ///< all triangles are in one plane
+bool isPatchThatLeans (const Surface&);   ///< flat, but at least one of the given frames is not level with the plane
 
 }   // namespace tactus

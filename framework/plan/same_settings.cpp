@@ -54,14 +54,14 @@ struct Same
 
     bool operator() (const Ratio& a, const Ratio& b) const
     {
-        const auto& [number, law] = a;
-        return number == b.number && law == b.law;
+        const auto& [number, law, curve] = a;
+        return number == b.number && law == b.law && curve == b.curve;
     }
 
     bool operator() (const Surface& a, const Surface& b) const
     {
-        const auto& [mesh, frames, curves, mu] = a;
-        return (*this) (mesh, b.mesh) && frames == b.frames && curves == b.curves && (*this) (mu, b.mu);
+        const auto& [mesh, frames, curves, mu, weights] = a;
+        return (*this) (mesh, b.mesh) && frames == b.frames && curves == b.curves && (*this) (mu, b.mu) && weights == b.weights;
     }
 
     bool operator() (const SettingValue& a, const SettingValue& b) const

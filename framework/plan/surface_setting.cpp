@@ -51,10 +51,21 @@ std::shared_ptr<const Mesh> meshFrom (const Json& json, const Files& files, cons
     return std::make_shared<const Mesh> (std::move (mesh));
 }
 
-std::vector<Eigen::Matrix3d> framesFrom (const Json& json, std::size_t nodes, const std::string& key)
+/// True if a value is a list at this depth, where it would hold something else if it were the same for all shapes.
+bool isByShape (const Json& json, int depth)
+{
+    const Json* inner = &json;
+    for (int i = 0; i < depth; ++i)
+    {
+        if (! inner->is_array() || inner->empty()) return false;
+        inner = &inner->front();
+    }
+    return inner->is_array();
+}
+
+void addFrames (std::vector<Eigen::Matrix3d>& frames, const Json& json, std::size_t nodes, const std::string& key)
 {
     listFrom (json, nodes, "one frame for each of the " + std::to_string (nodes) + " nodes", key);
-    std::vector<Eigen::Matrix3d> frames;
     for (std::size_t i = 0; i < nodes; ++i)
     {
         const auto here = under (key, i);
@@ -63,6 +74,19 @@ std::vector<Eigen::Matrix3d> framesFrom (const Json& json, std::size_t nodes, co
         for (std::size_t row = 0; row < 3; ++row)
             frame.row (static_cast<Eigen::Index> (row)) = vectorFrom (json[i][row], unit::gain, under (here, row)).transpose();
     }
+}
+
+std::vector<Eigen::Matrix3d> framesFrom (const Json& json, std::size_t nodes, std::size_t shapes, const std::string& key)
+{
+    std::vector<Eigen::Matrix3d> frames;
+    if (! isByShape (json, 3))
+    {
+        addFrames (frames, json, nodes, key);
+        return frames;
+    }
+    listFrom (json, shapes, "the frames of each of the " + std::to_string (shapes) + " tools that have curves", key);
+    for (std::size_t s = 0; s < shapes; ++s)
+        addFrames (frames, json[s], nodes, under (key, s));
     return frames;
 }
 
@@ -100,31 +124,86 @@ std::vector<std::vector<Surface::Curves>> toolsFrom (const Json& json, std::size
 
 Ratio ratioFrom (const Json& json, const std::string& key)
 {
+    if (json.is_object() && json.contains ("curve"))
+    {
+        objectFrom (json, { "curve" }, "a ratio", key);
+        const auto curve = curveFrom (json["curve"], unit::metre, unit::gain, key + "/curve");
+        for (std::size_t i = 0; i < curve.y.size(); ++i)
+            inRange (curve.y[i], { 0.0, inf }, under (key + "/curve/1", i));
+        return { .curve = curve };
+    }
     if (json.is_object()) return { .law = lawFrom (json, unit::metre, unit::gain, key) };
     return { .number = inRange (numberFrom (json, unit::gain, key), { 0.0, inf }, key) };
 }
 
-std::vector<Ratio> ratiosFrom (const Json& json, std::size_t nodes, const std::string& key)
+/// One ratio for all nodes, or one per node. With `all`, one ratio is repeated for every node.
+void addRatios (std::vector<Ratio>& ratios, const Json& json, std::size_t nodes, bool all, const std::string& key)
 {
-    if (! json.is_array()) return { ratioFrom (json, key) };
-    if (json.size() != 1) listFrom (json, nodes, "one ratio for each of the " + std::to_string (nodes) + " nodes, or one for all", key);
+    const bool one = ! json.is_array() || json.size() == 1;
+    if (! one) listFrom (json, nodes, "one ratio for each of the " + std::to_string (nodes) + " nodes, or one for all", key);
+    if (one)
+        ratios.insert (ratios.end(), all ? nodes : 1, json.is_array() ? ratioFrom (json[0], under (key, 0)) : ratioFrom (json, key));
+    else
+        for (std::size_t n = 0; n < nodes; ++n)
+            ratios.push_back (ratioFrom (json[n], under (key, n)));
+}
 
+std::vector<Ratio> ratiosFrom (const Json& json, std::size_t nodes, std::size_t shapes, const std::string& key)
+{
     std::vector<Ratio> ratios;
-    for (std::size_t n = 0; n < json.size(); ++n)
-        ratios.push_back (ratioFrom (json[n], under (key, n)));
+    if (! isByShape (json, 1))
+    {
+        addRatios (ratios, json, nodes, false, key);
+        return ratios;
+    }
+    listFrom (json, shapes, "the ratios of each of the " + std::to_string (shapes) + " tools that have curves", key);
+    for (std::size_t s = 0; s < shapes; ++s)
+        addRatios (ratios, json[s], nodes, true, under (key, s));
     return ratios;
+}
+
+std::vector<double> sharesFrom (const Json& json, std::size_t shapes, const std::string& key)
+{
+    listFrom (json, shapes, "a share of each of the " + std::to_string (shapes) + " tools that have curves", key);
+    std::vector<double> shares;
+    for (std::size_t s = 0; s < shapes; ++s)
+        shares.push_back (inRange (numberFrom (json[s], unit::gain, under (key, s)), { 0.0, 1.0 }, under (key, s)));
+    return shares;
+}
+
+std::vector<std::vector<std::vector<double>>> weightsFrom (const Json& json, std::size_t nodes, std::size_t shapes, const std::string& key)
+{
+    listFrom (json, 0, "a list of tools, each with its weights", key);
+    if (json.empty()) throw Problem { "it needs the weights of at least one tool", key };
+    std::vector<std::vector<std::vector<double>>> tools;
+    for (std::size_t t = 0; t < json.size(); ++t)
+    {
+        const auto here = under (key, t);
+        auto& made = tools.emplace_back();
+        if (! isByShape (json[t], 1))
+        {
+            made.push_back (sharesFrom (json[t], shapes, here));
+            continue;
+        }
+        listFrom (json[t], nodes, "the weights of each of the " + std::to_string (nodes) + " nodes, or one list for all", here);
+        for (std::size_t n = 0; n < nodes; ++n)
+            made.push_back (sharesFrom (json[t][n], shapes, under (here, n)));
+    }
+    return tools;
 }
 }   // namespace
 
 std::shared_ptr<const Surface> surfaceFrom (const Json& json, const Files& files, const std::string& key)
 {
-    objectFrom (json, { "nodes", "triangles", "frames", "mesh", "curves", "mu" }, "it", key);
+    objectFrom (json, { "nodes", "triangles", "frames", "mesh", "curves", "mu", "weights" }, "it", key);
     Surface s;
     s.mesh = meshFrom (json, files, key);
     const auto nodes = s.mesh->points.size();
-    if (const auto* frames = member (json, "frames")) s.frames = framesFrom (*frames, nodes, key + "/frames");
     s.curves = toolsFrom (needed (json, "curves", key), nodes, key + "/curves");
-    s.mu = ratiosFrom (needed (json, "mu", key), nodes, key + "/mu");
+    const auto shapes = s.curves.size();
+    if (const auto* frames = member (json, "frames")) s.frames = framesFrom (*frames, nodes, shapes, key + "/frames");
+    s.mu = ratiosFrom (needed (json, "mu", key), nodes, shapes, key + "/mu");
+    if (const auto* weights = member (json, "weights")) s.weights = weightsFrom (*weights, nodes, shapes, key + "/weights");
     return std::make_shared<const Surface> (std::move (s));
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <tactus/kit/async_query.hpp>
+#include <tactus/kit/patch_search.hpp>
 #include <tactus/kit/placed_surface.hpp>
 #include <tactus/kit/surface_check.hpp>
+#include <tactus/kit/surface_contact.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
@@ -24,32 +26,46 @@ namespace tactus::nodes
 ///     f^nu = sum_i n_i (c) f_i^nu (d^nu)      force along each; odd along x and y, along z only if d^z > 0   (6)
 ///     f    = - sum_nu f^nu u^nu               force on the tool
 ///     |(d^x, d^y)| <= mu_c d^z                else c is dragged along until it is                            (7)
-///     f^nu = sum_t w_t f_t^nu (d^nu)          interpolated between the shapes of tools t                     (8) (9)
+///     u^nu = sum_t w_t u_t^nu                 interpolated between the shapes of tools t                     (8)
+///     f^nu = sum_t w_t f_t^nu (d^nu)          the same for mu_c                                              (9)
 ///
 /// A touch begins where the vector from the nearest point of the mesh to p turns inward. c stays there, and the tool pulls on it
 /// as on a leaning bristle: flesh sticks, stretches, slips and lets go without a second model. mu_c is a ratio of deflections: a
-/// body of stiffnesses k_t across and k_n along the normal has mu_c = mu k_n / k_t. mu_c may be a law of depth. With
-/// `friction: frictionless`, or mu 0 everywhere, c follows the tool instead and the force includes -dU/dc, U the stored energy:
-/// without that term, a slide from soft to stiff would create energy.
+/// body of stiffnesses k_t across and k_n along the normal has mu_c = mu k_n / k_t. mu_c may be a law or a curve of depth. Any
+/// adhesion function of Fig. 2 may move c, with d_max = mu_c d^z and d_stick = static_ratio d_max: see friction.elasto_plastic.
 ///
-/// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 4, eq. (5) to (9), Fig. 8 and 9;
-/// Mahvash & Hayward 2004.
+/// c moves only downhill: it follows its way as far as the stored energy U (c, p) does not rise. Where the way is uphill, as from
+/// soft to stiff or over an edge, c holds on beyond its bound, as a real contact hooks on an edge. With `friction: frictionless`, or
+/// mu 0 everywhere, c slides down to a local minimum of U. On a flat body c is then the projection of p, and the force includes
+/// -dU/dc: without that term, a slide from soft to stiff would create energy.
+///
+/// A tool is inside if its way from the last sample outside crosses the surface, and belongs to the side that it came through, also
+/// in a thin plate where another side is nearer.
+///
+/// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 4, eq. (5) to (9), Fig. 2, 8 and 9;
+/// Mahvash & Hayward 2004; smooth weights: Clough & Tocher 1965.
 ///
 /// Departures from the printed chapter
 ///  - Interpolated frames are neither of unit length nor orthogonal: u^z is normalised, u^x made orthogonal to it, and
 ///    u^y = u^z x u^x.
 ///  - Eq. (7) is printed upside down: with more mu_c the contact would slip earlier.
-///  - The weights of the tools are latched at contact onset: changing them in contact would add energy.
-///  - The chapter does not say what a move of c costs. Each slip turns (f_t - dU/dc) . dc into heat. Where stiffness rises
-///    steeply over the mesh and friction is small, this amount is negative, so a slip creates energy. The node warns of such a
-///    mesh and reports the depth at which this begins; dissipated_energy then falls.
+///  - The weights of the tools are latched at contact onset: changing them in contact would add energy. If they are given at the
+///    nodes, they are those of the point where the contact began.
+///  - The chapter does not say what a move of c costs. At fixed c the force is the gradient of U in p, so energy can come only from
+///    a move of c at fixed p that raises U: by eq. (7) alone a box of 40 x 40 x 20 mm gives 5 mJ back. Here no move raises U, so
+///    the node is passive for every mesh, frame, curve and mu. dissipated_energy is the fall of U, and never falls.
+///  - Without friction the barycentric weights n_i give way to smooth ones (framework/kit/smooth_weights.hpp). The gradient of
+///    barycentric weights steps at the edges, and so would the force. A flat body with given frames that lean is the exception:
+///    there the weights stay barycentric, and dU/dc neglects that the frames turn. This is the law of the golden set
+///    `deformation`. It steps at edges and is not passive; the node says so.
 ///
 /// Good to know
 ///  - With c fixed, the force is the gradient of stored_energy, whatever the frames: along a closed path on which the contact
 ///    sticks, it does no work.
-///  - Without friction the force has a potential where frames are orthogonal to their triangles. Frames made of smooth normals
-///    tilt the force, as shading does: coarse triangles then feel curved, but a part of the force, about the tilt times the
-///    force, has no potential.
+///  - Without friction on a curved body, the minimum of U may vanish under the tool, as at an edge of a box. c then drops to the
+///    next minimum, with a step of force and some heat.
+///  - If the drag over the push should be the same at every depth, give the curves along x and y the shape of those along z:
+///    f^x (mu_c d) = mu f^z (d).
 ///  - Finding the patch: with search_ticks 0 every triangle is searched within the tick, while nothing is touched. With
 ///    search_ticks above 0, a thread searches and answers that many ticks later; meanwhile the node walks over neighbouring
 ///    triangles. In contact it only walks: a search never moves c. Nothing can be touched before the first answer.
@@ -59,8 +75,8 @@ namespace tactus::nodes
 ///  - A slip is one step of eq. (7). Where mu_c or the frames change over the mesh it ends near the bound, not on it. The rest
 ///    follows on the next ticks, even for a tool at rest; this takes about ten ticks.
 ///  - A tool that is farther past the rim of an open mesh than it is above or below it is outside the body: a contact that is
-///    dragged there opens. A tool that came in past the rim, or was inside when the first search ended, feels nothing until it
-///    has been outside the body once.
+///    dragged there opens. A tool that came in past the rim, was inside when the first search ended, or has let go inside the
+///    body, feels nothing until it has been outside the body once: a contact that begins inside would be a gift of energy.
 ///  - Energy in the sideways stretch at the moment the tool lets go is dissipated.
 struct ElasticSurface
 {
@@ -79,6 +95,9 @@ struct ElasticSurface
     struct Params
     {
         Friction friction = Friction::bound;
+        Adhesion::Kind adhesion = Adhesion::Kind::stick;
+        double static_ratio = 1.0;
+        double break_away = 0.7;
     };
 
     struct Settings
@@ -88,6 +107,7 @@ struct ElasticSurface
         Vec3 origin = Vec3::Zero();
         Vec3 rotation = Vec3::Zero();
         int search_ticks = 0;
+        Curve adhesion_curve { { 0.0, 0.7, 1.0 }, { 0.0, 0.0, 1.0 } };
     };
 
     struct Outputs
@@ -112,17 +132,23 @@ struct ElasticSurface
     };
 
     static constexpr std::string_view friction_names[] { "bound", "frictionless" };
+    static constexpr std::string_view adhesion_names[] { "stick", "dupont", "ramp", "dahl", "curve" };
 
     static constexpr std::tuple ports {
         input (&Inputs::position, "position", unit::metre, "tool position p"),
-        input (&Inputs::tool, "tool", unit::count, "number of the tool's shape, 0…n-1; a fraction blends two shapes; read at the start of a contact"),
+        input (&Inputs::tool, "tool", unit::count, "number of the tool, 0…n-1; a fraction blends two tools; read at the start of a contact"),
         choice (&Params::friction, "friction", friction_names, "the contact point sticks within a bound, or follows freely"),
-        setting (&Settings::surface, "surface", unit::count, "mesh, frames, curves of each tool, deflection ratios mu"),
+        choice (&Params::adhesion, "adhesion", adhesion_names, "how the contact point yields within the bound, Fig. 2; only for friction bound"),
+        param (&Params::static_ratio, "static_ratio", unit::gain, "d_stick / d_max, d_max = mu_c d^z; above 1: stick-slip",
+               { .hard = { 1, inf }, .usual = { 1, 5 } }),
+        param (&Params::break_away, "break_away", unit::gain, "d_ba / d_max, where adhesion dupont begins to yield", { .hard = { 0, 1 } }),
+        setting (&Settings::surface, "surface", unit::count, "mesh, frames, curves and deflection ratios mu by shape of tool, tools as weights of shapes"),
         setting (&Settings::scale, "scale", unit::metre, "length of one unit of the mesh", { .hard = { 1e-9, inf }, .usual = { 1e-3, 1.0 } }),
         setting (&Settings::origin, "origin", unit::metre, "position of the mesh's origin"),
         setting (&Settings::rotation, "rotation", unit::radian, "rotation of the mesh: axis times angle"),
         setting (&Settings::search_ticks, "search_ticks", unit::count, "ticks that the search for the nearest patch takes; 0: within the tick",
                  { .hard = { 0, 1000 }, .usual = { 0, 40 } }),
+        setting (&Settings::adhesion_curve, "adhesion_curve", unit::gain, unit::gain, "zeta d_max over |d| / d_max, for adhesion curve"),
         output (&Outputs::force, "force", unit::newton, "force on the tool"),
         output (&Outputs::resistance, "resistance", unit::newton, "part of the force along the inward normal, f^z"),
         output (&Outputs::depth, "depth", unit::metre, "deflection along the inward normal, d^z; 0 while apart"),
@@ -138,17 +164,21 @@ struct ElasticSurface
     Params params;
     Settings settings;
 
-    /// If the curves of a tool differ from node to node, each triangle is searched for slips that gain energy.
     Cost cost() const
     {
-        constexpr double work_per_triangle = 500.0, work_per_search = 10'000.0, bytes_per_triangle = 200.0;
+        constexpr double work_per_triangle = 500.0, bytes_per_triangle = 200.0;
         if (! settings.surface || ! settings.surface->mesh) return {};
-        const auto searched = std::ranges::count_if (settings.surface->curves, [] (const auto& tool) { return tool.size() > 1; });
         const auto triangles = static_cast<double> (settings.surface->mesh->triangles.size());
-        return { .work = triangles * (work_per_triangle + work_per_search * static_cast<double> (searched)), .memory = triangles * bytes_per_triangle };
+        return { .work = triangles * work_per_triangle, .memory = triangles * bytes_per_triangle };
     }
 
-    std::string problem() const { return settings.surface ? problemOf (*settings.surface) : "no surface is given"; }
+    std::string problem() const
+    {
+        const auto inside = [] (double zeta) { return zeta >= 0.0 && zeta <= 1.0; };
+        if (settings.adhesion_curve.empty()) return "adhesion_curve needs at least one point";
+        if (! std::ranges::all_of (settings.adhesion_curve.y, inside)) return "adhesion_curve must stay between 0 (sticks) and 1 (slides)";
+        return settings.surface ? problemOf (*settings.surface) : "no surface is given";
+    }
 
     std::string warning (const Setup&) const
     {
@@ -156,25 +186,25 @@ struct ElasticSurface
         if (const auto triangles = surface.mesh->triangles.size(); settings.search_ticks == 0 && triangles > 2000)
             return std::to_string (triangles) + " triangles are searched within each tick; set search_ticks to let the search take several ticks";
         if (auto facing = wrongSide (surface); ! facing.empty()) return facing;
-        return isFrictionless() ? leaning (surface) : slipGain (surface, settings.scale);
+        return isFrictionless() ? leaning (surface) : "";
     }
 
     void prepare (const Setup& setup)
     {
         dt = setup.dt_s();
         body = std::make_shared<const PlacedSurface> (settings.surface, settings.scale, settings.origin, settings.rotation);
+        tool = body->noTool();
+        slippery = isSlippery();
+        projects = isFlat (*settings.surface);
+        leans = isPatchThatLeans (*settings.surface);
         touch = {};
         near = {};
         last = {};
         behind = false;
-        until_asked = 0;
-        search.reset();
-        if (settings.search_ticks == 0) return;
-
         std::shared_ptr<const NearestTriangle> index;
-        if (setup.services.nearest_triangle) index = setup.services.nearest_triangle (std::shared_ptr<const Mesh> (body, &body->walk().mesh()));
-        const auto find = [held = body, index] (const Vec3& p) noexcept { return index ? (*index) (p) : nearestOfAll (held->walk().mesh(), p); };
-        search = std::make_shared<Search> (find, settings.search_ticks, setup.services.answers);
+        if (settings.search_ticks > 0 && setup.services.nearest_triangle)
+            index = setup.services.nearest_triangle (std::shared_ptr<const Mesh> (body, &body->walk().mesh()));
+        search = PatchSearch (body, settings.search_ticks, index, setup.services.answers);
     }
 
     /// The contact continues if the mesh, its scale, its origin and its rotation are the same.
@@ -183,60 +213,75 @@ struct ElasticSurface
         dissipated = old.dissipated;
         if (! old.body || settings.surface->mesh != old.settings.surface->mesh) return;
         if (settings.scale != old.settings.scale || settings.origin != old.settings.origin || settings.rotation != old.settings.rotation) return;
-        touch = old.touch;
+        if (settings.surface->curves.size() == old.settings.surface->curves.size())
+        {
+            touch = old.touch;
+            tool = old.tool;
+        }
         near = old.near;
         behind = old.behind;
         last = old.last;
-        if (touch.tool.upper >= static_cast<int> (settings.surface->curves.size())) touch = {};
     }
 
     Claims claims() const
     {
         double stiffest = 0.0;
-        for (const auto& tool : settings.surface->curves)
-            for (const auto& curves : tool)
+        for (const auto& shape : settings.surface->curves)
+            for (const auto& curves : shape)
                 for (const auto& law : curves)
                     stiffest = std::max (stiffest, law.steepest());
-        return { .passive = ! isFrictionless() && shallowestGain (*settings.surface, settings.scale).depth == inf, .stiffness = stiffest };
+        return { .passive = ! isFrictionless() || ! isPatchThatLeans (*settings.surface), .stiffness = stiffest };
     }
 
     Outputs tick (const Inputs& in) noexcept
     {
         if (! isFinite (in.position, in.tool)) return fault();
-        const auto followed = follow (in, searched (in.position));
+        const auto followed = follow (in, search.answer (in.position, ! isTouching()));
 
         Outputs out { .normal = Vec3::UnitZ(), .contact = in.position, .dissipated_energy = dissipated };
-        const Spot& spot = touch.spot.triangle >= 0 ? touch.spot : near;
+        const Spot& spot = isTouching() ? touch.spot : near;
         if (spot.triangle >= 0)
         {
-            const Felt felt = followed ? *followed : body->feel (spot, in.position, touch.tool);
+            const Felt felt = followed ? *followed : body->feel (spot, in.position, tool);
             out.normal = -felt.frame.row (2).transpose();
-            if (touch.spot.triangle >= 0) report (felt, in.position, out);
+            if (isTouching()) report (felt, in.position, out);
             last.depth = felt.d.z();
         }
         last.known = spot.triangle >= 0;
+        last.position = in.position;
         return isFinite (out.force, out.stored_energy, out.dissipated_energy) ? out : fault();
     }
 
+    /// The stored energy if the tool went to p while the contact point stays where it is, or, without friction on a flat body, stays
+    /// the projection of p; 0 while apart. The work of the hand between two samples is the difference of this energy: a test of
+    /// the energy balance that does not depend on how far apart the samples are.
+    double energyAt (const Vec3& p) const noexcept
+    {
+        if (! isTouching()) return 0.0;
+        const bool follows = touch.frictionless && projects;
+        return body->feel (follows ? body->walk().nearest (touch.spot.triangle, p) : touch.spot, p, tool).energy;
+    }
+
 private:
-    using Search = AsyncQuery<Vec3, int>;
-    using Tool = PlacedSurface::Tool;
     using Felt = PlacedSurface::Felt;
 
     struct Touch
     {
         Spot spot {};   // contact point c; no triangle while apart
-        Tool tool {};
         bool frictionless = false;
+        Adhesion::Kind adhesion {};
         bool slipped = false;   // on this tick
         double hit = 0.0;       // on this tick
     };
 
     struct Sample
     {
-        double depth = 0.0;   // signed
-        bool known = false;   // whether depth is valid
+        Vec3 position = Vec3::Zero();
+        double depth = 0.0;   // signed, at the contact point; while apart, at the nearest point
+        bool known = false;   // whether position and depth are valid
     };
+
+    bool isTouching() const noexcept { return touch.spot.triangle >= 0; }
 
     /// Updates the contact for a tool at p: the contact begins, sticks, slips or ends. Returns what is felt at the resulting spot,
     /// if that was computed on the way.
@@ -244,81 +289,88 @@ private:
     {
         touch.slipped = false;
         touch.hit = 0.0;
-        if (touch.spot.triangle < 0) return open (in, found);
-        return touch.frictionless ? glide (in.position) : stick (in.position);
+        if (! isTouching()) return open (in, found);
+        return move (last.position, in.position);
     }
 
     std::optional<Felt> open (const Inputs& in, std::optional<int> found) noexcept
     {
         const auto& p = in.position;
-        const bool found_late = search && near.triangle < 0;
-        near = nearestFrom (found, p);
+        const bool found_late = search.takesTime() && near.triangle < 0;
+        const Spot before = near;
+        near = search.nearest (found, before, p);
         if (near.triangle < 0) return {};
 
-        touch.tool = body->toolAt (in.tool);
-        const Felt felt = body->feel (near, p, touch.tool);
-        const double depth = felt.d.z();
-        if (! (depth > 0.0))
+        const int entered = enteredFrom (before, p);
+        Spot spot = near;
+        tool.smooth = isFrictionless() && ! leans;
+        body->choose (in.tool, spot, tool);
+        Felt felt = body->feel (spot, p, tool);
+        if (entered >= 0) belongTo (entered, in, spot, felt);
+
+        const bool past_rim = entered < 0 && last.known && last.depth <= 0.0 && body->walk().isOpen();
+        if (! (felt.d.z() > 0.0))
             behind = false;
-        else if (found_late || body->walk().isBeyondRim (near, p))
+        else if (found_late || past_rim || body->walk().isBeyondRim (spot, p))
             behind = true;
-        if (! (depth > 0.0) || behind) return felt;
-        touch.spot = near;
+        if (! (felt.d.z() > 0.0) || behind) return felt;
+
+        touch.spot = spot;
         touch.frictionless = isFrictionless();
-        touch.hit = last.known ? std::max (0.0, finiteOrZero ((depth - last.depth) / dt)) : 0.0;
-        return touch.frictionless ? felt : stick (p);
+        touch.adhesion = params.adhesion;
+        touch.hit = last.known ? std::max (0.0, finiteOrZero ((felt.d.z() - last.depth) / dt)) : 0.0;
+        return move (touch.frictionless ? last.position : p, p);   // a bristle is not stretched before the touch
     }
 
-    /// The search's answer is only a starting point for a walk. Walking on from the previous nearest point may lead to a nearer one,
-    /// so the nearer of the two results is returned.
-    Spot nearestFrom (std::optional<int> found, const Vec3& p) const noexcept
+    /// The triangle through which the tool came in since the last sample, if any. A way that is shorter than the distance to the mesh
+    /// crosses nothing.
+    int enteredFrom (const Spot& before, const Vec3& p) const noexcept
     {
-        if (! search) return body->walk().nearestOfAll (p, near.triangle);
-        const Spot walked = near.triangle >= 0 ? body->walk().nearest (near.triangle, p) : Spot {};
-        if (! found) return walked;
-        const Spot there = body->walk().nearest (*found, p);
-        return walked.triangle < 0 || (there.on.point - p).squaredNorm() < (walked.on.point - p).squaredNorm() ? there : walked;
+        if (! last.known || behind || before.triangle < 0) return -1;
+        const double gap2 = (before.on.point - last.position).squaredNorm();
+        return (p - last.position).squaredNorm() < gap2 * (1.0 - 1e-9) ? -1 : body->walk().entered (last.position, p);
     }
 
-    std::optional<Felt> glide (const Vec3& p) noexcept
+    /// The contact point of a tool that came in through a triangle is on that side of the body, even if another side is nearer. A way
+    /// that goes in and out again counts only if the tool ends below that side, as behind a thin plate, not beside it.
+    void belongTo (int entered, const Inputs& in, Spot& spot, Felt& felt) noexcept
     {
-        touch.spot = body->walk().nearest (touch.spot.triangle, p);
-        const Felt felt = body->feel (touch.spot, p, touch.tool);
-        if (felt.d.z() > 0.0 && ! body->walk().isBeyondRim (touch.spot, p)) return felt;
-        letGo (p);
-        return {};
+        const Spot there = body->walk().nearestFacing (entered, in.position, in.position - last.position);
+        body->choose (in.tool, there, tool);
+        const Felt now = body->feel (there, in.position, tool);
+        const bool through = ! (felt.d.z() > 0.0), beside = std::hypot (now.d.x(), now.d.y()) > now.d.z();
+        if (through && beside) return;
+        spot = there;
+        felt = now;
     }
 
-    std::optional<Felt> stick (const Vec3& p) noexcept
+    /// Moves the contact point while the tool goes from one position to the next.
+    Felt move (const Vec3& from, const Vec3& p) noexcept
     {
-        // Relative; a steady slip ends exactly on the bound, so without this tolerance rounding would make the contact chatter.
-        constexpr double guard = 1e-9;
-        // Relative; after a slip, the stretch exceeds the bound by more than this only if the rim holds the contact point back.
-        constexpr double past_rim = 1e-3;
-        bool off = false;
-        Felt felt = body->feel (touch.spot, p, touch.tool);
-        const double bound = std::max (0.0, body->ratio (touch.spot, felt.d.z()) * felt.d.z());
-        const double across = std::hypot (felt.d.x(), felt.d.y());
-        if (felt.d.z() > 0.0 && across > bound * (1.0 + guard))
-        {
-            const Vec3 drag = (felt.d.x() * felt.frame.row (0) + felt.d.y() * felt.frame.row (1)).transpose();
-            const double before = felt.energy;
-            touch.spot = body->walk().nearest (touch.spot.triangle, touch.spot.on.point + drag * (1.0 - bound / across));
-            touch.slipped = true;
-            felt = body->feel (touch.spot, p, touch.tool);
-            dissipate (before - felt.energy);
-            off = std::hypot (felt.d.x(), felt.d.y()) > bound * (1.0 + past_rim) && body->walk().isBeyondRim (touch.spot, p);
-        }
-        if (felt.d.z() > 0.0 && ! off) return felt;
+        const SurfaceStep step = stepped (from, p);
+        touch.spot = step.spot;
+        touch.slipped = step.slips;
+        dissipate (step.lost);
+        return step.ends ? letGo (step.felt, p) : step.felt;
+    }
+
+    SurfaceStep stepped (const Vec3& from, const Vec3& p) const noexcept
+    {
+        if (touch.frictionless) return projects ? projectOn (*body, tool, touch.spot, p) : slideOn (*body, tool, touch.spot, from, p);
+        const Adhesion adhesion { touch.adhesion, params.static_ratio, params.break_away, &settings.adhesion_curve };
+        return stickOn (*body, tool, touch.spot, adhesion, from, p);
+    }
+
+    /// Ends the contact. A tool that is still inside the body somewhere else must leave it before it can touch again: a touch that begins
+    /// inside would be a gift of energy. It counts as outside if it has been inside by less than this step.
+    Felt letGo (const Felt& felt, const Vec3& p) noexcept
+    {
         dissipate (felt.energy);
-        letGo (p);
-        return {};
-    }
-
-    void letGo (const Vec3& p) noexcept
-    {
         near = body->walk().nearest (touch.spot.triangle, p);
         touch = {};
+        const Felt now = body->feel (near, p, tool);
+        behind = now.d.z() > (last.known ? (p - last.position).norm() : 0.0);
+        return now;
     }
 
     void dissipate (double energy) noexcept
@@ -326,28 +378,17 @@ private:
         if (isFinite (dissipated + energy)) dissipated += energy;
     }
 
-    /// The answer that is due on this tick, if any: the triangle nearest to where the tool was when the search began. Only one
-    /// search runs at a time, and only while apart.
-    std::optional<int> searched (const Vec3& p) noexcept
-    {
-        if (! search) return {};
-        const bool apart = touch.spot.triangle < 0, asks = apart && until_asked == 0;
-        until_asked = asks ? settings.search_ticks - 1 : std::max (0, until_asked - 1);
-        const auto found = (*search) (asks ? std::optional<Vec3> (p) : std::nullopt);
-        return apart ? found : std::nullopt;
-    }
-
     void report (const Felt& felt, const Vec3& p, Outputs& out) const noexcept
     {
         out.force = -(felt.frame.transpose() * felt.f);
-        if (touch.frictionless) out.force -= body->slope (touch.spot, felt, p);
+        if (touch.frictionless && projects) out.force -= body->slope (touch.spot, felt, p, tool);
         out.resistance = felt.f.z();
         out.depth = felt.d.z();
         out.contact = touch.spot.on.point;
         out.triangle = static_cast<double> (touch.spot.triangle);
         out.hit = touch.hit;
         out.stored_energy = felt.energy;
-        out.state = touch.frictionless || touch.slipped ? 2.0 : 1.0;
+        out.state = touch.slipped ? 2.0 : 1.0;
     }
 
     Outputs fault() noexcept
@@ -355,16 +396,17 @@ private:
         touch = {};
         behind = false;
         last = {};
-        if (search) (*search) (std::nullopt);
+        search.skip();
         return { .dissipated_energy = dissipated, .state = -1.0 };
     }
 
     /// If mu is 0 everywhere, the contact follows freely, whatever `friction` says.
     bool isFrictionless() const noexcept
     {
-        const auto isNone = [] (const Ratio& mu) { return ! mu.law && mu.number == 0.0; };
-        return params.friction == Friction::frictionless || std::ranges::all_of (settings.surface->mu, isNone);
+        return params.friction == Friction::frictionless || (body ? slippery : isSlippery());
     }
+
+    bool isSlippery() const noexcept { return std::ranges::all_of (settings.surface->mu, &Ratio::isNone); }
 
     /// The default surface: a soft square of 10 cm that faces upwards.
     static std::shared_ptr<const Surface> pad()
@@ -383,11 +425,14 @@ private:
 
     double dt = 1.0 / Setup {}.rate_hz;   // s
     std::shared_ptr<const PlacedSurface> body;
-    std::shared_ptr<Search> search;   // null: the node searches within the tick
-    int until_asked = 0;              // ticks until the next search may begin
+    PatchSearch search;
     Touch touch;
-    // The tool went in past the rim of an open mesh, or was already inside when first found; it feels nothing
-    // until it has been outside.
+    PlacedSurface::Tool tool;   // latched while touching
+    bool slippery = false;      // mu is 0 everywhere
+    bool projects = false;      // the body is flat: without friction, c is the projection of p
+    bool leans = false;         // the body is flat, but its frames are not level
+    // The tool is inside, but did not come in through the surface: it went around the rim of an open mesh, was already inside when first
+    // found, or has let go inside. It feels nothing until it has been outside.
     bool behind = false;
     Spot near;   // the nearest point of the mesh while apart, if known
     Sample last;

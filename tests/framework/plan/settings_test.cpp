@@ -344,6 +344,33 @@ TEST_CASE ("a surface may have frames, and curves and ratios for each node", "[p
     CHECK (s->mu[3](0.5) == 1.0);
 }
 
+TEST_CASE ("a surface may have frames and ratios for each tool, ratios as curves, and tools as weights", "[plan][settings]")
+{
+    const Json frame = { { 0, 1, 0 }, { 1, 0, 0 }, { 0, 0, -1 } };
+    const Json curve = { { "curve", { { 0, "2 mm" }, { 0.1, 0.5 } } } };
+    auto json = with (with (square(), "curves", { axes, four (axes) }), "frames", { four (frame), four (frame) });
+    json = with (with (json, "mu", Json::array ({ Json::array ({ curve }), { 0, 0.1, 0.2, 0.3 } })), "weights",
+                 Json::array ({ { 1, 0 }, four ({ 0.25, 0.75 }), { 0, 1 } }));
+    const auto s = reads ("surface", json).surface;
+    CHECK (s->frames.size() == 8);
+    REQUIRE (s->mu.size() == 8);
+    CHECK (s->mu[3](0.001) == Approx (0.3));
+    CHECK (s->mu[3](1.0) == 0.5);
+    CHECK (s->mu[6](1.0) == 0.2);
+    REQUIRE (s->weights.size() == 3);
+    CHECK (s->weights[0].size() == 1);
+    REQUIRE (s->weights[1].size() == 4);
+    CHECK (s->weights[1][2] == std::vector<double> { 0.25, 0.75 });
+
+    const auto fault = [&] (const char* key, const Json& value) { return refusal ("surface", with (json, key, value)); };
+    CHECK (contains (fault ("frames", Json::array ({ four (frame) })), "/frames: it must be the frames of each of the 2 tools that have curves"));
+    CHECK (contains (fault ("mu", Json::array ({ { 0.1 }, { 0.1, 0.2 } })), "/mu/1: it must be one ratio for each of the 4 nodes, or one for all"));
+    CHECK (contains (fault ("mu", { { "curve", { { 0, 1 }, { 0.1, -1 } } } }), "/mu/curve/1/1: -1 is out of range"));
+    CHECK (contains (fault ("weights", Json::array()), "/weights: it needs the weights of at least one tool"));
+    CHECK (contains (fault ("weights", Json::array ({ { 1, 0, 0 } })), "/weights/0: it must be a share of each of the 2 tools that have curves"));
+    CHECK (contains (fault ("weights", Json::array ({ { 1, 1.5 } })), "/weights/0/1: 1.5 is out of range"));
+}
+
 TEST_CASE ("every error in a surface is reported at its place", "[plan][settings]")
 {
     const auto fault = [] (const char* key, const Json& value) { return refusal ("surface", with (square(), key, value)); };

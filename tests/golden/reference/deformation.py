@@ -4,8 +4,10 @@
 At contact onset c is the point of the mesh nearest to p. With d = p - c and
 d^nu = d . u^nu, f^nu = sum n_i f_i^nu(d^nu), the force on the tool is
 -sum f^nu u^nu; c follows where |d_t| would pass mu_c d^z, once a tick, so that
-c may still move on the ticks after a slip. Without friction c is always the
-nearest point, and -sum grad n_i Phi_i is added.
+c may still move on the ticks after a slip, and only as far as the stored energy
+does not rise. Without friction, on a flat body whose frames lean, c is always the
+nearest point, and -sum grad n_i Phi_i is added. A tool is inside if its way from
+the last sample crosses the surface, and belongs to the side that it came through.
 
 The chapter does not treat the rim of a surface. Here a contact on the rim of an
 open mesh ends once p is further beyond the rim, along the triangle, than above or
@@ -21,6 +23,7 @@ import vec
 EPS_SLIP = 1e-9
 ON_EDGE = 1e-9
 PAST_RIM = 1e-3
+LEAST = 1.0 / 1024.0
 ZERO = (0.0, 0.0, 0.0)
 
 
@@ -166,16 +169,97 @@ def pressed(surface, contact, d, state, frictionless):
             "shared": shared(surface, contact)}
 
 
+def stored(surface, contact, d):
+    _, potentials = responses(surface, contact, d)
+    return sum(w * phi for w, phi in zip(contact["weights"], potentials))
+
+
+def downhill(surface, contact, d, p, step):
+    """Moves c along a step as far as the stored energy does not rise, and tells whether it moved."""
+    c, start = contact["c"], stored(surface, contact, d)
+    inward, here = contact["axes"][2], contact["triangle"]
+    facing = [t for t, corners in enumerate(surface["triangles"])
+              if t == here or vec.dot(area_normal(surface, corners), inward) < 0.0]
+
+    def after(share):
+        near = [n for n in projections(surface, vec.add(c, vec.scale(share, step)))
+                if n[1] in facing]
+        there = touch(surface, p, near[0], contact["tools"])
+        return stored(surface, *there), there
+
+    energy, there = after(1.0)
+    if energy <= start:
+        return *there, True
+    best, there = after(LEAST)
+    if not best <= start:
+        return contact, d, False
+    slope, share = (best - start) / LEAST, 0.5
+    while share > LEAST:
+        energy, farther = after(share)
+        if energy <= best:
+            best, there = energy, farther
+            break
+        share *= 0.5
+    else:
+        return *there, True
+    bend = ((energy - start) / share - slope) / (share - LEAST)
+    lowest = 0.5 * (LEAST - slope / bend) if bend > 0.0 else 0.0
+    if LEAST < lowest < 1.0:
+        energy, farther = after(lowest)
+        if energy <= best:
+            there = farther
+    return *there, True
+
+
 def slipped(surface, contact, d, p):
-    """Contact and deflection after the bound, and whether it was exceeded."""
+    """Contact and deflection after the bound, whether c moved, and whether the bound was exceeded."""
     most, reach = bound(surface, contact, d[2]), math.hypot(d[0], d[1])
     if reach <= most * (1.0 + EPS_SLIP):
-        return contact, d, False
+        return contact, d, False, False
     across = vec.combine(d[:2], contact["axes"][:2])
-    c = vec.add(contact["c"], vec.scale(1.0 - most / reach, across))
-    contact, d = touch(surface, p, projections(surface, c)[0],
-                       contact["tools"])
-    return contact, d, True
+    return *downhill(surface, contact, d, p, vec.scale(1.0 - most / reach, across)), True
+
+
+def area_normal(surface, corners):
+    a, b, c = (surface["nodes"][i] for i in corners)
+    return vec.cross(vec.sub(b, a), vec.sub(c, a))
+
+
+def entered(surface, start, end):
+    """The first triangle that the way crosses inwards, or None."""
+    way, found = vec.sub(end, start), (1.0 + ON_EDGE, None)
+    for index, corners in enumerate(surface["triangles"]):
+        normal, at = area_normal(surface, corners), [surface["nodes"][i] for i in corners]
+        fall = -vec.dot(normal, way)
+        if fall <= 0.0:
+            continue
+        share = vec.dot(normal, vec.sub(start, at[0])) / fall
+        if not -ON_EDGE <= share < found[0]:
+            continue
+        there = vec.add(start, vec.scale(share, way))
+        inside = [vec.dot(g, vec.sub(there, at[(i + 1) % 3]))
+                  for i, g in enumerate(gradients(surface, index))]
+        if min(inside) >= -ON_EDGE:
+            found = share, index
+    return found[1]
+
+
+def came_in(surface, contact, d, last, p):
+    """The contact of a tool on the side that it came through, and whether it came through any."""
+    if last is None or entered(surface, last[0], p) is None:
+        return contact, d, False
+    way = vec.sub(p, last[0])
+    facing = [near for near in projections(surface, p)
+              if vec.dot(area_normal(surface, surface["triangles"][near[1]]), way) < 0.0]
+    there, e = touch(surface, p, facing[0], contact["tools"])
+    if d[2] <= 0.0 and math.hypot(e[0], e[1]) > e[2]:
+        return contact, d, True
+    return there, e, True
+
+
+def is_open(surface):
+    edges = [frozenset((t[i], t[(i + 1) % 3])) for t in surface["triangles"] for i in range(3)]
+    return any(edges.count(edge) == 1 for edge in edges)
 
 
 def on_edge(surface, contact):
@@ -214,39 +298,52 @@ def beyond_rim(surface, contact, p):
     return False
 
 
-def leaves(surface, contact, d, p, slips, frictionless):
+def leaves(surface, contact, d, p, pulled, frictionless):
     """Whether the contact has left the surface over the rim on this tick."""
     if frictionless:
         return beyond_rim(surface, contact, p)
     held = math.hypot(d[0], d[1]) > bound(surface, contact, d[2]) * (1.0 + PAST_RIM)
-    return slips and held and beyond_rim(surface, contact, p)
+    return pulled and held and beyond_rim(surface, contact, p)
 
 
 def steps(settings, params, feed):
     surface = placed(settings)
     frictionless = params.get("friction", "bound") == "frictionless"
-    contact = None
+    has_rim = is_open(surface)
+    contact, last, behind = None, None, False   # last: position, and depth at the nearest point
     for p, tool in zip(feed["position"], feed["tool"]):
         if not vec.finite(p, tool):
-            contact = None
+            contact, last, behind = None, None, False
             yield apart(ZERO, -1)
             continue
-        slips, onset = frictionless, contact is None
-        if onset:
+        pulled, slips = False, frictionless
+        if contact is None:
             contact, d = touch(surface, p, projections(surface, p)[0],
                                tools(surface, tool))
+            contact, d, came = came_in(surface, contact, d, None if behind else last, p)
+            past_rim = has_rim and last is not None and last[1] <= 0.0 and not came
+            if d[2] <= 0.0:
+                behind = False
+            elif past_rim or beyond_rim(surface, contact, p):
+                behind = True
+            if d[2] <= 0.0 or behind:
+                contact, last = None, (p, d[2])
+                yield apart(p, 0)
+                continue
         elif frictionless:
             contact, d = touch(surface, p, projections(surface, p)[0],
                                contact["tools"])
         else:
             d = deflection(contact, p)
-        gone = onset and d[2] > 0.0 and beyond_rim(surface, contact, p)
-        if d[2] > 0.0 and not frictionless and not gone:
-            contact, d, slips = slipped(surface, contact, d, p)
-        if d[2] <= 0.0 or gone or leaves(surface, contact, d, p, slips, frictionless):
-            contact = None
+        if d[2] > 0.0 and not frictionless:
+            contact, d, slips, pulled = slipped(surface, contact, d, p)
+        if d[2] <= 0.0 or leaves(surface, contact, d, p, pulled, frictionless):
+            _, inside = touch(surface, p, projections(surface, p)[0], contact["tools"])
+            behind = inside[2] > (vec.norm(vec.sub(p, last[0])) if last else 0.0)
+            contact, last = None, (p, inside[2])
             yield apart(p, 0)
             continue
+        last = p, d[2]
         yield pressed(surface, contact, d, 2 if slips else 1, frictionless)
 
 

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "program.hpp"
+
+#include <tactus/file/csv.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+using namespace tactus;
+
+TEST_CASE ("the liver drags with a tenth of the push at every working depth, with either tool and between them", "[graphs]")
+{
+    constexpr double rate = 4000.0, deepest = 0.0086;   // at 8.6 mm the fingertip feels 6 N, the largest force of the preset
+    const test::Scratch scratch;
+    const std::string names[] { "t", "liver.position.x", "liver.position.y", "liver.position.z", "liver.tool" };
+    auto feed = TableWriter::create (scratch.path ("feed.csv"), names);
+    REQUIRE (feed);
+    int tick = 0;
+    for (const double tool : { 0.0, 0.5, 1.0 })
+        for (const double depth : { 0.0002, 0.001, 0.002, 0.004, 0.006, deepest })
+            for (int k = -200; k < 1000; ++k)   // down, and then 2 cm to the side
+            {
+                const double down = std::min (1.0, (k + 200) / 200.0);
+                REQUIRE (feed->row (std::vector { tick++ / rate, 2e-5 * std::max (0, k), 0.0, 0.002 - (depth + 0.002) * down, tool }));
+            }
+    REQUIRE (feed->commit());
+
+    const std::vector<std::string> outputs { "liver.force.x", "liver.force.y", "liver.force.z", "liver.resistance", "liver.state" };
+    std::vector<std::string> arguments { "render", TACTUS_SOURCE_DIR "/graphs/liver.json", "--out", scratch.path ("out.csv"), "--feed", scratch.path ("feed.csv") };
+    for (const auto& output : outputs)
+        arguments.insert (arguments.end(), { "--record", output });
+    const auto ran = test::runTactus (arguments);
+    INFO (ran.err);
+    REQUIRE (ran.status == 0);
+
+    const auto table = readTable (std::filesystem::path (scratch.path ("out.csv")));
+    REQUIRE (table);
+    double least = 1.0, most = 0.0, hardest = 0.0;
+    int slips = 0;
+    for (std::size_t r = 0; r < table->rows(); ++r)
+    {
+        const auto value = [&] (std::size_t i) { return table->at (r, *table->column (outputs[i])); };
+        if (value (4) != 2.0) continue;
+        const double all2 = value (0) * value (0) + value (1) * value (1) + value (2) * value (2), push = value (3);
+        const double ratio = std::sqrt (std::max (0.0, all2 - push * push)) / push;
+        least = std::min (least, ratio);
+        most = std::max (most, ratio);
+        hardest = std::max (hardest, push);
+        ++slips;
+    }
+    CHECK (slips > 8000);
+    CHECK (hardest > 4.0);
+    CHECK (least > 0.09);
+    CHECK (most < 0.11);
+}

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// An elastic surface never gives energy, whatever its mesh, frames, curves and friction.
+#include "bodies.hpp"
+#include "surface_rig.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+using namespace tactus;
+using namespace tactus::test;
+using Frictions = ElasticSurface::Friction;
+
+namespace
+{
+/// A closed path of the tool about the surface of a body, which begins and ends above it.
+class Loop
+{
+public:
+    Loop (const Body& b, unsigned seed) : body (b)
+    {
+        std::mt19937 dice (seed);
+        std::uniform_real_distribution<double> one (-1.0, 1.0);
+        for (int w = 0; w < waves; ++w)
+            for (int i = 0; i < 3; ++i)
+            {
+                sines[w][i] = one (dice) * body.reach[i] / (w + 1);
+                cosines[w][i] = one (dice) * body.reach[i] / (w + 1);
+            }
+    }
+
+    /// The position at a share of the path from 0 to 1. The first and last tenth lead down and up.
+    Vec3 operator() (double share) const
+    {
+        const double down = std::clamp (10.0 * std::min (share, 1.0 - share), 0.0, 1.0), s = 2.0 * std::numbers::pi * (share - 0.1) / 0.8;
+        Vec3 p = body.centre;
+        for (int w = 0; w < waves; ++w)
+            p += sines[w] * std::sin ((w + 1) * s) + cosines[w] * std::cos ((w + 1) * s);
+        const double high = body.centre.z() + 3.0 * body.reach.z() + 0.01;
+        p.z() = high + (p.z() - high) * down;
+        return p;
+    }
+
+private:
+    static constexpr int waves = 3;
+    const Body& body;
+    Vec3 sines[waves], cosines[waves];
+};
+
+struct Balance
+{
+    double missing = 0.0;   // J; dissipated + stored - work, the largest
+    double fall = 0.0;      // J; the largest fall of dissipated_energy
+    double moved = 0.0;     // J; the work that was moved in total
+    double held = 0.0;      // J; the work by the trapezoid rule
+    int slips = 0, touches = 0;
+};
+
+/// Moves the tool through a loop. The work of a step on a contact point that does not move is the difference of energyAt(). The work of
+/// the step in which a contact begins is the energy of the contact point before it moves.
+Balance handled (ElasticSurface node, const Loop& loop, int steps)
+{
+    Balance balance;
+    double work = 0.0;
+    Vec3 p = loop (0.0);
+    auto before = node.tick ({ .position = p });
+    for (int k = 1; k <= steps; ++k)
+    {
+        const Vec3 next = loop (static_cast<double> (k) / steps);
+        double step = node.energyAt (next) - node.energyAt (p);
+        const auto out = node.tick ({ .position = next });
+        const double lost = out.dissipated_energy - before.dissipated_energy;
+        const bool begins = before.state == 0.0 && (out.state > 0.0 || lost > 0.0);   // it may begin and end in one step
+        if (begins) step = out.stored_energy + lost;
+        work += step;
+        balance.moved += std::abs (step);
+        balance.held -= 0.5 * (before.force + out.force).dot (next - p);
+        balance.missing = std::max (balance.missing, std::abs (out.dissipated_energy + out.stored_energy - work));
+        balance.fall = std::max (balance.fall, -lost);
+        balance.slips += out.state == 2.0;
+        balance.touches += begins;
+        p = next;
+        before = out;
+    }
+    return balance;
+}
+
+/// Many short loops over every body, at every friction.
+void neverGives (int loops, int steps)
+{
+    for (const double mu : { 0.01, 0.1, 0.5, 1.0, 0.0 })
+        for (const auto& body : bodies (mu))
+        {
+            CAPTURE (body.name, mu);
+            const auto node = made (body.surface, mu > 0.0 ? Frictions::bound : Frictions::frictionless);
+            CHECK (node.claims().passive);
+            double missing = 0.0, fall = 0.0;
+            int touches = 0, slips = 0;
+            for (int i = 0; i < loops; ++i)
+            {
+                const auto balance = handled (node, Loop { body, static_cast<unsigned> (i) }, steps);
+                missing = std::max (missing, balance.missing / (balance.moved + 1e-12));
+                fall = std::max (fall, balance.fall);
+                touches += balance.touches;
+                slips += balance.slips;
+            }
+            CHECK (missing <= 1e-12);
+            CHECK (fall == 0.0);
+            CHECK (touches > loops / 2);
+            CHECK (slips > loops);
+        }
+}
+}   // namespace
+
+TEST_CASE ("surface: dissipated plus stored energy is the work, to rounding, and what is dissipated never comes back", "[nodes][deform][energy]")
+{
+    neverGives (200, 60);   // 5 frictions, so 1000 loops on each body
+}
+
+TEST_CASE ("surface: dissipated plus stored energy is the work, on long loops too", "[.][long][nodes][deform][energy]")
+{
+    neverGives (1000, 2000);
+}
+
+TEST_CASE ("surface: the work by the trapezoid rule agrees as the path gets finer", "[nodes][deform][energy]")
+{
+    for (const double mu : { 0.01, 0.5, 0.0 })
+        for (const auto& body : bodies (mu))
+        {
+            CAPTURE (body.name, mu);
+            const auto node = made (body.surface, mu > 0.0 ? Frictions::bound : Frictions::frictionless);
+            double given = 0.0, moved = 0.0;
+            for (unsigned i = 0; i < 4; ++i)
+            {
+                const auto balance = handled (node, Loop { body, i }, 8000);
+                given = std::max (given, -balance.held);
+                moved += balance.moved;
+            }
+            CHECK (given <= 2e-3 * moved);
+        }
+}
+
+TEST_CASE ("surface: pressing where it is soft and releasing where it is stiff gives no energy, with little friction or none", "[nodes][deform][energy]")
+{
+    std::vector<Surface::Curves> nodes;
+    const auto mesh = flat (8);
+    for (const auto& p : mesh.points)
+        nodes.push_back (curves (400.0, 200.0 + 5e4 * p.x()));
+    for (const double mu : { 0.0, 0.01, 0.1, 0.6 })
+    {
+        Hand hand { made (body (mesh, { nodes }, { { .number = mu } })) };
+        CHECK (hand.node.claims().passive);
+        CHECK (hand.node.warning ({}).empty());
+        hand.p = Vec3 (0.005, 0.02, 0.001);
+        hand.line (Vec3 (0.005, 0.02, -0.003), 2000);
+        hand.line (Vec3 (0.035, 0.02, -0.003), 20000);
+        hand.line (Vec3 (0.035, 0.02, 0.001), 2000);
+        CAPTURE (mu);
+        CHECK (hand.work > -1e-6);
+        if (mu == 0.0) CHECK (std::abs (hand.work) < 1e-6);
+        if (mu == 0.6) CHECK (hand.work > 1e-4);
+    }
+}
+
+TEST_CASE ("surface: where the way is uphill, the contact holds on beyond its bound", "[nodes][deform][energy]")
+{
+    std::vector<Surface::Curves> nodes;
+    const auto mesh = flat (8);
+    for (const auto& p : mesh.points)
+        nodes.push_back (curves (400.0, 200.0 + 5e4 * p.x()));
+    auto node = made (body (mesh, { nodes }, { { .number = 0.01 } }));
+    node.tick ({ .position = Vec3 (0.01, 0.021, 0.001) });
+    ElasticSurface::Outputs out;
+    for (int k = 0; k <= 2000; ++k)
+        out = node.tick ({ .position = Vec3 (0.01 + 1e-5 * k, 0.021, -0.003) });
+    // U = k (x) d^2 / 2 + 400 s^2 / 2 does not fall as c moves forward if 400 s <= k' d^2 / 2.
+    const double held = 0.03 - out.contact.x(), steep = 0.5 * 5e4 * 0.003 * 0.003 / 400.0;
+    CHECK (held > 0.01 * 0.003);
+    CHECK (held == Approx (steep).epsilon (0.05));
+    CHECK (node.tick ({ .position = Vec3 (0.03, 0.021, -0.003) }).dissipated_energy == Approx (out.dissipated_energy).margin (1e-9));
+}
