@@ -2,7 +2,7 @@
 // What every datasheet promises: names, units, ranges and sentences that people and files can rely on. every_node_test.cpp
 // tests what the nodes do.
 
-#include <framework/node/catalogue.hpp>
+#include <tactus/node/catalogue.hpp>
 
 #include "support/rig.hpp"
 

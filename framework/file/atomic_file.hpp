@@ -3,7 +3,7 @@
 
 #include "file_lock.hpp"
 
-#include <framework/text/result.hpp>
+#include <tactus/text/result.hpp>
 
 #include <filesystem>
 #include <fstream>

@@ -2,10 +2,10 @@
 #include "csv.hpp"
 #include "text_file.hpp"
 
-#include <framework/kit/at.hpp>
-#include <framework/text/budget.hpp>
-#include <framework/text/number_text.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/kit/at.hpp>
+#include <tactus/text/budget.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <array>

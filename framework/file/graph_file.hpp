@@ -25,10 +25,10 @@
 ///     unit/syntax           a value with a unit that cannot be parsed
 ///     output/unwritable     the file cannot be written
 
-#include <framework/graph/graph.hpp>
-#include <framework/text/budget.hpp>
-#include <framework/text/result.hpp>
-#include <framework/text/text_position.hpp>
+#include <tactus/graph/graph.hpp>
+#include <tactus/text/budget.hpp>
+#include <tactus/text/result.hpp>
+#include <tactus/text/text_position.hpp>
 
 #include <filesystem>
 #include <string>

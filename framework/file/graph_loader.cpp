@@ -2,8 +2,8 @@
 #include "graph_file.hpp"
 #include "text_file.hpp"
 
-#include <framework/text/json_text.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/text/json_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <iterator>

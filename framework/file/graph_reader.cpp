@@ -2,7 +2,7 @@
 #include "graph_file.hpp"
 #include "migrate.hpp"
 
-#include <framework/graph/part_reader.hpp>
+#include <tactus/graph/part_reader.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,10 @@
 #include "graph_file.hpp"
 #include "migrate.hpp"
 
-#include <framework/graph/graph_parts.hpp>
-#include <framework/graph/text.hpp>
-#include <framework/text/json_text.hpp>
-#include <framework/text/json_writer.hpp>
+#include <tactus/graph/graph_parts.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/text/json_text.hpp>
+#include <tactus/text/json_writer.hpp>
 
 #include <array>
 #include <cmath>

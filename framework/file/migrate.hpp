@@ -6,7 +6,7 @@
 
 #include "graph_file.hpp"
 
-#include <framework/text/json.hpp>
+#include <tactus/text/json.hpp>
 
 #include <span>
 

@@ -3,8 +3,8 @@
 
 #include "atomic_file.hpp"
 
-#include <framework/kit/at.hpp>
-#include <framework/text/budget.hpp>
+#include <tactus/kit/at.hpp>
+#include <tactus/text/budget.hpp>
 
 #include <cerrno>
 #include <fstream>

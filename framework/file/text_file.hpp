@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/text/result.hpp>
+#include <tactus/text/result.hpp>
 
 #include <filesystem>
 #include <optional>

@@ -9,8 +9,8 @@
 #include "regroup.hpp"
 #include "text.hpp"
 
-#include <framework/kit/at.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/kit/at.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -15,7 +15,7 @@
 
 #include "graph.hpp"
 
-#include <framework/text/result.hpp>
+#include <tactus/text/result.hpp>
 
 #include <concepts>
 #include <cstddef>

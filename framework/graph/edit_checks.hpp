@@ -3,7 +3,7 @@
 
 #include "graph.hpp"
 
-#include <framework/text/message.hpp>
+#include <tactus/text/message.hpp>
 
 #include <optional>
 #include <string>

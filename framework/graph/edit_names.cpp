@@ -2,7 +2,7 @@
 #include "edit.hpp"
 #include "text.hpp"
 
-#include <framework/text/quote.hpp>
+#include <tactus/text/quote.hpp>
 
 namespace tactus::graph
 {

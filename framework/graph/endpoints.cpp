@@ -3,7 +3,7 @@
 
 #include "text.hpp"
 
-#include <framework/text/json_text.hpp>
+#include <tactus/text/json_text.hpp>
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "exchange_member.hpp"
 
-#include <framework/kit/at.hpp>
-#include <framework/text/json_text.hpp>
+#include <tactus/kit/at.hpp>
+#include <tactus/text/json_text.hpp>
 
 #include <algorithm>
 #include <utility>

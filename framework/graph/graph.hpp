@@ -4,7 +4,7 @@
 /// A graph as people edit and save it: plain data, in the order it was written. It is not checked against the catalogue; that
 /// happens in framework/plan/compile.hpp. Change a graph only through framework/graph/edit.hpp.
 
-#include <framework/text/json.hpp>
+#include <tactus/text/json.hpp>
 
 #include <cstdint>
 #include <map>

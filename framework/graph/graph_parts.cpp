@@ -4,7 +4,7 @@
 #include "part_reader.hpp"
 #include "text.hpp"
 
-#include <framework/text/quote.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <cmath>
 #include <initializer_list>

@@ -6,7 +6,7 @@
 
 #include "graph.hpp"
 
-#include <framework/text/result.hpp>
+#include <tactus/text/result.hpp>
 
 #include <string>
 

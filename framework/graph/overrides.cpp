@@ -3,8 +3,8 @@
 
 #include "instances.hpp"
 
-#include <framework/kit/at.hpp>
-#include <framework/text/json_text.hpp>
+#include <tactus/kit/at.hpp>
+#include <tactus/text/json_text.hpp>
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include "instances.hpp"
 #include "text.hpp"
 
-#include <framework/text/quote.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 

@@ -3,8 +3,8 @@
 
 #include "text.hpp"
 
-#include <framework/text/quote.hpp>
-#include <framework/text/units.hpp>
+#include <tactus/text/quote.hpp>
+#include <tactus/text/units.hpp>
 
 #include <cmath>
 

@@ -3,8 +3,8 @@
 
 /// Reads the parts of a graph file: patches, nodes, wires, exposed ports, controls.
 
-#include <framework/text/json_text.hpp>
-#include <framework/text/ordered_reader.hpp>
+#include <tactus/text/json_text.hpp>
+#include <tactus/text/ordered_reader.hpp>
 
 #include "graph.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "references.hpp"
 
-#include <framework/text/json_text.hpp>
+#include <tactus/text/json_text.hpp>
 
 #include <algorithm>
 

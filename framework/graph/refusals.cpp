@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "refusals.hpp"
 
-#include <framework/text/quote.hpp>
+#include <tactus/text/quote.hpp>
 
 namespace tactus::graph
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/text/message.hpp>
+#include <tactus/text/message.hpp>
 
 #include <string>
 

@@ -7,8 +7,8 @@
 #include "separate.hpp"
 #include "text.hpp"
 
-#include <framework/text/json_text.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/text/json_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <map>

@@ -5,9 +5,9 @@
 #include "overrides.hpp"
 #include "text.hpp"
 
-#include <framework/kit/at.hpp>
-#include <framework/text/json_text.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/kit/at.hpp>
+#include <tactus/text/json_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <set>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "text.hpp"
 
-#include <framework/kit/at.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/kit/at.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <charconv>
 #include <optional>

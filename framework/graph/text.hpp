@@ -3,7 +3,7 @@
 
 #include "graph.hpp"
 
-#include <framework/text/result.hpp>
+#include <tactus/text/result.hpp>
 
 #include <string>
 #include <string_view>

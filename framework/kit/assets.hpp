@@ -6,7 +6,7 @@
 #include "at.hpp"
 #include "vec3.hpp"
 
-#include <framework/text/result.hpp>
+#include <tactus/text/result.hpp>
 
 #include <array>
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "expression.hpp"
 
-#include <framework/text/is_digit.hpp>
+#include <tactus/text/is_digit.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -18,7 +18,7 @@ function (tactus_collect_nodes result)
         string (REGEX REPLACE "[/.]" "_" name "${header}")
 
         file (CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT
-"#include <framework/node/catalogue.hpp>
+"#include <tactus/node/catalogue.hpp>
 #undef TACTUS_REGISTER
 #define TACTUS_REGISTER(N) tactus::NodeType ${name}() { return tactus::describe<N>(); }
 #include <${header}>
@@ -29,7 +29,7 @@ function (tactus_collect_nodes result)
     endforeach ()
 
     file (CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/catalogue.cpp CONTENT
-"#include <framework/node/catalogue.hpp>
+"#include <tactus/node/catalogue.hpp>
 ${declarations}
 const tactus::Catalogue& tactus::catalogue()
 {

@@ -11,12 +11,12 @@
 ///         output (&Outputs::force, "force", unit::newton, "force on the tool"),
 ///     };
 
-#include <framework/text/quantity.hpp>
+#include <tactus/text/quantity.hpp>
 
-#include <framework/kit/curve.hpp>
-#include <framework/kit/law.hpp>
-#include <framework/kit/list.hpp>
-#include <framework/kit/surface.hpp>
+#include <tactus/kit/curve.hpp>
+#include <tactus/kit/law.hpp>
+#include <tactus/kit/list.hpp>
+#include <tactus/kit/surface.hpp>
 
 #include <cstddef>
 #include <limits>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/vec3.hpp>
-#include <framework/node/reading_fault.hpp>
+#include <tactus/kit/vec3.hpp>
+#include <tactus/node/reading_fault.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "device_parts.hpp"
-#include <framework/text/closest_match.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/quote.hpp>
 
 namespace tactus
 {

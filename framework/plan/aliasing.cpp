@@ -3,8 +3,8 @@
 #include "carries.hpp"
 #include "make_node.hpp"
 
-#include <framework/graph/text.hpp>
-#include <framework/text/number_text.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "unit_check.hpp"
 
-#include <framework/node/node.hpp>
+#include <tactus/node/node.hpp>
 
 namespace tactus::plan
 {

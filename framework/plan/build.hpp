@@ -4,7 +4,7 @@
 #include "plan.hpp"
 #include "unit_check.hpp"
 
-#include <framework/node/node.hpp>
+#include <tactus/node/node.hpp>
 
 namespace tactus
 {

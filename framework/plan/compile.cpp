@@ -6,9 +6,9 @@
 #include "sections.hpp"
 #include "slots.hpp"
 
-#include <framework/graph/instances.hpp>
-#include <framework/graph/text.hpp>
-#include <framework/text/budget.hpp>
+#include <tactus/graph/instances.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/text/budget.hpp>
 
 #include <iterator>
 #include <map>

@@ -14,8 +14,8 @@
 #include "flatten.hpp"
 #include "plan.hpp"
 
-#include <framework/graph/graph.hpp>
-#include <framework/text/message.hpp>
+#include <tactus/graph/graph.hpp>
+#include <tactus/text/message.hpp>
 
 namespace tactus
 {

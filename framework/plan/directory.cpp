@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "directory.hpp"
 
-#include <framework/graph/instances.hpp>
-#include <framework/graph/text.hpp>
-#include <framework/text/closest_match.hpp>
+#include <tactus/graph/instances.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/text/closest_match.hpp>
 
 namespace tactus::plan
 {

@@ -2,10 +2,10 @@
 #include "find_hit.hpp"
 #include "directory.hpp"
 
-#include <framework/graph/instances.hpp>
-#include <framework/graph/text.hpp>
-#include <framework/text/closest_match.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/graph/instances.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/quote.hpp>
 
 namespace tactus::plan
 {

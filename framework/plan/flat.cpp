@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "flat.hpp"
 
-#include <framework/text/budget.hpp>
+#include <tactus/text/budget.hpp>
 
 #include <algorithm>
 

@@ -4,10 +4,10 @@
 /// A flat graph: subgraphs expanded, names resolved against the catalogue, values read. The later steps of compiling work on
 /// it. compile.hpp lists all steps; flatten.hpp makes the flat graph.
 
-#include <framework/graph/graph.hpp>
-#include <framework/kit/at.hpp>
-#include <framework/node/catalogue.hpp>
-#include <framework/text/message.hpp>
+#include <tactus/graph/graph.hpp>
+#include <tactus/kit/at.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/text/message.hpp>
 
 #include <deque>
 #include <optional>

@@ -7,11 +7,11 @@
 #include "values.hpp"
 #include "wire_fit.hpp"
 
-#include <framework/graph/instances.hpp>
-#include <framework/graph/overrides.hpp>
-#include <framework/graph/text.hpp>
-#include <framework/text/budget.hpp>
-#include <framework/text/closest_match.hpp>
+#include <tactus/graph/instances.hpp>
+#include <tactus/graph/overrides.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/text/budget.hpp>
+#include <tactus/text/closest_match.hpp>
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 /// Knobs turn the parameters of a running node. Any thread may set a target; the tick thread ramps each parameter to its
 /// target in a straight line. Choices apply immediately.
 
-#include <framework/node/catalogue.hpp>
+#include <tactus/node/catalogue.hpp>
 
 #include <algorithm>
 #include <atomic>

@@ -2,7 +2,7 @@
 #include "lateness.hpp"
 #include "order.hpp"
 
-#include <framework/graph/text.hpp>
+#include <tactus/graph/text.hpp>
 
 #include <algorithm>
 #include <numeric>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "missing_parts.hpp"
 
-#include <framework/text/quote.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <set>

@@ -3,7 +3,7 @@
 
 #include "plan.hpp"
 
-#include <framework/text/message.hpp>
+#include <tactus/text/message.hpp>
 
 namespace tactus
 {

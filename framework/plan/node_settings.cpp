@@ -3,7 +3,7 @@
 #include "directory.hpp"
 #include "settings.hpp"
 
-#include <framework/text/closest_match.hpp>
+#include <tactus/text/closest_match.hpp>
 
 #include <algorithm>
 

@@ -7,7 +7,7 @@
 #include "instance.hpp"
 #include "sum.hpp"
 
-#include <framework/node/catalogue.hpp>
+#include <tactus/node/catalogue.hpp>
 
 #include <cstddef>
 #include <cstring>

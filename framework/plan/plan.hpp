@@ -6,7 +6,7 @@
 #include "sum.hpp"
 #include "takeover.hpp"
 
-#include <framework/node/catalogue.hpp>
+#include <tactus/node/catalogue.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "same_settings.hpp"
 
-#include <framework/kit/surface.hpp>
+#include <tactus/kit/surface.hpp>
 
 #include <algorithm>
 

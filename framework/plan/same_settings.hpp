@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node/setting.hpp>
+#include <tactus/node/setting.hpp>
 
 namespace tactus::plan
 {

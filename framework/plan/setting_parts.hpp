@@ -6,7 +6,7 @@
 
 #include "values.hpp"
 
-#include <framework/kit/law.hpp>
+#include <tactus/kit/law.hpp>
 
 namespace tactus::plan
 {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node/setting.hpp>
-#include <framework/text/json.hpp>
-#include <framework/text/result.hpp>
+#include <tactus/node/setting.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/result.hpp>
 
 #include <string>
 

@@ -2,8 +2,8 @@
 #include "values.hpp"
 #include "directory.hpp"
 
-#include <framework/text/closest_match.hpp>
-#include <framework/text/number_text.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/number_text.hpp>
 
 namespace tactus::plan
 {

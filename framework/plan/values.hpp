@@ -3,8 +3,8 @@
 
 #include "flat.hpp"
 
-#include <framework/text/result.hpp>
-#include <framework/text/units.hpp>
+#include <tactus/text/result.hpp>
+#include <tactus/text/units.hpp>
 
 namespace tactus::plan
 {

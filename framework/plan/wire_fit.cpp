@@ -2,7 +2,7 @@
 #include "wire_fit.hpp"
 #include "values.hpp"
 
-#include <framework/graph/text.hpp>
+#include <tactus/graph/text.hpp>
 
 namespace tactus::plan
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/assets.hpp>
+#include <tactus/kit/assets.hpp>
 
 #include <set>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node/device.hpp>
+#include <tactus/node/device.hpp>
 
 #include <algorithm>
 #include <cmath>

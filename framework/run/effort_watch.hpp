@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/rotation.hpp>
-#include <framework/node/device.hpp>
+#include <tactus/kit/rotation.hpp>
+#include <tactus/node/device.hpp>
 
 #include <algorithm>
 #include <array>

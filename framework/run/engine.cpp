@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine.hpp"
 
-#include <framework/plan/find_hit.hpp>
-#include <framework/plan/find_param.hpp>
+#include <tactus/plan/find_hit.hpp>
+#include <tactus/plan/find_param.hpp>
 
 #include <algorithm>
 #include <stdexcept>

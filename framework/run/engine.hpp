@@ -5,9 +5,9 @@
 #include "guard.hpp"
 #include "guard_log.hpp"
 #include "plan_swap.hpp"
-#include <framework/plan/journal.hpp>
-#include <framework/plan/plan.hpp>
-#include <framework/text/result.hpp>
+#include <tactus/plan/journal.hpp>
+#include <tactus/plan/plan.hpp>
+#include <tactus/text/result.hpp>
 
 #include <atomic>
 #include <cstdint>

@@ -3,7 +3,7 @@
 
 #include "run.hpp"
 
-#include <framework/file/csv.hpp>
+#include <tactus/file/csv.hpp>
 
 #include <span>
 #include <string>

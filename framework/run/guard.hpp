@@ -2,7 +2,7 @@
 #pragma once
 
 #include "effort_watch.hpp"
-#include <framework/node/device.hpp>
+#include <tactus/node/device.hpp>
 
 #include <array>
 #include <cstdint>

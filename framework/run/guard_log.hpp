@@ -3,7 +3,7 @@
 
 #include "guard.hpp"
 
-#include <framework/kit/snapshot.hpp>
+#include <tactus/kit/snapshot.hpp>
 
 #include <algorithm>
 #include <array>

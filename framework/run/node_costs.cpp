@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "node_costs.hpp"
 
-#include <framework/text/number_text.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <cmath>

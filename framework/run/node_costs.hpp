@@ -3,9 +3,9 @@
 
 #include "tick_clock.hpp"
 
-#include <framework/kit/random.hpp>
-#include <framework/kit/spsc_ring.hpp>
-#include <framework/plan/plan.hpp>
+#include <tactus/kit/random.hpp>
+#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/plan/plan.hpp>
 
 #include <cstdint>
 #include <map>

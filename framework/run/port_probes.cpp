@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "port_probes.hpp"
 
-#include <framework/text/quote.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cmath>

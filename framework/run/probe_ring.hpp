@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/graph/instances.hpp>
-#include <framework/kit/spsc_ring.hpp>
-#include <framework/plan/plan.hpp>
+#include <tactus/graph/instances.hpp>
+#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/plan/plan.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/async_query.hpp>
-#include <framework/plan/journal.hpp>
+#include <tactus/kit/async_query.hpp>
+#include <tactus/plan/journal.hpp>
 
 #include <atomic>
 #include <condition_variable>

@@ -3,9 +3,9 @@
 #include "log/graph_snapshot.hpp"
 #include "turn.hpp"
 
-#include <framework/plan/find_hit.hpp>
-#include <framework/plan/find_param.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/plan/find_hit.hpp>
+#include <tactus/plan/find_param.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/async_query.hpp>
+#include <tactus/kit/async_query.hpp>
 
 #include <algorithm>
 #include <cstdint>

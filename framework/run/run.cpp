@@ -4,8 +4,8 @@
 #include "device/guard_limits.hpp"
 #include "log/graph_snapshot.hpp"
 
-#include <framework/text/number_text.hpp>
-#include <framework/text/units.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/units.hpp>
 
 #include <algorithm>
 

@@ -8,8 +8,8 @@
 #include "runner.hpp"
 #include "taps.hpp"
 
-#include <framework/plan/compile.hpp>
-#include <framework/text/result.hpp>
+#include <tactus/plan/compile.hpp>
+#include <tactus/text/result.hpp>
 
 #include <filesystem>
 #include <functional>

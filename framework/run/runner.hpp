@@ -9,7 +9,7 @@
 
 #include "engine.hpp"
 
-#include <framework/kit/snapshot.hpp>
+#include <tactus/kit/snapshot.hpp>
 
 #include <atomic>
 #include <cstdint>

@@ -2,8 +2,8 @@
 #include "taps.hpp"
 #include "probe_ring.hpp"
 
-#include <framework/text/quote.hpp>
-#include <framework/text/result.hpp>
+#include <tactus/text/quote.hpp>
+#include <tactus/text/result.hpp>
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 #include "triggered_capture.hpp"
 
-#include <framework/text/result.hpp>
+#include <tactus/text/result.hpp>
 
 #include <memory>
 #include <string>

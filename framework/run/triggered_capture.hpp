@@ -2,7 +2,7 @@
 #pragma once
 
 #include "plan_swap.hpp"
-#include <framework/plan/plan.hpp>
+#include <tactus/plan/plan.hpp>
 
 #include <atomic>
 #include <cstddef>

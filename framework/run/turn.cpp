@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "turn.hpp"
 
-#include <framework/plan/directory.hpp>
-#include <framework/plan/values.hpp>
-#include <framework/text/closest_match.hpp>
-#include <framework/text/json_text.hpp>
-#include <framework/text/message.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/plan/directory.hpp>
+#include <tactus/plan/values.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/json_text.hpp>
+#include <tactus/text/message.hpp>
+#include <tactus/text/quote.hpp>
 
 namespace tactus
 {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "engine.hpp"
-#include <framework/graph/graph.hpp>
-#include <framework/text/json.hpp>
+#include <tactus/graph/graph.hpp>
+#include <tactus/text/json.hpp>
 
-#include <framework/plan/flatten.hpp>
-#include <framework/text/result.hpp>
+#include <tactus/plan/flatten.hpp>
+#include <tactus/text/result.hpp>
 
 #include <optional>
 #include <string>

@@ -4,9 +4,9 @@
 #include "mesh.hpp"
 #include "table.hpp"
 
-#include <framework/file/text_file.hpp>
-#include <framework/text/budget.hpp>
 #include <host/io/wav.hpp>
+#include <tactus/file/text_file.hpp>
+#include <tactus/text/budget.hpp>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/kit/assets.hpp>
+#include <tactus/kit/assets.hpp>
 
 #include <cstdint>
 #include <filesystem>

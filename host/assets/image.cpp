@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "image.hpp"
 
-#include <framework/text/budget.hpp>
+#include <tactus/text/budget.hpp>
 
 #include <spng.h>
 #include <turbojpeg.h>

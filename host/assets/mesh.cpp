@@ -2,7 +2,7 @@
 #include "mesh.hpp"
 #include "mesh_parts.hpp"
 
-#include <framework/text/budget.hpp>
+#include <tactus/text/budget.hpp>
 
 #include <Eigen/Geometry>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/kit/assets.hpp>
-#include <framework/text/result.hpp>
+#include <tactus/kit/assets.hpp>
+#include <tactus/text/result.hpp>
 
 #include <string_view>
 

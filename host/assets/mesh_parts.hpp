@@ -3,8 +3,8 @@
 
 #include "text.hpp"
 
-#include <framework/kit/assets.hpp>
-#include <framework/text/budget.hpp>
+#include <tactus/kit/assets.hpp>
+#include <tactus/text/budget.hpp>
 
 #include <map>
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/kit/nearest_triangle.hpp>
+#include <tactus/kit/nearest_triangle.hpp>
 
 #include <memory>
 

@@ -2,8 +2,8 @@
 #include "table.hpp"
 #include "text.hpp"
 
-#include <framework/text/budget.hpp>
-#include <framework/text/number_text.hpp>
+#include <tactus/text/budget.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <cmath>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/run/tick_clock.hpp>
+#include <tactus/run/tick_clock.hpp>
 
 #include <atomic>
 #include <chrono>

@@ -5,8 +5,8 @@
 #include "channel_limit.hpp"
 #include "high_pass.hpp"
 
-#include <framework/node/device.hpp>
-#include <framework/run/guard.hpp>
+#include <tactus/node/device.hpp>
+#include <tactus/run/guard.hpp>
 
 #include <atomic>
 #include <functional>

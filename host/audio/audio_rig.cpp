@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "audio_rig.hpp"
 
-#include <framework/run/probe_ring.hpp>
-#include <framework/text/message.hpp>
-#include <framework/text/number_text.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/run/probe_ring.hpp>
+#include <tactus/text/message.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -8,8 +8,8 @@
 #include "port_mixer.hpp"
 #include "stream.hpp"
 
-#include <framework/run/run.hpp>
-#include <framework/text/result.hpp>
+#include <tactus/run/run.hpp>
+#include <tactus/text/result.hpp>
 
 #include <array>
 #include <atomic>

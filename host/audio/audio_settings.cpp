@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "audio_settings.hpp"
 
-#include <framework/node/device.hpp>
-#include <framework/text/message.hpp>
-#include <framework/text/number_text.hpp>
-#include <framework/text/object_reader.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/node/device.hpp>
+#include <tactus/text/message.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/object_reader.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cctype>

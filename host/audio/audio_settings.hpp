@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/text/json.hpp>
-#include <framework/text/result.hpp>
-#include <framework/text/units.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/result.hpp>
+#include <tactus/text/units.hpp>
 
 #include <optional>
 #include <string>

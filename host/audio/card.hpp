@@ -3,7 +3,7 @@
 
 #include "audio_settings.hpp"
 
-#include <framework/text/result.hpp>
+#include <tactus/text/result.hpp>
 
 #include <cstdint>
 #include <memory>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/kit/spsc_ring.hpp>
 #include <host/io/wav.hpp>
+#include <tactus/kit/spsc_ring.hpp>
 
 #include <filesystem>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/kit/vec3.hpp>
+#include <tactus/kit/vec3.hpp>
 
 #include <algorithm>
 #include <cmath>

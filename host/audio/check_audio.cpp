@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "check_audio.hpp"
 
-#include <framework/run/device/guard_limits.hpp>
+#include <tactus/run/device/guard_limits.hpp>
 
 #include <algorithm>
 #include <utility>

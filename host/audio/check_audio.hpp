@@ -3,7 +3,7 @@
 
 #include "audio_settings.hpp"
 
-#include <framework/run/guard.hpp>
+#include <tactus/run/guard.hpp>
 
 namespace tactus::host::audio
 {

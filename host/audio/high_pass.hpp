@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/kit/biquad.hpp>
+#include <tactus/kit/biquad.hpp>
 
 #include <numbers>
 #include <optional>

@@ -2,7 +2,7 @@
 #include "open_audio.hpp"
 #include "check_audio.hpp"
 
-#include <framework/text/message.hpp>
+#include <tactus/text/message.hpp>
 
 #include <algorithm>
 #include <utility>

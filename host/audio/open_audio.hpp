@@ -3,7 +3,7 @@
 
 #include "audio_rig.hpp"
 
-#include <framework/run/device/make_device.hpp>
+#include <tactus/run/device/make_device.hpp>
 
 namespace tactus::host::audio
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "port_mixer.hpp"
 
-#include <framework/run/probe_ring.hpp>
+#include <tactus/run/probe_ring.hpp>
 
 #include <algorithm>
 #include <cmath>

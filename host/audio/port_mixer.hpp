@@ -4,7 +4,7 @@
 #include "audio_settings.hpp"
 #include "high_pass.hpp"
 
-#include <framework/plan/plan.hpp>
+#include <tactus/plan/plan.hpp>
 
 #include <array>
 #include <atomic>

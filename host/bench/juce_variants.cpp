@@ -6,7 +6,7 @@
 #include "one_poles.hpp"
 #include "reference.hpp"
 
-#include <nodes/filter/one_pole.hpp>
+#include <tactus/nodes/filter/one_pole.hpp>
 
 namespace tactus::bench
 {

@@ -3,7 +3,7 @@
 
 #include "variant.hpp"
 
-#include <framework/graph/graph.hpp>
+#include <tactus/graph/graph.hpp>
 
 #include <functional>
 #include <memory>

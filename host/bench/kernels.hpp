@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <nodes/contact/impact.hpp>
-#include <nodes/contact/window.hpp>
-#include <nodes/deform/surface.hpp>
-#include <nodes/device/force.hpp>
-#include <nodes/device/position.hpp>
-#include <nodes/friction/elasto_plastic.hpp>
-#include <nodes/hold/predictive.hpp>
-#include <nodes/motion/velocity.hpp>
-#include <nodes/safety/passivity.hpp>
-#include <nodes/shock/hunt_crossley.hpp>
-#include <nodes/signal/add.hpp>
-#include <nodes/texture/grating.hpp>
-#include <nodes/texture/noise.hpp>
-#include <nodes/vector/add.hpp>
-#include <nodes/vector/scale.hpp>
-#include <nodes/vibration/modal.hpp>
+#include <tactus/nodes/contact/impact.hpp>
+#include <tactus/nodes/contact/window.hpp>
+#include <tactus/nodes/deform/surface.hpp>
+#include <tactus/nodes/device/force.hpp>
+#include <tactus/nodes/device/position.hpp>
+#include <tactus/nodes/friction/elasto_plastic.hpp>
+#include <tactus/nodes/hold/predictive.hpp>
+#include <tactus/nodes/motion/velocity.hpp>
+#include <tactus/nodes/safety/passivity.hpp>
+#include <tactus/nodes/shock/hunt_crossley.hpp>
+#include <tactus/nodes/signal/add.hpp>
+#include <tactus/nodes/texture/grating.hpp>
+#include <tactus/nodes/texture/noise.hpp>
+#include <tactus/nodes/vector/add.hpp>
+#include <tactus/nodes/vector/scale.hpp>
+#include <tactus/nodes/vibration/modal.hpp>
 
 namespace tactus::bench
 {

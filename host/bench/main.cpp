@@ -3,8 +3,8 @@
 #include "bench.hpp"
 #include "instructions.hpp"
 
-#include <framework/text/json.hpp>
 #include <host/command_line/command.hpp>
+#include <tactus/text/json.hpp>
 
 #include <juce_events/juce_events.h>
 

@@ -2,7 +2,7 @@
 #include "memory.hpp"
 #include "one_poles.hpp"
 
-#include <nodes/filter/one_pole.hpp>
+#include <tactus/nodes/filter/one_pole.hpp>
 
 #include <malloc.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "one_poles.hpp"
 
-#include <framework/graph/text.hpp>
-#include <framework/kit/random.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/kit/random.hpp>
 
 #include <algorithm>
 

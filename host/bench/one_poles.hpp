@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/graph/graph.hpp>
-#include <framework/plan/compile.hpp>
+#include <tactus/graph/graph.hpp>
+#include <tactus/plan/compile.hpp>
 
 namespace tactus::bench
 {

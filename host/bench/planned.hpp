@@ -3,8 +3,8 @@
 
 #include "variant.hpp"
 
-#include <framework/graph/graph.hpp>
-#include <framework/plan/compile.hpp>
+#include <tactus/graph/graph.hpp>
+#include <tactus/plan/compile.hpp>
 
 namespace tactus::bench
 {

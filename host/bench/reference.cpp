@@ -2,10 +2,10 @@
 #include "reference.hpp"
 #include "embedded.hpp"
 
-#include <framework/file/graph_file.hpp>
-#include <framework/plan/compile.hpp>
-#include <framework/run/device/make_device.hpp>
-#include <framework/run/engine.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/plan/compile.hpp>
+#include <tactus/run/device/make_device.hpp>
+#include <tactus/run/engine.hpp>
 
 #include <string_view>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/graph/graph.hpp>
-#include <framework/kit/vec3.hpp>
+#include <tactus/graph/graph.hpp>
+#include <tactus/kit/vec3.hpp>
 
 #include <vector>
 

@@ -3,13 +3,13 @@
 #include "overwriting.hpp"
 #include "report.hpp"
 
-#include <framework/graph/reconcile.hpp>
-#include <framework/plan/missing_parts.hpp>
-#include <framework/text/closest_match.hpp>
-#include <framework/text/quote.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/platform/home_folder.hpp>
 #include <host/sessions/needs.hpp>
+#include <tactus/graph/reconcile.hpp>
+#include <tactus/plan/missing_parts.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <cmath>
 #include <iostream>

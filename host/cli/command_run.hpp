@@ -4,14 +4,14 @@
 #include "hardware.hpp"
 #include "run_options.hpp"
 
-#include <framework/file/graph_file.hpp>
-#include <framework/run/device/make_device.hpp>
-#include <framework/run/feed.hpp>
-#include <framework/run/port_probes.hpp>
-#include <framework/run/run.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/sessions/binding.hpp>
 #include <host/sessions/choose_clock.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/run/device/make_device.hpp>
+#include <tactus/run/feed.hpp>
+#include <tactus/run/port_probes.hpp>
+#include <tactus/run/run.hpp>
 
 #include <filesystem>
 #include <memory>

@@ -2,9 +2,6 @@
 #include "commands.hpp"
 #include "report.hpp"
 
-#include <framework/text/json.hpp>
-#include <framework/text/number_text.hpp>
-#include <framework/text/quote.hpp>
 #include <host/audio/card.hpp>
 #include <host/hid_link/force_feedback.hpp>
 #include <host/hid_link/hid_device.hpp>
@@ -13,6 +10,9 @@
 #include <host/hid_link/udev_rule.hpp>
 #include <host/platform/signals.hpp>
 #include <host/platform/terminal.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <chrono>

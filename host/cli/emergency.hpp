@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/run/run.hpp>
-#include <framework/text/result.hpp>
 #include <host/platform/terminal.hpp>
+#include <tactus/run/run.hpp>
+#include <tactus/text/result.hpp>
 
 #include <atomic>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hardware.hpp"
 
-#include <framework/text/quote.hpp>
 #include <host/hid_link/hid_device.hpp>
 #include <host/hid_link/profile_library.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "osc_client.hpp"
 #include "report.hpp"
 
-#include <framework/text/quote.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <charconv>
 #include <utility>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "live_recording.hpp"
 
-#include <framework/text/quote.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <cstdio>
 #include <utility>

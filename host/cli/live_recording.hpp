@@ -4,8 +4,8 @@
 #include "command_run.hpp"
 #include "recorder.hpp"
 
-#include <framework/kit/spsc_ring.hpp>
-#include <framework/run/runner.hpp>
+#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/run/runner.hpp>
 
 #include <string>
 #include <vector>

@@ -2,11 +2,11 @@
 #include "commands.hpp"
 #include "report.hpp"
 
-#include <framework/node/catalogue.hpp>
-#include <framework/text/closest_match.hpp>
-#include <framework/text/json.hpp>
-#include <framework/text/number_text.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <iostream>

@@ -2,8 +2,8 @@
 #include "overwriting.hpp"
 #include "report.hpp"
 
-#include <framework/file/atomic_file.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/file/atomic_file.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <iostream>

@@ -7,12 +7,12 @@
 #include "remote.hpp"
 #include "report.hpp"
 
-#include <framework/text/number_text.hpp>
-#include <framework/text/quote.hpp>
 #include <host/io/file_watch.hpp>
 #include <host/osc/osc_options.hpp>
 #include <host/platform/signals.hpp>
 #include <host/platform/terminal.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <chrono>
 #include <cstdio>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/run/runner.hpp>
+#include <tactus/run/runner.hpp>
 
 namespace tactus::host
 {

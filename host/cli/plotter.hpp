@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/plan/plan.hpp>
+#include <tactus/plan/plan.hpp>
 
 #include <span>
 #include <string>

@@ -5,9 +5,9 @@
 #include "report.hpp"
 #include "triggered_probe.hpp"
 
-#include <framework/text/number_text.hpp>
-#include <framework/text/quote.hpp>
 #include <host/platform/signals.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <chrono>
 #include <iostream>

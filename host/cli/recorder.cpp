@@ -2,7 +2,7 @@
 #include "recorder.hpp"
 #include "report.hpp"
 
-#include <framework/text/number_text.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <filesystem>

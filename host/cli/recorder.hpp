@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/file/csv.hpp>
-#include <framework/plan/plan.hpp>
 #include <host/io/wav.hpp>
+#include <tactus/file/csv.hpp>
+#include <tactus/plan/plan.hpp>
 
 #include <cstddef>
 #include <cstdint>

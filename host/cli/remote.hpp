@@ -4,10 +4,10 @@
 #include "command_run.hpp"
 #include "emergency.hpp"
 
-#include <framework/run/runner.hpp>
-#include <framework/run/turn.hpp>
-#include <framework/text/message.hpp>
 #include <host/osc/remote_control.hpp>
+#include <tactus/run/runner.hpp>
+#include <tactus/run/turn.hpp>
+#include <tactus/text/message.hpp>
 
 namespace tactus::host
 {

@@ -7,11 +7,11 @@
 #include "recorder.hpp"
 #include "report.hpp"
 
-#include <framework/file/atomic_file.hpp>
-#include <framework/run/replay.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/platform/signals.hpp>
+#include <tactus/file/atomic_file.hpp>
+#include <tactus/run/replay.hpp>
 
 #include <cstdint>
 #include <memory>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/file/graph_file.hpp>
-#include <framework/text/message.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/text/message.hpp>
 
 #include <string>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run_options.hpp"
 
-#include <framework/run/turn.hpp>
-#include <framework/text/budget.hpp>
+#include <tactus/run/turn.hpp>
+#include <tactus/text/budget.hpp>
 
 namespace tactus::host
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/plan/compile.hpp>
 #include <host/command_line/command.hpp>
+#include <tactus/plan/compile.hpp>
 
 #include <string>
 #include <vector>

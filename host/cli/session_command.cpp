@@ -2,17 +2,17 @@
 #include "commands.hpp"
 #include "report.hpp"
 
-#include <framework/graph/text.hpp>
-#include <framework/node/catalogue.hpp>
-#include <framework/plan/compile.hpp>
-#include <framework/text/number_text.hpp>
-#include <framework/text/quote.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/hid_link/profile_library.hpp>
 #include <host/platform/home_folder.hpp>
 #include <host/sessions/choose_clock.hpp>
 #include <host/sessions/role_fits.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/plan/compile.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <iostream>

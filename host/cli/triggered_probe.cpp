@@ -3,9 +3,9 @@
 #include "float_text.hpp"
 #include "report.hpp"
 
-#include <framework/text/number_text.hpp>
-#include <framework/text/quote.hpp>
 #include <host/platform/signals.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <chrono>
 #include <cstdio>

@@ -3,14 +3,14 @@
 #include "report.hpp"
 #include "run_options.hpp"
 
-#include <framework/node/catalogue.hpp>
-#include <framework/plan/compile.hpp>
-#include <framework/text/quote.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/hid_link/profile_library.hpp>
 #include <host/sessions/role_fits.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/plan/compile.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <filesystem>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.hpp"
 
-#include <framework/text/number_text.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <CLI/CLI.hpp>
 

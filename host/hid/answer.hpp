@@ -3,7 +3,7 @@
 
 #include "profile.hpp"
 
-#include <framework/text/result.hpp>
+#include <tactus/text/result.hpp>
 
 #include <optional>
 #include <span>

@@ -6,7 +6,7 @@
 #include "report_decoder.hpp"
 #include "report_encoder.hpp"
 
-#include <framework/node/device.hpp>
+#include <tactus/node/device.hpp>
 
 #include <algorithm>
 #include <memory>

@@ -2,9 +2,9 @@
 #include "number_reader.hpp"
 #include "report_reader.hpp"
 
-#include <framework/graph/text.hpp>
-#include <framework/text/closest_match.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <utility>

@@ -2,8 +2,8 @@
 #include "number_reader.hpp"
 #include "report_reader.hpp"
 
-#include <framework/graph/text.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <functional>

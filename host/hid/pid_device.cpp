@@ -2,7 +2,7 @@
 #include "pid_device.hpp"
 #include "bits.hpp"
 
-#include <framework/text/message.hpp>
+#include <tactus/text/message.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "profile.hpp"
 #include "report_descriptor.hpp"
 
-#include <framework/text/message.hpp>
+#include <tactus/text/message.hpp>
 
 #include <functional>
 #include <map>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/kit/rotation.hpp>
-#include <framework/run/guard.hpp>
-#include <framework/text/message.hpp>
+#include <tactus/kit/rotation.hpp>
+#include <tactus/run/guard.hpp>
+#include <tactus/text/message.hpp>
 
 #include <array>
 #include <cstddef>

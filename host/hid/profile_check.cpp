@@ -3,11 +3,11 @@
 #include "bits.hpp"
 #include "report_encoder.hpp"
 
-#include <framework/node/device.hpp>
-#include <framework/run/device/guard_limits.hpp>
-#include <framework/text/closest_match.hpp>
-#include <framework/text/number_text.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/node/device.hpp>
+#include <tactus/run/device/guard_limits.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #include "profile_fields.hpp"
 #include "hex.hpp"
 
-#include <framework/graph/text.hpp>
-#include <framework/text/quote.hpp>
-#include <framework/text/units.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/text/quote.hpp>
+#include <tactus/text/units.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -3,7 +3,7 @@
 
 #include "profile.hpp"
 
-#include <framework/text/object_reader.hpp>
+#include <tactus/text/object_reader.hpp>
 
 #include <functional>
 #include <optional>

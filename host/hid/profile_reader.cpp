@@ -5,11 +5,11 @@
 #include "profile_check.hpp"
 #include "report_reader.hpp"
 
-#include <framework/file/text_file.hpp>
-#include <framework/run/device/guard_limits.hpp>
-#include <framework/text/json_text.hpp>
-#include <framework/text/quote.hpp>
-#include <framework/text/units.hpp>
+#include <tactus/file/text_file.hpp>
+#include <tactus/run/device/guard_limits.hpp>
+#include <tactus/text/json_text.hpp>
+#include <tactus/text/quote.hpp>
+#include <tactus/text/units.hpp>
 
 #include <algorithm>
 #include <iterator>

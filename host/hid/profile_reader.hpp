@@ -3,8 +3,8 @@
 
 #include "profile.hpp"
 
-#include <framework/text/json.hpp>
-#include <framework/text/message.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/message.hpp>
 
 #include <filesystem>
 #include <memory>

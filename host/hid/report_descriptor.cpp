@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report_descriptor.hpp"
 
-#include <framework/text/message.hpp>
+#include <tactus/text/message.hpp>
 
 #include <algorithm>
 #include <map>

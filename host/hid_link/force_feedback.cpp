@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "force_feedback.hpp"
-#include <framework/text/closest_match.hpp>
-#include <framework/text/message.hpp>
-#include <framework/text/object_reader.hpp>
 #include <host/hid/report_descriptor.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/message.hpp>
+#include <tactus/text/object_reader.hpp>
 
-#include <framework/text/number_text.hpp>
-#include <framework/text/quote.hpp>
-#include <framework/text/units.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
+#include <tactus/text/units.hpp>
 
 #include <algorithm>
 #include <utility>

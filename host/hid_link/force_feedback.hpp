@@ -3,8 +3,8 @@
 
 #include "transport.hpp"
 
-#include <framework/text/json.hpp>
 #include <host/hid/pid_device.hpp>
+#include <tactus/text/json.hpp>
 
 #include <memory>
 #include <optional>

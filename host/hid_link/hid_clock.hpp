@@ -3,7 +3,7 @@
 
 #include "hid_port.hpp"
 
-#include <framework/run/tick_clock.hpp>
+#include <tactus/run/tick_clock.hpp>
 
 #include <atomic>
 #include <cstdint>

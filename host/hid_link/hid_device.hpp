@@ -5,10 +5,10 @@
 #include "stream_feed.hpp"
 #include "vibration_tracker.hpp"
 
-#include <framework/kit/snapshot.hpp>
-#include <framework/node/device.hpp>
 #include <host/hid/hid_model.hpp>
 #include <host/hid/report_record.hpp>
+#include <tactus/kit/snapshot.hpp>
+#include <tactus/node/device.hpp>
 
 #include <array>
 #include <bitset>

@@ -2,10 +2,10 @@
 #include "hid_port.hpp"
 #include "udev_rule.hpp"
 
-#include <framework/run/realtime.hpp>
-#include <framework/run/tick_clock.hpp>
 #include <host/hid/answer.hpp>
 #include <host/hid/bits.hpp>
+#include <tactus/run/realtime.hpp>
+#include <tactus/run/tick_clock.hpp>
 
 #include <algorithm>
 #include <cmath>

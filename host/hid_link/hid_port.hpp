@@ -3,11 +3,11 @@
 
 #include "transport.hpp"
 
-#include <framework/kit/snapshot.hpp>
-#include <framework/kit/spsc_ring.hpp>
-#include <framework/text/result.hpp>
 #include <host/hid/hid_model.hpp>
 #include <host/platform/doorbell.hpp>
+#include <tactus/kit/snapshot.hpp>
+#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/text/result.hpp>
 
 #include <array>
 #include <atomic>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transport.hpp"
 
-#include <framework/file/file_lock.hpp>
 #include <host/platform/device_file.hpp>
 #include <host/platform/failsafe.hpp>
+#include <tactus/file/file_lock.hpp>
 
 #include <hidapi.h>
 

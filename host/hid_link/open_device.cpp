@@ -2,12 +2,12 @@
 #include "open_device.hpp"
 #include "force_feedback.hpp"
 #include "hid_device.hpp"
-#include <framework/run/device/guard_limits.hpp>
-#include <framework/text/closest_match.hpp>
-#include <framework/text/message.hpp>
-#include <framework/text/object_reader.hpp>
+#include <tactus/run/device/guard_limits.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/message.hpp>
+#include <tactus/text/object_reader.hpp>
 
-#include <framework/text/quote.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cmath>

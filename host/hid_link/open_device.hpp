@@ -3,8 +3,8 @@
 
 #include "hid_port.hpp"
 
-#include <framework/run/device/make_device.hpp>
 #include <host/hid/profile_reader.hpp>
+#include <tactus/run/device/make_device.hpp>
 
 namespace tactus::host::hid
 {

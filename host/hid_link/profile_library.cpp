@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "profile_library.hpp"
-#include <framework/text/quote.hpp>
 #include <host/hid/drive_difference.hpp>
 #include <host/platform/device_file.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cstdlib>

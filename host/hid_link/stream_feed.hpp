@@ -3,7 +3,7 @@
 
 #include <host/hid/profile.hpp>
 
-#include <framework/node/device.hpp>
+#include <tactus/node/device.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/text/result.hpp>
 #include <host/hid/match.hpp>
+#include <tactus/text/result.hpp>
 
 #include <chrono>
 #include <cstddef>

@@ -3,7 +3,7 @@
 
 #include "figure_layout.hpp"
 #include "polyline.hpp"
-#include <framework/file/atomic_file.hpp>
+#include <tactus/file/atomic_file.hpp>
 
 #include <juce_events/juce_events.h>
 #include <juce_graphics/juce_graphics.h>

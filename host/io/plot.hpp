@@ -2,7 +2,7 @@
 #pragma once
 
 #include "colours.hpp"
-#include <framework/text/result.hpp>
+#include <tactus/text/result.hpp>
 
 #include <filesystem>
 #include <optional>

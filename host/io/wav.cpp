@@ -2,9 +2,9 @@
 #include "wav.hpp"
 #include "wav_samples.hpp"
 
-#include <framework/file/atomic_file.hpp>
-#include <framework/file/text_file.hpp>
-#include <framework/text/budget.hpp>
+#include <tactus/file/atomic_file.hpp>
+#include <tactus/file/text_file.hpp>
+#include <tactus/text/budget.hpp>
 
 #include <juce_audio_formats/juce_audio_formats.h>
 

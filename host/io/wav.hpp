@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/file/atomic_file.hpp>
-#include <framework/kit/assets.hpp>
-#include <framework/text/result.hpp>
+#include <tactus/file/atomic_file.hpp>
+#include <tactus/kit/assets.hpp>
+#include <tactus/text/result.hpp>
 
 #include <cstddef>
 #include <filesystem>

@@ -3,7 +3,7 @@
 
 #include "osc_address.hpp"
 
-#include <framework/text/result.hpp>
+#include <tactus/text/result.hpp>
 
 #include <juce_osc/juce_osc.h>
 

@@ -3,11 +3,11 @@
 
 #include "osc_port.hpp"
 
-#include <framework/run/node_costs.hpp>
-#include <framework/run/run_status.hpp>
-#include <framework/run/triggered_capture.hpp>
-#include <framework/text/json.hpp>
-#include <framework/text/message.hpp>
+#include <tactus/run/node_costs.hpp>
+#include <tactus/run/run_status.hpp>
+#include <tactus/run/triggered_capture.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/message.hpp>
 
 #include <chrono>
 #include <cstdint>

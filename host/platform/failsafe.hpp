@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/text/result.hpp>
+#include <tactus/text/result.hpp>
 
 #include <chrono>
 #include <cstddef>

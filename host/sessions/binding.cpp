@@ -2,8 +2,8 @@
 #include "binding.hpp"
 #include "awaited_device.hpp"
 
-#include <framework/run/device/guard_limits.hpp>
 #include <host/audio/audio_settings.hpp>
+#include <tactus/run/device/guard_limits.hpp>
 
 #include <algorithm>
 #include <iterator>

@@ -4,8 +4,8 @@
 #include "session_file.hpp"
 #include "workspace.hpp"
 
-#include <framework/run/device/make_device.hpp>
 #include <host/hid_link/open_device.hpp>
+#include <tactus/run/device/make_device.hpp>
 
 #include <functional>
 #include <optional>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/graph/graph.hpp>
-#include <framework/text/json.hpp>
-#include <framework/text/message.hpp>
 #include <host/hid_link/open_device.hpp>
+#include <tactus/graph/graph.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/message.hpp>
 
 #include <functional>
 #include <optional>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "device_session.hpp"
 
-#include <framework/graph/text.hpp>
-#include <framework/text/json_text.hpp>
-#include <framework/text/message.hpp>
-#include <framework/text/number_text.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/text/json_text.hpp>
+#include <tactus/text/message.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <utility>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/text/json.hpp>
-#include <framework/text/message.hpp>
-#include <framework/text/text_position.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/message.hpp>
+#include <tactus/text/text_position.hpp>
 
 #include <string>
 #include <string_view>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/node/device.hpp>
-#include <framework/plan/plan.hpp>
-#include <framework/text/json.hpp>
-#include <framework/text/message.hpp>
 #include <host/hid/profile_reader.hpp>
+#include <tactus/node/device.hpp>
+#include <tactus/plan/plan.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/message.hpp>
 
 #include <filesystem>
 #include <optional>

@@ -4,7 +4,7 @@
 #include "binding.hpp"
 #include "needs.hpp"
 
-#include <framework/graph/graph.hpp>
+#include <tactus/graph/graph.hpp>
 
 #include <span>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "session_file.hpp"
 
-#include <framework/file/text_file.hpp>
-#include <framework/text/json_text.hpp>
-#include <framework/text/message.hpp>
+#include <tactus/file/text_file.hpp>
+#include <tactus/text/json_text.hpp>
+#include <tactus/text/message.hpp>
 
 #include <system_error>
 #include <utility>

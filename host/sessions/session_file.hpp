@@ -3,7 +3,7 @@
 
 #include "device_session.hpp"
 
-#include <framework/text/result.hpp>
+#include <tactus/text/result.hpp>
 
 #include <filesystem>
 #include <functional>

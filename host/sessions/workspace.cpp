@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "workspace.hpp"
 
-#include <framework/text/object_reader.hpp>
-#include <framework/text/units.hpp>
+#include <tactus/text/object_reader.hpp>
+#include <tactus/text/units.hpp>
 
 #include <utility>
 

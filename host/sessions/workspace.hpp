@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/node/device.hpp>
-#include <framework/run/guard.hpp>
-#include <framework/text/json.hpp>
-#include <framework/text/message.hpp>
+#include <tactus/node/device.hpp>
+#include <tactus/run/guard.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/message.hpp>
 
 #include <memory>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "evemu.hpp"
-#include <framework/text/message.hpp>
+#include <tactus/text/message.hpp>
 
-#include <framework/text/quote.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <charconv>

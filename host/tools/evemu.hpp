@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/run/device/trace.hpp>
+#include <tactus/run/device/trace.hpp>
 
 #include <string_view>
 

@@ -2,9 +2,9 @@
 // Converts a recording of a pen tablet to a trace: evemu_to_trace pen.events --out pen.csv
 #include "evemu.hpp"
 #include "measure_option.hpp"
-#include <framework/file/csv.hpp>
-#include <framework/text/number_text.hpp>
-#include <framework/text/object_reader.hpp>
+#include <tactus/file/csv.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/object_reader.hpp>
 
 #include <fstream>
 #include <iostream>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/node/node.hpp>
-#include <framework/text/units.hpp>
+#include <tactus/node/node.hpp>
+#include <tactus/text/units.hpp>
 
 #include <host/command_line/command.hpp>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "switch_loop.hpp"
 
-#include <framework/file/graph_file.hpp>
-#include <framework/kit/law.hpp>
-#include <framework/text/number_text.hpp>
-#include <framework/text/quote.hpp>
-#include <framework/text/units.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/kit/law.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
+#include <tactus/text/units.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/file/csv.hpp>
-#include <framework/graph/graph.hpp>
-#include <framework/text/result.hpp>
+#include <tactus/file/csv.hpp>
+#include <tactus/graph/graph.hpp>
+#include <tactus/text/result.hpp>
 
 #include <string>
 #include <string_view>

@@ -3,8 +3,8 @@
 #include "measure_option.hpp"
 #include "switch_loop.hpp"
 
-#include <framework/file/graph_file.hpp>
-#include <framework/text/number_text.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <cmath>
 #include <filesystem>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node/node.hpp>
+#include <tactus/node/node.hpp>
 
 namespace tactus::nodes
 {

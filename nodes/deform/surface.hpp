@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/async_query.hpp>
-#include <framework/kit/placed_surface.hpp>
-#include <framework/kit/surface_check.hpp>
-#include <framework/node/node.hpp>
+#include <tactus/kit/async_query.hpp>
+#include <tactus/kit/placed_surface.hpp>
+#include <tactus/kit/surface_check.hpp>
+#include <tactus/node/node.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node/device_parts.hpp>
-#include <framework/node/generic.hpp>
+#include <tactus/node/device_parts.hpp>
+#include <tactus/node/generic.hpp>
 
 #include <string>
 

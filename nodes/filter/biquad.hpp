@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/biquad.hpp>
-#include <framework/node/generic.hpp>
+#include <tactus/kit/biquad.hpp>
+#include <tactus/node/generic.hpp>
 
 #include <cmath>
 #include <numbers>

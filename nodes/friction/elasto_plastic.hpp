@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/bristle.hpp>
-#include <framework/node/node.hpp>
+#include <tactus/kit/bristle.hpp>
+#include <tactus/node/node.hpp>
 
 #include <algorithm>
 #include <string>

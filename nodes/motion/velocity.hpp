@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/vec3.hpp>
-#include <framework/node/node.hpp>
+#include <tactus/kit/vec3.hpp>
+#include <tactus/node/node.hpp>
 
 #include <algorithm>
 #include <array>

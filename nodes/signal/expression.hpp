@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/expression.hpp>
-#include <framework/node/generic.hpp>
+#include <tactus/kit/expression.hpp>
+#include <tactus/node/generic.hpp>
 
 #include <string>
 

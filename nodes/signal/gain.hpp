@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node/generic.hpp>
+#include <tactus/node/generic.hpp>
 
 namespace tactus::nodes
 {

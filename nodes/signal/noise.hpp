@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/random.hpp>
-#include <framework/node/generic.hpp>
+#include <tactus/kit/random.hpp>
+#include <tactus/node/generic.hpp>
 
 #include <cmath>
 #include <cstdint>

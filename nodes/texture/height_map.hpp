@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/spline_surface.hpp>
-#include <framework/node/node.hpp>
-#include <framework/node/setting.hpp>
+#include <tactus/kit/spline_surface.hpp>
+#include <tactus/node/node.hpp>
+#include <tactus/node/setting.hpp>
 
 #include <algorithm>
 #include <cmath>

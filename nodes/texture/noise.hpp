@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/lattice.hpp>
-#include <framework/kit/random.hpp>
-#include <framework/kit/stream_resampler.hpp>
-#include <framework/node/node.hpp>
+#include <tactus/kit/lattice.hpp>
+#include <tactus/kit/random.hpp>
+#include <tactus/kit/stream_resampler.hpp>
+#include <tactus/node/node.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <framework/node/generic.hpp>
+#include <tactus/node/generic.hpp>
 
 namespace tactus::nodes
 {

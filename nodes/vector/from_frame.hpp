@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/rotation.hpp>
-#include <framework/node/frame.hpp>
-#include <framework/node/generic.hpp>
+#include <tactus/kit/rotation.hpp>
+#include <tactus/node/frame.hpp>
+#include <tactus/node/generic.hpp>
 
 namespace tactus::nodes
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node/mode.hpp>
-#include <framework/node/node.hpp>
+#include <tactus/node/mode.hpp>
+#include <tactus/node/node.hpp>
 
 #include <cmath>
 #include <complex>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/recording.hpp>
-#include <framework/node/mode.hpp>
-#include <framework/node/node.hpp>
+#include <tactus/kit/recording.hpp>
+#include <tactus/node/mode.hpp>
+#include <tactus/node/node.hpp>
 
 #include <algorithm>
 #include <array>

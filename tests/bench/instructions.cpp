@@ -4,7 +4,7 @@
 // Callgrind counts inside `ticked` and dumps after each `counted`, so its n-th dump belongs to the n-th line printed
 // here. The first dump is for a tick that does nothing: the cost of the call itself.
 
-#include <framework/node/catalogue.hpp>
+#include <tactus/node/catalogue.hpp>
 
 #include <cmath>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/run/engine.hpp>
 #include <support/sketch.hpp>
+#include <tactus/run/engine.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -4,7 +4,7 @@
 /// Data of the figures in docs/chapter.md. A test renders a graph of docs/figures/, checks what the figure shows, and
 /// writes the numbers to build/figures/. The scripts in this folder draw them (draw.py).
 
-#include <framework/file/csv.hpp>
+#include <tactus/file/csv.hpp>
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The reasons why a guard stops the force: speed, impulse, energy, the dead-man's switch, the emergency stop.
 
-#include <framework/run/guard.hpp>
-#include <framework/run/guard_log.hpp>
+#include <tactus/run/guard.hpp>
+#include <tactus/run/guard_log.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/file/csv.hpp>
-#include <framework/run/device/trace.hpp>
+#include <tactus/file/csv.hpp>
+#include <tactus/run/device/trace.hpp>
 
 #include <cstdlib>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/file/graph_file.hpp>
-#include <framework/plan/compile.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/plan/compile.hpp>
 
 #include <cstdlib>
 

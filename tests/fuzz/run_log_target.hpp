@@ -3,8 +3,8 @@
 
 #include "whole_error.hpp"
 
-#include <framework/run/log/graph_snapshot.hpp>
-#include <framework/run/log/run_log_reader.hpp>
+#include <tactus/run/log/graph_snapshot.hpp>
+#include <tactus/run/log/run_log_reader.hpp>
 
 #include <cstdlib>
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/text/units.hpp>
+#include <tactus/text/units.hpp>
 
 #include <cmath>
 #include <cstdlib>

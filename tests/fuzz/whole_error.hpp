@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/text/message.hpp>
+#include <tactus/text/message.hpp>
 
 #include <cstdlib>
 

@@ -4,7 +4,7 @@
 /// Golden sets: tests/golden/NAME.csv contains inputs and expected outputs of a model, one row per sample, computed by an
 /// independent program. NAME.json contains the parameters and tolerances.
 
-#include <framework/text/json.hpp>
+#include <tactus/text/json.hpp>
 
 #include <algorithm>
 #include <cmath>

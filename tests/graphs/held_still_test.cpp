@@ -3,12 +3,12 @@
 
 #include "support/sketch.hpp"
 
-#include <framework/file/graph_file.hpp>
-#include <framework/run/device/make_device.hpp>
-#include <framework/run/engine.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
-#include <nodes/friction/elasto_plastic.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/nodes/friction/elasto_plastic.hpp>
+#include <tactus/run/device/make_device.hpp>
+#include <tactus/run/engine.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -4,9 +4,9 @@
 #include "support/sketch.hpp"
 
 #include "support/live.hpp"
-#include <framework/file/graph_file.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
+#include <tactus/file/graph_file.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -2,8 +2,8 @@
 // How the interpreter reads a graph; interpreter_tick.cpp runs it.
 #include "interpreter.hpp"
 
-#include <framework/plan/compile.hpp>
-#include <framework/text/units.hpp>
+#include <tactus/plan/compile.hpp>
+#include <tactus/text/units.hpp>
 
 #include <algorithm>
 #include <cstring>

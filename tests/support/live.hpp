@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/graph/history.hpp>
-#include <framework/run/run.hpp>
-#include <framework/run/turn.hpp>
+#include <tactus/graph/history.hpp>
+#include <tactus/run/run.hpp>
+#include <tactus/run/turn.hpp>
 
 #include <span>
 #include <string>

@@ -2,7 +2,7 @@
 #include "random_edit.hpp"
 #include "random_graph.hpp"
 
-#include <framework/node/catalogue.hpp>
+#include <tactus/node/catalogue.hpp>
 
 #include <algorithm>
 #include <cmath>

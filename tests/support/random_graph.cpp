@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "random_graph.hpp"
 
-#include <framework/graph/endpoints.hpp>
-#include <framework/graph/text.hpp>
-#include <framework/node/catalogue.hpp>
-#include <framework/plan/compile.hpp>
-#include <framework/text/units.hpp>
+#include <tactus/graph/endpoints.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/plan/compile.hpp>
+#include <tactus/text/units.hpp>
 
 #include <algorithm>
 #include <set>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/graph/graph.hpp>
-#include <framework/graph/text.hpp>
-#include <framework/plan/compile.hpp>
-#include <framework/run/engine.hpp>
+#include <tactus/graph/graph.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/plan/compile.hpp>
+#include <tactus/run/engine.hpp>
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/text/budget.hpp>
+#include <tactus/text/budget.hpp>
 
 /// Changes budgets, as --limits does, until the end of a test.
 class WithLimits

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/vec3.hpp>
+#include <tactus/kit/vec3.hpp>
 
 #include <span>
 #include <string_view>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "guard_limits.hpp"
 
-#include <framework/node/device_parts.hpp>
-#include <framework/text/number_text.hpp>
-#include <framework/text/units.hpp>
+#include <tactus/node/device_parts.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/units.hpp>
 
 #include <utility>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/run/guard.hpp>
-#include <framework/text/json.hpp>
-#include <framework/text/message.hpp>
-#include <framework/text/object_reader.hpp>
+#include <tactus/run/guard.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/message.hpp>
+#include <tactus/text/object_reader.hpp>
 
 #include <string>
 

@@ -3,16 +3,16 @@
 #include "gesture_device.hpp"
 #include "guard_limits.hpp"
 #include "sim.hpp"
-#include <framework/file/csv.hpp>
-#include <framework/file/text_file.hpp>
-#include <framework/text/closest_match.hpp>
-#include <framework/text/message.hpp>
-#include <framework/text/number_text.hpp>
-#include <framework/text/object_reader.hpp>
+#include <tactus/file/csv.hpp>
+#include <tactus/file/text_file.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/message.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/object_reader.hpp>
 
-#include <framework/graph/text.hpp>
-#include <framework/text/json_text.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/text/json_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <fstream>

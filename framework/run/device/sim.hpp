@@ -2,7 +2,7 @@
 #pragma once
 
 #include "path.hpp"
-#include <framework/node/device.hpp>
+#include <tactus/node/device.hpp>
 
 #include <cstdint>
 #include <memory>

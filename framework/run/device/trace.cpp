@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "trace.hpp"
-#include <framework/text/message.hpp>
-#include <framework/text/number_text.hpp>
+#include <tactus/text/message.hpp>
+#include <tactus/text/number_text.hpp>
 
-#include <framework/graph/text.hpp>
-#include <framework/text/closest_match.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <charconv>

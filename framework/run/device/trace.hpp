@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node/device.hpp>
-#include <framework/text/message.hpp>
+#include <tactus/node/device.hpp>
+#include <tactus/text/message.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "content_hash.hpp"
 
-#include <framework/file/text_file.hpp>
+#include <tactus/file/text_file.hpp>
 
 #include <cstdint>
 #include <fstream>

@@ -2,10 +2,10 @@
 #include "graph_snapshot.hpp"
 #include "content_hash.hpp"
 
-#include <framework/file/graph_file.hpp>
-#include <framework/graph/ids.hpp>
-#include <framework/text/json_text.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/graph/ids.hpp>
+#include <tactus/text/json_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <memory>
 #include <utility>

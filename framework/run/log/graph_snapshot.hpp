@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/graph/graph.hpp>
-#include <framework/text/result.hpp>
+#include <tactus/graph/graph.hpp>
+#include <tactus/text/result.hpp>
 
 #include <filesystem>
 #include <set>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/text/json.hpp>
-#include <framework/text/json_writer.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/json_writer.hpp>
 
 #include <cmath>
 #include <limits>

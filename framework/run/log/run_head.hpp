@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/run/guard.hpp>
+#include <tactus/run/guard.hpp>
 
 #include <cstdint>
 #include <map>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/spsc_ring.hpp>
-#include <framework/plan/journal.hpp>
-#include <framework/plan/plan.hpp>
+#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/plan/journal.hpp>
+#include <tactus/plan/plan.hpp>
 
 #include <atomic>
 #include <cstdint>

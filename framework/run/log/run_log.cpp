@@ -2,8 +2,8 @@
 #include "run_log.hpp"
 #include "log_number.hpp"
 
-#include <framework/plan/find_hit.hpp>
-#include <framework/plan/find_param.hpp>
+#include <tactus/plan/find_hit.hpp>
+#include <tactus/plan/find_param.hpp>
 
 #include <algorithm>
 #include <bit>

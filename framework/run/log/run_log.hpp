@@ -5,8 +5,8 @@
 #include "run_head.hpp"
 #include "run_journal.hpp"
 
-#include <framework/text/json.hpp>
-#include <framework/text/result.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/result.hpp>
 
 #include <cstdint>
 #include <deque>

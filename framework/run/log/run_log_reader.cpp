@@ -2,10 +2,10 @@
 #include "run_log_reader.hpp"
 #include "log_number.hpp"
 
-#include <framework/file/text_file.hpp>
-#include <framework/text/json_text.hpp>
-#include <framework/text/ordered_reader.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/file/text_file.hpp>
+#include <tactus/text/json_text.hpp>
+#include <tactus/text/ordered_reader.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cerrno>

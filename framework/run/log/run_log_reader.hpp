@@ -4,10 +4,10 @@
 #include "reading_fields.hpp"
 #include "run_head.hpp"
 
-#include <framework/node/device.hpp>
-#include <framework/text/json.hpp>
-#include <framework/text/message.hpp>
-#include <framework/text/result.hpp>
+#include <tactus/node/device.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/message.hpp>
+#include <tactus/text/result.hpp>
 
 #include <cstdint>
 #include <istream>

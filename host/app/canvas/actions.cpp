@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "actions.hpp"
 
-#include <framework/graph/endpoints.hpp>
-#include <framework/run/device/make_device.hpp>
 #include <host/app/model/fragment.hpp>
 #include <host/app/model/param_value.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/model/wire_rules.hpp>
+#include <tactus/graph/endpoints.hpp>
+#include <tactus/run/device/make_device.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 
 #include "scene.hpp"
 
-#include <framework/graph/edit.hpp>
+#include <tactus/graph/edit.hpp>
 
 #include <optional>
 #include <set>

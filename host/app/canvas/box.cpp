@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "box.hpp"
 
-#include <framework/text/number_text.hpp>
 #include <host/app/model/param_value.hpp>
 #include <host/app/model/with_prefix.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <cmath>

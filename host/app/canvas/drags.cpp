@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "drags.hpp"
 
-#include <framework/graph/endpoints.hpp>
-#include <framework/run/turn.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/drag_number.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/model/wire_rules.hpp>
+#include <tactus/graph/endpoints.hpp>
+#include <tactus/run/turn.hpp>
 
 #include <cmath>
 

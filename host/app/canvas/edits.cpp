@@ -3,9 +3,6 @@
 #include "arrange.hpp"
 #include "canvas.hpp"
 
-#include <framework/graph/endpoints.hpp>
-#include <framework/graph/text.hpp>
-#include <framework/run/turn.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/model/clipboard.hpp>
 #include <host/app/model/fragment.hpp>
@@ -13,6 +10,9 @@
 #include <host/app/model/patch.hpp>
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/model/wire_rules.hpp>
+#include <tactus/graph/endpoints.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/run/turn.hpp>
 
 #include <array>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/graph/edit.hpp>
+#include <tactus/graph/edit.hpp>
 
 #include <string>
 #include <string_view>

@@ -2,11 +2,11 @@
 #include "scene.hpp"
 #include "arrange.hpp"
 
-#include <framework/graph/endpoints.hpp>
-#include <framework/graph/text.hpp>
 #include <host/app/model/param_now.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/model/quantities.hpp>
+#include <tactus/graph/endpoints.hpp>
+#include <tactus/graph/text.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <host/app/model/message_text.hpp>
 #include <host/audio/audio_rig.hpp>
 
-#include <framework/run/device/gestures.hpp>
-#include <framework/run/device/make_device.hpp>
+#include <tactus/run/device/gestures.hpp>
+#include <tactus/run/device/make_device.hpp>
 
 #include <algorithm>
 

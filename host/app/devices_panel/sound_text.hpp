@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/text/json.hpp>
-#include <framework/text/result.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/result.hpp>
 
 #include <string>
 #include <string_view>

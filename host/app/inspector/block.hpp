@@ -3,7 +3,7 @@
 
 #include <host/app/look/look.hpp>
 
-#include <framework/graph/graph.hpp>
+#include <tactus/graph/graph.hpp>
 
 #include <functional>
 

@@ -5,7 +5,7 @@
 #include "tool_button.hpp"
 #include <host/app/model/controlled_param.hpp>
 
-#include <framework/graph/text.hpp>
+#include <tactus/graph/text.hpp>
 
 #include <algorithm>
 

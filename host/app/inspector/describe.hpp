@@ -4,8 +4,8 @@
 #include "rows.hpp"
 #include "setting_editor.hpp"
 
-#include <framework/text/message.hpp>
 #include <host/app/model/patch.hpp>
+#include <tactus/text/message.hpp>
 
 namespace tactus::host
 {

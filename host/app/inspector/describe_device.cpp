@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "describe.hpp"
 
-#include <framework/run/device/make_device.hpp>
 #include <host/app/look/text.hpp>
 #include <host/app/model/device_profiles.hpp>
 #include <host/audio/audio_settings.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/sessions/role_fits.hpp>
+#include <tactus/run/device/make_device.hpp>
 
 #include <algorithm>
 

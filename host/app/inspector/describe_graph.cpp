@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "describe.hpp"
 
-#include <framework/graph/text.hpp>
 #include <host/app/look/text.hpp>
 #include <host/app/model/controlled_param.hpp>
+#include <tactus/graph/text.hpp>
 
 #include <cmath>
 

@@ -2,9 +2,9 @@
 #include "describe.hpp"
 #include "header.hpp"
 
-#include <framework/graph/text.hpp>
 #include <host/app/look/text.hpp>
 #include <host/app/model/node_doc.hpp>
+#include <tactus/graph/text.hpp>
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "file_text.hpp"
 
-#include <framework/text/number_text.hpp>
 #include <host/app/model/quantity_text.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/kit/assets.hpp>
-#include <framework/node/setting.hpp>
+#include <tactus/kit/assets.hpp>
+#include <tactus/node/setting.hpp>
 
 #include <filesystem>
 #include <string>

@@ -4,7 +4,7 @@
 #include "setting_editor.hpp"
 #include "table_row.hpp"
 
-#include <framework/plan/settings.hpp>
+#include <tactus/plan/settings.hpp>
 
 namespace tactus::host
 {

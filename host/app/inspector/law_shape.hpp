@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/kit/law.hpp>
-#include <framework/text/json.hpp>
+#include <tactus/kit/law.hpp>
+#include <tactus/text/json.hpp>
 
 #include <string>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include <host/app/look/focus.hpp>
 
-#include <framework/text/number_text.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <cctype>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include "block.hpp"
 #include "plot_box.hpp"
 
-#include <framework/text/result.hpp>
 #include <host/app/look/text.hpp>
+#include <tactus/text/result.hpp>
 
 #include <functional>
 

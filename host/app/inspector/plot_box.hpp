@@ -3,8 +3,8 @@
 
 #include <host/app/look/look.hpp>
 
-#include <framework/node/datasheet.hpp>
-#include <framework/text/quantity.hpp>
+#include <tactus/node/datasheet.hpp>
+#include <tactus/text/quantity.hpp>
 
 #include <string>
 #include <vector>

@@ -4,7 +4,7 @@
 
 #include <host/app/look/text.hpp>
 
-#include <framework/plan/settings.hpp>
+#include <tactus/plan/settings.hpp>
 
 #include <array>
 #include <cmath>

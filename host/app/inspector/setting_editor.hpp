@@ -3,7 +3,7 @@
 
 #include "fields.hpp"
 
-#include <framework/node/setting.hpp>
+#include <tactus/node/setting.hpp>
 
 namespace tactus::host
 {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mixer.hpp"
 
-#include <framework/graph/endpoints.hpp>
-#include <framework/graph/text.hpp>
 #include <host/app/model/face.hpp>
 #include <host/app/model/fragment.hpp>
+#include <tactus/graph/endpoints.hpp>
+#include <tactus/graph/text.hpp>
 
 #include <algorithm>
 #include <memory>

@@ -3,9 +3,9 @@
 
 /// Layer mixers as mixing desks with one channel per layer, and edits of them as commands. Each command is one undo step.
 
-#include <framework/graph/edit.hpp>
-#include <framework/node/catalogue.hpp>
-#include <framework/text/result.hpp>
+#include <tactus/graph/edit.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/text/result.hpp>
 
 #include <optional>
 #include <string>

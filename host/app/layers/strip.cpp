@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "strip.hpp"
 
-#include <framework/graph/endpoints.hpp>
-#include <framework/graph/text.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/face.hpp>
 #include <host/app/model/message_text.hpp>
+#include <tactus/graph/endpoints.hpp>
+#include <tactus/graph/text.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/text/quantity.hpp>
+#include <tactus/text/quantity.hpp>
 
 #include <juce_graphics/juce_graphics.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "controlled_param.hpp"
 
-#include <framework/plan/values.hpp>
+#include <tactus/plan/values.hpp>
 
 #include <algorithm>
 #include <cctype>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/graph/history.hpp>
-#include <framework/text/message.hpp>
+#include <tactus/graph/history.hpp>
+#include <tactus/text/message.hpp>
 
 #include <algorithm>
 #include <filesystem>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "face.hpp"
 
-#include <framework/graph/endpoints.hpp>
-#include <framework/graph/inside.hpp>
+#include <tactus/graph/endpoints.hpp>
+#include <tactus/graph/inside.hpp>
 
 #include <algorithm>
 

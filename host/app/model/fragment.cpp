@@ -2,8 +2,8 @@
 #include "fragment.hpp"
 #include "patch.hpp"
 
-#include <framework/file/graph_file.hpp>
-#include <framework/graph/endpoints.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/graph/endpoints.hpp>
 
 #include <algorithm>
 #include <map>

@@ -2,8 +2,8 @@
 #include "param_value.hpp"
 #include "quantity_text.hpp"
 
-#include <framework/graph/endpoints.hpp>
-#include <framework/graph/inside.hpp>
+#include <tactus/graph/endpoints.hpp>
+#include <tactus/graph/inside.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/graph/graph.hpp>
+#include <tactus/graph/graph.hpp>
 
 #include <optional>
 #include <string>

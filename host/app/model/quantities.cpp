@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "quantities.hpp"
 
-#include <framework/graph/inside.hpp>
+#include <tactus/graph/inside.hpp>
 
 namespace tactus::host
 {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "quantity_text.hpp"
 
-#include <framework/plan/values.hpp>
-#include <framework/text/number_text.hpp>
-#include <framework/text/units.hpp>
+#include <tactus/plan/values.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/units.hpp>
 
 #include <cmath>
 #include <cstdlib>

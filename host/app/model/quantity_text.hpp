@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/node/catalogue.hpp>
-#include <framework/text/json.hpp>
-#include <framework/text/result.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/result.hpp>
 
 #include <string>
 

@@ -3,7 +3,7 @@
 
 #include "face.hpp"
 
-#include <framework/text/result.hpp>
+#include <tactus/text/result.hpp>
 
 namespace tactus::host
 {

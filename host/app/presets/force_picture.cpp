@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "force_picture.hpp"
 
-#include <framework/file/graph_file.hpp>
-#include <framework/plan/compile.hpp>
-#include <framework/run/device/make_device.hpp>
-#include <framework/run/engine.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/plan/compile.hpp>
+#include <tactus/run/device/make_device.hpp>
+#include <tactus/run/engine.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "preset_list.hpp"
 
-#include <framework/file/graph_file.hpp>
+#include <tactus/file/graph_file.hpp>
 
 #include <algorithm>
 #include <functional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fixes.hpp"
 
-#include <framework/run/device/make_device.hpp>
 #include <host/app/model/patch.hpp>
+#include <tactus/run/device/make_device.hpp>
 
 #include <algorithm>
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/graph/edit.hpp>
-#include <framework/text/message.hpp>
+#include <tactus/graph/edit.hpp>
+#include <tactus/text/message.hpp>
 
 #include <optional>
 #include <string>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/text/result.hpp>
 #include <host/app/model/device_profiles.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/sessions/session_file.hpp>
+#include <tactus/text/result.hpp>
 
 #include <condition_variable>
 #include <mutex>

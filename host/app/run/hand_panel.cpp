@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hand_panel.hpp"
 
-#include <framework/run/device/gestures.hpp>
 #include <host/app/model/message_text.hpp>
+#include <tactus/run/device/gestures.hpp>
 
 namespace tactus::host
 {

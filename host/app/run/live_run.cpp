@@ -2,13 +2,13 @@
 #include "live_run.hpp"
 #include "device_setup.hpp"
 
-#include <framework/plan/missing_parts.hpp>
-#include <framework/run/turn.hpp>
-#include <framework/text/message.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/platform/failsafe.hpp>
 #include <host/platform/signals.hpp>
 #include <host/sessions/binding.hpp>
+#include <tactus/plan/missing_parts.hpp>
+#include <tactus/run/turn.hpp>
+#include <tactus/text/message.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -6,11 +6,6 @@
 #include "traces.hpp"
 #include "transport_path.hpp"
 
-#include <framework/run/device/make_device.hpp>
-#include <framework/run/device/sim.hpp>
-#include <framework/run/run.hpp>
-#include <framework/run/runner.hpp>
-#include <framework/run/taps.hpp>
 #include <host/app/model/document.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/audio/open_audio.hpp>
@@ -19,6 +14,11 @@
 #include <host/sessions/device_session.hpp>
 #include <host/sessions/needs.hpp>
 #include <host/sessions/run_clock.hpp>
+#include <tactus/run/device/make_device.hpp>
+#include <tactus/run/device/sim.hpp>
+#include <tactus/run/run.hpp>
+#include <tactus/run/runner.hpp>
+#include <tactus/run/taps.hpp>
 
 #include <chrono>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "osc_server.hpp"
 
-#include <framework/graph/param_edit.hpp>
-#include <framework/text/message.hpp>
+#include <tactus/graph/param_edit.hpp>
+#include <tactus/text/message.hpp>
 
 namespace tactus::host
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/kit/snapshot.hpp>
-#include <framework/run/device/path.hpp>
+#include <tactus/kit/snapshot.hpp>
+#include <tactus/run/device/path.hpp>
 
 #include <cmath>
 

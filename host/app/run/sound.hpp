@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/text/result.hpp>
 #include <host/audio/card_keeper.hpp>
 #include <host/audio/high_pass.hpp>
 #include <host/audio/stream.hpp>
+#include <tactus/text/result.hpp>
 
 #include <atomic>
 #include <memory>

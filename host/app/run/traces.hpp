@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/plan/plan.hpp>
-#include <framework/run/probe_ring.hpp>
-#include <framework/run/run.hpp>
+#include <tactus/plan/plan.hpp>
+#include <tactus/run/probe_ring.hpp>
+#include <tactus/run/run.hpp>
 
 #include <algorithm>
 #include <cstdint>

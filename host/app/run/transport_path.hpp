@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/run/device/path.hpp>
+#include <tactus/run/device/path.hpp>
 
 #include <atomic>
 #include <cmath>

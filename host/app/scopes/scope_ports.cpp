@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scope_ports.hpp"
 
-#include <framework/graph/inside.hpp>
-#include <framework/run/probe_ring.hpp>
+#include <tactus/graph/inside.hpp>
+#include <tactus/run/probe_ring.hpp>
 
 namespace tactus::host
 {

@@ -8,7 +8,7 @@
 #include "tool_plot.hpp"
 #include "trace_file.hpp"
 
-#include <framework/file/atomic_file.hpp>
+#include <tactus/file/atomic_file.hpp>
 
 namespace tactus::host
 {

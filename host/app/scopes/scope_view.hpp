@@ -4,7 +4,7 @@
 #include "flat_button.hpp"
 #include "scope_plot.hpp"
 
-#include <framework/text/result.hpp>
+#include <tactus/text/result.hpp>
 
 #include <filesystem>
 

@@ -3,7 +3,7 @@
 
 #include "trace_window.hpp"
 
-#include <framework/kit/vec3.hpp>
+#include <tactus/kit/vec3.hpp>
 
 #include <functional>
 

@@ -3,7 +3,7 @@
 
 #include "trace_window.hpp"
 
-#include <framework/file/csv.hpp>
+#include <tactus/file/csv.hpp>
 
 namespace tactus::host
 {

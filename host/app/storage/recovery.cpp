@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "recovery.hpp"
 
-#include <framework/file/graph_file.hpp>
-#include <framework/file/text_file.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/file/text_file.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/file/file_lock.hpp>
-#include <framework/graph/graph.hpp>
-#include <framework/text/result.hpp>
+#include <tactus/file/file_lock.hpp>
+#include <tactus/graph/graph.hpp>
+#include <tactus/text/result.hpp>
 
 #include <filesystem>
 #include <optional>

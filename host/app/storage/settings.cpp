@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "settings.hpp"
 
-#include <framework/file/text_file.hpp>
+#include <tactus/file/text_file.hpp>
 
 #include <algorithm>
 

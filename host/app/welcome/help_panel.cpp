@@ -5,7 +5,7 @@
 #include <host/app/look/focus.hpp>
 #include <host/app/model/node_doc.hpp>
 
-#include <framework/text/number_text.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/node/catalogue.hpp>
 #include <host/app/inspector/block.hpp>
 #include <host/app/look/plain_button.hpp>
+#include <tactus/node/catalogue.hpp>
 
 #include <functional>
 

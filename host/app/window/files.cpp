@@ -5,8 +5,8 @@
 #include <host/app/presets/preset_list.hpp>
 #include <host/app/storage/carry_files.hpp>
 
-#include <framework/file/graph_file.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/text/quote.hpp>
 
 namespace tactus::host
 {

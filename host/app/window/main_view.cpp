@@ -2,8 +2,8 @@
 #include "main_view.hpp"
 #include "appearance.hpp"
 
-#include <framework/text/quote.hpp>
 #include <host/app/model/message_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 #include <host/app/look/focus.hpp>
 #include <host/app/welcome/example.hpp>
 
-#include <framework/file/graph_file.hpp>
+#include <tactus/file/graph_file.hpp>
 
 #include <algorithm>
 #include <array>

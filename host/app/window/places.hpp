@@ -3,7 +3,7 @@
 
 #include <host/app/canvas/canvas.hpp>
 
-#include <framework/text/json.hpp>
+#include <tactus/text/json.hpp>
 
 namespace tactus::host
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <framework/file/atomic_file.hpp>
+#include <tactus/file/atomic_file.hpp>
 
 #include "support/no_system_calls.hpp"
 #include "support/temporary_folder.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <framework/file/csv.hpp>
+#include <tactus/file/csv.hpp>
 
 #include "support/temporary_folder.hpp"
 

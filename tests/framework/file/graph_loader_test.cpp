@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <framework/file/graph_file.hpp>
+#include <tactus/file/graph_file.hpp>
 
 #include <support/temporary_folder.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <framework/file/graph_file.hpp>
-#include <framework/file/migrate.hpp>
-#include <framework/graph/text.hpp>
-#include <framework/text/closest_match.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/file/migrate.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/text/closest_match.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What each step of the migration does to a graph file, and that files of the newest version stay as they are.
-#include <framework/file/graph_file.hpp>
+#include <tactus/file/graph_file.hpp>
 
-#include <framework/node/catalogue.hpp>
 #include <support/temporary_folder.hpp>
+#include <tactus/node/catalogue.hpp>
 
 #include <catch2/catch.hpp>
 

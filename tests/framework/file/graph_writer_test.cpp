@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <framework/file/graph_file.hpp>
-#include <framework/text/json_writer.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/text/json_writer.hpp>
 
 #include <framework/graph/wild_graph.hpp>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <framework/file/csv.hpp>
-#include <framework/file/graph_file.hpp>
-#include <framework/file/text_file.hpp>
-#include <framework/run/log/content_hash.hpp>
-#include <framework/run/log/run_log_reader.hpp>
+#include <tactus/file/csv.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/file/text_file.hpp>
+#include <tactus/run/log/content_hash.hpp>
+#include <tactus/run/log/run_log_reader.hpp>
 
 #include "support/temporary_folder.hpp"
 #include "support/with_limits.hpp"

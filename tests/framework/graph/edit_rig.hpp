@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/file/graph_file.hpp>
-#include <framework/graph/edit.hpp>
-#include <framework/graph/text.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/graph/edit.hpp>
+#include <tactus/graph/text.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -3,11 +3,11 @@
 #include "meddler.hpp"
 #include "wild_graph.hpp"
 
-#include <framework/file/graph_file.hpp>
-#include <framework/graph/edit.hpp>
-#include <framework/graph/history.hpp>
-#include <framework/graph/param_edit.hpp>
-#include <framework/graph/text.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/graph/edit.hpp>
+#include <tactus/graph/history.hpp>
+#include <tactus/graph/param_edit.hpp>
+#include <tactus/graph/text.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/graph/edit.hpp>
+#include <tactus/graph/edit.hpp>
 
 #include <cstdint>
 #include <random>

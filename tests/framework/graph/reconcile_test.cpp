@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <framework/file/graph_file.hpp>
-#include <framework/graph/reconcile.hpp>
-#include <framework/graph/text.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/graph/reconcile.hpp>
+#include <tactus/graph/text.hpp>
 
 #include "support/sketch.hpp"
 #include "wild_graph.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "edit_rig.hpp"
 
-#include <framework/file/graph_file.hpp>
-#include <framework/graph/text.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/graph/text.hpp>
 
 #include <catch2/catch.hpp>
 

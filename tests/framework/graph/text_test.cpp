@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <framework/graph/text.hpp>
+#include <tactus/graph/text.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/graph/graph.hpp>
+#include <tactus/graph/graph.hpp>
 
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <framework/kit/expression.hpp>
+#include <tactus/kit/expression.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <framework/kit/law.hpp>
+#include <tactus/kit/law.hpp>
 
 #include <catch2/catch.hpp>
 

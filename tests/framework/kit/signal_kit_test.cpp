@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The parts shared by nodes that play recordings and noise: lattice, stream resampler, recording, windowed sinc.
 
-#include <framework/kit/lattice.hpp>
-#include <framework/kit/random.hpp>
-#include <framework/kit/recording.hpp>
-#include <framework/kit/stream_resampler.hpp>
+#include <tactus/kit/lattice.hpp>
+#include <tactus/kit/random.hpp>
+#include <tactus/kit/recording.hpp>
+#include <tactus/kit/stream_resampler.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

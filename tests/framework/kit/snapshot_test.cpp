@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <framework/kit/snapshot.hpp>
+#include <tactus/kit/snapshot.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <framework/kit/vec3.hpp>
+#include <tactus/kit/vec3.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

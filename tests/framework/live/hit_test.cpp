@@ -5,8 +5,8 @@
 #include "support/sketch.hpp"
 
 #include "support/live.hpp"
-#include <framework/plan/find_hit.hpp>
-#include <framework/run/turn.hpp>
+#include <tactus/plan/find_hit.hpp>
+#include <tactus/run/turn.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -5,7 +5,7 @@
 #include "support/sketch.hpp"
 
 #include "support/live.hpp"
-#include <framework/graph/param_edit.hpp>
+#include <tactus/graph/param_edit.hpp>
 
 #include <catch2/catch.hpp>
 

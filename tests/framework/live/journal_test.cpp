@@ -5,8 +5,8 @@
 #include "support/sketch.hpp"
 
 #include "support/live.hpp"
-#include <framework/graph/ids.hpp>
-#include <framework/plan/find_param.hpp>
+#include <tactus/graph/ids.hpp>
+#include <tactus/plan/find_param.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <framework/run/turn.hpp>
+#include <tactus/run/turn.hpp>
 
 #include "support/sketch.hpp"
 
-#include <framework/file/graph_file.hpp>
+#include <tactus/file/graph_file.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

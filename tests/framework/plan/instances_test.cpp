@@ -3,7 +3,7 @@
 
 #include "support/sketch.hpp"
 
-#include <framework/file/graph_file.hpp>
+#include <tactus/file/graph_file.hpp>
 
 #include <catch2/catch.hpp>
 

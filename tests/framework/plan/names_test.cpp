@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <framework/plan/names.hpp>
+#include <tactus/plan/names.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

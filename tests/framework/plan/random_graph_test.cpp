@@ -6,7 +6,7 @@
 #include "support/random_graph.hpp"
 #include "support/sketch.hpp"
 
-#include <framework/graph/edit.hpp>
+#include <tactus/graph/edit.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/sketch.hpp"
 
-#include <framework/node/catalogue.hpp>
-#include <framework/plan/settings.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/plan/settings.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -6,7 +6,7 @@
 #include "support/sketch.hpp"
 
 #include "support/live.hpp"
-#include <framework/run/runner.hpp>
+#include <tactus/run/runner.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -2,8 +2,8 @@
 // The guard's limits on rotation, axes and signals, and how limits are read and combined.
 #include "support/sketch.hpp"
 
-#include <framework/run/device/guard_limits.hpp>
-#include <framework/run/run.hpp>
+#include <tactus/run/device/guard_limits.hpp>
+#include <tactus/run/run.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <framework/run/guard.hpp>
+#include <tactus/run/guard.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -2,8 +2,8 @@
 // Guards count seconds, not ticks: what happens to stops and limits when ticks are missing.
 #include "support/sketch.hpp"
 
-#include <framework/run/lost_time.hpp>
-#include <framework/run/runner.hpp>
+#include <tactus/run/lost_time.hpp>
+#include <tactus/run/runner.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Devices whose readings are wrong but look good. Each is detected within the time that docs/hazards.md states.
-#include <framework/run/device/guard_limits.hpp>
-#include <framework/run/device/sim.hpp>
-#include <framework/run/guard.hpp>
+#include <tactus/run/device/guard_limits.hpp>
+#include <tactus/run/device/sim.hpp>
+#include <tactus/run/guard.hpp>
 
 #include <catch2/catch.hpp>
 

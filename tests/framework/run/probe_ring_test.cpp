@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <framework/kit/spsc_ring.hpp>
-#include <framework/run/probe_ring.hpp>
-#include <framework/run/tick_account.hpp>
+#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/run/probe_ring.hpp>
+#include <tactus/run/tick_account.hpp>
 
 #include "support/no_allocation.hpp"
 #include "support/sketch.hpp"

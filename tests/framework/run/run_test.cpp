@@ -4,9 +4,9 @@
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
 
-#include <framework/run/port_probes.hpp>
-#include <framework/run/replay.hpp>
-#include <framework/run/tick_clock.hpp>
+#include <tactus/run/port_probes.hpp>
+#include <tactus/run/replay.hpp>
+#include <tactus/run/tick_clock.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <framework/run/runner.hpp>
+#include <tactus/run/runner.hpp>
 
 #include "support/chance_hand.hpp"
 #include "support/no_allocation.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The emergency stop of a live run, a thousand times. Wall times are printed, not judged: they depend on the machine.
 
-#include <framework/run/runner.hpp>
+#include <tactus/run/runner.hpp>
 
 #include "support/sketch.hpp"
 

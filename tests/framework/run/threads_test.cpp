@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All threads of a live run at the same time, mainly for TSan. TACTUS_LIVE_SECONDS makes the test longer.
 
-#include <framework/kit/spsc_ring.hpp>
-#include <framework/run/probe_ring.hpp>
-#include <framework/run/runner.hpp>
+#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/run/probe_ring.hpp>
+#include <tactus/run/runner.hpp>
 
 #include "support/chance_hand.hpp"
 #include "support/no_allocation.hpp"

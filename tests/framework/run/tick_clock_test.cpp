@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <framework/run/tick_clock.hpp>
+#include <tactus/run/tick_clock.hpp>
 
 #include <catch2/catch.hpp>
 

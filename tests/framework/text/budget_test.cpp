@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <framework/text/json_text.hpp>
+#include <tactus/text/json_text.hpp>
 
 #include "support/with_limits.hpp"
 

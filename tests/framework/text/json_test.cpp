@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <framework/text/json.hpp>
+#include <tactus/text/json.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

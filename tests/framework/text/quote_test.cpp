@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <framework/text/quote.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

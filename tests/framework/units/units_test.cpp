@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <framework/text/units.hpp>
+#include <tactus/text/units.hpp>
 
 #include <catch2/catch.hpp>
 

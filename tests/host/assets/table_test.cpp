@@ -3,7 +3,7 @@
 
 #include "host/cli/program.hpp"
 
-#include <framework/text/number_text.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

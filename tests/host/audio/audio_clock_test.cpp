@@ -3,8 +3,8 @@
 
 #include "support/sketch.hpp"
 
-#include <framework/run/runner.hpp>
 #include <host/audio/audio_clock.hpp>
+#include <tactus/run/runner.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

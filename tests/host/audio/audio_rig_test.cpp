@@ -7,8 +7,8 @@
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
 
-#include <framework/file/graph_file.hpp>
 #include <host/audio/open_audio.hpp>
+#include <tactus/file/graph_file.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

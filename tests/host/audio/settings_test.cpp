@@ -3,9 +3,9 @@
 
 #include "support/sketch.hpp"
 
-#include <framework/run/device/make_device.hpp>
 #include <host/audio/check_audio.hpp>
 #include <host/audio/open_audio.hpp>
+#include <tactus/run/device/make_device.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

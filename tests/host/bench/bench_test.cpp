@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/cli/program.hpp"
 
-#include <framework/text/json.hpp>
+#include <tactus/text/json.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -6,8 +6,8 @@
 
 #include "running.hpp"
 
-#include <framework/file/csv.hpp>
 #include <host/osc/osc_port.hpp>
+#include <tactus/file/csv.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -4,10 +4,10 @@
 
 #include "program.hpp"
 
-#include <framework/file/csv.hpp>
-#include <framework/kit/mesh_walk.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/io/plot.hpp>
+#include <tactus/file/csv.hpp>
+#include <tactus/kit/mesh_walk.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -3,9 +3,9 @@
 
 #include "program.hpp"
 
-#include <framework/file/csv.hpp>
-#include <framework/text/json.hpp>
 #include <golden/golden.hpp>
+#include <tactus/file/csv.hpp>
+#include <tactus/text/json.hpp>
 
 #include <catch2/catch.hpp>
 

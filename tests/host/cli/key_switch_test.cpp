@@ -7,11 +7,11 @@
 #include "support/rig.hpp"
 #include "support/sketch.hpp"
 
-#include <framework/file/csv.hpp>
-#include <framework/file/graph_file.hpp>
-#include <framework/run/engine.hpp>
 #include <host/io/plot.hpp>
 #include <host/tools/switch_loop.hpp>
+#include <tactus/file/csv.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/run/engine.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -3,8 +3,8 @@
 
 #include "program.hpp"
 
-#include <framework/file/csv.hpp>
 #include <host/io/plot.hpp>
+#include <tactus/file/csv.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -3,8 +3,8 @@
 
 #include "program.hpp"
 
-#include <framework/file/csv.hpp>
-#include <framework/text/json.hpp>
+#include <tactus/file/csv.hpp>
+#include <tactus/text/json.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program.hpp"
 
-#include <framework/file/csv.hpp>
-#include <framework/text/json.hpp>
 #include <host/io/wav.hpp>
+#include <tactus/file/csv.hpp>
+#include <tactus/text/json.hpp>
 
 #include <catch2/catch.hpp>
 

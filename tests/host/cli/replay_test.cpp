@@ -3,7 +3,7 @@
 
 #include "running.hpp"
 
-#include <framework/text/json.hpp>
+#include <tactus/text/json.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -4,9 +4,9 @@
 
 #include "program.hpp"
 
-#include <framework/file/csv.hpp>
-#include <framework/text/number_text.hpp>
 #include <host/io/plot.hpp>
+#include <tactus/file/csv.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

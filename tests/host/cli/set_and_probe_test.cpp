@@ -3,7 +3,7 @@
 
 #include "running.hpp"
 
-#include <framework/file/csv.hpp>
+#include <tactus/file/csv.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -6,7 +6,7 @@
 
 #include <host/hid/bits.hpp>
 
-#include <framework/run/engine.hpp>
+#include <tactus/run/engine.hpp>
 
 #include <rapidcheck/catch.h>
 

@@ -5,7 +5,7 @@
 
 #include <host/hid/bits.hpp>
 
-#include <framework/run/guard.hpp>
+#include <tactus/run/guard.hpp>
 
 #include <Eigen/LU>
 #include <rapidcheck/catch.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hid.hpp"
 
-#include <framework/text/json_text.hpp>
 #include <fuzz/profile_target.hpp>
+#include <tactus/text/json_text.hpp>
 
 #include <rapidcheck/catch.h>
 

@@ -4,7 +4,7 @@
 #include <host/hid/profile_reader.hpp>
 #include <host/hid_link/hid_device.hpp>
 
-#include <framework/text/json.hpp>
+#include <tactus/text/json.hpp>
 
 #include <catch2/catch.hpp>
 

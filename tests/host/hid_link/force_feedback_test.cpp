@@ -7,8 +7,8 @@
 #include <host/hid_link/hid_device.hpp>
 #include <host/hid_link/open_device.hpp>
 
-#include <framework/run/guard.hpp>
-#include <framework/text/json.hpp>
+#include <tactus/run/guard.hpp>
+#include <tactus/text/json.hpp>
 
 #include <rapidcheck/catch.h>
 

@@ -3,13 +3,13 @@
 
 #include "fake_board.hpp"
 
-#include <framework/file/graph_file.hpp>
-#include <framework/plan/compile.hpp>
-#include <framework/run/device/sim.hpp>
-#include <framework/run/engine.hpp>
-#include <framework/run/runner.hpp>
 #include <host/hid_link/hid_clock.hpp>
 #include <host/hid_link/open_device.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/plan/compile.hpp>
+#include <tactus/run/device/sim.hpp>
+#include <tactus/run/engine.hpp>
+#include <tactus/run/runner.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -6,7 +6,7 @@
 #include "support/no_allocation.hpp"
 #include "support/no_system_calls.hpp"
 
-#include <framework/run/guard.hpp>
+#include <tactus/run/guard.hpp>
 
 #include <catch2/catch.hpp>
 

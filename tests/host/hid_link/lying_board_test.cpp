@@ -3,7 +3,7 @@
 
 #include "fake_board.hpp"
 
-#include <framework/run/guard.hpp>
+#include <tactus/run/guard.hpp>
 
 #include <catch2/catch.hpp>
 

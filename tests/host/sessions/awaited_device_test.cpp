@@ -3,12 +3,12 @@
 
 #include "host/hid_link/fake_board.hpp"
 
-#include <framework/run/device/sim.hpp>
-#include <framework/run/engine.hpp>
-#include <framework/run/runner.hpp>
 #include <host/sessions/binding.hpp>
 #include <host/sessions/device_health.hpp>
 #include <host/sessions/run_clock.hpp>
+#include <tactus/run/device/sim.hpp>
+#include <tactus/run/engine.hpp>
+#include <tactus/run/runner.hpp>
 
 #include "support/no_allocation.hpp"
 #include "support/sketch.hpp"

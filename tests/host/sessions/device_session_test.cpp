@@ -3,9 +3,9 @@
 
 #include "support/temporary_folder.hpp"
 
-#include <framework/text/json_text.hpp>
 #include <fuzz/session_target.hpp>
 #include <host/sessions/session_file.hpp>
+#include <tactus/text/json_text.hpp>
 
 #include "support/corpus.hpp"
 

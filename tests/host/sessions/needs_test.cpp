@@ -3,9 +3,9 @@
 
 #include "host/hid_link/fake_board.hpp"
 
-#include <framework/plan/missing_parts.hpp>
 #include <host/sessions/choose_clock.hpp>
 #include <host/sessions/role_fits.hpp>
+#include <tactus/plan/missing_parts.hpp>
 
 #include "support/sketch.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A device's workspace in a graph: scaling, the force on the hand, and limits that must not be loosened.
 
-#include <framework/run/device/sim.hpp>
 #include <host/sessions/workspace.hpp>
+#include <tactus/run/device/sim.hpp>
 
 #include "support/no_allocation.hpp"
 #include "support/sketch.hpp"

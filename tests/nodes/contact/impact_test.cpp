@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/contact/impact.hpp>
+#include <tactus/nodes/contact/impact.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

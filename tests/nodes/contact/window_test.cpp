@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/contact/window.hpp>
+#include <tactus/nodes/contact/window.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/coupling/virtual.hpp>
+#include <tactus/nodes/coupling/virtual.hpp>
 
 #include <golden/golden.hpp>
 #include <support/ready.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/cut/blade.hpp>
+#include <tactus/nodes/cut/blade.hpp>
 
 #include <golden/golden.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/cut/scissors.hpp>
+#include <tactus/nodes/cut/scissors.hpp>
 
 #include <golden/golden.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/deform/plane.hpp>
+#include <tactus/nodes/deform/plane.hpp>
 
 #include <golden/golden.hpp>
 #include <support/ready.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <nodes/deform/surface.hpp>
+#include <tactus/nodes/deform/surface.hpp>
 
 #include <array>
 #include <cmath>

@@ -2,7 +2,7 @@
 // How an elastic surface finds the point of its mesh that the tool touches.
 #include "surface_rig.hpp"
 
-#include <framework/run/query_thread.hpp>
+#include <tactus/run/query_thread.hpp>
 
 #include <support/no_allocation.hpp>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Axes, buttons and signals of a device, by name and by number.
 
-#include <nodes/device/axis.hpp>
-#include <nodes/device/button.hpp>
-#include <nodes/device/effort.hpp>
-#include <nodes/device/signal_in.hpp>
-#include <nodes/device/signal_out.hpp>
+#include <tactus/nodes/device/axis.hpp>
+#include <tactus/nodes/device/button.hpp>
+#include <tactus/nodes/device/effort.hpp>
+#include <tactus/nodes/device/signal_in.hpp>
+#include <tactus/nodes/device/signal_out.hpp>
 
 #include <catch2/catch.hpp>
 

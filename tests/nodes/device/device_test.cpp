@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/device/position.hpp>
-#include <nodes/device/pressure.hpp>
-#include <nodes/device/truth.hpp>
+#include <tactus/nodes/device/position.hpp>
+#include <tactus/nodes/device/pressure.hpp>
+#include <tactus/nodes/device/truth.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "response.hpp"
 
-#include <nodes/filter/biquad.hpp>
+#include <tactus/nodes/filter/biquad.hpp>
 
 #include <support/ready.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "response.hpp"
 
-#include <nodes/filter/butterworth2.hpp>
+#include <tactus/nodes/filter/butterworth2.hpp>
 
 #include <golden/golden.hpp>
 #include <support/ready.hpp>

@@ -3,8 +3,8 @@
 
 #include "response.hpp"
 
-#include <nodes/filter/butterworth2.hpp>
-#include <nodes/filter/one_pole.hpp>
+#include <tactus/nodes/filter/butterworth2.hpp>
+#include <tactus/nodes/filter/one_pole.hpp>
 
 #include <support/ready.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "response.hpp"
 
-#include <nodes/filter/one_pole.hpp>
+#include <tactus/nodes/filter/one_pole.hpp>
 
 #include <support/ready.hpp>
 

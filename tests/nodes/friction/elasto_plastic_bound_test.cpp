@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Load `bound`: the stiffness is constant while the tool touches, and load, mu and d_max only move the stretch at which the contact
 // slides. Also what noise of the position does to the adhesion functions.
-#include <nodes/friction/elasto_plastic.hpp>
+#include <tactus/nodes/friction/elasto_plastic.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/friction/elasto_plastic.hpp>
+#include <tactus/nodes/friction/elasto_plastic.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/hold/predictive.hpp>
+#include <tactus/nodes/hold/predictive.hpp>
 
 #include <golden/golden.hpp>
 

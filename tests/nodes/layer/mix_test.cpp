@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/layer/mix.hpp>
+#include <tactus/nodes/layer/mix.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

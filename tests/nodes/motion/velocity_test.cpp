@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/motion/velocity.hpp>
+#include <tactus/nodes/motion/velocity.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

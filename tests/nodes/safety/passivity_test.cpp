@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/safety/passivity.hpp>
+#include <tactus/nodes/safety/passivity.hpp>
 
 #include <golden/golden.hpp>
 #include <support/ready.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/shock/hunt_crossley.hpp>
+#include <tactus/nodes/shock/hunt_crossley.hpp>
 
 #include <golden/golden.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/signal/abs.hpp>
+#include <tactus/nodes/signal/abs.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/rig.hpp"
 
-#include <nodes/signal/add.hpp>
+#include <tactus/nodes/signal/add.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/signal/clamp.hpp>
+#include <tactus/nodes/signal/clamp.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/signal/constant.hpp>
+#include <tactus/nodes/signal/constant.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/signal/crossfade.hpp>
+#include <tactus/nodes/signal/crossfade.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

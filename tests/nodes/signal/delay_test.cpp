@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/signal/delay.hpp>
+#include <tactus/nodes/signal/delay.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/signal/envelope.hpp>
+#include <tactus/nodes/signal/envelope.hpp>
 
 #include <support/ready.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/signal/gain.hpp>
+#include <tactus/nodes/signal/gain.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/signal/lfo.hpp>
+#include <tactus/nodes/signal/lfo.hpp>
 
 #include <support/ready.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/signal/map.hpp>
+#include <tactus/nodes/signal/map.hpp>
 
 #include <catch2/catch.hpp>
 

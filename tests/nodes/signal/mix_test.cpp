@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/rig.hpp"
 
-#include <nodes/signal/mix.hpp>
+#include <tactus/nodes/signal/mix.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/rig.hpp"
 
-#include <nodes/signal/multiply.hpp>
+#include <tactus/nodes/signal/multiply.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/signal/noise.hpp>
+#include <tactus/nodes/signal/noise.hpp>
 
 #include <catch2/catch.hpp>
 

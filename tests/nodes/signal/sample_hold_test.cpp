@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/signal/sample_hold.hpp>
+#include <tactus/nodes/signal/sample_hold.hpp>
 
 #include <catch2/catch.hpp>
 

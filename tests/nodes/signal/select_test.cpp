@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/rig.hpp"
 
-#include <nodes/signal/select.hpp>
+#include <tactus/nodes/signal/select.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/signal/slew.hpp>
+#include <tactus/nodes/signal/slew.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

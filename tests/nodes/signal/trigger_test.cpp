@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/signal/trigger.hpp>
+#include <tactus/nodes/signal/trigger.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

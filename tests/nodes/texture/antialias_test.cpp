@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/texture/antialias.hpp>
-#include <nodes/texture/grating.hpp>
+#include <tactus/nodes/texture/antialias.hpp>
+#include <tactus/nodes/texture/grating.hpp>
 
 #include <golden/golden.hpp>
 #include <support/ready.hpp>

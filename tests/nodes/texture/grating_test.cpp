@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/texture/grating.hpp>
+#include <tactus/nodes/texture/grating.hpp>
 
 #include <golden/golden.hpp>
 #include <support/ready.hpp>

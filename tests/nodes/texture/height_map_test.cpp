@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/texture/height_map.hpp>
+#include <tactus/nodes/texture/height_map.hpp>
 
-#include <framework/node/catalogue.hpp>
 #include <support/no_allocation.hpp>
 #include <support/rig.hpp>
+#include <tactus/node/catalogue.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

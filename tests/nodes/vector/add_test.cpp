@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/rig.hpp"
 
-#include <nodes/vector/add.hpp>
+#include <tactus/nodes/vector/add.hpp>
 
 #include <catch2/catch.hpp>
 

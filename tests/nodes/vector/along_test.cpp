@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/vector/along.hpp>
+#include <tactus/nodes/vector/along.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

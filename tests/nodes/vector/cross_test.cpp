@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/vector/cross.hpp>
+#include <tactus/nodes/vector/cross.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/vector/dot.hpp>
+#include <tactus/nodes/vector/dot.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/vector/from_frame.hpp>
+#include <tactus/nodes/vector/from_frame.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/vector/join.hpp>
-#include <nodes/vector/split.hpp>
+#include <tactus/nodes/vector/join.hpp>
+#include <tactus/nodes/vector/split.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/vector/length.hpp>
+#include <tactus/nodes/vector/length.hpp>
 
 #include <catch2/catch.hpp>
 

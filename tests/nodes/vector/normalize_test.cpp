@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/vector/normalize.hpp>
+#include <tactus/nodes/vector/normalize.hpp>
 
 #include <catch2/catch.hpp>
 

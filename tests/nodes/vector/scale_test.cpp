@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/vector/scale.hpp>
+#include <tactus/nodes/vector/scale.hpp>
 
 #include <catch2/catch.hpp>
 

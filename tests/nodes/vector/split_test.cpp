@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/vector/split.hpp>
+#include <tactus/nodes/vector/split.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/vector/from_frame.hpp>
-#include <nodes/vector/to_frame.hpp>
+#include <tactus/nodes/vector/from_frame.hpp>
+#include <tactus/nodes/vector/to_frame.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

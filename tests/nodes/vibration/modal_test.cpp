@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/vibration/modal.hpp>
+#include <tactus/nodes/vibration/modal.hpp>
 
 #include <golden/golden.hpp>
 

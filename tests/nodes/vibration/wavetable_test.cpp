@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <nodes/vibration/wavetable.hpp>
+#include <tactus/nodes/vibration/wavetable.hpp>
 
-#include <framework/node/catalogue.hpp>
 #include <golden/golden.hpp>
 #include <support/no_allocation.hpp>
 #include <support/rig.hpp>
+#include <tactus/node/catalogue.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

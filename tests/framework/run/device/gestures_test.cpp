@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <framework/run/device/gesture_device.hpp>
-#include <framework/run/device/gestures.hpp>
+#include <tactus/run/device/gesture_device.hpp>
+#include <tactus/run/device/gestures.hpp>
 
 #include <support/no_allocation.hpp>
 

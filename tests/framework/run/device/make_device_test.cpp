@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <framework/run/device/gestures.hpp>
-#include <framework/run/device/make_device.hpp>
-#include <framework/run/device/sim.hpp>
 #include <support/temporary_folder.hpp>
+#include <tactus/run/device/gestures.hpp>
+#include <tactus/run/device/make_device.hpp>
+#include <tactus/run/device/sim.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The effect of a wall computed from samples on a hand, through the whole loop: device, graph, guard, device.
 
-#include <framework/run/device/sim.hpp>
+#include <tactus/run/device/sim.hpp>
 
 #include <expert/hands.hpp>
 

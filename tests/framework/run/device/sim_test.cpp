@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <framework/run/device/sim.hpp>
+#include <tactus/run/device/sim.hpp>
 
 #include <golden/golden.hpp>
 #include <support/no_allocation.hpp>

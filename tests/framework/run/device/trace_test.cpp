@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <framework/run/device/path.hpp>
-#include <framework/run/device/trace.hpp>
+#include <tactus/run/device/path.hpp>
+#include <tactus/run/device/trace.hpp>
 
 #include <support/no_allocation.hpp>
 

@@ -8,13 +8,13 @@
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
 
-#include <framework/graph/history.hpp>
-#include <framework/plan/find_hit.hpp>
-#include <framework/plan/find_param.hpp>
-#include <framework/run/log/graph_snapshot.hpp>
-#include <framework/run/log/run_log.hpp>
-#include <framework/run/log/run_log_reader.hpp>
-#include <framework/run/turn.hpp>
+#include <tactus/graph/history.hpp>
+#include <tactus/plan/find_hit.hpp>
+#include <tactus/plan/find_param.hpp>
+#include <tactus/run/log/graph_snapshot.hpp>
+#include <tactus/run/log/run_log.hpp>
+#include <tactus/run/log/run_log_reader.hpp>
+#include <tactus/run/turn.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/corpus.hpp"
 
-#include <framework/run/log/run_log_reader.hpp>
 #include <fuzz/run_log_target.hpp>
+#include <tactus/run/log/run_log_reader.hpp>
 
 #include <catch2/catch.hpp>
 

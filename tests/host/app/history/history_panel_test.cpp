@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <host/app/history/history_panel.hpp>
 
-#include <framework/file/graph_file.hpp>
+#include <tactus/file/graph_file.hpp>
 
 using namespace tactus;
 using namespace tactus::host;

@@ -5,8 +5,8 @@
 #include <host/app/inspector/table_row.hpp>
 #include <host/app/model/controlled_param.hpp>
 
-#include <framework/graph/text.hpp>
-#include <framework/plan/compile.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/plan/compile.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -5,7 +5,7 @@
 #include <host/app/model/param_value.hpp>
 #include <host/assets/file_assets.hpp>
 
-#include <framework/graph/history.hpp>
+#include <tactus/graph/history.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck.h>

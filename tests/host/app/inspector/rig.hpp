@@ -3,7 +3,7 @@
 
 #include <host/app/inspector/inspector.hpp>
 
-#include <framework/file/graph_file.hpp>
+#include <tactus/file/graph_file.hpp>
 
 #include <string>
 #include <vector>

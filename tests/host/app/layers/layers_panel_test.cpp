@@ -2,7 +2,7 @@
 #include <host/app/layers/layers_panel.hpp>
 #include <host/app/run/live_run.hpp>
 
-#include <framework/file/graph_file.hpp>
+#include <tactus/file/graph_file.hpp>
 
 #include "support/sketch.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <host/app/layers/mixer.hpp>
 
-#include <framework/file/graph_file.hpp>
-#include <framework/graph/history.hpp>
-#include <framework/plan/compile.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/graph/history.hpp>
+#include <tactus/plan/compile.hpp>
 
 #include "support/sketch.hpp"
 

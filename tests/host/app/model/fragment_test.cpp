@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/sketch.hpp"
 
-#include <framework/graph/edit.hpp>
 #include <host/app/model/fragment.hpp>
+#include <tactus/graph/edit.hpp>
 
 #include <catch2/catch.hpp>
 

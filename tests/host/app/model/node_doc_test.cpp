@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <host/app/model/node_doc.hpp>
 
-#include <framework/node/catalogue.hpp>
+#include <tactus/node/catalogue.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/sketch.hpp"
 
-#include <framework/file/graph_file.hpp>
 #include <host/app/model/quantities.hpp>
+#include <tactus/file/graph_file.hpp>
 
 #include <catch2/catch.hpp>
 

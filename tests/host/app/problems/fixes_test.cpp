@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <host/app/problems/fixes.hpp>
 
-#include <framework/file/graph_file.hpp>
-#include <framework/node/catalogue.hpp>
-#include <framework/plan/compile.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/plan/compile.hpp>
 
 #include <catch2/catch.hpp>
 

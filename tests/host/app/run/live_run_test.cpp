@@ -8,7 +8,7 @@
 #include <host/app/run/live_run.hpp>
 #include <host/platform/failsafe.hpp>
 
-#include <framework/file/graph_file.hpp>
+#include <tactus/file/graph_file.hpp>
 
 #include <catch2/catch.hpp>
 

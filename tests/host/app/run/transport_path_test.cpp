@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <framework/run/device/gestures.hpp>
 #include <host/app/run/transport_path.hpp>
+#include <tactus/run/device/gestures.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

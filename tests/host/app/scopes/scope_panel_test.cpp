@@ -2,11 +2,11 @@
 #include <host/app/run/live_run.hpp>
 #include <host/app/scopes/scope_panel.hpp>
 
-#include <framework/file/csv.hpp>
-#include <framework/file/graph_file.hpp>
 #include <host/app/scopes/energy_plot.hpp>
 #include <host/app/scopes/time_plot.hpp>
 #include <support/temporary_folder.hpp>
+#include <tactus/file/csv.hpp>
+#include <tactus/file/graph_file.hpp>
 
 #include <chrono>
 #include <cmath>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <host/app/scopes/scope_ports.hpp>
 
-#include <framework/file/graph_file.hpp>
-#include <framework/graph/edit.hpp>
-#include <framework/graph/history.hpp>
-#include <framework/plan/compile.hpp>
 #include <host/app/run/traces.hpp>
 #include <host/assets/file_assets.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/graph/edit.hpp>
+#include <tactus/graph/history.hpp>
+#include <tactus/plan/compile.hpp>
 
 #include <filesystem>
 

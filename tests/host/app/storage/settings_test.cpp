@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <framework/file/text_file.hpp>
 #include <host/app/storage/settings.hpp>
+#include <tactus/file/text_file.hpp>
 
 #include "support/temporary_folder.hpp"
 

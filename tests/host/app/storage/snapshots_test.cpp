@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <host/app/storage/snapshots.hpp>
 
-#include <framework/file/graph_file.hpp>
-#include <framework/graph/history.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/graph/history.hpp>
 
 using namespace tactus;
 using namespace tactus::host;

@@ -3,8 +3,8 @@
 
 #include "hand.hpp"
 
-#include <framework/file/graph_file.hpp>
 #include <host/app/canvas/canvas.hpp>
+#include <tactus/file/graph_file.hpp>
 
 #include <stdexcept>
 

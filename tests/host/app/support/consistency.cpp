@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "consistency.hpp"
 
-#include <framework/file/graph_file.hpp>
-#include <framework/graph/endpoints.hpp>
 #include <host/assets/nearest_by_embree.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/graph/endpoints.hpp>
 
 #include <algorithm>
 #include <set>

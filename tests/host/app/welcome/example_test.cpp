@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <host/app/welcome/example.hpp>
 
-#include <framework/file/graph_file.hpp>
-#include <framework/plan/compile.hpp>
 #include <host/assets/file_assets.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/plan/compile.hpp>
 
 using namespace tactus;
 using namespace tactus::host;

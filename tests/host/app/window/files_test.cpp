@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <framework/file/text_file.hpp>
 #include <host/app/window/files.hpp>
+#include <tactus/file/text_file.hpp>
 
 #include "support/temporary_folder.hpp"
 
-#include <framework/file/graph_file.hpp>
+#include <tactus/file/graph_file.hpp>
 
 using namespace tactus;
 using namespace tactus::host;

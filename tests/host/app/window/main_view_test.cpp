@@ -3,7 +3,7 @@
 
 #include "support/temporary_folder.hpp"
 
-#include <framework/file/graph_file.hpp>
+#include <tactus/file/graph_file.hpp>
 
 using namespace tactus;
 using namespace tactus::host;
