@@ -25,13 +25,18 @@ struct FileFormat
     std::span<const Migration> steps;
 };
 
-/// The format that this Tactus reads and writes. Version 1 is the first one, so there are no steps yet.
-inline constexpr FileFormat graph_format { 1, {} };
+/// Version 2: friction whose file says nothing about `load` has load `bound`. In version 1 it has load `passive`.
+void sayLoadOfFriction (Json& file);
+
+inline constexpr Migration graph_steps[] { { 1, &sayLoadOfFriction } };
+
+/// The format that this Tactus reads and writes.
+inline constexpr FileFormat graph_format { 2, graph_steps };
 
 /// Runs the steps from a version to the newest. Errors: file/newer_version, file/unknown_version, file/migration.
 Result<> migrate (Json& file, int version, const FileFormat&);
 
-/// Like readGraph (text), for any format. Used to test migration as long as there is no real step.
+/// Like readGraph (text), for any format. Used to test the order of the steps and how they fail.
 LoadedGraph readGraph (std::string_view text, const FileFormat&, double most_values = budgets().values);
 
 }   // namespace tactus

@@ -7,6 +7,7 @@
 #include "setting.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <string>
 
@@ -35,12 +36,13 @@ struct NodeType
     Info info;
     std::vector<PortSheet> inputs, params, outputs;
     std::vector<SettingSheet> settings;
-    std::size_t outputs_size, outputs_align;
+    std::size_t outputs_size, outputs_align, params_size;
 
     std::shared_ptr<void> (*make)();
     void* (*paramsOf) (void* node) noexcept;
     void (*initialiseOutputs) (void* outputs) noexcept;
     void (*tick) (void* node, const double* const* sources, void* outputs) noexcept;
+    void (*tickStored) (void* node, const void* stored, const double* const* sources, void* outputs) noexcept;   ///< `stored` is a Params
     void (*peek) (void* node, const double* const* sources, void* outputs) noexcept;
     int (*delay) (const void* node) noexcept;
     Cost (*cost) (const void* node);
@@ -177,6 +179,15 @@ struct Erased
             new (outputs) Outputs (n.tick (gather (n, sources)));
     }
 
+    static void tickStored (void* node, const void* stored, const double* const* sources, void* outputs) noexcept
+    {
+        static_assert (std::is_trivially_copyable_v<typename N::Params>, "stored params are copied as bytes");
+        N& n = *static_cast<N*> (node);
+        typename N::Params params;
+        std::memcpy (&params, stored, sizeof params);
+        new (outputs) Outputs (n.tick (gather (n, sources), params));
+    }
+
     static void peek (void* node, const double* const*, void* outputs) noexcept
     {
         new (outputs) Outputs (static_cast<const N*> (node)->peek());
@@ -277,12 +288,14 @@ NodeType describe()
     t.info = N::info;
     t.outputs_size = sizeof (typename N::Outputs);
     t.outputs_align = alignof (typename N::Outputs);
+    t.params_size = sizeof (typename N::Params);
     detail::describePorts<N> (t);
 
     t.make = []() -> std::shared_ptr<void> { return std::make_shared<N>(); };
     t.paramsOf = [] (void* n) noexcept -> void* { return &static_cast<N*> (n)->params; };
     t.initialiseOutputs = [] (void* o) noexcept { new (o) typename N::Outputs(); };
     t.tick = &E::tick;
+    if constexpr (KnowsStored<N>) t.tickStored = &E::tickStored;
     if constexpr (Peekable<N>) t.peek = &E::peek;
     if constexpr (Delaying<N>) t.delay = [] (const void* n) noexcept { return static_cast<const N*> (n)->delay(); };
     if constexpr (Costly<N>) t.cost = [] (const void* n) { return static_cast<const N*> (n)->cost(); };

@@ -26,6 +26,8 @@
 ///   peek() -> Outputs         for a node whose outputs do not depend on this tick's inputs: returns them before tick,
 ///                             which then returns nothing. This is how a delay opens a loop.             [tick thread]
 ///   delay() -> int            the number of ticks between a peeking node's inputs and outputs; 1 if absent
+///   tick (in, stored)         called instead of tick (in) where wires or feeds drive params: `stored` are the Params as file and
+///                             knobs have them, without wires and feeds. Params are then plain numbers and choices [tick thread]
 ///   adopt (old)               takes over the state of the instance this one replaces                    [tick thread]
 ///   claims() -> Claims        what tests and the validator can hold the node to
 ///   bind (state)              gives a device node the DeviceState of its role: before prepare, with the settings in place,
@@ -111,6 +113,11 @@ concept Node = std::default_initializable<N>
            requires (Peekable<N> && requires { { node.tick (in) } noexcept -> std::same_as<void>; })
                || (! Peekable<N> && requires { { node.tick (in) } noexcept -> std::same_as<typename N::Outputs>; });
        };
+
+template <typename N>
+concept KnowsStored = requires (N node, const typename N::Inputs in, const typename N::Params stored) {
+    { node.tick (in, stored) } noexcept -> std::same_as<typename N::Outputs>;
+};
 
 template <typename N>
 concept Costly = requires (const N node) { { node.cost() } -> std::same_as<Cost>; };

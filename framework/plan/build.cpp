@@ -405,6 +405,7 @@ private:
         d.node = nodeOf (i);
         d.drives = std::move (drives);
         d.faulted.assign (slots.firstInput (i + 1) - slots.firstInput (i), &not_a_number);
+        if (n.type->tickStored) d.params.resize (n.type->params_size);
         stepsOf (i).body.add ({ &DrivenNode::step, &d, sources, outputsOf (i) }, i);
     }
 

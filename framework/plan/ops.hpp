@@ -10,6 +10,7 @@
 #include <tactus/node/catalogue.hpp>
 
 #include <cstddef>
+#include <cstring>
 #include <vector>
 
 namespace tactus::plan
@@ -91,6 +92,17 @@ struct DrivenNode
     void* node;
     std::vector<Drive> drives;
     std::vector<const double*> faulted;   // sources that all point to NaN; as many as the node has
+    std::vector<std::byte> params;        // the node's Params as stored; empty if the node does not ask for them
+
+    void tick (const double* const* sources, void* outputs) noexcept
+    {
+        if (params.empty()) return type->tick (node, sources, outputs);
+        const auto* own = static_cast<const std::byte*> (type->paramsOf (node));
+        std::memcpy (params.data(), own, params.size());
+        for (const auto& drive : drives)
+            std::memcpy (params.data() + (reinterpret_cast<const std::byte*> (drive.target) - own), drive.stored, sizeof (double));
+        type->tickStored (node, params.data(), sources, outputs);
+    }
 
     static void step (void* self, const double* const* sources, void* outputs) noexcept
     {
@@ -109,7 +121,7 @@ struct DrivenNode
             }
         }
         if (moved && d.type->update) d.type->update (d.node);
-        d.type->tick (d.node, fault ? d.faulted.data() : sources, outputs);
+        d.tick (fault ? d.faulted.data() : sources, outputs);
         if (fault && d.faulted.empty()) d.type->initialiseOutputs (outputs);
     }
 };

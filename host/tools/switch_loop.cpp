@@ -219,7 +219,7 @@ graph::Graph keyFrom (const SwitchLoop& loop, const std::string& name, double st
 {
     const Json key = {
         { "format", "tactus-graph" },
-        { "version", 1 },
+        { "version", 2 },
         { "name", name },
         { "about", "A measured key. A stroke down and up loses " + numberText (rounded (1e3 * loss (loop), 1e4)) + " mJ." },
         { "tags", { "key", "press", "measured" } },
@@ -235,14 +235,13 @@ graph::Graph keyFrom (const SwitchLoop& loop, const std::string& name, double st
           { { "hand", { { "type", "device.position" }, { "role", "finger" } } },
             { "key", { { "type", "deform.plane" }, { "settings", { { "law", { { "table", asJson (meanOf (loop)) } } } } } } },
             { "bound", { { "type", "signal.map" }, { "settings", { { "curve", asJson (boundOf (loop)) } } } } },
-            { "rub", { { "type", "friction.elasto_plastic" }, { "params", { { "stiffness", stiffness } } } } },
+            { "rub", { { "type", "friction.elasto_plastic" }, { "params", { { "mu", 1 }, { "stiffness", stiffness } } } } },
             { "motor", { { "type", "device.force" }, { "role", "finger" } } } } },
         { "wires",
           { "hand.position -> key.position",
             "key.depth -> bound.in",
             "key.depth -> rub.position.x",
-            "key.resistance -> rub.normal_force",
-            { { "wire", "bound.out -> rub.d_max" }, { "gain", numberText (1.0 / stiffness) + " m/N" } },
+            "bound.out -> rub.normal_force",
             "key.force -> motor.force",
             { { "wire", "rub.force.x -> motor.force.z" }, { "gain", -1 } } } },
     };

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/bristle.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <string>
 
 namespace tactus::nodes
@@ -22,6 +21,16 @@ namespace tactus::nodes
 ///     c <- c + |dp| zeta d~                               the other functions, by Euler's rule               (4)
 ///     f = -sigma d,   sigma = mu f_n / d_max              force on the tool, in the tangent plane
 ///
+/// The load f_n may change while the bristle is stretched. `load` says what it moves:
+///
+///     bound      sigma is constant while the tool touches, and the contact slides at the stretch s instead of d_max:
+///                sigma = stiffness, or mu0 reference_load / d_max0;   s = (mu f_n / sigma) (d_max / d_max0)
+///     scale      sigma = mu f_n / d_max at each sample, as printed
+///     passive    the same, but where sigma rises, the contact point moves up so that the force stays
+///
+/// mu0 and d_max0 are the values that mu and d_max have at the touch in file and knobs, without wires. With `bound` d_stick, d_ba
+/// and zeta scale with s. Section 4 bounds the stretch by the depth in the same way.
+///
 /// The adhesion functions of Fig. 2, d_stick = static_ratio d_max:
 ///
 ///     1 stick    0 up to d_stick, then 1 / d_max: sticks without creep, slides freely
@@ -31,7 +40,8 @@ namespace tactus::nodes
 ///     curve      your own table of zeta d_max over |d| / d_max, each value in 0…1
 ///
 /// With static_ratio > 1 function 1 sticks up to d_stick and falls back to d_max: stick-slip with the spatial period
-/// d_stick - d_max at any speed, and mu_s / mu_k = static_ratio.
+/// d_stick - d_max, and mu_s / mu_k = static_ratio. The teeth and the mean drag are the same at any speed and rate: a step
+/// that passes d_stick leaves the stretch that a slow hand would have at the same place.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 2, eq. (1) to (4) and Fig. 2;
 /// Hayward & Armstrong 2000; Dupont, Hayward, Armstrong & Altpeter 2002.
@@ -45,10 +55,14 @@ namespace tactus::nodes
 ///  - The default for functions 2 to 4 is not eq. (4) but the solution of eq. (2) with zeta held over the step,
 ///    d = d e^(-zeta |dp|) + dp (1 - e^(-zeta |dp|)) / (zeta |dp|). It needs neither clamp nor projection and is exact for Dahl
 ///    at any sampling rate. `integrator: euler` gives eq. (4).
+///  - Eq. (3) leaves a stretch of d_max after every slip, however far the step went beyond d_stick. With static_ratio > 1 this
+///    makes the teeth longer the faster the hand moves, until they are gone. Here a slip leaves
+///    d_max + (|d~| - d_stick) mod (d_stick - d_max).
 ///  - With sigma following the load as printed, pressing harder while the bristle is stretched adds energy that comes back on
-///    release (1.6e-4 J in 50 strokes; see the test). `load: passive` re-anchors instead: when sigma rises, by load, mu or
-///    d_max, the force stays and the stretch shrinks, because new contact area is not sheared yet. `load: scale` is the printed
-///    rule.
+///    release (1.6e-4 J in 50 strokes; see the test). `load: passive` takes none, because new contact area is not sheared yet,
+///    but it walks: under a load that trembles by 10 % at 10 Hz, a tool that leans with 0.2 N on a contact that holds 0.5 N
+///    creeps by 81 um/s, while the state is 1. `load: bound` neither gives energy nor walks, and is the default. In graph
+///    files of version 1 the default was `passive`.
 ///  - Eq. (1) to (4) are one-dimensional. Here d and dp are projected on the tangent plane of each sample, so that a turning
 ///    normal takes the contact point along.
 ///
@@ -56,38 +70,34 @@ namespace tactus::nodes
 ///  - Time-free: only displacement moves the state. A tool at rest feels a constant force forever, and repeating a sample does
 ///    not change a single bit of the state.
 ///  - stored_energy is sigma |d|^2 / 2. dissipated_energy is what the bristle has lost since the start, along the straight path
-///    between the samples: sigma times the stretch times the slip of c, and everything released when the load falls, the
-///    contact re-anchors, the normal turns or the contact opens. So the work of the hand is the growth of stored plus
-///    dissipated energy, and dissipated_energy never falls. Under `load: scale` it does fall when the load rises: this is the
-///    energy that rule creates. Energy stored when a fault opens the contact is not counted.
+///    between the samples: sigma times the stretch times the slip of c, each collapse of a step, and everything released when
+///    the load falls, the contact re-anchors, the normal turns or the contact opens. So the work of the hand is the growth of
+///    stored plus dissipated energy, and dissipated_energy never falls. Under `load: scale` it does fall when the load rises:
+///    this is the energy that rule creates. Energy stored when a fault opens the contact is not counted.
 ///  - The force is held between samples, so while the contact sticks, the device needs a damping of at least sigma T / 2
 ///    (section 1), or twice that with functions 2 to 4, which are twice as stiff on a reversal.
-///  - If the bound shrinks below the stretch, the bristle slips immediately, even at rest. This is how a texture on d_max is
-///    felt; keep `stiffness` constant for that.
+///  - If the bound shrinks below the stretch, the bristle slips immediately, even at rest. This is how a texture on mu or d_max
+///    is felt: with `bound`, sliding needs the force mu f_n d_max / d_max0. So a d_max that is turned while the tool touches
+///    changes the drag, and softens the contact only from the next touch on.
+///  - With `bound`, a mu of 0 in file and knobs at the touch makes sigma 0, and no wire on mu brings friction until the next touch.
+///  - With `scale` and `passive`, `stiffness` above 0 keeps sigma constant, and d_max alone is the bound: mu has no effect, and
+///    normal_force only opens and closes the contact.
+///  - Noise in the position wears functions 2 to 4 down, because each step to and fro lets them yield a little. With 1 um rms
+///    per sample at 10 kHz, 2 mm/s and a d_max of 50 um, a mean drag of 0.5 N becomes 0.39 N with function 2, 0.21 N with 3 and
+///    0.09 N with 4. Function 1 keeps 0.49 N.
 ///  - With functions 2 and 3 and static_ratio > 1, the exponential integrator slides at a stretch between d_max and d_stick,
 ///    while eq. (4) collapses to d_max and buzzes. Use function 1 for stick-slip.
 ///  - With a table that never reaches 1, the bristle stretches beyond d_max; with one that ends in 0, without limit.
 struct ElastoPlastic
 {
-    enum class Adhesion
-    {
-        stick,
-        dupont,
-        ramp,
-        dahl,
-        curve
-    };
-
-    enum class Integrator
-    {
-        exponential,
-        euler
-    };
+    using Adhesion = Bristle::Adhesion;
+    using Integrator = Bristle::Integrator;
 
     enum class Load
     {
-        passive,
-        scale
+        bound,
+        scale,
+        passive
     };
 
     struct Inputs
@@ -106,7 +116,8 @@ struct ElastoPlastic
         double stiffness = 0.0;
         Adhesion adhesion = Adhesion::stick;
         Integrator integrator = Integrator::exponential;
-        Load load = Load::passive;
+        Load load = Load::bound;
+        double reference_load = 1.0;
     };
 
     struct Settings
@@ -132,7 +143,7 @@ struct ElastoPlastic
 
     static constexpr std::string_view adhesion_names[] { "stick", "dupont", "ramp", "dahl", "curve" };
     static constexpr std::string_view integrator_names[] { "exponential", "euler" };
-    static constexpr std::string_view load_names[] { "passive", "scale" };
+    static constexpr std::string_view load_names[] { "bound", "scale", "passive" };
 
     static constexpr std::tuple ports {
         input (&Inputs::position, "position", unit::metre, "tool position p"),
@@ -143,11 +154,13 @@ struct ElastoPlastic
         param (&Params::static_ratio, "static_ratio", unit::gain, "d_stick / d_max = mu_s / mu_k; above 1: stick-slip",
                { .hard = { 1, inf }, .usual = { 1, 5 } }),
         param (&Params::break_away, "break_away", unit::gain, "d_ba / d_max, where adhesion dupont begins to yield", { .hard = { 0, 1 } }),
-        param (&Params::stiffness, "stiffness", unit::stiffness, "stiffness sigma; 0: mu normal_force / d_max; above 0: mu and load have no effect",
+        param (&Params::stiffness, "stiffness", unit::stiffness, "stiffness sigma; 0: mu / d_max times the load, or times reference_load with load bound",
                { .hard = { 0, inf }, .usual = { 0, 1e5 } }),
         choice (&Params::adhesion, "adhesion", adhesion_names, "how the contact yields, Fig. 2"),
         choice (&Params::integrator, "integrator", integrator_names, "exponential solves eq. (2) over each step; euler is eq. (4)"),
-        choice (&Params::load, "load", load_names, "a rising load re-anchors the contact, or scales its force"),
+        choice (&Params::load, "load", load_names, "what the load moves: the bound of the stretch, the stiffness, or the stiffness with re-anchoring"),
+        param (&Params::reference_load, "reference_load", unit::newton, "load at which the contact slides at d_max, with load bound and no stiffness",
+               { .hard = { 1e-9, inf }, .usual = { 0.1, 10 } }),
         setting (&Settings::adhesion_curve, "adhesion_curve", unit::gain, unit::gain, "zeta d_max over |d| / d_max, for adhesion curve"),
         output (&Outputs::force, "force", unit::newton, "force on the tool"),
         output (&Outputs::deflection, "deflection", unit::metre, "stretch d of the contact"),
@@ -173,20 +186,22 @@ struct ElastoPlastic
         dissipated = old.dissipated;
     }
 
-    /// The stiffness of the contact grows with normal_force without limit unless `stiffness` is given; functions 2 to 4 are twice as
-    /// stiff on a reversal.
+    /// Functions 2 to 4 are twice as stiff on a reversal. Unless `stiffness` is given, loads `scale` and `passive` make the contact
+    /// stiffer with normal_force, without limit.
     Claims claims() const
     {
+        const bool grows = params.load != Load::bound && params.stiffness == 0.0;
         return {
-            .passive = params.load == Load::passive || params.stiffness > 0.0,
-            .stiffness = params.stiffness > 0.0 ? (params.adhesion == Adhesion::stick ? 1.0 : 2.0) * params.stiffness : inf,
+            .passive = params.load != Load::scale || params.stiffness > 0.0,
+            .stiffness = (params.adhesion == Adhesion::stick ? 1.0 : 2.0) * (grows ? inf : stiffnessAtTouch (params)),
         };
     }
 
-    Outputs tick (const Inputs&) noexcept;
+    Outputs tick (const Inputs& in) noexcept { return tick (in, params); }
+    Outputs tick (const Inputs&, const Params& stored) noexcept;
 
 private:
-    static constexpr double eps_slip = 1e-9;   // relative; keeps steady sliding away from the branch points of eq. (3) and (4)
+    static constexpr double shortest = 1e-30;   // m; stands for a bound of 0, by which nothing can be divided
 
     /// The state from one sample to the next while the tool touches.
     struct Contact
@@ -195,34 +210,20 @@ private:
         Vec3 p = Vec3::Zero(), n = Vec3::UnitZ();   // position of the tool, unit normal
         Vec3 given = Vec3::UnitZ();                 // the normal input, of any length
         Vec3 d = Vec3::Zero();                      // stretch; the contact point is c = p - d
-        double sigma = 0.0, d_max = 0.0, d_stick = 0.0;
-        Adhesion adhesion {};
-        Integrator integrator {};
+        double sigma = 0.0;
+        double d_max0 = 0.0;   // stored d_max at the touch
         Load load {};
+        Bristle bristle {};
 
         double stored() const noexcept { return 0.5 * sigma * d.squaredNorm(); }
     };
 
-    /// One step along dp: the new stretch, the energy lost on the way divided by sigma, and whether c has moved.
-    struct Step
-    {
-        Vec3 d;
-        double loss = 0.0;
-        bool slips = false;
-    };
-
-    double zeta (double r, Adhesion) const noexcept;
-    Step advance (const Vec3& d, const Vec3& dp, const Contact&) const noexcept;
-    Step stick (const Vec3& d, const Vec3& dp) const noexcept;
-    Step euler (const Vec3& d, const Vec3& dp, Adhesion) const noexcept;
-    Step exponential (const Vec3& d, const Vec3& dp, Adhesion) const noexcept;
-    bool letGo (Vec3& d, Adhesion) const noexcept;
-    Outputs open() noexcept;
-    Step drag (double from, const Vec3& d, double r, double hold) const noexcept;
-    Outputs fault() noexcept;
-
-    static bool isExact (const Contact& c) noexcept { return c.adhesion != Adhesion::stick && c.integrator == Integrator::exponential; }
     static Vec3 tangential (const Vec3& v, const Vec3& n) noexcept { return v - n * n.dot (v); }
+    double stiffnessAtTouch (const Params& stored) const noexcept;
+    void touch (Contact&, const Params& stored) const noexcept;
+    bool setBound (Contact&, double normal_force) const noexcept;
+    Outputs open() noexcept;
+    Outputs fault() noexcept;
 
     Contact contact;
     double dissipated = 0.0;   // J
@@ -231,54 +232,45 @@ private:
 //==============================================================================
 // Implementation below.
 
-inline ElastoPlastic::Outputs ElastoPlastic::tick (const Inputs& in) noexcept
+inline ElastoPlastic::Outputs ElastoPlastic::tick (const Inputs& in, const Params& stored) noexcept
 {
     if (! isFinite (in.position, in.normal, in.normal_force)) return fault();
 
     if (in.normal_force <= 0.0) return open();
 
     const double longest = in.normal.cwiseAbs().maxCoeff();
-    const double sigma = params.stiffness > 0.0 ? params.stiffness : params.mu * in.normal_force / params.d_max;
-    if (longest == 0.0 || ! isFinite (sigma)) return fault();
+    if (longest == 0.0) return fault();
 
     Contact now = contact;
     if (in.normal != contact.given) now.n = (in.normal / longest).normalized();
     now.given = in.normal;
     now.p = in.position;
-    now.sigma = sigma;
-    now.d_max = params.d_max;
-    now.d_stick = params.static_ratio * params.d_max;
+    if (! contact.touching) touch (now, stored);
+    if (! setBound (now, in.normal_force)) return fault();
 
     bool slips = false;
     double lost = 0.0;
 
-    if (! contact.touching)
-    {
-        now.touching = true;
-        now.d.setZero();
-        now.adhesion = params.adhesion;
-        now.integrator = params.integrator;
-        now.load = params.load;
-    }
-    else
+    if (contact.touching)
     {
         // Changes since the last sample take effect where the tool was, before it moves.
-        if (sigma > contact.sigma && (now.load == Load::passive || params.stiffness > 0.0)) now.d *= contact.sigma / sigma;
+        const Bristle &bristle = now.bristle, &before = contact.bristle;
+        if (now.sigma > contact.sigma && (now.load == Load::passive || params.stiffness > 0.0)) now.d *= contact.sigma / now.sigma;
         if (now.n != contact.n) now.d = tangential (now.d, now.n);
-        if (isExact (now) && (now.d_max < contact.d_max || now.d_stick < contact.d_stick)) slips = letGo (now.d, now.adhesion);
+        if (bristle.d_max < before.d_max || bristle.d_stick < before.d_stick) slips = bristle.letGo (now.d);
         lost = contact.stored() - now.stored();
 
         const Vec3 dp = tangential (now.p - contact.p, now.n);
         if (! isFinite (dp.squaredNorm())) return fault();
 
-        const Step step = advance (now.d, dp, now);
+        const auto step = bristle.stretch (now.d, dp);
         now.d = step.d;
-        lost += sigma * step.loss;
+        lost += now.sigma * step.loss;
         slips = slips || step.slips;
     }
 
     const Outputs out {
-        .force = -sigma * now.d,
+        .force = -now.sigma * now.d,
         .deflection = now.d,
         .stored_energy = now.stored(),
         .dissipated_energy = dissipated + lost,
@@ -291,93 +283,46 @@ inline ElastoPlastic::Outputs ElastoPlastic::tick (const Inputs& in) noexcept
     return out;
 }
 
+/// The stiffness that a contact with load `bound` keeps while it lasts.
+inline double ElastoPlastic::stiffnessAtTouch (const Params& stored) const noexcept
+{
+    return params.stiffness > 0.0 ? params.stiffness : stored.mu * params.reference_load / stored.d_max;
+}
+
+/// What holds from the touch until the contact opens.
+inline void ElastoPlastic::touch (Contact& c, const Params& stored) const noexcept
+{
+    c.touching = true;
+    c.d.setZero();
+    c.load = params.load;
+    c.bristle.adhesion = params.adhesion;
+    c.bristle.integrator = params.integrator;
+    c.d_max0 = stored.d_max;
+    c.sigma = stiffnessAtTouch (stored);
+}
+
+/// The stiffness and the lengths of Fig. 2 under this load. False if they are not finite.
+inline bool ElastoPlastic::setBound (Contact& c, double normal_force) const noexcept
+{
+    double d_max = params.d_max;
+    if (c.load == Load::bound)
+        d_max = c.sigma > 0.0 ? std::max (shortest, params.mu * normal_force / c.sigma * (params.d_max / c.d_max0)) : shortest;
+    else
+        c.sigma = params.stiffness > 0.0 ? params.stiffness : params.mu * normal_force / params.d_max;
+
+    c.bristle.d_max = d_max;
+    c.bristle.d_stick = params.static_ratio * d_max;
+    c.bristle.d_ba = params.break_away * d_max;
+    c.bristle.own = &settings.adhesion_curve;
+    return isFinite (c.sigma, d_max);
+}
+
 inline ElastoPlastic::Outputs ElastoPlastic::open() noexcept
 {
     const double lost = dissipated + contact.stored();
     contact = {};
     if (isFinite (lost)) dissipated = lost;
     return { .dissipated_energy = dissipated };
-}
-
-inline ElastoPlastic::Step ElastoPlastic::advance (const Vec3& d, const Vec3& dp, const Contact& c) const noexcept
-{
-    if (isExact (c)) return exponential (d, dp, c.adhesion);
-    return c.adhesion == Adhesion::stick ? stick (d, dp) : euler (d, dp, c.adhesion);
-}
-
-/// Fig. 2: how fast the contact yields at stretch r, in 1/m.
-inline double ElastoPlastic::zeta (double r, Adhesion adhesion) const noexcept
-{
-    const double d_max = params.d_max, d_stick = params.static_ratio * d_max, d_ba = params.break_away * d_max;
-    switch (adhesion)
-    {
-    case Adhesion::stick:
-        return r > d_stick ? 1.0 / d_max : 0.0;
-    case Adhesion::dupont:
-        if (r >= d_stick) return 1.0 / d_max;
-        if (r <= d_ba) return 0.0;
-        return 0.5 / d_max * (1.0 + std::sin (std::numbers::pi * (r - 0.5 * (d_stick + d_ba)) / (d_stick - d_ba)));
-    case Adhesion::ramp:
-        return std::min (r / d_stick, 1.0) / d_max;
-    case Adhesion::dahl:
-        return 1.0 / d_max;
-    case Adhesion::curve:
-        return std::clamp (settings.adhesion_curve (r / d_max), 0.0, 1.0) / d_max;
-    }
-    return 0.0;
-}
-
-/// Eq. (3).
-inline ElastoPlastic::Step ElastoPlastic::stick (const Vec3& d, const Vec3& dp) const noexcept
-{
-    const Vec3 pulled = d + dp;
-    const double r = pulled.norm(), d_stick = params.static_ratio * params.d_max;
-    if (r > d_stick * (1.0 + eps_slip)) return drag (d.norm(), pulled, r, d_stick);
-    return { .d = pulled };
-}
-
-/// Eq. (4), clamped. For the loss, the bristle first stretches to d~ and then yields there.
-inline ElastoPlastic::Step ElastoPlastic::euler (const Vec3& d, const Vec3& dp, Adhesion adhesion) const noexcept
-{
-    const Vec3 pulled = d + dp;
-    const double r = pulled.norm(), z = zeta (r, adhesion);
-    if (z * r > 1.0 + eps_slip) return drag (d.norm(), pulled, r, 1.0 / z);
-
-    const double g = std::min (1.0, z * dp.norm());
-    return { .d = pulled - g * pulled, .loss = 0.5 * g * (2.0 - g) * r * r, .slips = g > 0.0 };
-}
-
-/// Eq. (2), solved with zeta held over the step, x = zeta |dp|. The mean stretch over the step is phi d + psi dp; its product
-/// with dp is the work done on the way.
-inline ElastoPlastic::Step ElastoPlastic::exponential (const Vec3& d, const Vec3& dp, Adhesion adhesion) const noexcept
-{
-    const double x = zeta ((d + dp).norm(), adhesion) * dp.norm();
-    if (! (x > 0.0)) return { .d = d + dp };
-
-    const double phi = -std::expm1 (-x) / x;
-    const double psi = x < 1e-3 ? 1.0 / 2.0 - x * (1.0 / 6.0 - x * (1.0 / 24.0 - x / 120.0)) : (1.0 - phi) / x;
-    const Vec3 after = std::exp (-x) * d + phi * dp;
-    const double work = (phi * d + psi * dp).dot (dp);
-    return { .d = after, .loss = std::max (0.0, work - 0.5 * (after - d).dot (after + d)), .slips = true };
-}
-
-/// Drags the contact point along: the stretch, which was pulled to d (of length r), returns to d_max. The contact holds up to a stretch
-/// of `hold`, or of `from` if that is longer because the bound has shrunk. From there the spring falls back to d_max, and the
-/// rest of the way is slip against the mean of static and sliding friction.
-inline ElastoPlastic::Step ElastoPlastic::drag (double from, const Vec3& d, double r, double hold) const noexcept
-{
-    const double d_max = params.d_max, peak = std::clamp (from, hold, r);
-    return { .d = d * (d_max / r), .loss = 0.5 * ((peak - d_max) * (peak + d_max) + (hold + d_max) * (r - peak)), .slips = true };
-}
-
-/// If a shrinking bound has left the stretch outside it, brings the stretch back to the value at which the contact slides.
-/// Eq. (3) and (4) do so on their own.
-inline bool ElastoPlastic::letGo (Vec3& d, Adhesion adhesion) const noexcept
-{
-    const double r = d.norm(), yield = zeta (r, adhesion) * r;
-    if (! (yield > 1.0 + eps_slip)) return false;
-    d /= yield;
-    return true;
 }
 
 inline ElastoPlastic::Outputs ElastoPlastic::fault() noexcept

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 namespace tactus::test
@@ -98,7 +99,9 @@ void Interpreter::evaluate (const std::string& path)
                 wired.push_back (driven (path, entryName (row, entry), c, false, in.back()));
             }
 
-    bool moved = false, fault = false;
+    bool moved = false, fault = false, any_driven = false;
+    auto* const own = static_cast<char*> (i.type->paramsOf (i.node.get()));
+    std::vector<char> stored (own, own + i.type->params_size);
     for (std::size_t p = 0; p < i.params.size(); ++p)
         for (std::size_t k = 0; k < i.params[p].size(); ++k)
         {
@@ -108,8 +111,10 @@ void Interpreter::evaluate (const std::string& path)
             const int component = row.list ? 0 : static_cast<int> (k);
             const bool replaced = driven (path, entry, component, false, value), plus = driven (path, entry, component, true, added);
             if (! replaced && ! plus) continue;
+            any_driven = true;
+            std::memcpy (stored.data() + row.offset + k * sizeof (double), &i.params[p][k], sizeof (double));
             value = row.limits.hard.clamp (value + added);
-            auto& target = reinterpret_cast<double*> (static_cast<char*> (i.type->paramsOf (i.node.get())) + row.offset)[k];
+            auto& target = reinterpret_cast<double*> (own + row.offset)[k];
             if (! std::isfinite (value))
                 fault = true;
             else if (value != target)
@@ -147,7 +152,10 @@ void Interpreter::evaluate (const std::string& path)
     const double nan = std::nan ("");
     for (const auto& v : in)
         sources.push_back (fault ? &nan : &v);
-    i.type->tick (i.node.get(), sources.data(), i.outputs.data());
+    if (any_driven && i.type->tickStored)
+        i.type->tickStored (i.node.get(), stored.data(), sources.data(), i.outputs.data());
+    else
+        i.type->tick (i.node.get(), sources.data(), i.outputs.data());
     if (fault && in.empty()) i.type->initialiseOutputs (i.outputs.data());
 }
 

@@ -13,7 +13,7 @@ using Catch::Matchers::Contains;
 
 namespace
 {
-std::string file (const std::string& members) { return R"({ "format": "tactus-graph", "version": 1, )" + members + " }"; }
+std::string file (const std::string& members) { return R"({ "format": "tactus-graph", "version": 2, )" + members + " }"; }
 
 std::string inNode (const std::string& members) { return file (R"("nodes": { "a": { "type": "signal.gain", )" + members + " } }"); }
 
@@ -89,7 +89,7 @@ TEST_CASE ("anything other than a graph of this version is refused first")
     CHECK (complaints (R"({ "format": "tactus-graph", "version": "1" })") == "file/wrong_kind /version");
     CHECK (complaints (R"({ "format": "tactus-graph", "version": 1.5 })") == "file/bad_value /version");
     CHECK (complaints (R"({ "format": "tactus-graph", "version": 0 })") == "file/unknown_version /version");
-    CHECK (complaints (R"({ "format": "tactus-graph", "version": 2, "nodes": 3 })") == "file/newer_version /version");
+    CHECK (complaints (R"({ "format": "tactus-graph", "version": 3, "nodes": 3 })") == "file/newer_version /version");
     CHECK (complaints ("{") == "file/syntax ");
 }
 
@@ -97,7 +97,7 @@ TEST_CASE ("a newer version is refused with a single message")
 {
     const auto messages = readGraph (R"({ "format": "tactus-graph", "version": 7 })").messages;
     REQUIRE (messages.size() == 1);
-    CHECK (messages[0].text == "the file is version 7, but this Tactus reads only versions up to 1");
+    CHECK (messages[0].text == "the file is version 7, but this Tactus reads only versions up to 2");
 }
 
 TEST_CASE ("old versions are migrated step by step")

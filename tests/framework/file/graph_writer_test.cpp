@@ -21,7 +21,7 @@ TEST_CASE ("a graph is written in a fixed order, with one node or wire per line"
     REQUIRE (loaded.messages.empty());
     CHECK (writeGraph (loaded.graph) == R"({
   "format": "tactus-graph",
-  "version": 1,
+  "version": 2,
   "name": "Two",
   "rate_hz": 4000,
   "nodes": {

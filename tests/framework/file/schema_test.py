@@ -15,7 +15,7 @@ from schema_check import SchemaCheck, read_json   # noqa: E402
 check = SchemaCheck(source / "framework/file/graph.schema.json")
 
 good = {
-    "format": "tactus-graph", "version": 1, "name": "Dry wood", "tags": ["wood"], "rate_hz": 4000,
+    "format": "tactus-graph", "version": 2, "name": "Dry wood", "tags": ["wood"], "rate_hz": 4000,
     "devices": {"stylus": {"driver": "sim"}},
     "nodes": {
         "hand": {"type": "device.position", "role": "stylus", "colour": "red"},
@@ -33,7 +33,7 @@ good = {
 
 # A path into the good example and the bad value there; None removes the key.
 bad = [
-    (["format"], "other"), (["format"], None), (["version"], 2), (["version"], None), (["name"], 3), (["tags"], "wood"),
+    (["format"], "other"), (["format"], None), (["version"], 1), (["version"], None), (["name"], 3), (["tags"], "wood"),
     (["rate_hz"], 0), (["rate_hz"], "4 kHz"), (["devices", "Left"], {}), (["devices", "stylus"], "sim"), (["nodes"], []),
     (["nodes", "Hand"], {"type": "x"}), (["nodes", "hand", "type"], None), (["nodes", "hand", "type"], "graph:No"),
     (["nodes", "hand", "type"], "file:"), (["nodes", "hand", "role"], "Left"), (["nodes", "hand", "params"], {"d max": 1}),

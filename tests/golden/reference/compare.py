@@ -29,7 +29,7 @@ import tolerance
 def write_graph(set_, path):
     rate = set_.rate if set_.clock == "graph" else 1000.0
     path.write_text(json.dumps({
-        "format": "tactus-graph", "version": 1, "name": "Random set",
+        "format": "tactus-graph", "version": 2, "name": "Random set",
         "rate_hz": rate, "devices": set_.devices, "nodes": set_.nodes,
         "wires": set_.wires}, indent=1))
 

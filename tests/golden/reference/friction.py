@@ -18,10 +18,10 @@ ZERO = (0.0, 0.0, 0.0)
 DEFAULTS = {"position": ZERO, "normal": (0.0, 0.0, 1.0), "normal_force": 1.0,
             "mu": 0.4, "d_max": 1e-4, "static_ratio": 1.0, "break_away": 0.7,
             "stiffness": 0.0, "adhesion": "stick",
-            "integrator": "exponential", "load": "passive",
-            "adhesion_curve": None}
+            "integrator": "exponential", "load": "bound",
+            "reference_load": 1.0, "adhesion_curve": None}
 NUMBERS = ("position", "normal", "normal_force", "mu", "d_max",
-           "static_ratio", "break_away", "stiffness")
+           "static_ratio", "break_away", "stiffness", "reference_load")
 
 
 def zeta(now, r):
@@ -43,8 +43,40 @@ def zeta(now, r):
     return 0.5 / d_max * (1.0 + math.sin(math.pi * (r - middle) / width))
 
 
-def stiffness(now):
-    return now["stiffness"] or now["mu"] * now["normal_force"] / now["d_max"]
+def stiffness(now, stored, touching):
+    """sigma; touching is sigma of the sample before, None on the first."""
+    if now["load"] != "bound":
+        return now["stiffness"] or now["mu"] * now["normal_force"] / now["d_max"]
+    if touching is not None:
+        return touching
+    return now["stiffness"] or stored["mu"] * now["reference_load"] / stored["d_max"]
+
+
+def bound(now, stored, sigma):
+    """The stretch at which the contact slides."""
+    if now["load"] != "bound":
+        return now["d_max"]
+    return (now["mu"] * now["normal_force"] / sigma
+            * now["d_max"] / stored["d_max"])
+
+
+def slip(now, r):
+    """What is left of a stretch r that exceeds d_stick. With stick-slip it is
+    what a slow hand would find at the same place."""
+    d_max, d_stick = now["d_max"], now["static_ratio"] * now["d_max"]
+    if now["static_ratio"] <= 1.0 + EPS_SLIP:
+        return d_max
+    return d_max + math.fmod(r - d_stick, d_stick - d_max)
+
+
+def let_go(now, d):
+    """The stretch after the bound fell below it, and whether it did."""
+    if now["adhesion"] == "stick" or now["integrator"] == "euler":
+        return d, False
+    excess = zeta(now, vec.norm(d)) * vec.norm(d)
+    if excess > 1.0 + EPS_SLIP:
+        return vec.scale(1.0 / excess, d), True
+    return d, False
 
 
 def stretch(now, d0, dp):
@@ -53,7 +85,7 @@ def stretch(now, d0, dp):
     r, step = vec.norm(d), vec.norm(dp)
     if now["adhesion"] == "stick":
         slips = r > now["static_ratio"] * now["d_max"] * (1.0 + EPS_SLIP)
-        return (vec.scale(now["d_max"] / r, d) if slips else d), slips
+        return (vec.scale(slip(now, r) / r, d) if slips else d), slips
     z = zeta(now, r)
     if now["integrator"] == "euler":
         if z * r > 1.0 + EPS_SLIP:
@@ -72,7 +104,7 @@ def result(sigma, d, state):
 
 
 def steps(params, feed):
-    last = None
+    last, stored = None, {**DEFAULTS, **params}
     for k in range(table.rows(feed)):
         now = table.row(DEFAULTS, params, feed, k)
         if not vec.finite(*(now[name] for name in NUMBERS)):
@@ -83,16 +115,20 @@ def steps(params, feed):
             last = None
             yield result(0.0, ZERO, 0)
             continue
-        p, n, sigma = now["position"], vec.unit(now["normal"]), stiffness(now)
-        d, slips = ZERO, False
+        p, n = now["position"], vec.unit(now["normal"])
+        p0, d, sigma0, s0 = last or (p, ZERO, None, 0.0)
+        sigma = stiffness(now, stored, sigma0)
+        now["d_max"] = bound(now, stored, sigma)
+        slips = lets_go = False
         if last:
-            p0, d, sigma0 = last
             if now["load"] == "passive" and sigma > sigma0:
                 d = vec.scale(sigma0 / sigma, d)
-            d, slips = stretch(now, vec.across(n, d),
-                               vec.across(n, vec.sub(p, p0)))
-        last = p, d, sigma
-        yield result(sigma, d, 2 if slips else 1)
+            d = vec.across(n, d)
+            if now["d_max"] < s0:
+                d, lets_go = let_go(now, d)
+            d, slips = stretch(now, d, vec.across(n, vec.sub(p, p0)))
+        last = p, d, sigma, now["d_max"]
+        yield result(sigma, d, 2 if slips or lets_go else 1)
 
 
 def run(params, feed):

@@ -53,6 +53,21 @@ def friction_1d(set_, about):
     return out
 
 
+def friction_bound(set_, about):
+    given = about["params"]
+    feed = {"position": on_x(set_["p"]), "normal_force": set_["fn"],
+            "mu": set_["mu"], "d_max": set_["d_max"]}
+    forms = {"stick": {}, "dahl": {"adhesion": "dahl"},
+             "slip": {"static_ratio": given["static_ratio_slip"]}}
+    out = {}
+    for name, form in forms.items():
+        got = friction.run({"mu": given["mu"], "d_max": given["d_max"], **form}, feed)
+        out["d_" + name] = part(got["deflection"], 0)
+        out["f_" + name] = part(got["force"], 0)
+        out["state_" + name] = got["state"]
+    return out
+
+
 def friction_3d(set_, about):
     feed = {"position": vectors(set_, "p"), "normal": vectors(set_, "n"),
             "normal_force": set_["fn"]}
@@ -93,7 +108,7 @@ def texture_(set_, about):
         texture.window(set_["dz"], 5e-4), guard["gain"], line)]
     stretch = [given["d_max"] * (1.0 + given["mod"] * math.sin(400.0 * math.pi * x))
                for x in set_["x"]]
-    drag = friction.run({"mu": 0.4, "stiffness": 0.4 / given["d_max"]},
+    drag = friction.run({"load": "passive", "stiffness": 0.4 / given["d_max"]},
                         {**on_line, "d_max": stretch,
                          "normal_force": [float(d > 0.0) for d in set_["dz"]]})
     return {"grating1d": line, "grating2d_x": part(plane, 0),
@@ -171,7 +186,8 @@ def deformation_(set_, about):
     return out
 
 
-MODELS = {"friction_1d": friction_1d, "friction_3d": friction_3d,
+MODELS = {"friction_1d": friction_1d, "friction_bound": friction_bound,
+          "friction_3d": friction_3d,
           "cutting": cutting_, "scissors": scissors_, "texture": texture_,
           "shock": shock_, "modal": modal, "passivity": passivity,
           "wallsim": wallsim, "deformation": deformation_}

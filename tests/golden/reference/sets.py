@@ -95,10 +95,12 @@ def friction_params(rng):
               "d_max": draw.spread(rng, 2e-6, 5e-3),
               "adhesion": rng.choice(("stick", "dupont", "ramp", "dahl", "curve")),
               "integrator": rng.choice(("exponential", "euler")),
-              "load": rng.choice(("passive", "scale")),
+              "load": rng.choice(("bound", "passive", "scale")),
               "break_away": rng.uniform(0.1, 0.95)}
     if draw.chance(rng, 0.4):
         params["static_ratio"] = rng.uniform(1.0, 3.0)
+    if params["load"] == "bound":
+        params["reference_load"] = draw.spread(rng, 0.1, 10.0)
     if draw.chance(rng, 0.25):
         params["stiffness"] = draw.spread(rng, 100.0, 5e4)
     return params
@@ -106,10 +108,12 @@ def friction_params(rng):
 
 def moving(rng, params, name, rows):
     """A parameter that moves. The specification leaves two cases open: what
-    a falling d_max does to a step solved by eq. (2), and whether
-    load "scale" applies to a given stiffness."""
+    a falling d_max does to a step solved by eq. (2) if load is not "bound",
+    and whether load "scale" applies to a given stiffness."""
     out = [params[name] * (1.0 + 0.5 * math.tanh(x))
            for x in draw.stroke(rng, rows, 1.0)]
+    if params["load"] == "bound":
+        return out
     if name == "d_max" and params["integrator"] == "exponential":
         return out if params["adhesion"] == "stick" else sorted(out)
     if name == "stiffness" and params["load"] == "scale":
@@ -312,7 +316,8 @@ def texture_set(rng):
 def ridged_friction(rng, set_, positions, k):
     """Friction of constant stiffness, d_max (1 + m sin(2 pi k x))."""
     mean, m = draw.spread(rng, 1e-5, 1e-3), rng.uniform(0.0, 0.9)
-    params = {"mu": 0.4, "stiffness": 0.4 / mean}
+    params = {"mu": 0.4, "d_max": mean, "stiffness": 0.4 / mean,
+              "load": rng.choice(("bound", "passive"))}
     xs = [p[0] if math.isfinite(p[0]) else 0.0 for p in positions]
     feed = {"position": positions, "d_max": [
         mean * (1.0 + m * math.sin(2.0 * math.pi * k * x)) for x in xs]}

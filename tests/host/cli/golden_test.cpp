@@ -77,7 +77,7 @@ void reproduce (const std::string& set, const std::string& graph, const Map& fee
 
 std::string graph (const std::string& nodes, const std::string& rest = R"("wires": [])")
 {
-    return R"({ "format": "tactus-graph", "version": 1, "name": "Reference", "rate_hz": 1000, "nodes": {)" + nodes + "}, " + rest + "}";
+    return R"({ "format": "tactus-graph", "version": 2, "name": "Reference", "rate_hz": 1000, "nodes": {)" + nodes + "}, " + rest + "}";
 }
 
 std::string friction (const std::string& name, const std::string& params)
@@ -96,7 +96,7 @@ TEST_CASE ("render reproduces the friction of a point on a line", "[golden]")
                       { "etd4", scaled + R"(, "adhesion": "dahl")" },
                       { "etd2", scaled + R"(, "adhesion": "dupont")" },
                       { "stickslip", scaled + R"(, "static_ratio": 2.5)" },
-                      { "passive", common } };
+                      { "passive", common + R"(, "load": "passive")" } };
     std::string all;
     Map feeds, records { { "eq3.force.x", "f_eq3" }, { "eq3.state", "state_eq3" }, { "passive.force.x", "f_passive" } };
     for (const auto& [name, params] : nodes)
@@ -107,6 +107,25 @@ TEST_CASE ("render reproduces the friction of a point on a line", "[golden]")
         if (name != "passive") records[name + ".deflection.x"] = "d_" + name;
     }
     reproduce ("friction_1d", graph (all), feeds, records);
+}
+
+TEST_CASE ("render reproduces friction with load bound, under a moving load, mu and d_max", "[golden]")
+{
+    const std::string common = R"("mu": 0.45, "d_max": "20 um")";
+    const Map nodes { { "stick", common }, { "dahl", common + R"(, "adhesion": "dahl")" }, { "slip", common + R"(, "static_ratio": 2.2)" } };
+    std::string all;
+    Map feeds, records { { "stick.state", "state_stick" } };
+    for (const auto& [name, params] : nodes)
+    {
+        all += (all.empty() ? "" : ", ") + friction (name, params);
+        feeds[name + ".position.x"] = "p";
+        feeds[name + ".normal_force"] = "fn";
+        feeds[name + ".mu"] = "mu";
+        feeds[name + ".d_max"] = "d_max";
+        records[name + ".deflection.x"] = "d_" + name;
+        records[name + ".force.x"] = "f_" + name;
+    }
+    reproduce ("friction_bound", graph (all), feeds, records);
 }
 
 TEST_CASE ("render reproduces the friction of a point on a turning surface", "[golden]")
@@ -172,7 +191,7 @@ TEST_CASE ("render reproduces a texture that fades in with depth, is filtered, a
                                     "layer": { "type": "signal.multiply", "settings": { "inputs": 3 } },
                                     "smooth": { "type": "filter.butterworth2", "params": { "cutoff": "120 Hz" } },
                                     "wave": { "type": "texture.grating", "params": { "amplitude": "1 N", "spatial_frequency": "200 1/m" } },
-                                    "drag": { "type": "friction.elasto_plastic", "params": { "d_max": "0.1 mm", "stiffness": "4 N/mm" } })",
+                                    "drag": { "type": "friction.elasto_plastic", "params": { "d_max": "0.1 mm", "stiffness": "4 N/mm", "load": "passive" } })",
                                  R"("wires": [ "grain.value -> layer.in[0]", "guard.gain -> layer.in[1]", "window.gain -> layer.in[2]",
                                                "layer.out -> smooth.in",
                                                { "wire": "wave.value -> (+) drag.d_max", "gain": "35 um/N" } ])"),

@@ -110,8 +110,8 @@ std::vector<long> randomStrokes (double deepest, double step)
 /// The largest error of a sum over steps: once per stroke, it misses the kink where a bristle of this stiffness begins to slip.
 double missed (std::size_t strokes, double stiffness, double step) { return static_cast<double> (strokes + 1) * stiffness * step * step / 8.0 + 1e-12; }
 
-/// The smallest friction bound that d_max allows, in N. A bound of exactly 0 is not possible.
-double narrowest (double stiffness) { return 1e-9 * stiffness; }
+/// A bristle may exceed its bound by a billionth before it slips (N).
+constexpr double slack = 2e-9;
 
 /// A random key. It may have kinks anywhere, a falling force, and any loss that does not make the force on the way up negative.
 SwitchLoop randomLoop()
@@ -267,7 +267,7 @@ TEST_CASE ("a measured key releases no energy, whatever the finger does", "[data
             const auto strokes = randomStrokes (measured->travel.back(), step);
             pressed.follow (strokes);
             RC_ASSERT (pressed.work >= -missed (strokes.size(), stiffness, step));
-            RC_ASSERT (pressed.least >= -narrowest (stiffness));
+            RC_ASSERT (pressed.least >= -slack);
         });
     }
 }
@@ -281,7 +281,7 @@ TEST_CASE ("any two curves, if down is above up, make a key that follows both, r
         const auto strokes = randomStrokes (1.1 * loop.travel.back(), step);
         pressed.follow (strokes);
         RC_ASSERT (pressed.work >= -missed (strokes.size(), stiffness, step));
-        RC_ASSERT (pressed.least >= -narrowest (stiffness));
+        RC_ASSERT (pressed.least >= -slack);
     });
 
     rc::prop ("a stroke follows both curves if the bristle is stiff enough for their difference", [] {
@@ -292,13 +292,13 @@ TEST_CASE ("any two curves, if down is above up, make a key that follows both, r
         for (std::size_t i = 1; i < loop.travel.size(); ++i)
         {
             pressed.to (std::lround (loop.travel[i] / step));
-            RC_ASSERT (std::abs (pressed.force() - loop.press[i]) < 0.2 * mN + 1e-9 * stiffness);
+            RC_ASSERT (std::abs (pressed.force() - loop.press[i]) < 0.2 * mN + slack);
         }
-        pressed.to (std::lround (loop.travel.back() / step) + 20);   // so deep that the bristle has reversed, after 2 d_max, when the finger is back
+        pressed.to (std::lround (loop.travel.back() / step) + 20);   // so deep that the bristle has reversed, after 2 bound / stiffness, when the finger is back
         for (std::size_t i = loop.travel.size() - 1; i > 0; --i)
         {
             pressed.to (std::lround (loop.travel[i] / step));
-            RC_ASSERT (std::abs (pressed.force() - loop.release[i]) < 0.2 * mN + 1e-9 * stiffness);
+            RC_ASSERT (std::abs (pressed.force() - loop.release[i]) < 0.2 * mN + slack);
         }
     });
 }
@@ -380,7 +380,7 @@ TEST_CASE ("the preset key clicks, returns with less force than it was pressed, 
         const auto strokes = randomStrokes (4.2 * mm, step);
         pressed.follow (strokes);
         RC_ASSERT (pressed.work >= -missed (strokes.size(), stiffness, step));
-        RC_ASSERT (pressed.least >= -narrowest (stiffness));
+        RC_ASSERT (pressed.least >= -slack);
     });
 }
 

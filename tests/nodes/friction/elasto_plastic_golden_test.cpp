@@ -84,6 +84,44 @@ TEST_CASE ("friction: along a line every form matches the golden columns", "[nod
     forceMeets ("f_passive", with (Adhesion::stick, Integrator::exponential, Load::passive));
 }
 
+TEST_CASE ("friction: with load bound every form matches the golden columns", "[nodes][friction][golden]")
+{
+    const Golden golden ("friction_bound");
+    const auto play = [&] (Adhesion adhesion, double ratio) {
+        ElastoPlastic::Params stored;
+        stored.mu = golden.param ("mu");
+        stored.d_max = golden.param ("d_max");
+        stored.reference_load = golden.param ("reference_load");
+        stored.static_ratio = ratio;
+        stored.adhesion = adhesion;
+
+        ElastoPlastic node;
+        node.params = stored;
+        std::vector<ElastoPlastic::Outputs> outputs;
+        for (std::size_t i = 0; i < golden.rows(); ++i)
+        {
+            node.params.mu = golden (i, "mu");
+            node.params.d_max = golden (i, "d_max");
+            outputs.push_back (node.tick ({ .position = { golden (i, "p"), 0, 0 }, .normal_force = golden (i, "fn") }, stored));
+        }
+        return outputs;
+    };
+    const auto meets = [&] (const std::string& name, const std::vector<ElastoPlastic::Outputs>& outputs) {
+        INFO (name);
+        CHECK (golden.worst ("d_" + name, [&] (std::size_t i) { return outputs[i].deflection.x(); })
+               <= 1.0);
+        CHECK (golden.worst ("f_" + name, [&] (std::size_t i) { return outputs[i].force.x(); })
+               <= 1.0);
+    };
+
+    const auto stick = play (Adhesion::stick, 1.0);
+    meets ("stick", stick);
+    CHECK (golden.worst ("state_stick", [&] (std::size_t i) { return stick[i].state; })
+           == 0.0);
+    meets ("dahl", play (Adhesion::dahl, 1.0));
+    meets ("slip", play (Adhesion::stick, golden.param ("static_ratio_slip")));
+}
+
 TEST_CASE ("friction: on a turning surface every form matches the golden columns", "[nodes][friction][golden]")
 {
     const Golden golden ("friction_3d");
@@ -123,6 +161,7 @@ TEST_CASE ("friction: a grating on d_max matches the golden column", "[nodes][fr
     const Golden golden ("texture");
     ElastoPlastic node;
     node.params.stiffness = golden.param ("mu") / golden.param ("d_max");
+    node.params.load = Load::passive;
 
     CHECK (golden.worst ("f_friction_mod", [&] (std::size_t i) {
         const double x = golden (i, "x");

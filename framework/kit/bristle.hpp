@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "curve.hpp"
+#include "vec3.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tactus
+{
+
+/// The bristle between a tool and its contact point: how it stretches, yields and slips when the tool moves. Time-free.
+///
+/// All lengths in m. The force is the stretch times a stiffness sigma, which is left to the caller; so are changes of sigma.
+/// The equations are those of Hayward, "Physically-Based Haptic Synthesis" (2007), section 2.
+struct Bristle
+{
+    enum class Adhesion
+    {
+        stick,
+        dupont,
+        ramp,
+        dahl,
+        curve
+    };
+
+    enum class Integrator
+    {
+        exponential,
+        euler
+    };
+
+    /// One step: the new stretch, the energy lost on the way divided by sigma (m²), and whether the contact point has moved.
+    struct Step
+    {
+        Vec3 d;
+        double loss = 0.0;
+        bool slips = false;
+    };
+
+    Adhesion adhesion {};
+    Integrator integrator {};
+    double d_max = 1e-4;          ///< stretch while sliding; above 0
+    double d_stick = 1e-4;        ///< stretch that function 1 holds before it slips; at least d_max
+    double d_ba = 0.7e-4;         ///< stretch at which `dupont` begins to yield
+    const Curve* own = nullptr;   ///< zeta d_max over |d| / d_max, for `curve`
+
+    /// Fig. 2: how fast the bristle yields at a stretch of length r, in 1/m.
+    double zeta (double r) const noexcept;
+
+    /// Moves the tool by dp, in a straight line.
+    Step stretch (const Vec3& d, const Vec3& dp) const noexcept;
+
+    /// If d_max or d_stick has shrunk and left the stretch outside, brings the stretch back to where the contact slides. Only
+    /// the exponential form needs this: eq. (3) and (4) do so on the next `stretch`. True if the stretch has changed.
+    bool letGo (Vec3& d) const noexcept;
+
+private:
+    static constexpr double eps_slip = 1e-9;   // relative; keeps steady sliding away from the branch points of eq. (3) and (4)
+
+    Step stick (const Vec3& d, const Vec3& dp) const noexcept;
+    Step euler (const Vec3& d, const Vec3& dp) const noexcept;
+    Step exponential (const Vec3& d, const Vec3& dp) const noexcept;
+    Step drag (double from, const Vec3& d, double r, double hold) const noexcept;
+    double afterSlip (double r) const noexcept;
+};
+
+//==============================================================================
+// Implementation below.
+
+inline Bristle::Step Bristle::stretch (const Vec3& d, const Vec3& dp) const noexcept
+{
+    if (adhesion == Adhesion::stick) return stick (d, dp);
+    return integrator == Integrator::exponential ? exponential (d, dp) : euler (d, dp);
+}
+
+inline double Bristle::zeta (double r) const noexcept
+{
+    switch (adhesion)
+    {
+    case Adhesion::stick:
+        return r > d_stick ? 1.0 / d_max : 0.0;
+    case Adhesion::dupont:
+        if (r >= d_stick) return 1.0 / d_max;
+        if (r <= d_ba) return 0.0;
+        return 0.5 / d_max * (1.0 + std::sin (std::numbers::pi * (r - 0.5 * (d_stick + d_ba)) / (d_stick - d_ba)));
+    case Adhesion::ramp:
+        return std::min (r / d_stick, 1.0) / d_max;
+    case Adhesion::dahl:
+        return 1.0 / d_max;
+    case Adhesion::curve:
+        return own ? std::clamp ((*own) (r / d_max), 0.0, 1.0) / d_max : 0.0;
+    }
+    return 0.0;
+}
+
+/// Eq. (3).
+inline Bristle::Step Bristle::stick (const Vec3& d, const Vec3& dp) const noexcept
+{
+    const Vec3 pulled = d + dp;
+    const double r = pulled.norm();
+    if (r > d_stick * (1.0 + eps_slip)) return drag (d.norm(), pulled, r, d_stick);
+    return { .d = pulled };
+}
+
+/// Eq. (4), clamped. For the loss, the bristle first stretches to d~ and then yields there.
+inline Bristle::Step Bristle::euler (const Vec3& d, const Vec3& dp) const noexcept
+{
+    const Vec3 pulled = d + dp;
+    const double r = pulled.norm(), z = zeta (r);
+    if (z * r > 1.0 + eps_slip) return drag (d.norm(), pulled, r, 1.0 / z);
+
+    const double g = std::min (1.0, z * dp.norm());
+    return { .d = pulled - g * pulled, .loss = 0.5 * g * (2.0 - g) * r * r, .slips = g > 0.0 };
+}
+
+/// Eq. (2), solved with zeta held over the step, x = zeta |dp|. The mean stretch over the step is phi d + psi dp; its product
+/// with dp is the work done on the way.
+inline Bristle::Step Bristle::exponential (const Vec3& d, const Vec3& dp) const noexcept
+{
+    const double x = zeta ((d + dp).norm()) * dp.norm();
+    if (! (x > 0.0)) return { .d = d + dp };
+
+    const double phi = -std::expm1 (-x) / x;
+    const double psi = x < 1e-3 ? 1.0 / 2.0 - x * (1.0 / 6.0 - x * (1.0 / 24.0 - x / 120.0)) : (1.0 - phi) / x;
+    const Vec3 after = std::exp (-x) * d + phi * dp;
+    const double work = (phi * d + psi * dp).dot (dp);
+    return { .d = after, .loss = std::max (0.0, work - 0.5 * (after - d).dot (after + d)), .slips = true };
+}
+
+/// Drags the contact point along: the stretch has been pulled to d (of length r) and slips. The contact holds up to a stretch of
+/// `hold`, or of `from` if that is longer because the bound has shrunk. There the spring falls back for the first time. The
+/// rest of the way is slip against the mean of static and sliding friction: with stick-slip, one collapse after another.
+inline Bristle::Step Bristle::drag (double from, const Vec3& d, double r, double hold) const noexcept
+{
+    const double peak = std::clamp (from, hold, r), fallen = afterSlip (peak), after = afterSlip (r);
+    const double rest = (r - after) - (peak - fallen);
+    return { .d = d * (after / r), .loss = 0.5 * ((peak - fallen) * (peak + fallen) + (hold + d_max) * rest), .slips = true };
+}
+
+/// The length that is left of a stretch that was pulled to r, beyond the bound. Function 1 with d_stick above d_max collapses
+/// to d_max each time the stretch reaches d_stick. A large step passes several collapses, and keeps what a slow hand would
+/// have stretched since the last one.
+inline double Bristle::afterSlip (double r) const noexcept
+{
+    const double gap = d_stick - d_max;
+    return adhesion == Adhesion::stick && gap > d_max * eps_slip ? d_max + std::fmod (r - d_stick, gap) : d_max;
+}
+
+inline bool Bristle::letGo (Vec3& d) const noexcept
+{
+    if (adhesion == Adhesion::stick || integrator == Integrator::euler) return false;
+    const double r = d.norm(), yield = zeta (r) * r;
+    if (! (yield > 1.0 + eps_slip)) return false;
+    d /= yield;
+    return true;
+}
+
+}   // namespace tactus
