@@ -8,13 +8,13 @@ namespace tactus::plan
 
 namespace
 {
-struct Place
+struct KnobPlace
 {
     const PortSheet* sheet;
     std::size_t component;
 };
 
-Place placeOf (const NodeType& type, std::size_t knob) noexcept
+KnobPlace placeOf (const NodeType& type, std::size_t knob) noexcept
 {
     std::size_t p = 0;
     for (; knob >= Knobs::roomOf (type.params[p]); ++p)
