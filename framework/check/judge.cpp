@@ -258,14 +258,18 @@ private:
 
     static double betterThan (double factor) noexcept { return std::max (1.0, Factors::better / factor); }
 
+    /// The factor that a remedy aims at: the recommended one if the condition holds, `value` times `factor` being below the limit.
+    static double wanted (double factor, double value, double limit) noexcept { return factor * value < limit ? std::max (factor, Factors::better) : factor; }
+
     static std::string wave (const Texture& t) { return "k " + text (t.spatial_frequency, "1/m"); }
 
     void scanning (const Texture& t)
     {
         const double alpha = options.factors.alpha, k = t.spatial_frequency, v = speedOf (t);
         auto& c = add (t.node, "scanning", "alpha k v T < 1", "1", wave (t) + ", v " + text (v, "m/s") + ", alpha " + text (alpha));
+        const double aim = wanted (alpha, k * v * period_s, 1.0);
         decide (c, alpha * k * v * period_s, 1.0, Strict::yes, betterThan (alpha),
-                "strokes slower than " + text (1.0 / (alpha * k * period_s), "m/s") + ", a rate above " + text (alpha * k * v, "Hz")
+                "strokes slower than " + text (1.0 / (aim * k * period_s), "m/s") + ", a rate above " + text (aim * k * v, "Hz")
                     + ", or a texture.antialias");
     }
 
@@ -274,7 +278,7 @@ private:
         const double beta = options.factors.beta, k = t.spatial_frequency;
         auto& c = add (t.node, "low_speed", "beta k delta < 1", "1", wave (t) + ", beta " + text (beta));
         if (! numbers.quantum) return unknown (c, 0.0, "quantum");
-        decide (c, beta * k * numbers.quantum->value, 1.0, Strict::yes, betterThan (beta), finerSensor (beta, k));
+        decide (c, beta * k * numbers.quantum->value, 1.0, Strict::yes, betterThan (beta), finerSensor (wanted (beta, k * numbers.quantum->value, 1.0), k));
     }
 
     /// As printed: the first row at the speed of one quantum per sample. What counts at high speed is the step from sample to sample, which
@@ -286,7 +290,7 @@ private:
         if (! numbers.quantum) return unknown (c, 0.0, "quantum");
         const double sampling = options.factors.beta * k * std::max (numbers.quantum->value, step);
         c.text += ", a stroke moves " + text (1e6 * step, "um") + " per tick, and beta k times that is " + text (sampling);
-        decide (c, alpha * k * numbers.quantum->value, 1.0, Strict::yes, betterThan (alpha), finerSensor (alpha, k));
+        decide (c, alpha * k * numbers.quantum->value, 1.0, Strict::yes, betterThan (alpha), finerSensor (wanted (alpha, k * numbers.quantum->value, 1.0), k));
     }
 
     static std::string finerSensor (double factor, double k)

@@ -14,6 +14,7 @@
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/json_text.hpp>
 #include <tactus/text/json_writer.hpp>
+#include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
@@ -163,17 +164,18 @@ std::string describe (const check::Condition& c)
     return line;
 }
 
-/// The profiles with numbers that break no condition of a role.
+/// The profiles that break no condition of a role. Without the damping, the first condition cannot be judged, so the damping must be known.
 std::string ableDevices (const check::Demand& demand, const std::string& role, const check::JudgeOptions& options, const hid::LoadedProfiles& profiles)
 {
     std::string names;
     for (const auto& profile : profiles.profiles)
     {
-        const std::vector<check::RoleDevice> devices { { role, hid::numbersOf (*profile), profile->id } };
+        const auto numbers = hid::numbersOf (*profile);
+        if (! numbers.damping) continue;
+        const std::vector<check::RoleDevice> devices { { role, numbers, profile->id } };
         auto all = check::judge (demand, devices, options);
         std::erase_if (all, [&] (const check::Condition& c) { return c.role != role; });
-        const bool is_known = std::ranges::any_of (all, [] (const check::Condition& c) { return c.verdict != check::Verdict::unknown; });
-        if (is_known && ! check::isBroken (all)) names += (names.empty() ? "" : ", ") + profile->id;
+        if (! check::isBroken (all)) names += (names.empty() ? "" : ", ") + profile->id;
     }
     return names;
 }
@@ -181,7 +183,7 @@ std::string ableDevices (const check::Demand& demand, const std::string& role, c
 void print (const CheckOptions& options, const check::Demand& demand, const std::vector<check::RoleDevice>& devices,
             const std::vector<check::Condition>& conditions, const hid::LoadedProfiles& profiles)
 {
-    std::cout << printableName (options.graph) << " at " << number (demand.rate_hz) << " Hz, along " << number (demand.lasts_s) << " s of motion\n";
+    std::cout << printableName (options.graph) << " at " << numberText (demand.rate_hz) << " Hz, along " << number (demand.lasts_s) << " s of motion\n";
     for (const auto& role : demand.roles)
     {
         const auto device = std::ranges::find (devices, role.role, &check::RoleDevice::role);
