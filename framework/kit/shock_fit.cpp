@@ -59,13 +59,18 @@ Result<> check (const RecordedLoop& loop)
     return {};
 }
 
-/// The point between two rows at which the depth is 0, with no force.
-void addTouch (const RecordedLoop& loop, std::size_t outside, std::size_t inside, Contact& contact)
+/// The point between a row outside and one inside at which the depth is 0, with no force. `deeper` is the row beside `inside`: the
+/// speed between the two gives the time, because the rows outside may be far away in time.
+void addTouch (const RecordedLoop& loop, std::size_t outside, std::size_t inside, std::size_t deeper, Contact& contact)
 {
-    const double part = loop.depth[outside] / (loop.depth[outside] - loop.depth[inside]);
     contact.d.push_back (0.0);
     contact.f.push_back (0.0);
-    if (! loop.time.empty()) contact.t.push_back (loop.time[outside] + part * (loop.time[inside] - loop.time[outside]));
+    if (loop.time.empty()) return;
+    const auto& [d, f, t] = loop;
+    const double then = t[inside] - d[inside] * (t[deeper] - t[inside]) / (d[deeper] - d[inside]);
+    const auto [earliest, latest] = std::minmax (t[outside], t[inside]);
+    const bool is_between = then > earliest && then < latest;
+    contact.t.push_back (is_between ? then : t[outside] + d[outside] / (d[outside] - d[inside]) * (t[inside] - t[outside]));
 }
 
 Result<Contact> contactOf (const RecordedLoop& loop)
@@ -80,18 +85,19 @@ Result<Contact> contactOf (const RecordedLoop& loop)
         ++last;
 
     const double nothing = 1e-3 * d[deepest];   // a row this close to the surface is the touch itself
+    if (deepest == first || deepest == last || last - first + 1 < fewest)
+        return wrong ("fit/no_loop", "the contact around the deepest row has " + std::to_string (last - first + 1) + " rows and is no way in and out",
+                      "record the whole contact, with at least " + std::to_string (fewest) + " rows inside the object");
+
     Contact contact;
-    if (first > 0 && d[first] > nothing) addTouch (loop, first - 1, first, contact);
+    if (first > 0 && d[first] > nothing) addTouch (loop, first - 1, first, first + 1, contact);
     for (auto i = first; i <= last; ++i)
     {
         contact.d.push_back (d[i]);
         contact.f.push_back (loop.force[i]);
         if (! loop.time.empty()) contact.t.push_back (loop.time[i]);
     }
-    if (last + 1 < d.size() && d[last] > nothing) addTouch (loop, last + 1, last, contact);
-    if (contact.size() < fewest || deepest == first || deepest == last)
-        return wrong ("fit/no_loop", "the contact around the deepest row has " + std::to_string (contact.size()) + " rows and is no way in and out",
-                      "record the whole contact, with at least " + std::to_string (fewest) + " rows inside the object");
+    if (last + 1 < d.size() && d[last] > nothing) addTouch (loop, last + 1, last, last - 1, contact);
     return contact;
 }
 
