@@ -60,6 +60,7 @@ Kernels::Kernels (const DeviceState& device)
 {
     hand.bind (device);
     foam.settings.surface = cushion();
+    motion.settings.window = 0.01;
     drag.params = { .mu = 0.3, .d_max = 3e-4, .static_ratio = 1.3, .reference_load = 0.4 };
     ribs.params = { .amplitude = 0.06, .spatial_frequency = 400.0 };
     warp.params = { .amplitude = 0.04, .spatial_frequency = 900.0, .angle = 30.0 * degree };

@@ -87,6 +87,7 @@ TEST_CASE ("expert 2: every node gives a finite and steady response to a tool at
 {
     // A node whose force depends on position alone gives identical bits for a repeated sample. A node with memory comes to
     // rest, and so does deform.surface, which slips once per tick until it is within its bound.
+    // hold.deadbeat learns the hand for 10 ms, and the two forces of its plan then differ by rounding.
     constexpr std::string_view timeless[] { "friction.elasto_plastic", "cut.blade", "cut.scissors", "texture.grating" };
 
     for (const auto& type : catalogue())
@@ -94,6 +95,7 @@ TEST_CASE ("expert 2: every node gives a finite and steady response to a tool at
         const auto tellsPlace = [] (const PortSheet& p) { return p.id == "position" || p.id == "depth" || p.id == "angle"; };
         if (std::ranges::none_of (type.inputs, tellsPlace)) continue;
 
+        const bool in_pairs = type.info.id == "hold.deadbeat";
         DYNAMIC_SECTION (type.info.id)
         {
             rc::prop ("after any motion", [&] (unsigned seed) {
@@ -117,13 +119,14 @@ TEST_CASE ("expert 2: every node gives a finite and steady response to a tool at
                     for (std::size_t i = 0; i < now.size(); ++i)
                     {
                         RC_ASSERT (std::isfinite (now[i]));
-                        same = same && (sameBits (now[i], before[i]) || rig.outputs[i].port->id == "state");
+                        const bool is_near = in_pairs && std::abs (now[i] - before[i]) <= 1e-9 * std::abs (now[i]);
+                        same = same && (is_near || sameBits (now[i], before[i]) || rig.outputs[i].port->id == "state");
                     }
                     before = now;
                     return same;
                 };
                 if (std::ranges::count (timeless, type.info.id) > 0) RC_ASSERT (steady());
-                for (int k = 0; k < 500; ++k)
+                for (int k = 0; k < (in_pairs ? 5000 : 500); ++k)
                     steady();
                 RC_ASSERT (steady());
             });

@@ -72,7 +72,7 @@ TEST_CASE ("`tactus check --json` reports every condition, with the numbers of t
 TEST_CASE ("`tactus check` takes the numbers of a simulated device from the graph, and the rate and the factors from options", "[check][cli]")
 {
     Scratch scratch;
-    const auto file = scratch.write ("wall.json", graphWith ("3 N/mm", R"({ "driver": "sim", "mass": 0.1, "damping": 1, "hand": { "path": "press" } })"));
+    const auto file = scratch.write ("wall.json", graphWith ("3 N/mm", R"({ "driver": "sim", "mass": 0.1, "damping": 1, "hand": { "path": "stroke" } })"));
     CHECK (runTactus ({ "check", file }).status == 1);
     CHECK (runTactus ({ "check", file, "--rate", "2000" }).status == 0);
     CHECK (runTactus ({ "check", file, "--rate", "2000", "--alpha", "1e6", "--speed", "0.1" }).status == 1);

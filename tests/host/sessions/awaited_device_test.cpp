@@ -27,7 +27,7 @@ namespace
 {
 const Json on_board { { "driver", "hid" }, { "profile", "board" } };
 
-hid::LoadedProfiles profiles() { return { .profiles = { test::BoardProfile {}.make() }, .messages = {} }; }
+hid::LoadedProfiles profiles() { return { .profiles = { test::BoardProfile { .watchdog = 0.02 }.make() }, .messages = {} }; }
 
 LoadedSession sessionWith (const Json& binding)
 {
@@ -199,7 +199,7 @@ TEST_CASE ("a run with an awaited clock is ticked by a timer at its rate, withou
 {
     FakeBoard board;
     board.plug (false);
-    AwaitedDevice real { on_board, test::BoardProfile {}.make(), board, 2ms };
+    AwaitedDevice real { on_board, test::BoardProfile { .watchdog = 0.02 }.make(), board, 2ms };
     SimulatedDevice beside { {} };
     Engine engine { pushed().compile ({ .rate_hz = 1000.0 }).plan };
     engine.attach ("stylus", real, hid::limitsOf (*real.profile(), {}));
@@ -226,7 +226,7 @@ TEST_CASE ("a run that is still waiting for its clock can be stopped", "[session
 {
     FakeBoard board;
     board.plug (false);
-    AwaitedDevice real { on_board, test::BoardProfile {}.make(), board, 2ms };
+    AwaitedDevice real { on_board, test::BoardProfile { .watchdog = 0.02 }.make(), board, 2ms };
     Engine engine { pushed().compile ({ .rate_hz = 1000.0 }).plan };
     engine.attach ("stylus", real);
     RunClock clock { real, 1000.0 };
@@ -241,7 +241,7 @@ TEST_CASE ("the state of a device is reported while it is awaited, while it is p
 {
     FakeBoard board;
     board.plug (false);
-    AwaitedDevice real { on_board, test::BoardProfile {}.make(), board, 2ms };
+    AwaitedDevice real { on_board, test::BoardProfile { .watchdog = 0.02 }.make(), board, 2ms };
     real.prepare (1e-3);
     const auto device = realDevice ("stylus", real);
     REQUIRE (device);

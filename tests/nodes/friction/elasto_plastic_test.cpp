@@ -94,7 +94,7 @@ TEST_CASE ("friction: sliding is mu f_n against the motion, in any direction, wi
             node.params = { .mu = 0.3, .d_max = 1e-5, .adhesion = adhesion, .integrator = integrator };
             node.tick ({});
             Outputs out;
-            for (int k = 1; k <= 4000; ++k)
+            for (int k = 1; k <= 20'000; ++k)
                 out = node.tick ({ .position = Vec3 { 3, 4, 0 } * 1e-8 * k, .normal_force = 5.0 });
 
             INFO (int (adhesion) << " " << int (integrator));

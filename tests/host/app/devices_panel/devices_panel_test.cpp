@@ -48,7 +48,7 @@ struct Rig
 
     TemporaryFolder home;
     FakeBoard board;
-    hid::LoadedProfiles profiles { .profiles = { BoardProfile {}.make() }, .messages = {} };
+    hid::LoadedProfiles profiles { .profiles = { BoardProfile { .watchdog = 0.02 }.make() }, .messages = {} };
     DeviceSetup setup { board, profiles };
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     LiveRun run { rig.document, catalogue() };
@@ -165,7 +165,7 @@ TEST_CASE ("a run in the window waits for a missing device, and the mouse can ta
 TEST_CASE ("the choices for a role include connected devices, with serial numbers if two are alike", "[app][sessions]")
 {
     FakeBoard board;
-    const hid::LoadedProfiles profiles { .profiles = { BoardProfile {}.make() }, .messages = {} };
+    const hid::LoadedProfiles profiles { .profiles = { BoardProfile { .watchdog = 0.02 }.make() }, .messages = {} };
     auto there = board.connected();
     auto labels = labelsOf (bindingChoices (nullptr, there, profiles));
     CHECK (labels.front() == "as in the graph");

@@ -121,8 +121,8 @@ TEST_CASE ("scopes: a newly opened graph shows scopes, which request only the po
     auto wanted = b.live_run.traces().ports();
     std::ranges::sort (wanted);
     CHECK (wanted
-           == std::vector<std::string> { "board.stored_energy", "drag.dissipated_energy", "drag.force", "drag.state", "drag.stored_energy",
-                                         "hand.position", "motor.applied", "motor.force" });
+           == std::vector<std::string> { "board.dissipated_energy", "board.stored_energy", "drag.dissipated_energy", "drag.force", "drag.state",
+                                         "drag.stored_energy", "hand.position", "motor.applied", "motor.force" });
 }
 
 TEST_CASE ("scopes: a run is plotted in the colour of its quantity", "[app][scopes]")
@@ -305,7 +305,7 @@ TEST_CASE ("scopes: the warning names the components that exceed the recording l
     Bench b;
     b.run (10);
     CHECK (b.panel->warning().isEmpty());
-    for (const char* port : { "drag.deflection", "board.force", "grain.force", "grain_felt.out", "hand.rotation", "grain.value", "board.depth" })
+    for (const char* port : { "drag.deflection", "board.force", "grain.force", "grain_felt.out", "hand.rotation", "grain.value" })
         b.panel->probe (port);
     b.run (10);
     CHECK (b.panel->warning().startsWith ("At most 32 components are recorded; not shown: "));

@@ -80,7 +80,7 @@ TEST_CASE ("scopes: for Dry wood, motor force, friction against displacement, an
     CHECK (over.state == "drag.state");
     const auto& energy = of (all, ScopeKind::energy);
     const auto energies = energyPorts (scopePorts (load ("dry_wood"), catalogue()));
-    CHECK (energies == std::vector<std::string> { "board.stored_energy", "drag.stored_energy", "drag.dissipated_energy" });
+    CHECK (energies == std::vector<std::string> { "board.stored_energy", "board.dissipated_energy", "drag.stored_energy", "drag.dissipated_energy" });
     CHECK (portsOf (energy, energies).size() == energies.size() + 2);
     CHECK (energy.x == "hand.position");
     CHECK (energy.y == "motor.applied");
