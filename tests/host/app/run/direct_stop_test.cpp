@@ -40,8 +40,10 @@ struct Screen
         {
             close (ends[0]);
             const auto end = std::to_string (ends[1]);
+            // Never :0, which JUCE would use in the other tests: they have no DISPLAY and need none.
+            const auto number = ":" + std::to_string (1000 + getpid() % 50'000);
             if (std::freopen ("/dev/null", "w", stderr) != nullptr)
-                execlp ("Xvfb", "Xvfb", "-displayfd", end.c_str(), "-screen", "0", "1280x720x24", "-nolisten", "tcp", nullptr);
+                execlp ("Xvfb", "Xvfb", number.c_str(), "-displayfd", end.c_str(), "-screen", "0", "1280x720x24", "-nolisten", "tcp", nullptr);
             _exit (127);
         }
         close (ends[1]);
