@@ -30,7 +30,8 @@ Vec3 dragged (const Felt& felt, const Spot& spot, const Adhesion& adhesion, doub
 }
 }   // namespace
 
-SurfaceStep stickOn (const PlacedSurface& body, const PlacedSurface::Tool& tool, const Spot& spot, const Adhesion& adhesion, const Vec3& from, const Vec3& to) noexcept
+SurfaceStep stickOn (const PlacedSurface& body, const PlacedSurface::Tool& tool, const Spot& spot, const Adhesion& adhesion, const Vec3& from,
+                     const Vec3& to) noexcept
 {
     // Relative; after a slip, the stretch exceeds the bound by more than this only if something holds the contact point back.
     constexpr double past_rim = 1e-3;

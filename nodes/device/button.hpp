@@ -86,7 +86,6 @@ private:
         return failure == std::errc() && end == text.data() + text.size() ? n : -1;
     }
 
-
     const DeviceState* device = &no_device;
     int index = -1;
     bool is_held = false;   // the last valid value

@@ -31,7 +31,8 @@ double interpolated (const Corners& corners, const Values& values, const Vec3& p
 Vec3 slope (const Corners& corners, const Values& values, const Vec3& p)
 {
     constexpr double h = 1e-6;
-    const auto along = [&] (const Vec3& axis) { return (interpolated (corners, values, p + h * axis) - interpolated (corners, values, p - h * axis)) / (2.0 * h); };
+    const auto at = [&] (const Vec3& q) { return interpolated (corners, values, q); };
+    const auto along = [&] (const Vec3& axis) { return (at (p + h * axis) - at (p - h * axis)) / (2.0 * h); };
     return { along (Vec3::UnitX()), along (Vec3::UnitY()), 0.0 };
 }
 }   // namespace

@@ -294,7 +294,8 @@ TEST_CASE ("any two curves, if down is above up, make a key that follows both, r
             pressed.to (std::lround (loop.travel[i] / step));
             RC_ASSERT (std::abs (pressed.force() - loop.press[i]) < 0.2 * mN + slack);
         }
-        pressed.to (std::lround (loop.travel.back() / step) + 20);   // so deep that the bristle has reversed, after 2 bound / stiffness, when the finger is back
+        // So deep that the bristle has reversed, after 2 bound / stiffness, when the finger is back.
+        pressed.to (std::lround (loop.travel.back() / step) + 20);
         for (std::size_t i = loop.travel.size() - 1; i > 0; --i)
         {
             pressed.to (std::lround (loop.travel[i] / step));

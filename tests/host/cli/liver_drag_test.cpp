@@ -29,7 +29,8 @@ TEST_CASE ("the liver drags with a tenth of the push at every working depth, wit
     REQUIRE (feed->commit());
 
     const std::vector<std::string> outputs { "liver.force.x", "liver.force.y", "liver.force.z", "liver.resistance", "liver.state", "liver.depth" };
-    std::vector<std::string> arguments { "render", TACTUS_SOURCE_DIR "/graphs/liver.json", "--out", scratch.path ("out.csv"), "--feed", scratch.path ("feed.csv") };
+    const std::string liver = TACTUS_SOURCE_DIR "/graphs/liver.json";
+    std::vector<std::string> arguments { "render", liver, "--out", scratch.path ("out.csv"), "--feed", scratch.path ("feed.csv") };
     for (const auto& output : outputs)
         arguments.insert (arguments.end(), { "--record", output });
     const auto ran = test::runTactus (arguments);
