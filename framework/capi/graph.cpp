@@ -21,7 +21,7 @@ tactus_graph* keep (tactus::LoadedGraph loaded, tactus_messages* messages)
     return is_broken ? nullptr : new tactus_graph { graph::History (std::move (loaded.graph)) };
 }
 
-/// Performs an edit, made by `make` from arguments of the caller that may be wrong.
+/// Performs the edit that `make` returns. `make` returns an error if the arguments of the caller are wrong.
 template <typename F>
 tactus_result perform (tactus_graph* g, tactus_messages* messages, F&& make) noexcept
 {
@@ -33,12 +33,12 @@ tactus_result perform (tactus_graph* g, tactus_messages* messages, F&& make) noe
     });
 }
 
-/// A value as in a graph file. Empty if there is none.
+/// Reads a value that is written as in a graph file. Empty if `json` is null.
 Result<std::optional<Json>> valueOf (const char* json)
 {
     if (json == nullptr) return std::optional<Json> {};
     if (auto value = Json::tryParse (json)) return std::optional<Json> (std::move (*value));
-    return Message::error ("api/value", "", "the value " + std::string (json) + " is not JSON", "write a number, a text in quotes, a list or an object");
+    return Message::error ("api/value", "", "the value " + std::string (json) + " is not JSON", "write a number, text in quotes, a list or an object");
 }
 
 template <typename F>
@@ -158,7 +158,8 @@ tactus_result tactus_graph_remove_wire (tactus_graph* g, const char* patch, cons
         if (const auto* in = patchOf (g->history.graph(), text (patch)))
             for (const auto& w : in->wires)
                 if (graph::toText (w) == graph::toText (*parsed)) return graph::Command (graph::RemoveWire { text (patch), w.id });
-        return Message::error ("edit/unknown_wire", "/wires", "there is no wire '" + text (wire) + "'", "compare it with the wires in tactus_graph_text");
+        return Message::error ("edit/unknown_wire", "/wires", "there is no wire '" + text (wire) + "'",
+                               "compare it with the wires that tactus_graph_text returns");
     });
 }
 

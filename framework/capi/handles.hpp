@@ -55,7 +55,7 @@ struct tactus_run
 
     tactus::CompileOptions options;
     tactus::graph::Graph graph;
-    std::map<std::string, tactus::DeviceOption> described;                        // by role, instead of the graph's description
+    std::map<std::string, tactus::DeviceOption> described;                        // by role; replaces the graph's description
     std::map<std::string, std::unique_ptr<tactus::capi::PushedDevice>> waiting;   // by role, until the run opens them
     std::map<std::string, tactus::GuardLimits> limits;                            // of pushed devices, by role
     std::map<std::string, tactus::capi::PushedDevice*, std::less<>> pushed;       // by role; the run owns them
@@ -85,14 +85,14 @@ inline tactus_result asResult (tactus_messages* to, Result<> result) { return re
 
 inline std::string text (const char* t) { return t != nullptr ? t : ""; }
 
-/// Runs a function of the API so that no exception leaves it.
+/// Runs a function of the API and lets no exception escape.
 template <typename R, typename F>
 R guarded (tactus_messages* messages, R on_failure, F&& f) noexcept
 {
     const auto report = [&] (const char* id, const char* what) {
         try
         {
-            if (messages != nullptr) messages->list.push_back (Message::error (id, "", what, "free what is not used any more, and try again"));
+            if (messages != nullptr) messages->list.push_back (Message::error (id, "", what, "free what you no longer use, and try again"));
         }
         catch (...)
         {
@@ -131,7 +131,7 @@ T known (const T* given, T defaults = {})
     return defaults;
 }
 
-/// Fills a struct of the caller with as many members as it has.
+/// Fills a struct of the caller, up to the last member that the caller's version has.
 template <typename T>
 void give (T* to, const T& from)
 {

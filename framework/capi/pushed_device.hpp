@@ -13,7 +13,7 @@
 namespace tactus::capi
 {
 
-/// A device whose readings come from one thread of the embedding program, and whose efforts any thread may read. Nobody waits.
+/// A device whose readings come from one thread of the embedding program, and whose efforts any thread may read. No thread waits.
 class PushedDevice final : public Device
 {
 public:
@@ -50,7 +50,7 @@ public:
 
     DeviceLayout layout() const override { return has; }
 
-    void push (const tactus_reading& r) noexcept { readings.store ({ r, ++pushes }); }   ///< [one thread of the program]
+    void push (const tactus_reading& r) noexcept { readings.store ({ r, ++pushes }); }   ///< [always the same thread]
     tactus_effort effort() const noexcept { return efforts.load(); }                     ///< [any thread]
 
 private:
@@ -77,7 +77,7 @@ private:
     Snapshot<tactus_effort> efforts;
     std::uint64_t pushes = 0;   // [pushing thread]
     std::uint64_t last = 0;     // number of the reading of the last tick   [tick thread]
-    std::uint64_t silent = 0;   // ticks since that reading was new          [tick thread]
+    std::uint64_t silent = 0;   // ticks since that reading arrived          [tick thread]
     double period = 0.0;
 
     static_assert (Channels::most == TACTUS_CHANNELS);

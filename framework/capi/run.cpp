@@ -23,7 +23,8 @@ std::vector<std::string> list (const char* const* texts, size_t count)
     return all;
 }
 
-/// The pushed device of a role, else the one given in words, else the one that the graph describes, else a simulated tool at rest.
+/// The pushed device of a role, else the one that tactus_run_device describes, else the one that the graph describes, else a simulated
+/// tool at rest.
 Run::RoleDevice open (tactus_run& r, const std::string& role, const tactus::graph::Graph& graph, Messages& messages)
 {
     if (const auto mine = r.waiting.find (role); mine != r.waiting.end())
@@ -150,7 +151,7 @@ tactus_result tactus_run_pushed_device (tactus_run* r, const char* role, const t
         if (options.guard != nullptr)
         {
             const auto json = tactus::Json::tryParse (options.guard);
-            if (! json) return failed (messages, Message::error ("api/value", "/guard", "the limits are not JSON", "write them as in docs/safety.md"));
+            if (! json) return failed (messages, Message::error ("api/value", "/guard", "the limits are not valid JSON", "write them as in docs/safety.md"));
             limits = tactus::readGuardLimits (*json, "/guard", found, parts);
             if (! tactus::hasErrors (found)) tactus::checkStops (limits, "/guard", found);
         }

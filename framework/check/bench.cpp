@@ -57,7 +57,7 @@ NodeForces::NodeForces (const Plan& plan, std::size_t node)
 {
     const auto& type = *plan.flat().nodes[node].type;
     const auto* outputs = static_cast<const char*> (plan.instances()[node].outputs);
-    if (outputs == nullptr || type.effort != nullptr) return;   // a sink shows what the guard let through, which is not its own
+    if (outputs == nullptr || type.effort != nullptr) return;   // the output of a sink is the force after the guard, not a force of its own
     for (const auto& row : type.outputs)
         if (row.unit.kind == UnitRule::Kind::fixed && row.unit.unit.symbol == "N" && ! row.list)
         {

@@ -19,13 +19,13 @@ public:
     /// The graph must compile: measure() checks that first. [main thread]
     Bench (const Subject&, const HandMotion&);
 
-    /// Moves all tools to where the motion has them on a tick.
+    /// Moves all tools to their positions in the motion at a tick.
     void follow (const HandMotion&, std::size_t tick) noexcept;
 
-    /// Moves the tool of a role away from where the motion has it, in m. It stays away until the next call of follow or shift.
+    /// Moves the tool of a role away from its position in the motion, in m, until the next call of follow or shift.
     void shift (std::size_t role, const Vec3& by) noexcept;
 
-    /// From now on, the outputs of these nodes have no effect: they are replaced by their values at the start, which are 0. [main thread]
+    /// From now on, the outputs of these nodes are 0, their value at the start. [main thread]
     void silence (std::vector<std::size_t> nodes) { silent = std::move (nodes); }
 
     void tick() noexcept;
@@ -34,11 +34,11 @@ public:
     const Plan& plan() const noexcept { return *its_plan; }
 
 private:
-    /// A tool that is wherever it is put.
+    /// A device whose tool stays where it is put.
     struct Placed final : Device
     {
         Reading now {};
-        Vec3 home = Vec3::Zero(), true_home = Vec3::Zero();   // m
+        Vec3 home = Vec3::Zero(), true_home = Vec3::Zero();   // in the motion, without the shift, in m
         DeviceLayout parts {};
 
         void prepare (double) override {}
@@ -53,17 +53,17 @@ private:
     std::vector<std::size_t> silent;
 };
 
-/// The forces that a node computes: all outputs in N.
+/// The forces that a node computes: all its outputs in N.
 class NodeForces
 {
 public:
     NodeForces (const Plan&, std::size_t node);
 
-    std::size_t size() const noexcept { return values.size(); }   ///< components of all outputs
+    std::size_t size() const noexcept { return values.size(); }   ///< number of components of all outputs together
     double operator[] (std::size_t i) const noexcept { return *values[i]; }
-    double largest() const noexcept;   ///< length of the largest output
+    double largest() const noexcept;   ///< magnitude of the largest output, in N
 
-    const std::vector<std::size_t>& widths() const noexcept { return output_widths; }   ///< components of each output
+    const std::vector<std::size_t>& widths() const noexcept { return output_widths; }   ///< number of components of each output
 
 private:
     std::vector<const double*> values;

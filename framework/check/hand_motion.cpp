@@ -42,7 +42,8 @@ void SweepDevice::prepare (double dt_s)
 
 Reading SweepDevice::read() noexcept
 {
-    // Without common factors, the periods close the curve only after `lasts`, so that it crosses the box along many lines.
+    // The number of periods of each axis in `lasts`. They have no common factor, so the curve closes only after `lasts` and crosses the box
+    // along many lines.
     constexpr double periods[] { 13.0, 11.0, 8.0 };
     const double turn = 2.0 * std::numbers::pi * static_cast<double> (tick++) * dt / lasts;
     Reading reading;

@@ -26,7 +26,7 @@ struct RoleMotion
 {
     std::string role;
     DeviceLayout layout {};
-    std::vector<Reading> readings {};   ///< as many as the motion has ticks
+    std::vector<Reading> readings {};   ///< one for each tick of the motion
 };
 
 /// How the hands move while a graph is measured.

@@ -29,17 +29,17 @@ struct HandChoice
     std::filesystem::path folder {};   ///< base of the relative paths in the description
 };
 
-/// How long a graph is measured, in s, if its hands have no end or move for longer.
+/// How long a graph is measured if no hand has a path with an end, and how long at most, in s.
 inline constexpr double default_length_s = 2.0, longest_s = 6.0;
 
 struct RecordedMotion
 {
-    HandMotion motion {};   ///< without ticks if there are errors
+    HandMotion motion {};   ///< has no ticks if there are errors
     Messages messages {};   ///< of the devices, with `where` /devices/ROLE/…; of the graph, if it does not compile
 };
 
 /// Moves the hands of a graph once. Roles without a choice get the hand of the graph's description, or strokes. `duration_s` 0: as
-/// long as the longest path of a hand. [main thread]
+/// long as the longest path of a hand, but at most longest_s. [main thread]
 RecordedMotion recordMotion (const Subject&, std::span<const HandChoice>, const std::filesystem::path& folder_of_graph, double duration_s = 0.0);
 
 }   // namespace tactus::check

@@ -13,7 +13,7 @@ namespace tactus::check
 
 namespace
 {
-/// Three digits are enough for a condition that is necessary and not sufficient.
+/// Three digits are enough, because the conditions are necessary but not sufficient.
 std::string text (double v)
 {
     char buffer[32];
@@ -83,7 +83,7 @@ private:
         return c;
     }
 
-    /// Sets the verdict. `better`: the value should grow by this factor before it reaches the limit.
+    /// Sets the verdict. `better`: the recommended factor between the value and the limit.
     static void decide (Condition& c, double value, double limit, Strict strict, double better, const std::string& remedy)
     {
         c.value = value;
@@ -98,7 +98,7 @@ private:
     static void unknown (Condition& c, double value, std::string_view missing)
     {
         c.value = value;
-        c.remedy = "the device's " + std::string (missing) + " is not known: write it into \"physics\" of its profile";
+        c.remedy = "the device's " + std::string (missing) + " is not known: add it to \"physics\" in its profile";
     }
 
     /// The node whose own force is steepest at a place.
@@ -119,20 +119,20 @@ private:
         return most;
     }
 
-    /// True if b breaks the condition `damping`. It is then left out of `stiffness`, which it would break too.
+    /// True if b breaks the condition `damping`. Then `stiffness` is judged without b, because b would break it too.
     bool isOverdamped() const
     {
         return numbers.damping && numbers.mass && ! (virtualDamping() < numbers.damping->value + 2.0 * numbers.mass->value / period_s);
     }
 
-    /// The stiffest slope of a texture, in N/m.
+    /// The largest slope that the device allows a texture, in N/m.
     double stiffestTexture() const { return numbers.damping ? stiffestWall (numbers.damping->value, period_s, delay()) : inf; }
 
     /// A place, and what the device has to dissipate there, in N s/m.
     struct Load
     {
         const Slope* at;
-        double damping;   // b, as counted
+        double damping;   // b, or 0 if b is left out
         double total;
     };
 
@@ -150,16 +150,16 @@ private:
         return most;
     }
 
-    /// The load of the whole graph; without the textures if one of them is too steep on its own, and they alone are to blame.
+    /// The load of the whole graph. If it is too large and a texture is too steep on its own, the load without the textures.
     Load countedLoad (std::string& left_out) const
     {
         auto load = largestLoad (role.slopes);
-        if (isOverdamped()) left_out = ", without b, which breaks 'damping'";
+        if (isOverdamped()) left_out = ", without b, because b breaks 'damping'";
         if (! numbers.damping || load.total <= numbers.damping->value || role.nominal.empty()) return load;
         for (const auto& t : demand.textures)
             if (t.role == role.role && t.slope > stiffestTexture())
             {
-                left_out += ", without the textures, of which '" + demand.nodes[t.node].path + "' breaks 'gain'";
+                left_out += ", without the textures, because '" + demand.nodes[t.node].path + "' breaks 'gain'";
                 return largestLoad (role.nominal);
             }
         return load;
@@ -181,7 +181,7 @@ private:
             remedy = "a stiffness of at most " + text (stiffestWall (room, period_s, late), "N/m") + ", a rate of at least "
                      + text ((value - b) / (room * period_s), "Hz") + ", or ";
         remedy += "a device with a damping of at least " + text (value, "N*s/m");
-        if (const auto node = steepestNode (*s); ! node.empty()) remedy += "; the steepest is " + node;
+        if (const auto node = steepestNode (*s); ! node.empty()) remedy += "; the steepest node is " + node;
         decide (c, value, limit, Strict::no, 1.0, remedy);
     }
 
@@ -218,10 +218,11 @@ private:
     {
         auto& c = add ("peak_force", "|f| <= f_max", "N", "the largest force along the motion");
         if (! numbers.peak_force) return unknown (c, role.peak_force, "peak force");
-        decide (c, role.peak_force, numbers.peak_force->value, Strict::no, 1.0, "weaker forces, or a device that gives " + text (role.peak_force, "N"));
+        decide (c, role.peak_force, numbers.peak_force->value, Strict::no, 1.0,
+                "weaker forces, or a device that gives at least " + text (role.peak_force, "N"));
     }
 
-    /// A structure that follows a sine of the peak force up to F_0 lets 2 pi F_0 f_max through.
+    /// A structure that follows a sine of the amplitude f_max up to F_0 follows changes of force of up to 2 pi F_0 f_max.
     void slew()
     {
         auto& c = add ("slew", "|df/dt| <= 2 pi F_0 f_max", "N/s", "the fastest change of force along the motion, from tick to tick");
@@ -258,7 +259,7 @@ private:
 
     static double betterThan (double factor) noexcept { return std::max (1.0, Factors::better / factor); }
 
-    /// The factor that a remedy aims at: the recommended one if the condition holds, `value` times `factor` being below the limit.
+    /// The factor that the remedy aims at: the recommended one if the condition already holds with `factor`.
     static double wanted (double factor, double value, double limit) noexcept { return factor * value < limit ? std::max (factor, Factors::better) : factor; }
 
     static std::string wave (const Texture& t) { return "k " + text (t.spatial_frequency, "1/m"); }
@@ -281,15 +282,15 @@ private:
         decide (c, beta * k * numbers.quantum->value, 1.0, Strict::yes, betterThan (beta), finerSensor (wanted (beta, k * numbers.quantum->value, 1.0), k));
     }
 
-    /// As printed: the first row at the speed of one quantum per sample. What counts at high speed is the step from sample to sample, which
-    /// the sentence gives.
+    /// The condition is judged as printed: it equals `scanning` at a speed of one quantum per tick. At high speed, the step from tick to
+    /// tick matters instead, so the text gives that step.
     void highSpeed (const Texture& t)
     {
         const double alpha = options.factors.alpha, k = t.spatial_frequency, step = speedOf (t) * period_s;
         auto& c = add (t.node, "high_speed", "alpha k delta < 1", "1", wave (t) + ", alpha " + text (alpha));
         if (! numbers.quantum) return unknown (c, 0.0, "quantum");
         const double sampling = options.factors.beta * k * std::max (numbers.quantum->value, step);
-        c.text += ", a stroke moves " + text (1e6 * step, "um") + " per tick, and beta k times that is " + text (sampling);
+        c.text += ", a stroke moves " + text (1e6 * step, "um") + " per tick, and beta k times the larger of delta and this step is " + text (sampling);
         decide (c, alpha * k * numbers.quantum->value, 1.0, Strict::yes, betterThan (alpha), finerSensor (wanted (alpha, k * numbers.quantum->value, 1.0), k));
     }
 

@@ -4,8 +4,8 @@
 /// Compares what a graph demands with what a device can do: the conditions of Hayward, "Physically-Based Haptic Synthesis" (2007),
 /// sections 1, 2 and 5. All are necessary; none is sufficient.
 ///
-/// Some conditions imply others: a texture that is too steep on its own makes the sum too steep. The sum is then judged without it, so that
-/// each fault has one name. What is left out is said in the sentence of the condition.
+/// Some faults would break two conditions: a texture that is too steep on its own also makes the sum too steep. The sum is then
+/// judged without that texture, so that each fault is reported once. Condition::text says what was left out.
 
 #include "factors.hpp"
 #include "measure.hpp"
@@ -31,21 +31,21 @@ enum class Verdict
 /// "holds", "close", "broken" or "unknown".
 std::string_view nameOf (Verdict) noexcept;
 
-/// One condition for one role, or for one node of it.
+/// One condition, for a role or for one node of the role.
 struct Condition
 {
-    std::string_view id;   ///< permanent, such as "stiffness"; docs/check.md lists all
+    std::string_view id;   ///< permanent, such as "stiffness"; docs/check.md lists all ids
     std::string role;
     std::string node {};     ///< path of the node; empty if the condition is about the role as a whole
     std::string_view law;    ///< such as "(2d + 1) sigma T/2 + |b| <= B"
     double value = 0.0;      ///< what the graph asks for
     double limit = 0.0;      ///< what the device allows; 0 if unknown
-    std::string_view unit;   ///< of both; "1" for a ratio
+    std::string_view unit;   ///< of value and limit; "1" for a ratio
     Verdict verdict = Verdict::unknown;
-    std::string text {};     ///< the numbers behind it, in one sentence
+    std::string text {};     ///< the numbers behind the verdict, in one sentence
     std::string remedy {};   ///< what would help; empty if the condition holds
 
-    /// By what factor the value could grow: above 1 if the condition holds. 0 if unknown, infinite if nothing is asked.
+    /// The factor by which the value could grow: above 1 if the condition holds, 0 if unknown, infinite if the value is 0.
     double margin() const noexcept;
 };
 
@@ -63,8 +63,8 @@ struct JudgeOptions
     double speed = 0.0;   ///< of the hand, in m/s, for the rows of Table 1; 0: as measured
 };
 
-/// All conditions, role by role. A role without a device in the list has only unknown numbers. Takes microseconds, so that many devices
-/// can be compared. [any thread]
+/// All conditions, role by role. If the list has no device for a role, all numbers of that device count as unknown. This takes
+/// microseconds, so many devices can be compared. [any thread]
 std::vector<Condition> judge (const Demand&, std::span<const RoleDevice>, const JudgeOptions& = {});
 
 bool isBroken (std::span<const Condition>) noexcept;

@@ -16,10 +16,10 @@ namespace tactus::check
 
 namespace
 {
-constexpr double speed_window_s = 5e-3;   // a speed is taken over this time, so that a recording with held samples has no peaks
-constexpr double felt_part = 0.1;         // a texture is felt while its part of the force is at least this part of its largest one
+constexpr double speed_window_s = 5e-3;   // speeds are means over this time; over one tick, a recording that holds samples would give peaks
+constexpr double felt_part = 0.1;         // a texture is felt while its force is at least this fraction of its largest force
 
-/// The forces of all roles along the motion, with one node's outputs taken away or without a change.
+/// The forces of all roles along the motion, of the whole graph or of the graph without some nodes.
 using Forces = std::vector<std::vector<Vec3>>;   // by role, then tick
 
 template <typename AfterTick>
@@ -49,7 +49,7 @@ Vec3 velocityAt (const HandMotion& motion, std::size_t role, std::size_t tick)
     return (readings[last].position - readings[first].position) * (motion.rate_hz / static_cast<double> (last - first));
 }
 
-/// The nodes that lie on a way from a source of a role to a sink of the same role.
+/// The nodes on a path from a source of a role to a sink of the same role.
 std::vector<bool> nodesOf (const Plan& plan, const std::string& role)
 {
     const auto& flat = plan.flat();
@@ -79,7 +79,7 @@ std::vector<bool> nodesOf (const Plan& plan, const std::string& role)
     return both;
 }
 
-/// The smallest d_max of a node while the node gives a force.
+/// Finds the smallest d_max of a node while the node gives a force.
 struct StretchWatch
 {
     std::size_t node;
@@ -108,14 +108,14 @@ std::vector<StretchWatch> stretchesIn (const Plan& plan)
     return all;
 }
 
-/// What a node that renders a spatial frequency claims while it runs, and how strong it gets.
+/// Finds the largest claims and the largest force of a node that renders a spatial frequency.
 struct TextureWatch
 {
     std::size_t node;
     NodeForces forces;
-    bool is_driven;         // a wire drives one of its params, so that its claims change while it runs
-    Claims claims {};       // the largest of each
-    double loudest = 0.0;   // N
+    bool is_driven;         // a wire drives one of its params, so its claims can change during the run
+    Claims claims {};       // the largest value of each claim
+    double loudest = 0.0;   // largest force, in N
 
     void look (const Plan& plan, bool with_claims)
     {
@@ -154,7 +154,7 @@ Vec3 across (const Eigen::Matrix3d& directions, const Vec3& velocity)
     return kept;
 }
 
-/// The work of measure, in parts.
+/// Does the work of measure().
 class Survey
 {
 public:
@@ -177,7 +177,7 @@ public:
 private:
     const Subject& subject;
     const HandMotion& motion;
-    std::shared_ptr<Plan> plan;   // never runs; the benches have their own
+    std::shared_ptr<Plan> plan;   // never runs; each bench compiles a plan of its own
     Demand demand {};
     Forces forces {};
     std::vector<TextureWatch> textures {};
@@ -242,7 +242,7 @@ private:
         demand.roles.push_back (std::move (d));
     }
 
-    /// The nodes that only play what they are hit for.
+    /// The nodes whose inputs are all hits: they play when they are hit.
     std::vector<std::size_t> struckNodes() const
     {
         std::vector<std::size_t> all;
@@ -266,7 +266,8 @@ private:
         return std::ranges::count (nodesOf (*plan, role), true) > 0;
     }
 
-    /// True if a sink other than device.force pushes this role, or if a torque is wired. A sink of a force has an input in N of three components.
+    /// True if the graph drives this role with more than a force, for example with a torque. A force is an input in N with three
+    /// components.
     bool hasOtherSinks (const std::string& role) const
     {
         const auto& flat = plan->flat();
@@ -295,7 +296,7 @@ private:
 
         const auto& [node, own, is_driven, claims, loudest] = watched;
         Texture t { .node = node, .role = motion.roles[r].role, .spatial_frequency = claims.spatial_frequency };
-        const double reach = loudest > 0.0 ? most / loudest : 1.0;   // what the wires and layers make of the node's force
+        const double reach = loudest > 0.0 ? most / loudest : 1.0;   // gain of the wires and layers that follow the node
         t.amplitude = claims.amplitude < inf ? std::max (most, reach * claims.amplitude) : most;
         t.slope = claims.stiffness > 0.0 && claims.stiffness < inf ? reach * claims.stiffness : 2.0 * std::numbers::pi * t.amplitude * t.spatial_frequency;
         const auto& ways = directions[r];

@@ -18,16 +18,16 @@
 namespace tactus::check
 {
 
-/// How the force responds to a small displacement at one place of the motion. Norms of 3 by 3 matrices: the largest response to a
-/// displacement in any direction.
+/// How the force responds to a small displacement at one point of the motion. Each number is the largest response to a displacement in
+/// any direction.
 struct Slope
 {
-    double t_s = 0.0;                 ///< when the hand was there
+    double t_s = 0.0;                 ///< time since the start of the motion
     Vec3 position = Vec3::Zero();     ///< m
     double stiffness = 0.0;           ///< sigma: force per displacement once the force has settled, in N/m
-    double lag = 0.0;                 ///< what comes late: the missing force, integrated over time, per displacement, in N s/m
-    double damping = 0.0;             ///< |b|: the force in excess while it settles, integrated over time, per displacement, in N s/m
-    std::vector<double> by_node {};   ///< the slope of the own forces of each node, in N/m; by number of the node
+    double lag = 0.0;                 ///< force that is missing because it comes late, integrated over time, per displacement, in N s/m
+    double damping = 0.0;             ///< |b|: excess force while it settles, integrated over time, per displacement, in N s/m
+    std::vector<double> by_node {};   ///< by node number: the largest response of the node's own forces, in N/m
 };
 
 /// What a role's device is asked to do.
@@ -35,7 +35,7 @@ struct RoleDemand
 {
     std::string role;
     std::vector<Slope> slopes {};     ///< along the motion; empty if the role has no force or no position
-    std::vector<Slope> nominal {};    ///< the same without the textures; empty if there are none
+    std::vector<Slope> nominal {};    ///< the same with the textures silenced; empty if there are none
     std::int64_t longest = 0;         ///< longest delay of the compiled paths from the role's sources to its sinks, in ticks
     double peak_force = 0.0;          ///< N
     double fastest_force = 0.0;       ///< largest change of force from tick to tick, in N/s
@@ -43,15 +43,15 @@ struct RoleDemand
     bool has_other_efforts = false;   ///< torques, axes or signals, which are not judged
 };
 
-/// A node whose friction gives by a small stretch before it slides: one that has a param d_max in m.
+/// A friction node that stretches a little before it slides: any node with a param d_max in m.
 struct Stretch
 {
     std::size_t node = 0;
     std::string role;
-    double d_max = 0.0;   ///< the smallest one while the node gave a force, in m
+    double d_max = 0.0;   ///< its smallest value while the node gave a force, in m
 };
 
-/// A node that renders a spatial frequency, as its claims say, and that the hand felt.
+/// A node that claims a spatial frequency and whose force the hand felt.
 struct Texture
 {
     std::size_t node = 0;
@@ -72,22 +72,22 @@ struct MeasuredNode
 struct Demand
 {
     double rate_hz = 0.0;
-    double lasts_s = 0.0;   ///< of the motion
+    double lasts_s = 0.0;   ///< duration of the motion
     std::vector<RoleDemand> roles {};
     std::vector<Stretch> stretches {};
     std::vector<Texture> textures {};
-    std::vector<MeasuredNode> nodes {};   ///< by number
+    std::vector<MeasuredNode> nodes {};   ///< by node number
 };
 
-/// How finely a graph is measured. More places take longer.
+/// How thoroughly a graph is measured. More points take longer.
 struct Thoroughness
 {
-    std::size_t places = 96;   ///< where slopes are measured, evenly along the motion
+    std::size_t places = 96;   ///< number of points at which slopes are measured, spaced evenly along the motion
 };
 
 /// Measures a graph along a motion that was recorded at the same rate. The result is a pure function of the arguments. Takes about
-/// 60,000 ticks of the graph, twice that if it has textures, plus the length of the motion for each texture. The graph must compile
-/// without errors. [any thread, as long as no other thread uses the assets]
+/// 150,000 ticks of the graph for each role with a position and a force, twice that if there are textures, and one run along the
+/// motion for each texture. The graph must compile without errors. [any thread, as long as no other thread uses the assets]
 Demand measure (const Subject&, const HandMotion&, const Thoroughness& = {});
 
 }   // namespace tactus::check

@@ -27,7 +27,7 @@ Json toJson (const DeviceNumbers& numbers)
     return j;
 }
 
-/// The steepest place of a role, and how steep the forces of its nodes are there.
+/// What a role demands, the position at which its force is steepest, and the stiffness of each node there.
 Json toJson (const Demand& demand, const RoleDemand& role)
 {
     Json j { { "role", role.role } };

@@ -63,7 +63,7 @@ public:
 
     std::size_t nodes() const noexcept { return forces.size(); }
 
-    /// Moves both copies on to a tick of the motion.
+    /// Advances both copies to a tick of the motion.
     void moveTo (std::size_t tick) noexcept
     {
         for (; now < tick; ++now)
@@ -75,7 +75,7 @@ public:
     }
 
     /// Measures the response to a small shift in a direction, with both tools at rest, and shifts the tool back. Empty if a shift of twice
-    /// the size does not get the same response per metre: it then set off an event, such as a click, and an event has no slope.
+    /// the size gives a different response per metre: the shift then set off an event, such as a click, and an event has no slope.
     std::optional<Response> respond (const Vec3& direction, std::size_t hold) noexcept
     {
         constexpr double tolerance = 0.2;
@@ -92,7 +92,7 @@ public:
             step();
     }
 
-    /// How the own forces of all nodes responded to the last shift, per metre, one component after another.
+    /// The responses of all nodes' own forces to the last shift, per metre, one component after another.
     std::vector<double> ownResponses() const
     {
         std::vector<double> all (numbers);
@@ -101,7 +101,7 @@ public:
         return all;
     }
 
-    /// Calls f (node, i) for each of these components.
+    /// Calls f (node, i) for each component i of ownResponses().
     template <typename F>
     void eachForce (F&& f) const
     {
@@ -113,7 +113,7 @@ public:
 
     std::size_t numberOfForces() const noexcept { return numbers; }
 
-    /// Keeps the largest response of a force of each node, in N/m.
+    /// Raises each entry of `by_node` to the largest response of that node's forces to the last shift, in N/m.
     void raise (std::vector<double>& by_node) const
     {
         std::size_t i = 0;
@@ -156,7 +156,7 @@ private:
         nudged.tick();
     }
 
-    /// True if the force has stayed the same for a while.
+    /// True if the response has hardly changed over the last ticks.
     bool hasSettled() const noexcept
     {
         constexpr std::size_t recent = 12;
@@ -167,7 +167,7 @@ private:
 
     Vec3 difference() const noexcept { return nudged.force (role) - still.force (role); }
 
-    /// The differences between the two copies of all forces of all nodes.
+    /// For each force of each node, the difference between the two copies.
     void note (std::vector<double>& all) const noexcept
     {
         std::size_t i = 0;
@@ -176,7 +176,7 @@ private:
                 all[i++] = nudged_forces[n][c] - forces[n][c];
     }
 
-    /// A response that comes late lacks force at first; damping, which answers the speed of the shift, gives too much of it at first.
+    /// A response that comes late has too little force at first. Damping responds to the speed of the shift, so it has too much.
     Response summary() const noexcept
     {
         Response r;
@@ -201,7 +201,7 @@ private:
     std::vector<Vec3> path;
 };
 
-/// Of the responses to both sides of an axis, the matrices keep the larger one.
+/// The responses to shifts along each axis. Of the responses to the two directions of an axis, the larger one is kept.
 struct Jacobians
 {
     Matrix settled = Matrix::Zero(), late = Matrix::Zero(), excess = Matrix::Zero();
@@ -249,7 +249,7 @@ std::vector<Slope> measureSlopes (const Subject& subject, const HandMotion& moti
             const Vec3 gradient { own[0][component], own[1][component], own[2][component] };
             directions[node] += gradient * gradient.transpose();
         });
-        // A response that is not linear, such as that of friction, has no matrix. So what counts is measured in the steepest direction.
+        // No matrix describes a nonlinear response, such as that of friction. So the stiffness is measured again in the steepest direction.
         const Vec3 steepest = mostStretched (all.settled).direction;
         for (int axis = 0; axis < 3; ++axis)
             slope.stiffness = std::max (slope.stiffness, all.settled.col (axis).norm());

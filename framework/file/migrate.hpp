@@ -25,7 +25,8 @@ struct FileFormat
     std::span<const Migration> steps;
 };
 
-/// Version 2: friction whose file says nothing about `load` has load `bound`. In version 1 it has load `passive`.
+/// Version 2: the default of the param `load` of friction is `bound`. In version 1 it was `passive`, so the step writes that into the
+/// file.
 void sayLoadOfFriction (Json& file);
 
 inline constexpr Migration graph_steps[] { { 1, &sayLoadOfFriction } };
@@ -36,7 +37,7 @@ inline constexpr FileFormat graph_format { 2, graph_steps };
 /// Runs the steps from a version to the newest. Errors: file/newer_version, file/unknown_version, file/migration.
 Result<> migrate (Json& file, int version, const FileFormat&);
 
-/// Like readGraph (text), for any format. Used to test the order of the steps and how they fail.
+/// Like readGraph (text), for any format. Tests use this for the order and the errors of the steps.
 LoadedGraph readGraph (std::string_view text, const FileFormat&, double most_values = budgets().values);
 
 }   // namespace tactus

@@ -14,18 +14,18 @@
 namespace tactus
 {
 
-/// Gaussian noise of variance 1 within a band, as a function of time: whoever reads it at another rate reads the same noise.
+/// Gaussian noise of variance 1 within a band. It is a function of time: readers with different rates get the same noise.
 ///
 ///     n (t) = sum_i e_i h (2 b t - i),   e_i ~ N (0, 1)
 ///
 /// b is the width of the band in Hz, and h a windowed sinc with the energy 1. The spectrum is flat up to 0.8 b and 60 dB down from b
 /// upwards. So all of the noise is within the band, and every reader that is faster than 2 b gets the variance 1 and the same
-/// spectrum. The first values are those of a noise that has been running for a long time.
+/// spectrum. This is true from the first value on.
 class BandNoise
 {
 public:
-    static constexpr int reach = 18;               ///< half the width of h, in random numbers
-    static constexpr double largest_gain = 2.25;   ///< the sum of all |h| for any t, rounded up
+    static constexpr int reach = 18;               ///< half the width of h, in intervals between random numbers
+    static constexpr double largest_gain = 2.25;   ///< upper bound of sum_i |h (2 b t - i)| at any t
 
     explicit BandNoise (std::uint64_t seed = 1) noexcept : random (seed)
     {
@@ -33,7 +33,7 @@ public:
             e = random.normal();
     }
 
-    /// The value now. Then time goes on by `portion` = 2 b dt, from 0 to 1. [tick thread]
+    /// Returns the value now, then advances the time by dt. `portion` is 2 b dt, from 0 to 1. [tick thread]
     double operator() (double portion) noexcept
     {
         double sum = 0.0;
@@ -49,7 +49,7 @@ public:
     }
 
 private:
-    static constexpr int taps = 2 * reach, steps = 64;   // per random number; between them h is linear
+    static constexpr int taps = 2 * reach, steps = 64;   // `steps` entries of h per random number; h is linear in between
 
     /// One half of h, from its middle outwards.
     static inline const auto half = [] {
@@ -76,7 +76,7 @@ private:
     Random random;
     std::array<double, at (taps)> recent {};   // ring of the last random numbers
     int oldest = 0;
-    double phase = 0.0;   // 0…1, from one random number to the next
+    double phase = 0.0;   // 0…1, the time since the last new random number
 };
 
 }   // namespace tactus

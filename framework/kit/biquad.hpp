@@ -29,7 +29,7 @@ struct Biquad
     double b0 = 1.0, b1 = 0.0, b2 = 0.0, a1 = 0.0, a2 = 0.0;
 };
 
-/// The Butterworth low-pass of second order, discretised by the bilinear transform, prewarped so that the cutoff is exact.
+/// The second-order Butterworth low-pass, discretised by the bilinear transform and prewarped so that the cutoff is exact.
 inline Biquad butterworth2 (double cutoff_hz, double rate_hz) noexcept
 {
     const double k = prewarped (cutoff_hz, rate_hz);

@@ -11,13 +11,14 @@ namespace
 {
 constexpr int steps = 16, most_steps = 64, halvings = 45;
 
-/// e^(-b t) times cos (w t) and sin (w t)/w with w^2 = `square`, which is negative for an overdamped spring: then cosh and sinh.
+/// e^(-b t) times cos (w t) and sin (w t)/w, with w^2 = `square`. For an overdamped spring, `square` is negative, and the functions
+/// are cosh and sinh.
 struct Swing
 {
     Swing (double b, double square, double t) noexcept
     {
         const double z = square * t * t, w = std::sqrt (std::abs (square));
-        if (std::abs (z) < 1e-4)   // both forms lose digits here; the error of the series is below 1e-15
+        if (std::abs (z) < 1e-4)   // both formulas below lose digits here; the error of this series is below 1e-15
         {
             const double decay = std::exp (-b * t);
             cosine = decay * (1.0 - z / 2.0 + z * z / 24.0);
@@ -54,8 +55,8 @@ BouncingMass::State BouncingMass::moved (State s, double time, bool in_spring) c
     return { .depth = rest + e * swing.cosine + (v + b * e) * swing.sine, .speed = v * swing.cosine - (b * v + square * e) * swing.sine };
 }
 
-/// If the mass enters or leaves the spring on its way to `to`, moves `from` just beyond, sets `time` to the time until then and returns
-/// true.
+/// True if the mass enters or leaves the spring on its way to `to`. Then `from` moves just beyond the surface, and `time` becomes the
+/// time until then.
 bool BouncingMass::leaves (State& from, State to, double& time, bool in_spring) const noexcept
 {
     const auto isOut = [&] (State s) { return (s.depth > 0.0) != in_spring; };
@@ -72,7 +73,7 @@ bool BouncingMass::leaves (State& from, State to, double& time, bool in_spring) 
         (is_beyond ? after : before) = middle;
     }
     const auto there = moved (from, after, in_spring);
-    if (! isOut (there)) return false;   // it turned back before the surface
+    if (! isOut (there)) return false;   // the mass turned back before the surface
     from = there;
     time = after;
     return true;
@@ -83,7 +84,7 @@ BouncingMass::Result BouncingMass::after (State s, double time) const noexcept
     const double furthest = s.depth + time * (std::max (s.speed, 0.0) + 0.5 * time * std::max (force, 0.0) / mass);
     if (furthest < 0.0) return { .state = moved (s, time, false), .touched = false };
 
-    const double apart_step = time / steps, spring_step = std::min (apart_step, 0.5 * std::sqrt (mass / stiffness));   // a sixth of a bounce
+    const double apart_step = time / steps, spring_step = std::min (apart_step, 0.5 * std::sqrt (mass / stiffness));   // at most a sixth of a bounce
     bool in_spring = s.depth > 0.0;
     Result result { .state = s, .touched = in_spring };
     double left = time;

@@ -9,9 +9,10 @@ namespace tactus
 ///     M e'' = F - B e'           apart, e <= 0
 ///     M e'' = F - B e' - K e     in the spring, e > 0
 ///
-/// The instants at which it enters and leaves the spring are looked for in steps, by bisection to 2^-45 of a step. A touch within a
-/// step is found too, from the change of direction. A step is a 16th of the time asked for, or in the spring less than a sixth of
-/// a bounce. Work is bounded: after 64 steps, what is left is one step, without looking.
+/// The time is divided into steps. If the mass enters or leaves the spring within a step, bisection finds that instant to 2^-45 of
+/// the step. A touch that begins and ends within a step is found too, from the change of direction. A step is a 16th of the
+/// requested time, or in the spring less than a sixth of a bounce. The work is bounded: after 64 steps, the rest of the time is one
+/// last step without this search.
 struct BouncingMass
 {
     struct State
@@ -28,7 +29,7 @@ struct BouncingMass
     struct Result
     {
         State state;
-        bool touched = false;   ///< true if it was in the spring at any time
+        bool touched = false;   ///< true if the mass was in the spring at any time
     };
 
     /// The state after `time`, in s. [any thread; allocates nothing]

@@ -13,7 +13,7 @@ namespace tactus
 
 /// The bristle between a tool and its contact point: how it stretches, yields and slips when the tool moves. Time-free.
 ///
-/// All lengths in m. The force is the stretch times a stiffness sigma, which is left to the caller; so are changes of sigma.
+/// All lengths are in m. The force is the stretch times a stiffness sigma. The caller sets sigma and handles its changes.
 /// The equations are those of Hayward, "Physically-Based Haptic Synthesis" (2007), section 2.
 struct Bristle
 {
@@ -32,7 +32,7 @@ struct Bristle
         euler
     };
 
-    /// One step: the new stretch, the energy lost on the way divided by sigma (m²), and whether the contact point has moved.
+    /// One step: the new stretch, the energy lost in the step divided by sigma (m²), and whether the contact point has moved.
     struct Step
     {
         Vec3 d;
@@ -53,8 +53,9 @@ struct Bristle
     /// Moves the tool by dp, in a straight line.
     Step stretch (const Vec3& d, const Vec3& dp) const noexcept;
 
-    /// If d_max or d_stick has shrunk and left the stretch outside, brings the stretch back to where the contact slides. Only
-    /// the exponential form needs this: eq. (3) and (4) do so on the next `stretch`. True if the stretch has changed.
+    /// If d_max or d_stick has become too small for the stretch, shortens the stretch to the length at which the contact slides.
+    /// Only the exponential form needs this: with eq. (3) and (4), the next call of `stretch` does it. Returns true if the stretch has
+    /// changed.
     bool letGo (Vec3& d) const noexcept;
 
 private:
@@ -117,7 +118,7 @@ inline Bristle::Step Bristle::euler (const Vec3& d, const Vec3& dp) const noexce
 }
 
 /// Eq. (2), solved with zeta held over the step, x = zeta |dp|. The mean stretch over the step is phi d + psi dp; its product
-/// with dp is the work done on the way.
+/// with dp is the work done in the step.
 inline Bristle::Step Bristle::exponential (const Vec3& d, const Vec3& dp) const noexcept
 {
     const double x = zeta ((d + dp).norm()) * dp.norm();
@@ -130,9 +131,10 @@ inline Bristle::Step Bristle::exponential (const Vec3& d, const Vec3& dp) const 
     return { .d = after, .loss = std::max (0.0, work - 0.5 * (after - d).dot (after + d)), .slips = true };
 }
 
-/// Drags the contact point along: the stretch has been pulled to d (of length r) and slips. The contact holds up to a stretch of
-/// `hold`, or of `from` if that is longer because the bound has shrunk. There the spring falls back for the first time. The
-/// rest of the way is slip against the mean of static and sliding friction: with stick-slip, one collapse after another.
+/// Drags the contact point along: the stretch grows from the length `from` to d (of length r) and slips. The contact holds up to a
+/// stretch of `hold`, or up to `from` if that is longer because the bound has shrunk. At this stretch, the spring collapses for
+/// the first time. From then on, the contact slips against the mean of static and sliding friction; with stick-slip, this is one
+/// collapse after another.
 inline Bristle::Step Bristle::drag (double from, const Vec3& d, double r, double hold) const noexcept
 {
     const double peak = std::clamp (from, hold, r), fallen = afterSlip (peak), after = afterSlip (r);
@@ -140,9 +142,9 @@ inline Bristle::Step Bristle::drag (double from, const Vec3& d, double r, double
     return { .d = d * (after / r), .loss = 0.5 * ((peak - fallen) * (peak + fallen) + (hold + d_max) * rest), .slips = true };
 }
 
-/// The length that is left of a stretch that was pulled to r, beyond the bound. Function 1 with d_stick above d_max collapses
-/// to d_max each time the stretch reaches d_stick. A large step passes several collapses, and keeps what a slow hand would
-/// have stretched since the last one.
+/// The length to which a stretch slips back after a pull to r, beyond the bound. Function 1 with d_stick above d_max collapses
+/// to d_max each time the stretch reaches d_stick. A large step contains several collapses, and leaves the stretch that a slow
+/// hand would have built up since the last one.
 inline double Bristle::afterSlip (double r) const noexcept
 {
     const double gap = d_stick - d_max;

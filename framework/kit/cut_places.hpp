@@ -15,20 +15,20 @@ namespace tactus
 
 /// The places where a flat body has been cut: the planes of the last cuts, and how deep the crack is along each of them.
 ///
-/// A plane stands upright on the surface. It is divided into columns of equal width that run straight down; each column has one
-/// crack. Columns are counted along the plane from where the cut began. Both numbers are bounded: a new cut replaces the one
-/// that has not been used for longest, and a column replaces the one `columns` further back, which is whole again.
+/// Each plane is at right angles to the surface. It is divided into columns of equal width that run straight down; each column has one
+/// crack. Columns are counted along the plane from where the cut began. Only the last cuts and columns are kept: a new cut replaces
+/// the one that has been unused for longest, and a column replaces the one `columns` away from it, which is then whole again.
 class CutPlaces
 {
 public:
     static constexpr int cuts = 16, columns = 512;
-    static constexpr int longest = 250;       ///< columns that an edge may cover
-    static constexpr double furthest = 1e9;   ///< columns that an edge may be from where its cut began
+    static constexpr int longest = 250;       ///< most columns that an edge may cover
+    static constexpr double furthest = 1e9;   ///< how far an edge may be from where its cut began, in columns
 
     struct Column
     {
         Cutting::Crack crack;
-        bool follows = false;     ///< the crack follows the edge, which is above the column
+        bool follows = false;     ///< the edge is over the column, and the crack follows it
         std::int32_t index = 0;   ///< counted from the start of the cut
     };
 
@@ -40,7 +40,7 @@ public:
         const Vec3& along() const noexcept { return direction; }
         double spacing() const noexcept { return width; }   ///< width of a column, in m
 
-        /// The column of this index, to be changed. It replaces the one `columns` further back.
+        /// The column with this index, for writing. It replaces a column that is a multiple of `columns` away.
         Column& operator[] (std::int32_t index) noexcept
         {
             Column& c = all[static_cast<std::size_t> (index) % columns];
@@ -49,7 +49,7 @@ public:
             return c;
         }
 
-        /// The crack in the column of this index. A column that was not used yet, or has been replaced, is whole.
+        /// The crack in the column with this index. A column that has not been used, or has been replaced, is whole.
         Cutting::Crack crackAt (std::int32_t index) const noexcept
         {
             const Column& c = all[static_cast<std::size_t> (index) % columns];
@@ -60,12 +60,12 @@ public:
         friend class CutPlaces;
 
         Vec3 origin = Vec3::Zero(), direction = Vec3::UnitX(), aside = Vec3::UnitY();
-        double width = 0.0;   // 0: never used
+        double width = 0.0;   // 0: the cut does not exist
         std::int64_t used = 0;
         std::vector<Column> all = std::vector<Column> (columns);
     };
 
-    /// The cut whose plane the edge between these two points is in, within the width of a column; null if there is none.
+    /// The nearest cut whose plane contains the edge from a to b, to within the width of a column; null if there is none.
     Cut* find (const Vec3& a, const Vec3& b) noexcept
     {
         Cut* best = nullptr;
@@ -81,7 +81,7 @@ public:
         return best;
     }
 
-    /// Begins a cut in whole material. It has no place yet.
+    /// Begins a cut in whole material. The cut has no plane until place() is called.
     Cut& begin (double spacing) noexcept
     {
         Cut* oldest = &all.front();
@@ -93,7 +93,7 @@ public:
         return *oldest;
     }
 
-    /// Puts a cut into another plane. `along` and `aside` are unit vectors in the surface, at right angles to each other.
+    /// Moves a cut to another plane. `along` and `aside` are unit vectors in the surface, at right angles to each other.
     static void place (Cut& cut, const Vec3& origin, const Vec3& along, const Vec3& aside) noexcept
     {
         cut.origin = origin;
@@ -109,7 +109,7 @@ public:
 
     void use (Cut& cut) noexcept { cut.used = ++time; }
 
-    /// Takes over all cuts without allocating.
+    /// Copies all cuts, without allocating.
     void adopt (const CutPlaces& old) noexcept
     {
         for (std::size_t i = 0; i < all.size(); ++i)

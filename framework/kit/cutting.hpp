@@ -12,24 +12,24 @@
 namespace tactus
 {
 
-/// The law of cut.blade, which says where it comes from: how a sample yields, bursts open and is cut, for a blade delta deep below its
-/// undeformed surface, and a crack that is c long.
+/// The law of cut.blade: how a sample yields, bursts open and is cut. The blade is at the depth delta below the undeformed surface, and
+/// the crack has the length c. For the sources see nodes/cut/blade.hpp.
 ///
 ///     virgin     f = g0 (delta), until delta = d_r, where g0 is rupture_force                                  branch 1
 ///     rupture    the crack jumps from 0 to the largest root of G0 (d_r) = G1 (d_r - c) + R c, or to d_r        branch 2
 ///     elastic    f = g1 (e), e = delta - c, while e is at most e_c, where g1 is R                              branches 3, 5, 6
 ///     cutting    c = delta - e_c, at the force R                                                               branch 4
 ///
-/// G0 and G1 are the energies of g0 and g1. R is the energy per metre of crack, J_c w. A crack as long as the sample is thick leaves
-/// it in two pieces: no force from then on, and the stored energy is lost.
+/// G0 and G1 are the energies of g0 and g1. R is the energy per metre of crack, J_c w. When the crack is as long as the sample is
+/// thick, the sample is cut through: there is no force from then on, and the stored energy is lost.
 class Cutting
 {
 public:
     struct Sample
     {
         double cost = 0.0;            ///< R, in N
-        double rupture_force = 0.0;   ///< in N; below R it counts as R
-        double thickness = 0.0;       ///< in m; 0: the sample never falls in two
+        double rupture_force = 0.0;   ///< in N; a value below R counts as R
+        double thickness = 0.0;       ///< in m; 0: the sample is never cut through
     };
 
     struct Crack
@@ -38,7 +38,7 @@ public:
         bool virgin = true, in_two = false;
     };
 
-    /// What happened on the way to a depth.
+    /// What happened while the blade moved to a depth.
     struct Event
     {
         bool bursts = false, cuts = false;
@@ -46,17 +46,17 @@ public:
 
     Cutting() = default;
 
-    /// `cracked` is g1. A sample that would have to gain energy to crack does not crack.
+    /// `law` is g0, `cracked` is g1. A sample that would have to gain energy to crack does not crack.
     Cutting (const Sample&, const Law& law, const Law& cracked) noexcept;
 
-    /// Moves the blade to a depth below the surface, through rupture and cutting if need be: the crack ends as with a slow blade. Adds the
-    /// energy that is lost to `dissipated`, in J.
+    /// Moves the blade to a depth below the surface, through rupture and cutting if necessary. The crack ends where it would with a
+    /// slow blade. Adds the lost energy to `dissipated`, in J.
     Event press (Crack&, double depth, const Law& cracked, double& dissipated) const noexcept;
 
-    /// Force in N and elastic energy in J, by branches 1, 3, 5 and 6, and by branch 4, whose force is g1 (e_c).
+    /// Force in N and elastic energy in J. This covers branch 4 too: once the crack has followed, the force is g1 (e_c).
     static Law::Point answer (const Crack&, double depth, const Law& law, const Law& cracked) noexcept;
 
-    double last() const noexcept { return end; }                 ///< length of the crack at which the sample falls in two, in m
+    double last() const noexcept { return end; }                 ///< length of the crack at which the sample is cut through, in m
     double cutStretch() const noexcept { return e_cut; }         ///< e_c, in m
     double ruptureDepth() const noexcept { return d_rupture; }   ///< d_r, in m
 
@@ -64,7 +64,7 @@ public:
     static std::string problem (double width, double toughness, double rupture_force, const Law& law, const Law& cracked);
 
 private:
-    static constexpr double eps_cut = 1e-9;   // relative; keeps steady cutting away from the branch point
+    static constexpr double eps_cut = 1e-9;   // relative; a cut ends exactly at e_c, and rounding there must not continue it
     static constexpr double inf = std::numeric_limits<double>::infinity();
 
     double burstLength (const Law& law, const Law& cracked) const noexcept;
@@ -73,7 +73,7 @@ private:
 
     double cost = 0.0;        // N
     double end = inf;         // m
-    double e_cut = inf;       // the crack grows while the blade is further than this beyond its tip, in m
+    double e_cut = inf;       // the crack grows if the blade is further than this beyond the tip of the crack, in m
     double d_rupture = inf;   // depth at which a virgin sample bursts, m
     double first = 0.0;       // length of the crack right after the burst, in m
     double loss = 0.0;        // energy lost in the burst, in J
@@ -116,7 +116,7 @@ inline bool Cutting::burst (Crack& c, double depth, double& dissipated) const no
     return true;
 }
 
-/// Branch 4. When the crack reaches the end of the sample, the sample falls in two, and the pieces spring back.
+/// Branch 4. When the crack reaches the end of the sample, the sample is cut through, and the pieces spring back.
 inline bool Cutting::cut (Crack& c, double depth, const Law& cracked, double& dissipated) const noexcept
 {
     const double tip = std::min (depth - e_cut, end);
@@ -129,7 +129,7 @@ inline bool Cutting::cut (Crack& c, double depth, const Law& cracked, double& di
 }
 
 /// The largest root c of h (c) = G0 (d_r) - G1 (d_r - c) - R c, at most d_r. Because g1 rises, h is concave with its maximum
-/// at d_r - e_c, so Newton's steps from beyond the root come down to it and never pass it.
+/// at d_r - e_c. So Newton's method, started beyond the root, comes down to the root and never passes it.
 inline double Cutting::burstLength (const Law& law, const Law& cracked) const noexcept
 {
     const double stored = law.energy (d_rupture);

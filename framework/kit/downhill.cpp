@@ -12,7 +12,7 @@ bool Downhill::along (const Vec3& step, Spot& spot, Felt& felt) const noexcept
 {
     constexpr double least = 1.0 / 1024.0;   // the smallest share of a step that is tried
     const Spot from = spot;
-    const Vec3 inward = felt.frame.row (2).transpose();   // c stays on its side of a thin body
+    const Vec3 inward = felt.frame.row (2).transpose();   // keeps the contact point on its side of a thin body
     const double before = felt.energy;
     double energy = before;   // at the share that was tried last
     const auto lower = [&] (double share, double than) {
@@ -33,15 +33,15 @@ bool Downhill::along (const Vec3& step, Spot& spot, Felt& felt) const noexcept
         share *= 0.5;
     if (share <= least) return true;
 
-    // The way downhill ends between two shares. Its lowest point is that of the parabola through the energies of the start, of the
-    // smallest share and of the last one.
+    // The energy is lowest at a share that has not been tried. It is estimated by the parabola through the energies at the start, at
+    // the smallest share and at the share tried last.
     const double slope = -fall / least, bend = ((energy - before) / share - slope) / (share - least);
     const double lowest = 0.5 * (least - slope / bend);
     if (bend > 0.0 && lowest > least && lowest < 1.0) lower (lowest, felt.energy);
     return true;
 }
 
-/// A triangle with the contact point, and the energies around this point.
+/// The triangle that the contact point is on, and the energies around this point.
 class Downhill::Patch
 {
 public:
@@ -83,7 +83,8 @@ public:
     Felt feel (const Spot& there) const noexcept { return downhill.body.feel (there, downhill.p, downhill.tool); }
     double energyAt (const Spot& from, const Vec3& offset) const noexcept { return feel (moved (from, offset)).energy; }
 
-    /// The step to the minimum of U, if U is a parabola, that does not leave the triangle across an edge on which the point is.
+    /// The step to the minimum of U, with U approximated by a parabola. If the point is on an edge, the step does not leave the triangle
+    /// across this edge.
     Vec3 wanted (const Spot& from, double energy) const noexcept
     {
         const double h = reach();
@@ -107,7 +108,7 @@ public:
         return best;
     }
 
-    /// The share of a step, at most 1, after which it reaches an edge of the triangle; negative edge: it reaches none.
+    /// The share of a step, at most 1, at which the step reaches an edge of the triangle, and the number of this edge; -1: no edge.
     std::pair<double, int> room (const Spot& from, const Vec3& step) const noexcept
     {
         std::pair<double, int> found { 1.0, -1 };
@@ -122,7 +123,7 @@ public:
     bool isShort (const Vec3& step) const noexcept { return ! (step.norm() > 1e-10 * size); }
 
 private:
-    double reach() const noexcept { return 1e-5 * size; }   // of the differences that replace derivatives
+    double reach() const noexcept { return 1e-5 * size; }   // step of the finite differences, in m
     Vec3 far (const Vec3& way) const noexcept { return size * direction (way); }
 
     bool leaves (const Spot& from, const Vec3& step) const noexcept
@@ -156,13 +157,13 @@ void Downhill::descend (Spot& spot, Felt& felt) const noexcept
         for (int tried = 0; tried < halvings && ! fell; ++tried)
         {
             Spot there = patch.moved (spot, step);
-            for (int i = 0; i < 3; ++i)   // on an edge means exactly on it
+            for (int i = 0; i < 3; ++i)   // puts a point that reaches or stays on an edge exactly on it
             {
                 const bool stays = spot.on.weights[at (i)] <= 0.0 && std::abs (there.on.weights[at (i)]) < 1e-12;
                 if (i == edge || stays) patch.putOnEdge (there, i);
             }
             const Felt now = patch.feel (there);
-            fell = edge < 0 ? now.energy < felt.energy : now.energy <= felt.energy;   // an edge is reached even if it is very near
+            fell = edge < 0 ? now.energy < felt.energy : now.energy <= felt.energy;   // a step to a very near edge counts even at equal energy
             if (fell)
             {
                 spot = there;

@@ -8,7 +8,7 @@
 namespace tactus
 {
 
-/// A mass m on its way through a contact: m d'' = -N (d, d'), with d' > 0 on its way in.
+/// The state of a mass m in a contact: m d'' = -N (d, d'), with d' > 0 on the way in.
 struct Passage
 {
     double d = 0.0, v = 0.0;   // m, m/s
@@ -17,8 +17,8 @@ struct Passage
 /// How a free mass leaves a contact that it entered.
 struct Rebound
 {
-    double duration = std::numeric_limits<double>::infinity();   ///< of the contact, in s; infinite: longer than was asked
-    double speed = 0.0;                                          ///< on its way out, in m/s
+    double duration = std::numeric_limits<double>::infinity();   ///< of the contact, in s; infinite: the contact did not end in time
+    double speed = 0.0;                                          ///< on the way out, in m/s
 
     bool isKnown() const noexcept { return duration < std::numeric_limits<double>::infinity(); }
 };
@@ -37,8 +37,8 @@ Passage rungeKuttaStep (const Force& N, double m, const Passage& x, double h) no
     return { x.d + h / 6.0 * (a.d + 2.0 * (b.d + c.d) + e.d), x.v + h / 6.0 * (a.v + 2.0 * (b.v + c.v) + e.v) };
 }
 
-/// The duration of a contact to within some percent, in s. Steps of the semi-implicit Euler rule, shortened until 16 of them
-/// fit. Infinite if the contact is not over after `longest`, or if damping stops the mass inside.
+/// The duration of a contact in s, to within a few percent. Uses the semi-implicit Euler rule with ever shorter steps, until the
+/// contact takes at least 16. Infinite if the contact is not over after `longest`, or if damping stops the mass inside.
 template <typename Force>
 double roughDuration (const Force& N, double m, double v, double longest) noexcept
 {
@@ -64,10 +64,10 @@ double roughDuration (const Force& N, double m, double v, double longest) noexce
 }
 }   // namespace detail
 
-/// Solves the impact of a free mass m (kg) that enters a contact with the speed v (m/s), and does not leave it later than after
-/// `longest` (s). N (d, v) is the force in N, 0 for d <= 0. `visit` is called with the Passage at each multiple of `grid` (s)
-/// while the mass is inside. At most about 5000 evaluations of N, usually 400; speed and duration are then exact to about 1e-5
-/// for a force that rises no faster at the touch than in proportion to depth. [any thread]
+/// Solves the impact of a free mass m (kg) that enters a contact at v (m/s) and leaves it within `longest` (s). N (d, v) is the force
+/// in N, 0 for d <= 0. `visit` is called with the Passage at each multiple of `grid` (s) while the mass is inside. Needs at most about
+/// 5000 evaluations of N, usually 400. Speed and duration are exact to about 1e-5 if the force at the touch rises in proportion to
+/// depth or more slowly. [any thread]
 template <typename Force, typename Visit>
 Rebound freeImpact (const Force& N, double m, double v, double longest, double grid, Visit visit) noexcept
 {
@@ -83,7 +83,7 @@ Rebound freeImpact (const Force& N, double m, double v, double longest, double g
         const auto next = detail::rungeKuttaStep (N, m, x, h);
         if (! (next.d > 0.0))
         {
-            double part = x.d > 0.0 ? x.d / (x.d - next.d) : 1.0;   // of the step, up to the surface
+            double part = x.d > 0.0 ? x.d / (x.d - next.d) : 1.0;   // share of the step until the mass reaches the surface
             auto out = detail::rungeKuttaStep (N, m, x, part * h);
             if (out.v < 0.0) part = std::clamp (part - out.d / (out.v * h), 0.0, 1.0);
             out = detail::rungeKuttaStep (N, m, x, part * h);

@@ -12,7 +12,7 @@ namespace detail
 inline double firstOrder (double h) noexcept { return h == 0.0 ? 1.0 : -std::expm1 (-h) / h; }
 
 /// (h - (1 - e^-h))/h^2. The difference loses as many digits as h has leading zeros, so a small h uses the series 1/2! - h/3! +
-/// h^2/4! - ...; at h = 1/4, both are accurate to the second-to-last digit.
+/// h^2/4! - ...; at h = 1/4, both forms are accurate to the second-to-last digit.
 inline double secondOrder (double h) noexcept
 {
     if (h > 0.25) return (h + std::expm1 (-h)) / (h * h);
@@ -24,7 +24,7 @@ inline double secondOrder (double h) noexcept
 }
 }   // namespace detail
 
-/// How a force that is held for some time moves a mass M with viscous damping B:
+/// How a mass M with viscous damping B moves while the force F is constant for the time T:
 ///
 ///     a = e^(-B T/M)     g = M (1 - a)/B
 ///     x += g v + (T - g)/B F

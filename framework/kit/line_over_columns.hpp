@@ -8,11 +8,11 @@
 namespace tactus
 {
 
-/// A straight line from a to b in a plane that is divided into upright columns of equal width h. Column j is about x = j h.
+/// A straight line from a to b in a plane that is divided into upright columns at equal distances h. Column j is centred at x = j h.
 ///
-/// Columns overlap: column j weighs what is above it by its hat function, which is 1 at x = j h and 0 from h on to either side. Hats of
-/// neighbours add up to 1. So the shares of all columns add up to exactly the length of the line along x, wherever the line
-/// begins, and they change smoothly when it moves (linear finite elements).
+/// Columns overlap: column j weighs the line above it by its hat function, which is 1 at x = j h and falls to 0 at a distance of h.
+/// The hats of neighbours add up to 1. So h times the sum of all shares is exactly the length of the line along x, wherever the line
+/// begins, and the shares change smoothly when the line moves (linear finite elements).
 struct LineOverColumns
 {
     double x[2] {}, depth[2] {};   ///< of a and b, in m
@@ -22,7 +22,7 @@ struct LineOverColumns
     {
         double share = 0.0;   ///< 1: the line is above the whole column
         double depth = 0.0;   ///< mean depth of the line, in m
-        double along = 0.0;   ///< mean place on the line: 0 at a, 1 at b
+        double along = 0.0;   ///< mean position on the line: 0 at a, 1 at b
         double hat[2] {};     ///< the hat function at a and b
 
         explicit operator bool() const noexcept { return share > 1e-9; }
@@ -32,7 +32,7 @@ struct LineOverColumns
     double sign() const noexcept { return x[1] < x[0] ? -1.0 : 1.0; }
     double slope() const noexcept { return length() != 0.0 ? (depth[1] - depth[0]) / length() : 0.0; }
 
-    /// The columns that the line may be above: first to end - 1.
+    /// The columns that can lie below the line: first() to end() - 1.
     std::int32_t first (double h) const noexcept { return static_cast<std::int32_t> (std::floor (std::min (x[0], x[1]) / h)); }
     std::int32_t end (double h) const noexcept { return static_cast<std::int32_t> (std::ceil (std::max (x[0], x[1]) / h)) + 1; }
 
@@ -45,7 +45,7 @@ struct LineOverColumns
             return { .share = 1.0, .depth = depth[0] + along * (depth[1] - depth[0]), .along = along };
         }
 
-        // The hat function about 0 with h = 1, its integral from -1, and the integral of u times it.
+        // For h = 1: the hat function around 0, its integral from -1, and the integral of u times the hat function.
         const auto hat = [] (double u) { return std::max (0.0, 1.0 - std::abs (u)); };
         const auto area = [&] (double u) { return u < 0.0 ? 0.5 * hat (u) * hat (u) : 1.0 - 0.5 * hat (u) * hat (u); };
         const auto moment = [] (double u) {

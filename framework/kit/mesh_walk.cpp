@@ -150,7 +150,7 @@ Spot MeshWalk::nearestAmong (int from, const Vec3& p, const Vec3* way) const noe
 
 int MeshWalk::entered (const Vec3& from, const Vec3& to) const noexcept
 {
-    constexpr double slack = 1e-9;   // relative; far more than the rounding error of a weight
+    constexpr double slack = 1e-9;   // relative; far larger than the rounding error of a weight
     const Vec3 way = to - from;
     const Box whole { from.cwiseMin (to), from.cwiseMax (to) };
     const auto misses = [&] (const Box& box) { return (box.low.array() > whole.high.array() || box.high.array() < whole.low.array()).any(); };

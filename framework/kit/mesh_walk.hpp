@@ -46,15 +46,15 @@ public:
     /// edge, the spot belongs to the triangle that the walk came from. [any thread]
     Spot nearest (int from, const Vec3& p) const noexcept { return nearestAmong (from, p, nullptr); }
 
-    /// The same, but the walk stays on triangles that are entered from outside by a way in this direction. [any thread]
+    /// The same, but the walk stays on triangles through which a move in the direction of `way` enters the body. [any thread]
     Spot nearestFacing (int from, const Vec3& p, const Vec3& way) const noexcept { return nearestAmong (from, p, &way); }
 
-    /// The first triangle that the straight way between two points crosses from outside to inside; negative if there is none. A
-    /// way that crosses an edge is never missed because of rounding. [any thread]
+    /// The first triangle that the straight line between two points crosses from outside to inside; negative if there is none. A
+    /// crossing at an edge is never missed because of rounding. [any thread]
     int entered (const Vec3& from, const Vec3& to) const noexcept;
 
-    /// The triangles that have a corner in common with a spot: those of a corner, if the spot is on one; otherwise those of the ends
-    /// of its edge. Calls visit (triangle), also for the triangle of the spot. [any thread]
+    /// Calls visit (triangle) for the triangles around a spot: at its corner, at both ends of its edge, or at all three corners of
+    /// its triangle. The triangle of the spot is visited too, and any triangle may be visited more than once. [any thread]
     template <typename Visit>
     void around (const Spot&, Visit visit) const;
 

@@ -11,14 +11,14 @@
 namespace tactus
 {
 
-/// Finds the point of a surface that is nearest to a tool: within the tick, or with a search by a thread, which answers some ticks
-/// later.
+/// Finds the point of a surface that is nearest to a tool: either within the tick, or by a search on another thread, which answers some
+/// ticks later.
 class PatchSearch
 {
 public:
     PatchSearch() = default;
 
-    /// With ticks 0 everything is searched within the tick; `index` and `answers` are then not needed. [main thread]
+    /// If `ticks` is 0, it searches everything within the tick and does not need `index` and `answers`. [main thread]
     PatchSearch (std::shared_ptr<const PlacedSurface> body_, int ticks_, std::shared_ptr<const NearestTriangle> index, QueryService* answers)
         : body (std::move (body_)), ticks (ticks_)
     {
@@ -29,8 +29,8 @@ public:
 
     bool takesTime() const noexcept { return search != nullptr; }
 
-    /// The answer that is due on this tick, if any: the triangle nearest to where the tool was when the search began. Call it once
-    /// per tick. Only one search runs at a time, and only while `wanted`. [tick thread]
+    /// The answer that is due on this tick, if any: the triangle nearest to where the tool was when the search began. Call this
+    /// once per tick. Only one search runs at a time, and only while `wanted`. [tick thread]
     std::optional<int> answer (const Vec3& p, bool wanted) noexcept
     {
         if (! search) return {};
@@ -40,14 +40,14 @@ public:
         return wanted ? found : std::nullopt;
     }
 
-    /// Call it instead of answer() on a tick without a position. [tick thread]
+    /// Call this instead of answer() on a tick without a position. [tick thread]
     void skip() noexcept
     {
         if (search) (*search) (std::nullopt);
     }
 
-    /// The nearest spot, given the answer and the spot of the tick before. An answer is only a starting point for a walk. Walking on
-    /// from the spot before may lead to a nearer one, so the nearer of the two results is returned. [tick thread]
+    /// The nearest spot, given the answer and the spot of the tick before. An answer is only a starting point for a walk. A walk
+    /// from the previous spot may end at a nearer one, so the nearer of the two results is returned. [tick thread]
     Spot nearest (std::optional<int> found, const Spot& before, const Vec3& p) const noexcept
     {
         if (! search) return body->walk().nearestOfAll (p, before.triangle);

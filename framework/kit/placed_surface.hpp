@@ -48,13 +48,13 @@ public:
 
     Tool noTool() const { return { .shares = std::vector<Share> (surface->curves.size()) }; }   ///< with room for every shape
 
-    /// Makes a tool what it is at a spot, given its number, from 0 to the number of tools - 1. A fraction blends two tools. `tool` must
-    /// come from noTool(). [any thread]
+    /// Writes the shares of the tool with this number, at a spot, into `tool`, which must come from noTool(). The number goes from 0 to
+    /// the number of tools - 1; a fraction blends two tools. [any thread]
     void choose (double number, const Spot&, Tool& tool) const noexcept;
 
     Felt feel (const Spot&, const Vec3& p, const Tool&) const noexcept;                 // [any thread]
-    double ratio (const Spot&, double depth, const Tool&) const noexcept;               ///< mu_c: largest sideways deflection of the contact, over its depth
-    Vec3 slope (const Spot&, const Felt&, const Vec3& p, const Tool&) const noexcept;   ///< dU/dc of a contact point that follows the tool, N
+    double ratio (const Spot&, double depth, const Tool&) const noexcept;               ///< mu_c: largest sideways deflection of the contact / its depth
+    Vec3 slope (const Spot&, const Felt&, const Vec3& p, const Tool&) const noexcept;   ///< dU/dc for a contact point that follows the tool, in N
 
 private:
     using Weights = std::array<double, 3>;
@@ -67,8 +67,8 @@ private:
 
     std::shared_ptr<const Surface> surface;
     MeshWalk mesh_walk;
-    std::vector<Mat3> frames, squared;   // by node, or by shape and node: the frames as given, and the same frames made orthonormal
-    std::vector<Weights> feet;           // by triangle, then corner: where the foot of the centroid is on the opposite edge
+    std::vector<Mat3> frames, squared;   // by node, or by shape, then node: the frames as given; the same frames made orthonormal
+    std::vector<Weights> feet;           // by triangle, then corner: where the foot of the centroid is on the edge opposite the corner, 0 to 1
     std::vector<bool> even;              // by triangle: true if its corners have the same frame; empty if the shapes have frames of their own
 };
 
@@ -133,7 +133,7 @@ inline PlacedSurface::Felt PlacedSurface::feel (const Spot& spot, const Vec3& p,
 }
 
 /// Eq. (5). On a triangle whose corners have the same frame, such as a flat patch, nothing is interpolated. If the shapes have
-/// frames of their own, these are interpolated by their shares too.
+/// frames of their own, these are also interpolated by the shares of the shapes.
 inline Mat3 PlacedSurface::frameAt (const Spot& spot, const Weights& n, const Tool& tool) const noexcept
 {
     const auto& corners = cornersAt (spot);
@@ -153,7 +153,7 @@ inline Mat3 PlacedSurface::frameAt (const Spot& spot, const Weights& n, const To
     return detail::orthonormal (sum);
 }
 
-/// Eq. (6) and (9): the share of one shape in the forces and energies.
+/// Eq. (6) and (9): adds the share of one shape to the forces and energies.
 inline void PlacedSurface::add (Felt& felt, const Spot& spot, const Weights& n, int shape, double amount) const noexcept
 {
     const auto& curves = surface->curves[at (shape)];
@@ -209,9 +209,9 @@ inline std::array<Vec3, 3> PlacedSurface::gradientsAt (const Spot& spot, const T
     const auto barycentric = gradientsOf (corners);
     if (! tool.smooth) return barycentric;
 
-    constexpr double h = 1e-5;   // half of the difference that replaces the derivative, in units of the edge
+    constexpr double h = 1e-5;   // step of the central difference, in barycentric coordinates
     std::array<Vec3, 3> sum { Vec3::Zero(), Vec3::Zero(), Vec3::Zero() };
-    for (std::size_t k = 1; k < 3; ++k)   // along barycentric coordinate k, while coordinate 0 makes up for it
+    for (std::size_t k = 1; k < 3; ++k)   // changes coordinate k, and coordinate 0 by the opposite amount
     {
         Weights more = spot.on.weights, less = more;
         more[k] += h;

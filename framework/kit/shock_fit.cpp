@@ -49,7 +49,7 @@ Result<> check (const RecordedLoop& loop)
 {
     const auto n = loop.depth.size();
     if (n < fewest || loop.force.size() != n || (! loop.time.empty() && loop.time.size() != n))
-        return wrong ("fit/too_short", "the recording has " + std::to_string (n) + " rows; " + std::to_string (fewest) + " are needed at least",
+        return wrong ("fit/too_short", "the recording has " + std::to_string (n) + " rows; a fit needs at least " + std::to_string (fewest),
                       "record the whole contact, from before the touch until after the tool has left");
     for (const auto* column : { &loop.depth, &loop.force, &loop.time })
         if (! std::ranges::all_of (*column, [] (double v) { return std::isfinite (v); }))
@@ -59,8 +59,8 @@ Result<> check (const RecordedLoop& loop)
     return {};
 }
 
-/// The point between a row outside and one inside at which the depth is 0, with no force. `deeper` is the row beside `inside`: the
-/// speed between the two gives the time, because the rows outside may be far away in time.
+/// Adds the point between a row outside and a row inside at which the depth and the force are 0. `deeper` is the row beside
+/// `inside`: the time is extrapolated from these two rows, because the row outside may be much earlier or later.
 void addTouch (const RecordedLoop& loop, std::size_t outside, std::size_t inside, std::size_t deeper, Contact& contact)
 {
     contact.d.push_back (0.0);
@@ -86,7 +86,8 @@ Result<Contact> contactOf (const RecordedLoop& loop)
 
     const double nothing = 1e-3 * d[deepest];   // a row this close to the surface is the touch itself
     if (deepest == first || deepest == last || last - first + 1 < fewest)
-        return wrong ("fit/no_loop", "the contact around the deepest row has " + std::to_string (last - first + 1) + " rows and is no way in and out",
+        return wrong ("fit/no_loop",
+                      "the contact around the deepest row (" + std::to_string (last - first + 1) + " rows) is too short, or does not go both in and out",
                       "record the whole contact, with at least " + std::to_string (fewest) + " rows inside the object");
 
     Contact contact;
@@ -131,7 +132,7 @@ void setRatesByEnergy (Contact& c, double mass)
     }
 }
 
-/// The momentum that the mass has lost, over the speed that it has lost.
+/// The momentum that the mass has lost, divided by the speed that it has lost.
 double massByTime (const Contact& c)
 {
     double impulse = 0.0;
@@ -140,7 +141,7 @@ double massByTime (const Contact& c)
     return impulse / (c.rate.front() - c.rate.back());
 }
 
-/// K = k d^n, and c d^n d' for the damping, so that c = k lambda.
+/// A law with K = k d^n and the damping force c d^n d', so that c = k lambda.
 struct Candidate
 {
     double n = 1.0, k = 0.0, c = 0.0;
@@ -149,7 +150,7 @@ struct Candidate
     double force (double d, double rate) const noexcept { return std::max (0.0, std::pow (std::max (0.0, d), n) * (k + c * rate)); }
 };
 
-/// The best k and c for this power, if the force may pull. Under the condition of the area, only k is free.
+/// The best k and c for the power n if the force may pull. Because the law must have the given area, only k is free.
 Candidate bestOf (const Contact& x, double n, double area)
 {
     const auto elastic = [&] (std::size_t i) { return std::pow (std::max (0.0, x.d[i]), n); };
@@ -173,7 +174,7 @@ Candidate bestOf (const Contact& x, double n, double area)
     return best;
 }
 
-/// Tries powers in steps, then around the best one in finer steps.
+/// Tries powers n in coarse steps, then in finer steps around the best one.
 Candidate bestOf (const Contact& x, double area)
 {
     constexpr double least = 0.5, most = 4.0;
@@ -194,7 +195,7 @@ double areaOf (const Contact& x, const Candidate& law)
     return x.work ([&] (std::size_t i) { return law.force (x.d[i], x.rate[i]); });
 }
 
-/// The force never pulls, which bestOf does not know: finds the damping that has the area after all.
+/// bestOf() lets the force pull, but the law does not. So this looks for the damping with which the law has the area.
 void matchArea (const Contact& x, double area, Candidate& law)
 {
     double low = 0.0, high = std::max (law.c, 1e-12 * law.k);
@@ -213,13 +214,13 @@ void matchArea (const Contact& x, double area, Candidate& law)
     law.c = high;
 }
 
-/// What a free impact of the fitted law loses.
+/// The energy that a free impact loses with the fitted law.
 double playedArea (const Candidate& law, double mass, double speed, double duration)
 {
     const auto force = [&] (double d, double v) noexcept { return law.force (d, v); };
     for (double longest = duration; longest < 1e6 * duration; longest *= 4.0)
         if (const auto out = freeImpact (force, mass, speed, longest); out.isKnown()) return 0.5 * mass * (speed * speed - out.speed * out.speed);
-    return 0.5 * mass * speed * speed;   // damping keeps it
+    return 0.5 * mass * speed * speed;   // the damping keeps the mass inside
 }
 }   // namespace
 
@@ -234,16 +235,16 @@ Result<ShockFit> fitShock (const RecordedLoop& loop, double mass)
     if (has_times) setRatesByTime (x);
     if (! (mass > 0.0) && has_times) mass = massByTime (x);
     if (! (mass > 0.0) || ! std::isfinite (mass))
-        return wrong ("fit/mass", "the recording does not tell the mass that was thrown back", "give the mass, for example --mass \"50 g\"");
+        return wrong ("fit/mass", "the mass that was thrown back cannot be found from the recording", "give the mass, for example --mass \"50 g\"");
     if (! has_times) setRatesByEnergy (x, mass);
 
     const double area = x.work ([&] (std::size_t i) { return x.f[i]; });
     if (! (area >= 0.0))
-        return wrong ("fit/gains_energy", "the recorded force is larger on the way out than on the way in, so the object would give energy",
+        return wrong ("fit/gains_energy", "the recorded force is larger on the way out than on the way in, so the object would create energy",
                       "check the order of the rows and the signs: depth and force are positive inside the object");
     auto law = bestOf (x, area);
     if (! std::isfinite (law.error))
-        return wrong ("fit/no_spring", "no law k d^n with a damping fits the recording", "check the columns: the force must grow with depth, in N and m");
+        return wrong ("fit/no_spring", "no law k d^n with damping fits the recording", "check the columns: the force must grow with depth, in N and m");
     matchArea (x, area, law);
 
     ShockFit fit;

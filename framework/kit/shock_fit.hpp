@@ -10,7 +10,7 @@
 namespace tactus
 {
 
-/// A recorded impact or indentation: the force over the way in and out. Rows in the order of time.
+/// A recorded impact or indentation: depth and force on the way in and out. The rows are in order of time.
 struct RecordedLoop
 {
     std::vector<double> depth;     ///< in m, > 0 inside the object
@@ -18,13 +18,13 @@ struct RecordedLoop
     std::vector<double> time {};   ///< in s, rising; empty: not recorded
 };
 
-/// A spring and a damper that take as much energy on the way of a recording as the recorded object did.
+/// A spring and a damper that dissipate as much energy along the recorded path as the recorded object did.
 struct ShockFit
 {
     Law stiffness;                                 ///< K = k d^n
     Law damping;                                   ///< {"dissipation": lambda}: D = lambda K
-    double mass = 0.0;                             ///< that was thrown back, in kg: as given, or estimated from the times
-    double speed = 0.0;                            ///< on the way in, at the touch, in m/s
+    double mass = 0.0;                             ///< mass that was thrown back, in kg: as given, or estimated from the times
+    double speed = 0.0;                            ///< at the touch, on the way in, in m/s
     double recorded_area = 0.0;                    ///< of the recorded loop, in J
     double fitted_area = 0.0;                      ///< of the fitted force over the recorded path, in J; equal to recorded_area
     double played_area = 0.0;                      ///< of a free impact of the mass at this speed, m v^2 (1 - e^2) / 2, in J
@@ -36,9 +36,9 @@ struct ShockFit
 /// Fits N = max (0, K + D d'), K = k d^n, D = lambda K, to the contact around the deepest row: by least squares among all laws whose
 /// loop has the recorded area. n is from 0.5 to 4.
 ///
-/// d' comes from the times if there are any; the area is matched on any path then. Without times, the recording must be of a free
-/// impact: d' follows from the energy that the mass has lost on the way, v^2 = 2 (W_deepest - W) / m. `mass` is in kg; 0: from
-/// the times, as impulse over change of speed, which also needs a free impact.
+/// If the recording has times, d' comes from them, and the recording may follow any path. Without times, it must be a free impact:
+/// d' then follows from the energy that the mass has lost so far, v^2 = 2 (W_deepest - W) / m. `mass` is in kg. If it is 0, the
+/// mass is computed from the times, as impulse over change of speed; this, too, requires a free impact.
 ///
 /// Errors: fit/too_short, fit/not_finite, fit/time, fit/no_contact, fit/no_loop, fit/gains_energy, fit/mass, fit/no_spring.
 /// [any thread]

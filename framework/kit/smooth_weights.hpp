@@ -7,26 +7,26 @@
 namespace tactus
 {
 
-/// Weights of the corners of a triangle, like barycentric ones, whose gradients do not step from a triangle to the next. What is
-/// interpolated with them follows 3 t^2 - 2 t^3 along each edge, and does not change at right angles to the edge.
+/// Weights of the corners of a triangle, like barycentric weights, but their gradients do not jump from a triangle to the next. A
+/// value interpolated with them follows 3 t^2 - 2 t^3 along each edge, and has slope 0 across the edge.
 ///
 /// The element of Clough & Tocher 1965 with gradient 0 at the corners and no slope across the edges: a cubic on each of the three
 /// triangles between the edges and the centroid. `barycentric` may be slightly negative. `feet[i]` says where the foot of the
 /// centroid is on the edge opposite corner i, as a share of the way from corner i + 1 to corner i + 2. [any thread]
 constexpr std::array<double, 3> smoothWeights (const std::array<double, 3>& barycentric, const std::array<double, 3>& feet) noexcept
 {
-    using Ordinate = std::array<double, 3>;   // of a Bezier net, as weights of the corners
+    using Ordinate = std::array<double, 3>;   // of the Bezier net, as weights of the corners
     constexpr auto mean = [] (const Ordinate& a, const Ordinate& b, const Ordinate& c) {
         return Ordinate { (a[0] + b[0] + c[0]) / 3.0, (a[1] + b[1] + c[1]) / 3.0, (a[2] + b[2] + c[2]) / 3.0 };
     };
     constexpr std::array<Ordinate, 3> corner { Ordinate { 1.0, 0.0, 0.0 }, Ordinate { 0.0, 1.0, 0.0 }, Ordinate { 0.0, 0.0, 1.0 } };
-    std::array<Ordinate, 3> beside {};   // the middle of the net beside the edge opposite each corner
+    std::array<Ordinate, 3> beside {};   // the middle ordinate of the row next to the edge opposite each corner
     for (std::size_t i = 0; i < 3; ++i)
     {
         beside[i][(i + 1) % 3] = 1.0 - feet[i];
         beside[i][(i + 2) % 3] = feet[i];
     }
-    std::array<Ordinate, 3> inner {};   // two thirds of the way from each corner to the centroid
+    std::array<Ordinate, 3> inner {};   // at two thirds of the way from each corner to the centroid
     for (std::size_t i = 0; i < 3; ++i)
         inner[i] = mean (corner[i], beside[(i + 1) % 3], beside[(i + 2) % 3]);
     const Ordinate centre = mean (inner[0], inner[1], inner[2]);

@@ -10,7 +10,7 @@
 namespace tactus
 {
 
-/// A deflection ratio: a number, a law of depth, or a curve of depth whose ends are held.
+/// A deflection ratio: a number, a law of depth, or a curve of depth that is constant beyond its ends.
 struct Ratio
 {
     double number = 0.0;
@@ -27,8 +27,8 @@ struct Ratio
 };
 
 /// A body that can be touched: a mesh with a frame and curves of force against deflection at each of its nodes. Section 4 of
-/// the chapter interpolates between the nodes. The curves are given for one or more shapes of tools. In files it is the value of
-/// a setting of kind `surface`; see docs/graph_file.md.
+/// the chapter interpolates between the nodes. The curves are given for one or more shapes of tools. In files, a surface is the value
+/// of a setting of kind `surface`; see docs/graph_file.md.
 struct Surface
 {
     using Curves = std::array<Law, 3>;   ///< force against deflection along u^x, u^y and u^z
@@ -43,8 +43,8 @@ struct Surface
     /// of the first shape first.
     std::vector<Ratio> mu;
 
-    /// By tool, and then by node or once for all nodes: the share of each shape in the response, at least 0, with sum 1. Empty: tool
-    /// number t is shape t.
+    /// By tool, then by node (or one entry for all nodes): the share of each shape in the response. Shares are at least 0 and add up
+    /// to 1. Empty: tool number t is shape t.
     std::vector<std::vector<std::vector<double>>> weights {};
 };
 

@@ -15,7 +15,7 @@ std::string problemOf (const Surface&);
 std::string wrongSide (const Surface&);   ///< the surface faces inwards, and therefore attracts
 std::string leaning (const Surface&);     ///< a flat patch has leaning frames, so without friction there is no potential
 
-bool isFlat (const Surface&);             ///< all triangles are in one plane
-bool isPatchThatLeans (const Surface&);   ///< flat, but at least one of the given frames is not level with the plane
+bool isFlat (const Surface&);             ///< all triangles lie in one plane
+bool isPatchThatLeans (const Surface&);   ///< the surface is flat, but at least one of the given frames is tilted against its plane
 
 }   // namespace tactus

@@ -12,7 +12,7 @@ namespace
 {
 const NodeLibrary*& newest() noexcept
 {
-    static const NodeLibrary* library = nullptr;   // in a function, because libraries register before main in any order
+    static const NodeLibrary* library = nullptr;   // in a function, because libraries register before main, in no fixed order
     return library;
 }
 }   // namespace

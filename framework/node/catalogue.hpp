@@ -42,7 +42,7 @@ struct NodeType
     void* (*paramsOf) (void* node) noexcept;
     void (*initialiseOutputs) (void* outputs) noexcept;
     void (*tick) (void* node, const double* const* sources, void* outputs) noexcept;
-    void (*tickStored) (void* node, const void* stored, const double* const* sources, void* outputs) noexcept;   ///< `stored` is a Params
+    void (*tickStored) (void* node, const void* stored, const double* const* sources, void* outputs) noexcept;   ///< `stored` points to a Params
     void (*peek) (void* node, const double* const* sources, void* outputs) noexcept;
     int (*delay) (const void* node) noexcept;
     Cost (*cost) (const void* node);

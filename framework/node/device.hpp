@@ -82,9 +82,9 @@ struct Reading
     Vec3 true_position = Vec3::Zero();   ///< in m; known only for a simulated device
     Vec3 true_velocity = Vec3::Zero();   ///< in m/s; known only for a simulated device
 
-    // What the limits of the motors took away from the last effort that was written.
+    // The part of the last written effort that the limits of the motors removed.
     Vec3 unrendered_force = Vec3::Zero();    ///< written minus rendered, in N
-    Vec3 unrendered_torque = Vec3::Zero();   ///< likewise, in N m
+    Vec3 unrendered_torque = Vec3::Zero();   ///< written minus rendered, in N m
 
     Channels axes {};      ///< in the order of DeviceLayout::axes
     Channels signals {};   ///< signal inputs, channel 1 first
@@ -99,7 +99,7 @@ struct Effort
     Channels signals {};          ///< signal outputs, channel 1 first; in N, m/s2 or 1, depending on calibration
 };
 
-/// What a device has in addition to a tool that moves and can be pushed, and what is known of that tool. Nodes find their part of a
+/// What a device has in addition to a tool that moves and can be pushed, and what is known about that tool. Nodes find their part of a
 /// Reading and an Effort by these names. At most Channels::most axes and channels of each kind, and 32 buttons, are used; the rest is
 /// ignored.
 struct DeviceLayout
@@ -108,8 +108,8 @@ struct DeviceLayout
     std::vector<std::string> efforts {};   ///< axes that can be pushed
     std::vector<std::string> buttons {};   ///< names by bit; "" for a button without a name
     int signal_inputs = 0, signal_outputs = 0;
-    double mass = 0.0;      ///< that the hand moves at the tool, in kg; 0: unknown
-    double damping = 0.0;   ///< of the mechanics at the tool, in N s/m; 0: unknown
+    double mass = 0.0;      ///< mass that the hand moves at the tool, in kg; 0: unknown
+    double damping = 0.0;   ///< damping of the mechanics at the tool, in N s/m; 0: unknown
 
     bool operator== (const DeviceLayout&) const = default;
 };

@@ -26,8 +26,8 @@
 ///   peek() -> Outputs         for a node whose outputs do not depend on this tick's inputs: returns them before tick,
 ///                             which then returns nothing. This is how a delay opens a loop.             [tick thread]
 ///   delay() -> int            the number of ticks between a peeking node's inputs and outputs; 1 if absent
-///   tick (in, stored)         called instead of tick (in) where wires or feeds drive params: `stored` are the Params as file and
-///                             knobs have them, without wires and feeds. Params are then plain numbers and choices [tick thread]
+///   tick (in, stored)         called instead of tick (in) where wires or feeds drive params: `stored` holds the Params as set by
+///                             file and knobs, without wires and feeds. Such Params must be plain numbers and choices [tick thread]
 ///   adopt (old)               takes over the state of the instance this one replaces                    [tick thread]
 ///   claims() -> Claims        what tests and the validator can hold the node to
 ///   bind (state)              gives a device node the DeviceState of its role: before prepare, with the settings in place,
@@ -35,9 +35,9 @@
 ///   missing (layout) -> string  the part that a device node needs and the device of its role lacks, worded to follow "has";
 ///                             empty if none. Without that part the node reads 0, or has no effect       [main thread]
 ///   learn (layout)            tells a node that is not bound to a device what is known of the device that its inputs come from,
-///                             directly or through other nodes; of a node without such inputs, the device that its outputs go
-///                             to. Called before warning with what the graph describes, before prepare, and again when the role
-///                             gets its device, then without allocating                                   [main or tick thread]
+///                             directly or through other nodes, or, if it has no such inputs, of the device that its outputs
+///                             go to. Called before warning and prepare, with what the graph describes, and again when the
+///                             role gets its device, then without allocating                             [main or tick thread]
 ///   effort() -> Effort        makes the node a sink: the effort that it adds to its role, after tick    [tick thread]
 ///
 /// A tick is noexcept and total. On a non-finite input it gives 0 on all outputs (-1 on `state`), re-opens the contact, and

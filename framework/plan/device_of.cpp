@@ -14,8 +14,8 @@ namespace
 {
 constexpr int none = -1;
 
-/// For each node, the device node that is the nearest against the direction of `next`, or none. All device nodes advance along
-/// `next` by one wire at a time.
+/// For each node, the nearest device node from which `next` leads to it, or `none`. The search starts at all device nodes at once,
+/// and follows one wire in each round.
 std::vector<int> nearestDevice (const Flat& flat, const Grouped<int>& next)
 {
     std::vector<int> nearest (flat.nodes.size(), none), front;
@@ -63,7 +63,7 @@ DeviceLayout describedDevice (const graph::Graph& graph, const std::string& role
     const auto* description = graph.device (role);
     if (description == nullptr || ! description->is_object()) return {};
 
-    Messages unheeded;   // whoever makes the device reports them
+    Messages unheeded;   // makeDevice() reports the same problems
     ObjectReader in (*description, {}, unheeded);
     return { .mass = in.number ("mass", unit::kilogram, Bounds::positive(), 0.0), .damping = in.number ("damping", unit::damping, Bounds::notNegative(), 0.0) };
 }

@@ -8,12 +8,12 @@
 namespace tactus::plan
 {
 
-/// Gives each node that learns of a device (NodeType::learn) a role: that of the nearest device node from which wires lead to the
-/// node, else of the nearest one to which wires lead from the node. Of several at the same distance, the first by path. The
-/// role stays empty if there is none.
+/// Gives a role to each node that learns about a device (NodeType::learn): the role of the nearest device node from which wires lead to
+/// the node, or if there is none, of the nearest one to which wires lead from the node. Of several at the same distance, the
+/// first by path counts. The role stays empty if no wires lead from or to a device node.
 void findDevices (Flat&);
 
-/// What the graph says of the tool of a role's device: `mass` and `damping` in its description. The session may bind another device.
+/// What the graph says about the tool of a role's device: `mass` and `damping` in its description. The session may use another device.
 DeviceLayout describedDevice (const graph::Graph&, const std::string& role);
 
 }   // namespace tactus::plan

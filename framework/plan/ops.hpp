@@ -92,7 +92,7 @@ struct DrivenNode
     void* node;
     std::vector<Drive> drives;
     std::vector<const double*> faulted;   // sources that all point to NaN; as many as the node has
-    std::vector<std::byte> params;        // the node's Params as stored; empty if the node does not ask for them
+    std::vector<std::byte> params;        // the stored Params of the node; empty if the node does not ask for them
 
     void tick (const double* const* sources, void* outputs) noexcept
     {

@@ -51,7 +51,8 @@ std::shared_ptr<const Mesh> meshFrom (const Json& json, const Files& files, cons
     return std::make_shared<const Mesh> (std::move (mesh));
 }
 
-/// True if a value is a list at this depth, where it would hold something else if it were the same for all shapes.
+/// True if a value is given by shape (weights: by node): it then has a list at this depth, where a value for all shapes (weights: for all
+/// nodes) has a number or an object.
 bool isByShape (const Json& json, int depth)
 {
     const Json* inner = &json;
@@ -136,7 +137,7 @@ Ratio ratioFrom (const Json& json, const std::string& key)
     return { .number = inRange (numberFrom (json, unit::gain, key), { 0.0, inf }, key) };
 }
 
-/// One ratio for all nodes, or one per node. With `all`, one ratio is repeated for every node.
+/// Adds one ratio for all nodes, or one per node. With `all`, a single ratio is repeated for every node.
 void addRatios (std::vector<Ratio>& ratios, const Json& json, std::size_t nodes, bool all, const std::string& key)
 {
     const bool one = ! json.is_array() || json.size() == 1;
@@ -164,7 +165,7 @@ std::vector<Ratio> ratiosFrom (const Json& json, std::size_t nodes, std::size_t 
 
 std::vector<double> sharesFrom (const Json& json, std::size_t shapes, const std::string& key)
 {
-    listFrom (json, shapes, "a share of each of the " + std::to_string (shapes) + " tools that have curves", key);
+    listFrom (json, shapes, "one share for each of the " + std::to_string (shapes) + " tools that have curves", key);
     std::vector<double> shares;
     for (std::size_t s = 0; s < shapes; ++s)
         shares.push_back (inRange (numberFrom (json[s], unit::gain, under (key, s)), { 0.0, 1.0 }, under (key, s)));

@@ -102,7 +102,7 @@ void Engine::equip (Channel& channel, Device& device, const GuardLimits& limits,
     device.prepare (dt_s);
 }
 
-/// Binds nodes to new devices, and tells those that learn of them.
+/// Binds nodes to new devices, and tells the nodes that learn about a device what it is.
 void Engine::introduce (Running& plan) noexcept
 {
     for (const auto& node : plan.bound)

@@ -164,7 +164,7 @@ private:
         bool is_news = false;           // the nodes are not bound to its device yet
     };
 
-    /// A node that belongs to a role: it has either hook.
+    /// A node that belongs to a role, and the hook that it has: bind or learn.
     struct BoundNode
     {
         void (*bind) (void* node, const DeviceState&);

@@ -16,7 +16,7 @@ const Json* guardOf (const Json& description)
     return description.is_object() && description.contains ("guard") ? &description.at ("guard") : nullptr;
 }
 
-/// Most graphs include no guard, and then need no search.
+/// True if a file that the graph includes has a guard. Most graphs include none, and then need no search.
 bool includesGuards (const graph::Graph& graph)
 {
     return std::ranges::any_of (graph.files, [] (const auto& included) {

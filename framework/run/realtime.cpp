@@ -63,7 +63,7 @@ std::optional<std::string> lockMemory()
 
 std::optional<std::string> raisePriority (int) noexcept
 {
-    return "not known on this system";
+    return "Tactus cannot request it on this system";
 }
 
 std::vector<std::string> becomeRealTime (std::optional<int>)

@@ -9,15 +9,15 @@ namespace tactus
 {
 
 /// Real-time priorities (SCHED_FIFO), above those of interrupt threads, which have 50. The thread of an emergency stop comes before
-/// the tick, so that a graph that takes most of its period cannot delay the stop; this thread does nearly nothing. The thread that
+/// the tick, so that a graph that takes most of its period cannot delay the stop; this thread does very little. The thread that
 /// receives messages comes after the tick, because anyone can flood it: it runs in the pauses between ticks.
 namespace priority
 {
 inline constexpr int messages = 60, tick = 70, stop = 71;
 }
 
-/// Requests a real-time priority for the calling thread. Returns why it was refused, if it was; the thread then keeps the
-/// priority that it has. [the thread itself]
+/// Requests a real-time priority for the calling thread. If the system refuses it, returns the reason, and the thread keeps its
+/// priority. [the thread itself]
 std::optional<std::string> raisePriority (int) noexcept;
 
 /// Requests what helps the calling thread to be on time: priority over everything that is not real-time (SCHED_FIFO), a fixed

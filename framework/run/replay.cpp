@@ -103,8 +103,8 @@ Result<> Replay::fetch()
     next = std::move (*fetched);
     if (next && ! most && next->tick > most_ticks_unasked)
         return here (Message::error ("log/too_long", {},
-                                     "the log asks for " + std::to_string (next->tick) + " ticks; without a duration, " + std::to_string (most_ticks_unasked)
-                                         + " are the most",
+                                     "the log asks for " + std::to_string (next->tick) + " ticks; without a duration, a replay is limited to "
+                                         + std::to_string (most_ticks_unasked) + " ticks",
                                      "give a --duration in s"));
     return {};
 }

@@ -22,7 +22,7 @@ namespace tactus
 class Replay
 {
 public:
-    /// The longest run that a file may ask for by itself: seven hours at 4 kHz. A duration that the user gives may be longer.
+    /// The longest run, in ticks, that a log may request: seven hours at 4 kHz. A duration that the user gives may be longer.
     static constexpr std::uint64_t most_ticks_unasked = 100'000'000;
 
     struct Options
@@ -32,7 +32,7 @@ public:
         std::vector<plan::Override> overrides {};   ///< in addition to the overrides in the log
         Assets* assets = nullptr;
         Services services {};      ///< not used for answers to async queries, which come from the log
-        double duration_s = 0.0;   ///< 0: the whole log, up to most_ticks_unasked
+        double duration_s = 0.0;   ///< 0: the whole log, which must not be longer than most_ticks_unasked
         std::string program {};    ///< this program and its version, as in RunHead
     };
 

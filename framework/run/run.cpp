@@ -83,15 +83,15 @@ namespace
 {
 GuardLimits readGuard (Json guard, const std::string& where, Messages& messages, const DeviceLayout& layout)
 {
-    for (const auto* key : { "max_signal", "max_signal_slew" })   // may be text in the unit of the calibration: keep only the value
+    for (const auto* key : { "max_signal", "max_signal_slew" })   // may be text with a unit, that of the calibration: keeps only the value
         if (guard.is_object() && guard.contains (key) && guard[key].is_string())
             if (const auto limit = parseMeasure (guard[key].asString())) guard[key] = limit->value;
     return readGuardLimits (guard, where, messages, layout);
 }
 }   // namespace
 
-/// Opens the device of a role. The guards that the graph and the graphs that it includes describe for the role apply even if an
-/// option or a session chose another device.
+/// Opens the device of a role. If the graph or a graph that it includes has a guard for this role, the guard applies even to a device
+/// that an option or a session has chosen.
 Run::RoleDevice Run::openOne (const std::string& role, const graph::Graph& graph, const std::vector<IncludedGuard>& guards, const Plan& plan,
                               Messages& messages)
 {

@@ -46,7 +46,7 @@ void readOff (std::string_view bytes, MeshBuilder& mesh)
         auto face = nextLine (lines);
         corners.clear();
         auto left = wholeNumber (takeWord (face), lines.number());
-        if (left > 2) checkBudget (&Budgets::triangles, static_cast<std::size_t> (left - 2), lines.number());   // before they are kept
+        if (left > 2) checkBudget (&Budgets::triangles, static_cast<std::size_t> (left - 2), lines.number());   // before the corners are stored
         for (; left > 0; --left)
             corners.push_back (wholeNumber (takeWord (face), lines.number()));
         mesh.face (corners, lines.number());

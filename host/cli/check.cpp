@@ -39,14 +39,14 @@ struct CheckOptions
     check::JudgeOptions judge {};
 };
 
-/// What a role of the graph is checked with.
+/// The device and the hand with which a role of the graph is checked.
 struct CheckedRole
 {
     check::RoleDevice device;
-    std::optional<check::HandChoice> hand {};   // empty: that of the graph
+    std::optional<check::HandChoice> hand {};   // empty: the hand that the graph describes
 };
 
-/// The devices of --device: each option gives a role numbers, a hand, or both.
+/// Reads --device: each option gives a role the numbers of a device, a hand, or both.
 class Choices
 {
 public:
@@ -130,7 +130,7 @@ private:
     static bool takeProfileFile (CheckedRole& role, const std::string& file)
     {
         const auto text = readFile (fs::path (file));
-        if (! text) fail (Message::error ("device/unreadable", file, "the file cannot be read: " + text.error().text, "check its name"));
+        if (! text) fail (Message::error ("device/unreadable", file, "the file cannot be read: " + text.error().text, "check its name and permissions"));
         const auto json = Json::tryParse (*text);
         if (! json || ! json->is_object() || json->contains ("driver")) return false;
         const auto loaded = hid::readProfileText (*text);
@@ -164,7 +164,7 @@ std::string describe (const check::Condition& c)
     return line;
 }
 
-/// The profiles that break no condition of a role. Without the damping, the first condition cannot be judged, so the damping must be known.
+/// The profiles that break no condition of a role. Profiles without a damping are left out: `stiffness` cannot be judged for them.
 std::string ableDevices (const check::Demand& demand, const std::string& role, const check::JudgeOptions& options, const hid::LoadedProfiles& profiles)
 {
     std::string names;
@@ -183,7 +183,7 @@ std::string ableDevices (const check::Demand& demand, const std::string& role, c
 void print (const CheckOptions& options, const check::Demand& demand, const std::vector<check::RoleDevice>& devices,
             const std::vector<check::Condition>& conditions, const hid::LoadedProfiles& profiles)
 {
-    std::cout << printableName (options.graph) << " at " << numberText (demand.rate_hz) << " Hz, along " << number (demand.lasts_s) << " s of motion\n";
+    std::cout << printableName (options.graph) << " at " << numberText (demand.rate_hz) << " Hz, over " << number (demand.lasts_s) << " s of motion\n";
     for (const auto& role : demand.roles)
     {
         const auto device = std::ranges::find (devices, role.role, &check::RoleDevice::role);
@@ -197,14 +197,13 @@ void print (const CheckOptions& options, const check::Demand& demand, const std:
             }
         if (role.has_other_efforts) std::cout << "  its torques, axes and signals are not judged\n";
         if (const auto able = is_broken ? ableDevices (demand, role.role, options.judge, profiles) : ""; ! able.empty())
-            std::cout << "  profiles that break no condition whose numbers are known: " << able << '\n';
+            std::cout << "  profiles that break no condition, as far as their numbers are known: " << able << '\n';
     }
     const auto broken = std::ranges::count (conditions, check::Verdict::broken, &check::Condition::verdict);
     std::cout << (broken == 0 ? "no condition is broken" : std::to_string (broken) + (broken == 1 ? " condition is broken" : " conditions are broken"))
-              << "; all are necessary, none is sufficient\n";
+              << "; the conditions are necessary, not sufficient\n";
 }
 
-/// A sweep of the workspace of each role's device, or of a box of 10 cm around the origin.
 std::vector<check::HandChoice> handsOf (const std::vector<CheckedRole>& roles)
 {
     std::vector<check::HandChoice> hands;
@@ -213,6 +212,7 @@ std::vector<check::HandChoice> handsOf (const std::vector<CheckedRole>& roles)
     return hands;
 }
 
+/// Moves each role through the workspace of its device, or through a box of 10 cm around the origin.
 check::HandMotion sweep (std::shared_ptr<Plan> plan, const std::vector<CheckedRole>& roles, double duration_s)
 {
     if (duration_s <= 0.0) duration_s = 4.0;
@@ -277,16 +277,19 @@ void addCheck (const Command& app)
     command.addOption ("graph", options->graph, "The graph file").required();
     command.addOption ("--device", options->devices,
                        "The device of a role: ROLE=PROFILE, ROLE=FILE.json (a profile or a device) or ROLE=sim; ROLE=gesture:NAME and ROLE=trace:FILE.csv "
-                       "choose its hand; may be given more than once")
+                       "choose the hand of a role; may be given more than once")
         .oneValueEach();
-    command.addFlag ("--sweep", options->sweep, "Sweep the workspaces of the devices instead of following hands");
-    command.addOption ("--speed", options->judge.speed, "Speed of strokes over textures in m/s; default: as measured").check (finiteWithin (1e-6, 1e3));
-    command.addOption ("--rate", options->rate_hz, "Ticks per second; default: that of the graph").check (finiteWithin (1.0, 1e6));
+    command.addFlag ("--sweep", options->sweep, "Sweep the workspaces of the devices instead of following the hands");
+    command.addOption ("--speed", options->judge.speed, "Speed of strokes over textures in m/s; default: the measured speed").check (finiteWithin (1e-6, 1e3));
+    command.addOption ("--rate", options->rate_hz, "Ticks per second; default: the graph's rate").check (finiteWithin (1.0, 1e6));
     command.addOption ("--duration", options->duration_s, "Length of the motion in s").check (finiteWithin (1e-3, 60.0));
     command.addOption ("--set", options->sets, "Set a parameter, NODE.PARAM=VALUE, or a control, CONTROL=0…1; may be given more than once").oneValueEach();
-    command.addOption ("--alpha", options->judge.factors.alpha, "Samples per period of a texture; default 2, better 10").check (finiteWithin (1e-3, 1e6));
-    command.addOption ("--beta", options->judge.factors.beta, "Position quanta per period of a texture; default 2, better 10").check (finiteWithin (1e-3, 1e6));
-    command.addOption ("--gamma", options->judge.factors.gamma, "Force quanta per amplitude of a texture; default 10").check (finiteWithin (1e-3, 1e6));
+    command.addOption ("--alpha", options->judge.factors.alpha, "Required samples per period of a texture; default 2, recommended 10")
+        .check (finiteWithin (1e-3, 1e6));
+    command.addOption ("--beta", options->judge.factors.beta, "Required position quanta per period of a texture; default 2, recommended 10")
+        .check (finiteWithin (1e-3, 1e6));
+    command.addOption ("--gamma", options->judge.factors.gamma, "Required force quanta per amplitude of a texture; default 10")
+        .check (finiteWithin (1e-3, 1e6));
     command.addFlag ("--json", options->json, "Print JSON, for use by programs");
     addLimits (command);
     command.footer ("Exit status 1 if a condition is broken. docs/check.md explains each condition.\n\n"

@@ -252,13 +252,13 @@ void CommandRun::decideLength (Pace pace)
         for (const auto& [role, d] : running->devices())
             seconds = std::max (seconds, d.device->duration());
 
-    // A file of some bytes must not keep the computer busy for hours. Who gives --duration knows what it asks for.
+    // A small file must not keep the computer busy for hours. A user who gives --duration wants a run of that length.
     constexpr auto most_unasked = static_cast<double> (Replay::most_ticks_unasked);
     const double by_files = feed ? static_cast<double> (feed->ticks()) : seconds * rate();
     if (pace == Pace::offline && options.duration_s == 0.0 && by_files > most_unasked)
     {
-        const auto asks = (feed ? "the feed asks for " : "a device's path asks for ") + numberText (std::ceil (by_files)) + " ticks";
-        fail ("run/too_long", asks + "; without --duration, " + numberText (most_unasked) + " are the most", "give a --duration in s or a lower --rate");
+        const auto asks = (feed ? "the feed lasts " : "a device's path lasts ") + numberText (std::ceil (by_files)) + " ticks";
+        fail ("run/too_long", asks + "; without --duration, a run has at most " + numberText (most_unasked), "give a --duration in s or a lower --rate");
     }
 
     if (feed) count = feed->ticks();

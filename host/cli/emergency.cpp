@@ -56,7 +56,7 @@ Result<> Emergency::rearm (std::chrono::steady_clock::time_point asked)
     return {};
 }
 
-/// Handles the keys, and the signals, which the other threads hold.
+/// Handles the keys, and the emergency signals, which all other threads block.
 void Emergency::listen (const std::stop_token& stop)
 {
     static_cast<void> (raisePriority (priority::stop));   // if real-time priority is refused, the run reports that

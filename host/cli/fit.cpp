@@ -28,14 +28,14 @@ struct Options
     std::string recording, preset, plot, mass;
 };
 
-/// "50 g", "0.05 kg" or "0.05". 0 if nothing is given.
+/// Reads "50 g", "0.05 kg" or "0.05" as a mass in kg. 0 if the text is empty.
 double readMass (const std::string& text)
 {
     if (text.empty()) return 0.0;
     const auto mass = parseMeasure (text);
     const bool fits = mass && (mass->dimension == unit::kilogram.dimension || mass->dimension == Dimension {});
     if (! fits || ! (mass->value > 0.0) || ! std::isfinite (mass->value))
-        throw UsageError ("--mass", quote (text) + " is no mass; write \"50 g\" or 0.05 (kg)");
+        throw UsageError ("--mass", quote (text) + " is not a mass above 0; write one such as \"50 g\" or 0.05 (kg)");
     return mass->value;
 }
 
@@ -47,7 +47,7 @@ RecordedLoop readLoop (const std::string& file)
         const auto at = table.column (name);
         if (! at && required)
             fail (Message::error ("fit/column", file, "there is no column " + quote (name),
-                                  "name the columns depth (m), force (N) and, if there are times, t (s)"));
+                                  "name the columns depth (m), force (N) and, if the recording has times, t (s)"));
         for (std::size_t r = 0; at && r < table.rows(); ++r)
             values.push_back (table.at (r, *at));
         return values;
@@ -68,7 +68,7 @@ std::string rounded (double value, int digits = 3)
     return out.str();
 }
 
-/// A tap on a soft wall that hands over to a shock.
+/// The graph of a tap on a soft wall. The force of the wall hands over to a shock.
 constexpr const char* tap = R"({
   "format": "tactus-graph", "version": 1, "name": "", "tags": ["shock", "tap", "fitted"], "rate_hz": 10000,
   "devices": {
@@ -101,7 +101,7 @@ graph::Graph presetOf (const ShockFit& fit, const std::string& name, const std::
 {
     auto graph = readGraph (tap).graph;
     graph.name = name;
-    graph.about = "A tap whose loop of force against depth has the area of a recorded one, ";
+    graph.about = "A tap whose loop of force against depth has the same area as a recorded loop: ";
     graph.about += rounded (1e3 * fit.recorded_area) + " mJ at " + rounded (fit.speed) + " m/s.";
     for (auto& node : graph.root.nodes)
         if (node.name == "blow")
@@ -122,14 +122,14 @@ void describe (const ShockFit& fit, const std::string& file)
               << "  damping    " << toJson (fit.damping).dump() << "\n"
               << "  mass       " << rounded (fit.mass) << " kg, at " << rounded (fit.speed) << " m/s\n"
               << "  area       " << rounded (1e3 * fit.recorded_area, 6) << " mJ recorded, " << rounded (1e3 * fit.fitted_area, 6) << " mJ fitted, "
-              << rounded (1e3 * fit.played_area, 6) << " mJ of the played shock at this speed\n"
+              << rounded (1e3 * fit.played_area, 6) << " mJ when the shock is played at this speed\n"
               << "  residual   " << rounded (fit.residual) << " N rms, " << rounded (100.0 * fit.residual / fit.peak, 2) << " % of the peak\n";
 
     constexpr double much = 0.1;
     if (! (std::abs (fit.played_area - fit.recorded_area) <= much * fit.recorded_area))
-        std::cerr << printableName (file) << ": warning: a free impact of this mass at this speed loses another energy than the recording\n"
-                  << "    the recording is probably of a driven movement, or --mass is not its mass; the loop of the law on the recorded path has the right "
-                     "area [fit/not_free]\n";
+        std::cerr << printableName (file) << ": warning: a free impact of this mass at this speed does not lose the same energy as the recorded one\n"
+                  << "    the tool was probably pushed during the recording, or --mass is wrong: correct --mass, or record a tool that moves freely; the\n"
+                  << "    fitted force over the recorded depth still has the recorded area [fit/not_free]\n";
 }
 
 void draw (const ShockFit& fit, const std::string& name, const std::string& file)
@@ -169,12 +169,13 @@ void addFit (const Command& app)
 
     const auto options = std::make_shared<Options>();
     const auto shock = command.add ("shock", "Fit the spring and damper of shock.hunt_crossley to a recorded impact");
-    shock.addOption ("recording", options->recording, "CSV file with the columns depth (m), force (N) and, if there are times, t (s)").required();
+    shock.addOption ("recording", options->recording, "CSV file with the columns depth (m), force (N) and, if it has times, t (s)").required();
     shock.addOption ("-o,--out", options->preset, "The preset to write: a graph file").required();
-    shock.addOption ("--mass", options->mass, "The mass that was thrown back, such as \"50 g\"; needed without times. Default: impulse over change of speed");
+    shock.addOption ("--mass", options->mass,
+                     "The mass that was thrown back, such as \"50 g\"; required if the recording has no times. Default: impulse divided by change of speed");
     shock.addOption ("--plot", options->plot, "Draw both loops into this PNG file");
-    shock.footer ("The loop of the fitted force over the recorded depth has exactly the area of the recorded loop, because the energy that is\n"
-                  "lost is felt more than the shape of the loop. Depth and force are positive inside the object.\n\n"
+    shock.footer ("The loop of the fitted force over the recorded depth has exactly the area of the recorded loop, because the hand\n"
+                  "feels the lost energy more than the shape of the loop. Depth and force are positive inside the object.\n\n"
                   "Examples:\n"
                   "  tactus fit shock tap_on_steel.csv -o tap_on_steel.json\n"
                   "  tactus fit shock loop.csv --mass \"30 g\" -o rubber.json --plot rubber.png");

@@ -15,7 +15,7 @@ int main (int argc, char** argv)
                 "  tactus nodes                                   all node types\n"
                 "  tactus nodes friction.elasto_plastic           one datasheet\n"
                 "  tactus validate graphs/*.json                  all problems in all files\n"
-                "  tactus check graphs/dry_wood.json              can its devices render it?\n"
+                "  tactus check graphs/dry_wood.json              can its devices render the graph?\n"
                 "  tactus render graphs/dry_wood.json --out wood.csv --plot wood.png\n"
                 "  tactus play graphs/dry_wood.json --duration 4  in real time\n"
                 "  tactus set roughness=0.7                       while it plays\n"

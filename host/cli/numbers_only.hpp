@@ -11,13 +11,13 @@
 namespace tactus::host
 {
 
-/// The profiles of devices that are known but that Tactus cannot open.
+/// The profiles of devices that Tactus knows but cannot open.
 std::vector<std::shared_ptr<const hid::Profile>> knownByNumbers (const hid::LoadedProfiles&);
 
-/// Id, name and numbers, each number with its source. In SI units.
+/// Id, name and numbers of a profile, in SI units; each number with its source.
 Json numbersJsonOf (const hid::Profile&);
 
-/// Two lines for the list of devices.
+/// Two lines about a profile, for the list of devices.
 std::string numbersTextOf (const hid::Profile&);
 
 }   // namespace tactus::host

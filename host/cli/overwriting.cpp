@@ -37,7 +37,8 @@ void reportUnfinished (const std::vector<std::string>& outputs)
 {
     for (const auto& file : outputs)
         for (const auto& left : leftUnfinished (file))
-            std::cerr << "note: " << inOneLine (left.string()) << " is what an earlier run recorded before it was killed; rename it to keep it, or remove it\n";
+            std::cerr << "note: " << inOneLine (left.string())
+                      << " is what an earlier run recorded before it was killed; rename the file to keep it, or remove it\n";
 }
 
 }   // namespace tactus::host

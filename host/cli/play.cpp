@@ -208,7 +208,7 @@ void run (const Options& options)
 {
     if (! options.records.empty() && options.outputs.empty())
         throw UsageError ("--record names what to record but not where: --out FILE is required");
-    holdEmergencySignals();   // for the thread of the emergency stop
+    holdEmergencySignals();   // so that only the thread of the emergency stop handles them
     Playing { options }.play();
 }
 }   // namespace

@@ -22,7 +22,7 @@ struct Stop
 {
 };
 
-/// Escapes what could disturb a terminal, and makes it one line, so that a name in a file cannot forge a message.
+/// Escapes what could disturb a terminal and joins the text into one line, so that a name in a file cannot forge a message.
 std::string inOneLine (std::string);
 
 /// Prints each message, up to most_messages, to stderr: the location, the problem, the remedy. Returns the number of errors.

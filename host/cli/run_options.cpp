@@ -49,7 +49,7 @@ void RunOptions::addTo (const Command& app)
     app.addOption ("--set", sets, "Set a parameter, NODE.PARAM=VALUE, or a control, CONTROL=0…1; may be given more than once").oneValueEach();
     app.addOption ("--device", devices,
                    "The device of a role: ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME, ROLE=hid:PROFILE (hid:auto), "
-                   "ROLE=audio:CARD, or ROLE=ID with a profile that holds only numbers, to simulate its device; may be given more than once")
+                   "ROLE=audio:CARD, or ROLE=ID to simulate the device of a profile that holds only numbers; may be given more than once")
         .oneValueEach();
     addLimits (app);
 }

@@ -51,10 +51,10 @@ public:
         {
             const auto mine = sentBy (own.*steps), theirs = sentBy (other.*steps);
             const auto isSent = [&] (const Step& s) { return std::ranges::any_of (theirs, [&] (const Step& t) { return sendsTheSame (s, t); }); };
-            if (! std::ranges::all_of (mine, isSent)) return "its \"init\" or \"exit\" sends a report that the shipped one does not send";
-            // A device that was not told its mode, or not told to rest, can act on the same reports in another way.
+            if (! std::ranges::all_of (mine, isSent)) return "its \"init\" or \"exit\" sends a report that the shipped profile does not send";
+            // A device that was not told its mode, or not told to rest, can respond to the same reports in a different way.
             if (! own.outputs.empty() && ! std::ranges::equal (mine, theirs, sendsTheSame))
-                return "its \"init\" or \"exit\" leaves out a report of the shipped one, or sends them in another order";
+                return "its \"init\" or \"exit\" leaves out a report of the shipped profile, or sends the reports in another order";
         }
         if (own.outputs.empty()) return {};
         if (auto difference = inReadings(); ! difference.empty()) return difference;
@@ -86,14 +86,15 @@ private:
 
     bool readTheSame (const std::string& mine, const std::string& theirs) const
     {
-        if (theirs.empty()) return true;   // the limits of the other profile do not depend on it
+        if (theirs.empty()) return true;   // the limits of the other profile do not depend on this field
         const auto [a, a_id] = fieldOf (own, mine);
         const auto [b, b_id] = fieldOf (other, theirs);
         if (a == nullptr || b == nullptr) return a == b;
         return a_id == b_id && a->bits == b->bits && a->scale == b->scale && a->offset == b->offset && a->unit == b->unit && a->unwrap == b->unwrap;
     }
 
-    /// The axis of the other profile that an effort pushes, as the guard finds it: that of the same name, or axisN for effortN; "" for none.
+    /// The axis of the other profile that an effort pushes. The guard finds it by the same rule: the axis of the same name, or axisN for
+    /// effortN. "" if there is none.
     std::string axisOf (const std::string& effort) const
     {
         constexpr std::string_view prefix = "effort";
@@ -107,26 +108,26 @@ private:
     {
         for (std::size_t i = 0; i < 3; ++i)
         {
-            if (! readTheSame (own.position[i], other.position[i])) return std::string ("its position ") + "xyz"[i] + " is read otherwise";
-            if (! readTheSame (own.rotation[i], other.rotation[i])) return std::string ("its rotation ") + "xyz"[i] + " is read otherwise";
+            if (! readTheSame (own.position[i], other.position[i])) return std::string ("its position ") + "xyz"[i] + " is read differently";
+            if (! readTheSame (own.rotation[i], other.rotation[i])) return std::string ("its rotation ") + "xyz"[i] + " is read differently";
         }
-        if (! readTheSame (own.valid, other.valid)) return "its \"valid\" is read otherwise";
+        if (! readTheSame (own.valid, other.valid)) return "its \"valid\" is read differently";
         for (const auto& theirs : other.inputs)
         {
             const auto isSame = [&] (const InputReport& mine) {
                 return mine.id == theirs.id && readTheSame (mine.sequence, theirs.sequence) && readTheSame (mine.timestamp, theirs.timestamp);
             };
-            if (std::ranges::none_of (own.inputs, isSame)) return "the number or the time of its reports is read otherwise";
+            if (std::ranges::none_of (own.inputs, isSame)) return "the sequence number or the timestamp of its reports is read differently";
         }
         for (const auto& report : own.outputs)
             for (const auto& field : report.fields)
-                if (const auto axis = axisOf (field.name); ! readTheSame (axis, axis)) return "its axis " + quote (axis) + " is read otherwise";
+                if (const auto axis = axisOf (field.name); ! readTheSame (axis, axis)) return "its axis " + quote (axis) + " is read differently";
         for (const auto& theirs : other.alarms)
         {
             const auto isSame = [&] (const Alarm& mine) {
                 return mine.is == theirs.is && mine.while_driven <= theirs.while_driven && readTheSame (mine.field, theirs.field);
             };
-            if (std::ranges::none_of (own.alarms, isSame)) return "it lacks the alarm of the shipped one on " + quote (theirs.field);
+            if (std::ranges::none_of (own.alarms, isSame)) return "it lacks the shipped profile's alarm on " + quote (theirs.field);
         }
         return {};
     }

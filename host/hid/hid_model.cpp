@@ -117,8 +117,8 @@ EffortValues HidModel::asked (const HidEffort& effort) const noexcept
     return all;
 }
 
-/// What the motors cannot render of a force, both in the device's own axes: the share that the pose or a current takes away, and
-/// components along axes without a motor.
+/// The part of a force that the motors cannot render: the share that the pose or a current limit takes away, and the components along
+/// axes without a motor. Both forces are in the device's own axes.
 Vec3 HidModel::outOfReach (const Vec3& push) const noexcept
 {
     const double share = pose.strength * kinematics.share (Kinematics::torques (pose, push));

@@ -48,7 +48,7 @@ public:
     /// force. For direct and linear devices, the torques themselves.
     Vec3 motors (const Vec3& torques) const noexcept;
 
-    /// The share of these torques, 0…1, that motors() can render.
+    /// The share of the given torques, 0…1, that motors() can render.
     double share (const Vec3& torques) const noexcept;
 
 private:

@@ -10,7 +10,7 @@ namespace tactus::host::hid
 {
 namespace
 {
-/// Reads "source" and "guess" of a number or of the workspace. One of them says how far the number can be trusted.
+/// Reads "source" and "guess" of a number or of the workspace. At least one of the two must be given.
 template <typename Number>
 void readOrigin (ProfileFields& in, Number& number)
 {
@@ -46,7 +46,8 @@ DeviceReach readReach (ProfileFields& in)
     reach.min = in.vector ("min", unit::metre, reach.min);
     reach.max = in.vector ("max", unit::metre, reach.max);
     if (! (reach.min.array() <= reach.max.array()).all())
-        in.error ("max", "profile/out_of_range", "max lies below min", "write the smaller coordinate in min and the larger one in max");
+        in.error ("max", "profile/out_of_range", "max is less than min on at least one axis",
+                  "on each axis, write the smaller coordinate in min and the larger one in max");
     readOrigin (in, reach);
     return reach;
 }

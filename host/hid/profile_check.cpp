@@ -64,7 +64,7 @@ public:
     {
         if (p.inputs.empty() && p.outputs.empty() && ! isNumbersOnly (p))
             in.error ("inputs", "profile/missing", "the profile has no reports",
-                      "add \"inputs\" or \"outputs\"; or, for a device that Tactus cannot open, \"physics\" without \"match\"");
+                      "add \"inputs\" or \"outputs\"; for a device that Tactus cannot open, add \"physics\" and remove \"match\"");
         count ("inputs", "axes", axes, most_axes);
         count ("inputs", "buttons", buttons, 32);
         count ("outputs", "efforts", efforts, most_efforts);

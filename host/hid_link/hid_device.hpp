@@ -117,7 +117,7 @@ private:
     Nanoseconds arrived_last = 0;   // arrival of the report before; 0: none since the device was connected
     double driven_for = 0.0;        // how long the motors have been driven, in s
 
-    // What the limits of the motors took away from the last effort, in N and N m.
+    // The part of the last effort that the limits of the motors removed, in N and N m.
     Vec3 unrendered_force = Vec3::Zero(), unrendered_torque = Vec3::Zero();
 
     std::vector<Streamed> streams;

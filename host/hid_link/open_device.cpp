@@ -134,7 +134,7 @@ FoundDevice findDevice (const Json& description, HidSystem& system, const Loaded
 
     if (named && isNumbersOnly (*named))
         return refuse ("hid/numbers_only", "Tactus cannot open a " + named->name + ": its profile holds only numbers",
-                       "simulate it: write --device ROLE=" + named->id);
+                       "to simulate the device, write --device ROLE=" + named->id);
 
     const auto connected = eachOnce (system.connected(), all);
     std::vector<Match> matches;

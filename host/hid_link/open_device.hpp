@@ -28,8 +28,8 @@ struct FoundDevice
 /// needed only if several devices fit. The profile "pid" means any device with force feedback according to the USB
 /// standard, with a "calibration" (readCalibration); so does "auto" if no profile fits. [main thread]
 ///
-/// Ids: hid/unknown_profile, hid/numbers_only, hid/not_connected, hid/several, hid/calibration, those of ObjectReader and profileOf, and the warnings
-/// of profiles.
+/// Ids: hid/unknown_profile, hid/numbers_only, hid/not_connected, hid/several, hid/calibration, those of ObjectReader and profileOf,
+/// and the warnings of profiles.
 FoundDevice findDevice (const Json& description, HidSystem&, const LoadedProfiles&);
 
 /// The limits from a device's profile, tightened by a description. A device that takes efforts always has a ramp and a watchdog.

@@ -277,7 +277,8 @@ Result<> check (const Figure& figure, const std::filesystem::path& path)
     if (figure.width < smallest || figure.width > largest || figure.height < 0 || figure.height > largest)
         return Message::error ("plot/size", path.string(),
                                "a figure cannot be " + std::to_string (figure.width) + " by " + std::to_string (figure.height) + " pixels",
-                               "choose " + std::to_string (smallest) + " to " + std::to_string (largest) + " pixels");
+                               "choose a width from " + std::to_string (smallest) + " to " + std::to_string (largest)
+                                   + " pixels, and a height of at most " + std::to_string (largest));
 
     for (const auto& axes : figure.panels)
         for (const auto& [label, x, y, colour, style] : axes.series)
@@ -300,7 +301,7 @@ Result<> writePng (const Figure& figure, const std::filesystem::path& path)
     FigureLayout layout (figure);
     if (! layout.arrange())
         return Message::error ("plot/size", path.string(), "the figure is too small for " + std::to_string (figure.panels.size()) + " panels",
-                               "plot fewer panels, make the figure higher, or leave out its height");
+                               "plot fewer panels, make the figure taller, or leave out its height");
 
     juce::MemoryOutputStream png;
     juce::PNGImageFormat().writeImageToStream (Painter (layout).paint(), png);

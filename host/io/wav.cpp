@@ -91,7 +91,7 @@ Result<Signal> readWav (const std::filesystem::path& path)
 
     const std::size_t bytes_per_frame = reader->numChannels * reader->bitsPerSample / 8;
     if (bytes_per_frame > largest_frame_bytes)
-        return Message::error ("wav/too_many_channels", path.string(), "it has " + std::to_string (reader->numChannels) + " channels",
+        return Message::error ("wav/too_many_channels", path.string(), "it has too many channels: " + std::to_string (reader->numChannels),
                                "save it with fewer channels");
 
     // Checked before memory is allocated, because a header may claim any size.
@@ -118,7 +118,7 @@ Result<Signal> readWav (const std::filesystem::path& path)
         const auto now = std::min (frames_per_block, frames - done);
         if (! reader->read (pointers.data(), static_cast<int> (channels), static_cast<juce::int64> (done),
                             static_cast<int> (now), false))
-            return Message::error ("wav/unreadable", path.string(), "reading stopped midway", "check the disk");
+            return Message::error ("wav/unreadable", path.string(), "reading failed before the end of the file", "check the disk");
 
         for (std::size_t channel = 0; channel < channels; ++channel)
             for (std::size_t i = 0; i < now; ++i)

@@ -91,7 +91,7 @@ std::size_t OscPort::dropped() const
 
 void OscPort::listen (const std::stop_token& stop)
 {
-    static_cast<void> (raisePriority (priority::messages));   // for emergency stops; if it is refused, the run reports that
+    static_cast<void> (raisePriority (priority::messages));   // so that emergency stops do not wait; if the priority is refused, the run reports that
     std::vector<char> buffer (largest_packet);
     while (! stop.stop_requested())
     {

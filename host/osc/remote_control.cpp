@@ -35,7 +35,7 @@ juce::String juceText (const std::string& s) { return juce::String::fromUTF8 (s.
 /// A name from the graph; the answer may be printed in a terminal.
 juce::String nameText (const std::string& s) { return juceText (printableName (s)); }
 
-/// A sentence for an answer. A name in it must not forge another line in the terminal that prints it.
+/// A sentence for an answer, in one line: a name in the sentence must not be able to fake another line of output in a terminal.
 std::string inOneLine (std::string text)
 {
     std::ranges::replace (text, '\n', ' ');

@@ -41,7 +41,7 @@ void call (const std::atomic<Act>& act) noexcept
     if (const auto a = act.load()) a();
 }
 
-/// The program that starts this one may have left signals blocked. Threads that start later inherit what this thread unblocks. The
+/// The program that started this one may have left signals blocked. Threads that start later inherit what this thread unblocks. The
 /// emergency signals stay as they are: see holdEmergencySignals.
 void unblockOthers() noexcept
 {

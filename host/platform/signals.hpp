@@ -19,12 +19,12 @@ void requestStop() noexcept;
 /// and to those that it starts later, so call it before there are other threads. [main thread]
 void holdEmergencySignals() noexcept;
 
-/// The calling thread handles the signals that the others hold. [any thread]
+/// From now on, the calling thread handles the signals that the other threads hold. [any thread]
 void takeEmergencySignals() noexcept;
 
 /// Sets the actions of two signals, on systems that have them: SIGUSR1 calls `stop`, the emergency stop; SIGUSR2, which rearmed in
-/// earlier versions, calls `asked_to_rearm`. The system calls them on any thread that does not hold these signals, whatever the
-/// thread is doing. Null: no action. [main thread]
+/// earlier versions, calls `asked_to_rearm`. The system calls these functions on any thread that does not hold the signals, whatever
+/// the thread is doing. Null: no action. [main thread]
 void watchForEmergency (void (*stop)() noexcept, void (*asked_to_rearm)() noexcept) noexcept;
 
 }   // namespace tactus::host

@@ -34,11 +34,11 @@ Owned<T> owned (T* p) noexcept
 }
 }   // namespace
 
-/// The connection, and what it has created. After open(), only the thread uses it. libxcb, unlike Xlib, has no error handlers that
-/// the whole process shares, and does not end the process if the server goes away.
+/// The connection to the X server, and what was created through it. After open(), only the thread `listening` uses this struct.
+/// libxcb, unlike Xlib, has no error handlers that the whole process shares, and does not end the process if the server goes away.
 struct WindowStop::Server
 {
-    ~Server() { xcb_disconnect (connection); }   // the server then destroys `glass`
+    ~Server() { xcb_disconnect (connection); }   // the X server then destroys `glass`
 
     bool isThere() const noexcept { return xcb_connection_has_error (connection) == 0; }
 
@@ -55,7 +55,7 @@ struct WindowStop::Server
             if (symbols[i] == escape_symbol) escape.set (static_cast<std::size_t> (first + i / map->keysyms_per_keycode));
     }
 
-    /// True if the server carries out the request.
+    /// True if the X server carries out the request.
     bool accepts (xcb_void_cookie_t request) const noexcept { return ! owned (xcb_request_check (connection, request)); }
 
     bool watch (xcb_window_t window)
@@ -82,8 +82,8 @@ struct WindowStop::Server
     }
 
     xcb_connection_t* connection = nullptr;
-    xcb_window_t glass = 0;       // the invisible window over the area
-    std::bitset<256> escape {};   // the codes of the keys that are Esc
+    xcb_window_t glass = 0;       // the invisible window over the area that receives the clicks
+    std::bitset<256> escape {};   // the key codes of Esc
     Area placed {};
 };
 
@@ -92,10 +92,10 @@ Result<std::unique_ptr<WindowStop>> WindowStop::open (std::uintptr_t window, Act
     auto server = std::make_unique<Server>();
     server->connection = xcb_connect (nullptr, nullptr);
     if (! server->isThere())
-        return Message::error ("stop/no_server", {}, "there is no second connection to the X server",
+        return Message::error ("stop/no_server", {}, "Tactus cannot open a second connection to the X server",
                                "let the X server accept more clients, or run the graph with `tactus play`");
     if (window == 0 || window > largest_id || ! server->watch (static_cast<xcb_window_t> (window)))
-        return Message::error ("stop/no_window", {}, "the X server does not know the window", "run the graph with `tactus play`");
+        return Message::error ("stop/no_window", {}, "the X server does not let Tactus watch its window", "run the graph with `tactus play`");
     server->readKeyboard();
     return std::unique_ptr<WindowStop> (new WindowStop (std::move (server), std::move (actions)));
 }

@@ -23,7 +23,7 @@ namespace tactus::host
 class WindowStop
 {
 public:
-    /// In pixels of the window. The numbers have the size that the X protocol gives them.
+    /// In pixels of the window. The types are those of the X protocol.
     struct Area
     {
         std::int16_t x = 0, y = 0;
@@ -33,20 +33,20 @@ public:
         bool operator== (const Area&) const = default;
     };
 
-    /// What to do. Both functions are called on the thread of this object and must not wait.
+    /// What a stop does. Both functions are called on the thread of this object and must not wait.
     struct Actions
     {
         std::function<void()> stop;             ///< Esc, or a click on the area
         std::function<void()> emergency_stop;   ///< Shift+Esc
     };
 
-    /// `window` is the number that the X server gave the window. Ids: stop/no_server, stop/no_window. [main thread]
+    /// `window` is the X id of the window. Ids: stop/no_server, stop/no_window. [main thread]
     static Result<std::unique_ptr<WindowStop>> open (std::uintptr_t window, Actions);
     ~WindowStop();
     WindowStop (const WindowStop&) = delete;
     WindowStop& operator= (const WindowStop&) = delete;
 
-    /// From 20 ms after this call at the latest, a click on the area is a stop. An empty area receives none. [main thread]
+    /// At most 20 ms after this call, clicks on the area begin to count as stops. In an empty area there are none. [main thread]
     void setArea (const Area& a) noexcept { wanted = a; }
 
 private:
@@ -60,7 +60,7 @@ private:
     std::unique_ptr<Server> server;
     Actions actions;
     std::atomic<Area> wanted { Area {} };
-    std::jthread listening;   // declared last: it uses the other members
+    std::jthread listening;   // declared last, because this thread uses the other members
 };
 
 }   // namespace tactus::host

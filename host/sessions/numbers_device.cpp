@@ -10,7 +10,7 @@ namespace tactus::host
 {
 namespace
 {
-/// As in "mass, damping"; empty if all numbers have a source.
+/// The ids of the guessed numbers, as in "mass, damping"; empty if none is a guess.
 std::string guessesOf (const DeviceNumbers& numbers)
 {
     std::string all;
@@ -62,7 +62,7 @@ Result<DeviceOption> parseDeviceOption (std::string_view text, const std::vector
     option->description = withNumbers (std::move (option->description), numbers);
     const auto guesses = guessesOf (numbers);
     notes.push_back (Message::warning ("device/numbers_only", where,
-                                       profile->name + " has no open driver, so the role gets a simulated device with its numbers"
+                                       profile->name + " has no open driver, so the role gets a simulated device with the numbers of the profile"
                                            + (guesses.empty() ? std::string() : " (guessed: " + guesses + ")"),
                                        "the profile says where each number comes from; for a real device, write " + role + "=hid:PROFILE"));
     return option;

@@ -10,12 +10,13 @@ namespace tactus::host
 {
 
 /// The description of a simulated device with the numbers of a profile. Hand, start, axes and guard are those of `sim`, the
-/// description of a simulated device; what the profile does not know has its default. The peak force tightens the guard's max_force.
+/// description of a simulated device. Numbers that the profile does not give have their defaults. The peak force tightens the
+/// guard's max_force.
 Json withNumbers (Json sim, const DeviceNumbers&);
 
 /// Like tactus::parseDeviceOption, but `ROLE=ID` may also name a profile that holds only numbers, whose device Tactus cannot open. The
-/// role then gets a simulated device with these numbers, and `notes` says so (device/numbers_only, a warning). The profiles are
-/// asked for only if the option is of no other form. Ids: those of tactus::parseDeviceOption. [main thread]
+/// role then gets a simulated device with these numbers, and `notes` says so (device/numbers_only, a warning). `profiles` is
+/// called only if the option has no other form. Ids: those of tactus::parseDeviceOption. [main thread]
 Result<DeviceOption> parseDeviceOption (std::string_view text, const std::vector<std::pair<std::string, Json>>& described,
                                         const std::filesystem::path& folder_of_graph, const std::function<const hid::LoadedProfiles&()>& profiles,
                                         Messages& notes);

@@ -17,8 +17,8 @@ namespace tactus::host
 ///
 /// Rotation, pressure, axes, signals and force are unchanged: a force in N in the graph is the same force on the hand. With
 /// `scale`, a wall of K N/m therefore feels like one of K * scale: at 2 the hand moves half as far for the same depth. A
-/// loop that is stable up to K on the device is stable up to K / scale in the graph. The tool's mass and damping, too, are in the graph
-/// what they are on the device divided by scale.
+/// loop that is stable up to K on the device is stable up to K / scale in the graph. In the graph, the tool's mass and damping
+/// are those on the device divided by scale.
 struct Workspace
 {
     double scale = 1.0;           ///< graph position divided by device position; above 0

@@ -47,8 +47,8 @@ SwitchLoop simplified (const SwitchLoop&, double tolerance);
 ///
 /// A law of travel alone has a potential, even where it falls, and a bristle of constant stiffness whose bound depends only on
 /// position never generates energy. So the key is passive for every motion, not only for the two measured ones. After a reversal
-/// its force changes from one curve to the other over a travel of 2 bound / stiffness. It does not pull. Beyond the last point it
-/// continues as a stop with the steepest slope of the law.
+/// its force changes from one curve to the other over a travel of 2 bound / stiffness. The key never pulls. Beyond the last point, the
+/// law continues as a stop with its steepest slope.
 graph::Graph keyFrom (const SwitchLoop&, const std::string& name, double stiffness);
 
 }   // namespace tactus::host

@@ -17,26 +17,26 @@ namespace tactus::nodes
 ///
 ///     hit = rate of depth over the last samples up to the contact
 ///
-/// The speed is the slope of the straight line from an earlier sample to that of the contact. Only samples at which depth has
-/// changed count: an encoder at rest between two of its steps says nothing about where the tool is, but the moment of a step does.
-/// The line reaches back over at least two such samples, and on for as long as all of them lie within the noise of a straight line,
-/// at most over `window`. So a slow approach in steps of an encoder's quantum is averaged, a braking approach is not, and a steady
-/// one is exact in either case.
+/// The speed is the slope of a straight line from an earlier sample to the first sample in contact. Only samples at which depth has
+/// changed count: at a step of the encoder, the position of the tool is known; between two steps, it is not. The line reaches back
+/// over at least two such samples, and further while all of them lie within the noise of a straight line, but not beyond `window`.
+/// So a slow approach in steps of an encoder's quantum is averaged, and a braking approach is not. A steady approach with exact
+/// positions gives the exact speed.
 ///
 /// The noise is `release` or the quantum of the encoder, whichever is larger. The node takes as the quantum the largest length of
-/// which all steps so far are multiples, if it is at most 0.1 mm. For exact positions this length soon becomes 0.
+/// which all steps so far are multiples, if that length is at most 0.1 mm. For exact positions the length soon becomes 0.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 6 (where "initial value of d^z" means its rate);
-/// the line is from Janabi-Sharifi, Hayward & Chen 2000.
+/// the line of variable length is from Janabi-Sharifi, Hayward & Chen 2000.
 ///
 /// Good to know
-///  - All lengths are in metres and seconds, so the speed does not depend on the tick rate. In steps of 50 um, a steady approach at
-///    5 mm/s or more is within 5 %, with a window of 40 ms and a rate of 1 kHz or more.
-///  - A braking approach is averaged over at most the time in which it leaves a straight line by the noise. So a large `release`
-///    makes the speed of a braking tool too high: with 50 um, 0.3 m/s and 5 m/s2 by some percent.
-///  - If the noise of the position is not in steps, or the object is tilted against the axes of the device, set `release` to at
-///    least the noise, or one touch may count as several and the speed is noisy.
-///  - A contact ends no sooner than one quantum below the surface.
+///  - Noise and window are in metres and seconds, not in ticks, so the speed does not depend on the tick rate. For a steady approach
+///    at 5 mm/s or more in steps of 50 um, it is within 5 %, with a window of 40 ms and a rate of 1 kHz or more.
+///  - A braking approach is averaged at most over the time in which it departs from a straight line by the noise. So a large
+///    `release` makes the speed of a braking tool too high: by a few percent with 50 um, 0.3 m/s and 5 m/s2.
+///  - If the position has noise other than encoder steps, or the object is tilted against the axes of the device, set `release` to
+///    at least the noise. Otherwise one touch may count as several, and the speed is noisy.
+///  - A contact ends no sooner than one quantum outside the object.
 ///  - A tool that is inside on the first sample, or after a fault, is in contact but triggers no hit. A contact that begins
 ///    within `refractory` of a hit, or slower than `min_speed`, never triggers one.
 struct Impact
@@ -75,7 +75,7 @@ struct Impact
                { .hard = { 0, inf }, .usual = { 0, 1e-3 } }),
         param (&Params::min_speed, "min_speed", unit::speed, "slowest touch that triggers a hit", { .hard = { 0, inf }, .usual = { 0, 0.5 } }),
         param (&Params::refractory, "refractory", unit::second, "time after a hit in which no other is triggered", { .hard = { 0, inf }, .usual = { 0, 0.2 } }),
-        param (&Params::window, "window", unit::second, "longest time over which the speed is taken",
+        param (&Params::window, "window", unit::second, "longest time over which the speed is measured",
                { .hard = { 0, longest_window }, .usual = { 0.005, 0.05 } }),
         output (&Outputs::hit, "hit", unit::hit, "impact speed on the first tick of a contact, else 0"),
         output (&Outputs::contact, "contact", unit::state, "1 in contact, 0 apart"),
@@ -124,14 +124,14 @@ struct Impact
 
 private:
     static constexpr double rounding = 1e-10;                 // m; smaller differences are rounding
-    static constexpr double finest = 1e-8, coarsest = 1e-4;   // m; quanta of encoders
+    static constexpr double finest = 1e-8, coarsest = 1e-4;   // m; limits for the quantum of an encoder
 
-    /// The quantum of the encoder, or 0 if the positions are exact. Computed quanta differ in the last bits.
+    /// The quantum of the encoder, or 0 if the positions are exact. A little less than computed, to allow for rounding.
     double quantum() const noexcept { return ! is_exact && common <= coarsest ? common * (1.0 - 1e-6) : 0.0; }
 
     double noise() const noexcept { return std::max (params.release, quantum()); }
 
-    /// Euclid's algorithm finds the largest common divisor of this step and the steps before.
+    /// Updates the largest common divisor of all steps with this step, by Euclid's algorithm.
     void learn (double step) noexcept
     {
         if (is_exact || ! (step > rounding)) return;
@@ -164,15 +164,15 @@ private:
         return (ago (0) - ago (n)) / (n * dt);
     }
 
-    /// Length of the line in ticks. `least` and `most` are the slopes of the lines that pass within the noise of every step so far.
+    /// Length of the line in ticks. All lines with slopes from `least` to `most` pass within the noise of every step so far.
     int line (int longest) const noexcept
     {
         const double play = noise() * (1.0 + 2e-6);
         double least = -inf, most = inf;
-        int best = longest, steps = 0;   // without any step, the depth has not changed for all of the time
+        int best = longest, steps = 0;   // if no step is found, the tool was at rest for all of this time
         for (int n = 1; n <= longest && least <= most; ++n)
         {
-            const bool oldest = n + 1 == known;   // an encoder may have stood there before
+            const bool oldest = n + 1 == known;   // perhaps not a step: an encoder may have rested there before
             if (oldest ? steps > 0 && quantum() > 0.0 : ! (std::abs (ago (n) - ago (n + 1)) > rounding)) continue;
 
             const double rise = ago (0) - ago (n), slope = rise / n;
@@ -190,7 +190,7 @@ private:
     int newest = 0, known = 0;
     bool touching = false;
     double common = 0.0;                  // largest common divisor of all steps, in m
-    bool is_exact = false;                // true once there is no common divisor
+    bool is_exact = false;                // true once the steps have no common divisor
     double since_hit = inf;               // ticks
     double dt = 1.0 / Setup {}.rate_hz;   // s
 };

@@ -128,7 +128,7 @@ struct Blade
 private:
     struct Sample
     {
-        Params params;   // read when the blade touched
+        Params params;   // as read when the blade last touched the sample
         Cutting cutting;
         Cutting::Crack crack;
         bool touching = false;

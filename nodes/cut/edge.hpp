@@ -14,52 +14,56 @@
 namespace tactus::nodes
 {
 
-/// A straight edge that is pressed into a flat body at any angle and cuts it where it is: a cut has a place.
+/// A straight edge that is pressed into a flat body at any angle. It cuts the body where it is pressed in, and the cut stays there.
 ///
-/// The edge lies along the x axis of the tool. Where it first cracks the body is the plane of the cut: the one spanned by the edge and the
-/// normal of the surface. Until then the edge slides over the surface. In this plane the edge is a line from (x_a, delta_a) to
-/// (x_b, delta_b): places along the surface, and depths. The body consists of columns of the width h = `grid`. Column j has a
-/// crack c_j, and is a strip of cut.blade's sample:
+/// The edge lies along the x axis of the tool. It slides over the surface until it cracks the body. From then on the cut has a plane,
+/// spanned by the edge and the normal of the surface. In this plane the edge is a line from (x_a, delta_a) to (x_b, delta_b), where
+/// x is the position along the surface and delta the depth. The body consists of columns of width h = `grid`. Column j has a crack
+/// of depth c_j, and behaves like a strip of the sample of cut.blade:
 ///
 ///     E      = sum_j (h / L) w_j V (delta_j, c_j)   V: work of a slow blade from the tip of the crack to delta_j, with rupture and cutting
 ///     force  = - dE / dp                            w_j: share of column j that is under the edge; delta_j: mean depth there
 ///     torque = - dE / dphi                          L: length of the edge, `width`
 ///
-/// The derivatives are exact, at fixed cracks. Then each crack follows the edge by the rules of cut.blade, which turns V into elastic
-/// energy plus J_c L times the growth of the crack plus the loss at rupture.
+/// The derivatives are exact and taken with the cracks fixed. Then each crack follows the edge by the rules of cut.blade. This turns V
+/// into elastic energy, plus J_c L times the growth of the crack, plus the loss at rupture.
 ///
-/// Pressed in level, this is cut.blade. Tilted by an angle, the edge meets ever more resistance over a depth of L sin (angle), until
-/// it cuts with J_c L cos (angle): J_c times the surface that it opens.
+/// A level edge behaves like cut.blade. The resistance of an edge that is tilted by an angle rises over a depth of L sin (angle).
+/// Then the edge cuts with the force J_c L cos (angle): J_c times the surface that it opens per metre of depth.
 ///
-/// Drawn along itself, the edge enters columns from the side. Their cracks follow only when the edge is above the whole column; until
-/// then they only yield, with all of V. So at a crack of depth c it is held back by J_c c, plus the loss at rupture per
-/// length of edge: Griffith's balance again. If the hand lets go, the edge is pushed back by at most 2 h.
+/// An edge that is drawn along itself enters columns from the side. The crack of such a column follows only when the edge is over the
+/// whole column; until then the column only yields, with all of V. So at a crack of depth c, the edge is held back by the force J_c c
+/// plus the loss at rupture per length of edge: Griffith's balance again. If the hand lets go, the edge is pushed back by at most 2 h.
 ///
-/// Across the plane there is no force: in its cut, the edge is felt as if it were projected onto the plane. Only when all of the edge has
-/// left the body can it go elsewhere. If both ends are within h of the plane of an old cut when it comes back, the edge enters
-/// this cut again, and feels nothing down to the tip of the crack. Everywhere else the body is whole.
+/// There is no force across the plane: an edge in its cut feels as if it were projected onto the plane. The edge can cut elsewhere only
+/// after all of it has left the body. If it comes back with both ends within h of the plane of an old cut, it enters this cut
+/// again and feels nothing down to the tip of the crack. Everywhere else the body is whole.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 3, Fig. 5; Mahvash & Hayward 2001.
 ///
 /// Departures from the printed chapter
 ///  - Fig. 5 shows an edge and does not say how it may move. Here the force is a gradient, and cracks change only where this lowers E.
-///    So the work of the hand is the growth of stored plus dissipated energy for every movement, and no movement generates energy.
-///  - A part of the edge has the share of rupture_force and of the laws that its length along the surface has of `width`.
+///    So for every movement, the work of the hand is the growth of stored plus dissipated energy, and no movement generates energy.
+///  - A part of the edge gets a share of rupture_force and of the laws: its length along the surface divided by `width`.
 ///
 /// Good to know
-///  - Time-free, like cut.blade: one tick may lead from the air to deep inside, and the edge ends where a slow edge would.
-///  - The columns under a tilted edge burst one after another. Each takes the share h / L of the drop in force: with a skin that is
-///    tougher than the flesh, this is felt as a crunch, finer with a finer grid.
-///  - Where the edge ends above a column, the whole column cracks, but only the part under the edge is paid for. So the surface of a cut is
-///    right within one column at each end.
-///  - The last 16 cuts are remembered. The next one replaces the cut that was not used for longest. Along a cut, 512 columns are
-///    remembered: where the edge is 512 columns further on, the cut has healed. If `width` is above 250 h, columns are width / 250 wide.
+///  - As with cut.blade, only movement counts, not time: if one tick takes the edge from the air to deep inside, the cracks end where
+///    they would with a slow edge.
+///  - The columns under a tilted edge burst one after another. Each causes the share h / L of the drop in force. If the skin is tougher
+///    than the flesh, this feels like a crunch, which is finer with a finer grid.
+///  - If the edge ends over a column, the whole column cracks, but the hand does only the work for the part under the edge. So the
+///    surface of a cut is right to within one column at each end.
+///  - The node remembers the last 16 cuts. A new cut replaces the one that has been unused for longest. The node remembers 512 columns
+///    of each cut: once the edge is 512 columns further on, the cut has healed behind it. If `width` is above 250 h, columns are
+///    width / 250 wide.
 ///  - Cuts that cross each other do not feel each other. An edge that slides over the surface passes over old cuts.
 ///  - An edge that enters upright opens no surface, and feels nothing.
-///  - For flanks that rub, and walls that keep the blade in its cut, patch friction nodes with a normal force proportional to the crack.
-///  - Params are read when the edge touches uncut material. State 5: all columns under the edge are cut through.
-///  - Over random loops of 10 000 ticks that tilt, turn and move aside, the work of the hand by the trapezoid rule is the growth of stored plus
-///    dissipated energy within 0.4 %. The difference is the error of the rule, and falls with the step.
+///  - For friction on the flanks, and for walls that keep the blade in its cut, add friction nodes whose normal force is proportional
+///    to the crack.
+///  - Params are read when the edge touches uncut material. `state` is 5 while all columns under the edge are cut through.
+///  - Over random loops of 10 000 ticks that tilt the edge, turn it and move it aside, the work of the hand, integrated by the
+///    trapezoid rule, is the growth of stored plus dissipated energy to within 0.4 %. The difference is the error of the rule, which
+///    falls with the size of the steps.
 ///  - The end of an edge that is drawn along itself feels a stiffness of about J_c c / h, which grows with the depth of the cut.
 struct Edge
 {
@@ -100,7 +104,7 @@ struct Edge
     static constexpr Info info {
         .id = "cut.edge",
         .name = "Edge",
-        .summary = "A straight edge that cuts a body where it is, at any angle.",
+        .summary = "A straight edge that cuts a body at any angle; each cut stays in its place.",
         .source = "Hayward 2007, section 3, Fig. 5; Mahvash & Hayward 2001",
     };
 
@@ -111,13 +115,13 @@ struct Edge
         param (&Params::toughness, "toughness", unit::toughness, "J_c, energy per area of new surface",
                { .hard = { 0, inf }, .usual = { 0, 5000 }, .latch = true }),
         param (&Params::rupture_force, "rupture_force", unit::newton,
-               "force of the level edge that bursts the sample open; at least width times toughness",
+               "force at which a level edge bursts the sample open; at least width times toughness",
                { .hard = { 0, inf }, .usual = { 0, 50 }, .latch = true }),
-        param (&Params::thickness, "thickness", unit::metre, "length of the crack at which the sample falls in two; 0: never",
+        param (&Params::thickness, "thickness", unit::metre, "length of the crack at which the sample is cut through; 0: never",
                { .hard = { 0, inf }, .usual = { 0, 0.2 }, .latch = true }),
-        setting (&Settings::law, "law", unit::metre, unit::newton, "force of the level edge against depth while there is no crack"),
+        setting (&Settings::law, "law", unit::metre, unit::newton, "force on a level edge against depth, while there is no crack"),
         setting (&Settings::cracked_law, "cracked_law", unit::metre, unit::newton, "force against depth beyond the crack; if not given, the same as law"),
-        setting (&Settings::grid, "grid", unit::metre, "width of a column, which has one depth of crack; how near two cuts may be",
+        setting (&Settings::grid, "grid", unit::metre, "width of a column, which has one crack depth; an edge this near to an old cut enters it again",
                  { .hard = { 1e-6, 1 }, .usual = { 1e-4, 1e-2 } }),
         setting (&Settings::normal, "normal", unit::gain, "direction out of the body; any length but 0"),
         setting (&Settings::offset, "offset", unit::metre, "position of the surface along the unit normal", { .usual = { -0.1, 0.1 } }),
@@ -143,7 +147,7 @@ struct Edge
 
     void prepare (const Setup&) { n = direction (settings.normal); }
 
-    /// Cuts are kept unless the surface has another direction.
+    /// Keeps the cuts unless the normal of the surface has changed.
     void adopt (const Edge& old) noexcept
     {
         memory = old.memory;
@@ -153,7 +157,7 @@ struct Edge
         if (contact.touching) contact.cutting = read (contact.params);
     }
 
-    /// The end of an edge that is drawn along itself is as stiff as the cut is deep.
+    /// The stiffness at the end of an edge that is drawn along itself grows with the depth of the cut, without a bound.
     Claims claims() const { return { .passive = true, .stiffness = inf }; }
 
     Outputs tick (const Inputs&) noexcept;
@@ -162,11 +166,11 @@ private:
     using Line = LineOverColumns;
     using Part = LineOverColumns::Part;
 
-    /// What the columns under the edge add up to.
+    /// Sums over the columns under the edge.
     struct Sum
     {
         double by_depth[2] {};                          // derivative of E by the depth of a and b, N
-        double by_place[2] {};                          // derivative of E by the place of a and b while the depth of the line at each place stays, N
+        double by_place[2] {};                          // derivative of E by the position of a and b if the ends slide along the line, N
         double stored = 0.0, lost = 0.0, crack = 0.0;   // J, J, m
         int columns = 0, in_two = 0;
         bool bursts = false, cuts = false, presses = false, cracked = false;
@@ -174,12 +178,12 @@ private:
 
     struct Contact
     {
-        Params params;   // read on touch
+        Params params;   // read when the edge touches uncut material
         Cutting cutting;
         bool inside = false, touching = false;
         bool floats = false;   // the cut has no crack yet
         std::size_t cut = 0;
-        std::int32_t first = 0, end = 0;   // columns under the edge on the last tick inside
+        std::int32_t first = 0, end = 0;   // the columns that were under the edge on the last tick inside are first to end - 1
     };
 
     struct Memory
@@ -266,7 +270,7 @@ inline Cutting Edge::read (const Params& p) const noexcept
     return { { .cost = p.width * p.toughness, .rupture_force = p.rupture_force, .thickness = p.thickness }, settings.law, cracked() };
 }
 
-/// The cut that the edge is in, or above; null if it is above whole material. An edge that enters whole material begins a cut, which
+/// The cut that the edge is in or above; null if the material below it is whole. An edge that enters whole material begins a cut, which
 /// floats with the edge until it cracks.
 inline CutPlaces::Cut* Edge::cutUnder (const Vec3& a, const Vec3& b, bool inside) noexcept
 {
@@ -283,7 +287,7 @@ inline CutPlaces::Cut* Edge::cutUnder (const Vec3& a, const Vec3& b, bool inside
     return cut;
 }
 
-/// Puts a cut that has no crack yet where the edge is.
+/// Moves a cut that has no crack yet to the position of the edge.
 inline void Edge::follow (CutPlaces::Cut& cut, const Vec3& a, const Vec3& b) const noexcept
 {
     const Vec3 edge = direction (b - a), flat = edge - n * n.dot (edge);
@@ -301,7 +305,7 @@ inline bool Edge::touches (const CutPlaces::Cut& cut, const Line& line) noexcept
     return false;
 }
 
-/// The cracks under an edge that is above the surface.
+/// Counts the columns under an edge that is above the surface, and finds the deepest crack.
 inline void Edge::lookAt (const CutPlaces::Cut& cut, const Line& line, Sum& sum) noexcept
 {
     for (auto j = line.first (cut.spacing()); j < line.end (cut.spacing()); ++j)
@@ -314,7 +318,7 @@ inline void Edge::lookAt (const CutPlaces::Cut& cut, const Line& line, Sum& sum)
     }
 }
 
-/// Moves the edge to this line, and lets the cracks under it follow. `enters`: the edge was outside the body on the last tick.
+/// Moves the edge to this line, and lets the cracks under it follow. `enters` is true if the edge was outside the body on the last tick.
 inline void Edge::press (CutPlaces::Cut& cut, const Line& line, bool enters, Sum& sum) noexcept
 {
     const double h = cut.spacing();
@@ -355,7 +359,7 @@ inline void Edge::press (CutPlaces::Cut& cut, const Line& line, bool enters, Sum
     }
 }
 
-/// The derivative of V by depth, and V, after the crack has followed. The crack of a column that the edge enters from the side does not.
+/// V and its derivative by depth, after the crack has followed the edge. A column that the edge enters from the side keeps its crack.
 inline Law::Point Edge::pressColumn (CutPlaces::Column& column, const Part& part, double share, Sum& sum) const noexcept
 {
     Cutting::Crack crack = column.crack;
@@ -389,14 +393,14 @@ inline double Edge::stateOf (const Sum& s) noexcept
     return s.columns > 0 && s.in_two == s.columns ? 5.0 : 0.0;
 }
 
-/// These columns are no longer under the edge. The next time that it comes from the side, they first only yield.
+/// Marks columns that are no longer under the edge. If the edge later enters them from the side, they only yield at first.
 inline void Edge::release (CutPlaces::Cut& cut, std::int32_t first, std::int32_t end) noexcept
 {
     for (auto j = first; j < end; ++j)
         cut[j].follows = false;
 }
 
-/// The edge is out of the body, or nobody knows where it is.
+/// Ends the contact, because the edge has left the body or its position is unknown.
 inline void Edge::leave() noexcept
 {
     if (! contact.inside) return;

@@ -27,8 +27,8 @@ namespace tactus::nodes
 /// e = (1 + W (-(1 + x) exp (-(1 + x)))) / x of its impact speed v, with x = dissipation v and W Lambert's function.
 ///
 /// `dissipated_energy` is what damping and dissipation have taken so far: the integral of the damping part of N over depth, along
-/// straight lines between the samples. It never falls. The work of the hand on the wall is stored_energy plus dissipated_energy, up
-/// to what holding the force between samples leaks (below).
+/// straight lines between the samples. It never falls. The work of the hand on the wall is stored_energy plus dissipated_energy,
+/// except for the energy that leaks because the force is held between samples (see below).
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 4 (one patch) and eq. (10); Hunt & Crossley 1975.
 /// Eq. (10) is printed with a minus, which would create energy here, where the rate is positive into the object.
@@ -38,9 +38,9 @@ namespace tactus::nodes
 ///  - The force is held between samples, so a spring of stiffness K leaks K dp^2 / 2 for a movement dp in one sample: the device
 ///    needs a damping of at least K T / 2 (section 1).
 ///  - A short contact needs a high rate. At 1 kHz, a tool of 50 g that hits 5e5 d^1.5 with a dissipation of 1 s/m at 2 m/s comes back
-///    at up to 1.5 times its speed instead of 0.41 times, depending on where the samples fall. `warning` tries such a hit with the
-///    mass of the device, if the graph gives it, and names the rate that the contact needs. shock.hunt_crossley plays such a
-///    contact at a lower rate.
+///    at up to 1.5 times its speed instead of 0.41 times, depending on where the samples fall. `warning` computes such a hit with
+///    the mass of the device, if the graph gives the mass, and names the rate that the contact needs. shock.hunt_crossley can play
+///    such a contact at a lower rate.
 ///  - The rate of a quantised position is coarse: one quantum in one sample. Damping times quantum / T is felt as a tick.
 ///  - A wall that is moved by a wire or a knob does work, as a real moving wall does.
 struct Plane
@@ -163,26 +163,26 @@ private:
     double law (double depth) const noexcept { return settings.law ? settings.law (depth) : params.stiffness * depth; }
     double energy (double depth) const noexcept { return settings.law ? settings.law.energy (depth) : 0.5 * params.stiffness * depth * depth; }
 
-    /// Eq. (10), with `elastic` for K. The damping is that inside the wall.
+    /// The force N of a tool inside the wall: eq. (10), with `elastic` for K, plus viscous damping.
     double push (double elastic, double rate) const noexcept
     {
         return std::max (0.0, elastic * (1.0 + params.dissipation * rate) + params.damping * rate);
     }
 
-    /// The energy that this sample's damping takes on the straight way from the last sample. On the way out it takes at most what the
-    /// spring gives, because the wall does not pull.
+    /// The energy that the damping takes between the last sample and this one. While the tool leaves, this is at most what the spring
+    /// gives, because the wall does not pull.
     double loss (double depth, double stored, double rate) const noexcept
     {
         if (params.dissipation == 0.0 && params.damping == 0.0) return 0.0;
         const double before = std::max (0.0, last.depth), now = std::max (0.0, depth);
-        const double stored_before = settings.law ? last.stored : energy (before);   // the stiffness may have been turned since
+        const double stored_before = settings.law ? last.stored : energy (before);   // a knob may have changed the stiffness since
         const double damped = rate * (params.dissipation * (stored - stored_before) + params.damping * (now - before));
         return std::max (0.0, rate < 0.0 ? std::min (damped, stored_before - stored) : damped);
     }
 
     double returned (double rate_hz, double phase) const;
 
-    static constexpr double hard_hit = 2.0;   // m/s; the speed that `warning` tries
+    static constexpr double hard_hit = 2.0;   // m/s; the impact speed that `warning` assumes
 
     /// What is known of the tool.
     struct Tool
@@ -206,8 +206,8 @@ private:
 //==============================================================================
 // Implementation below.
 
-/// The fraction of its speed that the tool keeps after a hard hit, with the wall's force held between samples. It touches the wall
-/// this fraction of a sample before the first sample inside.
+/// The fraction of its speed that the tool keeps after a hard hit, with the wall's force held between samples. `phase` is the time
+/// from the touch to the first sample inside, in samples.
 inline double Plane::returned (double rate_hz, double phase) const
 {
     constexpr int longest = 1000;   // in samples
@@ -226,10 +226,10 @@ inline double Plane::returned (double rate_hz, double phase) const
     return -v / hard_hit;
 }
 
-/// Compares the hit with the same hit on the wall itself, of which every instant acts.
+/// Compares a sampled hard hit with the same hit on a continuous wall.
 inline std::string Plane::warning (const Setup& setup) const
 {
-    constexpr double tolerance = 0.2, many = 64.0;   // of the speed; in samples: a contact this long comes out right
+    constexpr double tolerance = 0.2, many = 64.0;   // fraction of the impact speed; samples in a contact that is always accurate
     if (! (tool.mass > 0.0)) return {};
 
     const auto force = [this] (double d, double v) noexcept { return d > 0.0 ? push (law (d), v) + tool.damping * v : 0.0; };
@@ -254,9 +254,9 @@ inline std::string Plane::warning (const Setup& setup) const
 
     std::ostringstream text;
     text << std::setprecision (2) << "a tool of " << tool.mass << " kg that hits at " << hard_hit << " m/s comes back at " << wrong
-         << " times its speed instead of " << right << " times, because the contact lasts only " << rebound.duration * setup.rate_hz << " samples; it needs ";
-    if (needed <= highest) text << "a rate of " << std::setprecision (7) << std::ceil (needed / digit) * digit << " Hz, ";
-    text << "a softer law, or shock.hunt_crossley to play it";
+         << " times its speed instead of " << right << " times, because the contact lasts only " << rebound.duration * setup.rate_hz << " samples; ";
+    if (needed <= highest) text << "raise the rate to " << std::setprecision (7) << std::ceil (needed / digit) * digit << " Hz, ";
+    text << "use a softer law, or play the contact with shock.hunt_crossley";
     return text.str();
 }
 

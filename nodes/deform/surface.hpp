@@ -34,13 +34,13 @@ namespace tactus::nodes
 /// body of stiffnesses k_t across and k_n along the normal has mu_c = mu k_n / k_t. mu_c may be a law or a curve of depth. Any
 /// adhesion function of Fig. 2 may move c, with d_max = mu_c d^z and d_stick = static_ratio d_max: see friction.elasto_plastic.
 ///
-/// c moves only downhill: it follows its way as far as the stored energy U (c, p) does not rise. Where the way is uphill, as from
-/// soft to stiff or over an edge, c holds on beyond its bound, as a real contact hooks on an edge. With `friction: frictionless`, or
-/// mu 0 everywhere, c slides down to a local minimum of U. On a flat body c is then the projection of p, and the force includes
-/// -dU/dc: without that term, a slide from soft to stiff would create energy.
+/// c moves only downhill: it moves along its path only while the stored energy U (c, p) does not rise. Where the path leads uphill,
+/// as from soft to stiff or over an edge, c stays where it is, even beyond its bound, as a real contact catches on an edge. With
+/// `friction: frictionless`, or mu 0 everywhere, c slides down to a local minimum of U. On a flat body c is then the projection of
+/// p, and the force includes -dU/dc: without that term, a slide from soft to stiff would create energy.
 ///
-/// A tool is inside if its way from the last sample outside crosses the surface, and belongs to the side that it came through, also
-/// in a thin plate where another side is nearer.
+/// A tool is inside if the straight line from its last sample outside crosses the surface. c is then on the side through which the
+/// tool entered, even in a thin plate where another side is nearer.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 4, eq. (5) to (9), Fig. 2, 8 and 9;
 /// Mahvash & Hayward 2004; smooth weights: Clough & Tocher 1965.
@@ -49,22 +49,22 @@ namespace tactus::nodes
 ///  - Interpolated frames are neither of unit length nor orthogonal: u^z is normalised, u^x made orthogonal to it, and
 ///    u^y = u^z x u^x.
 ///  - Eq. (7) is printed upside down: with more mu_c the contact would slip earlier.
-///  - The weights of the tools are latched at contact onset: changing them in contact would add energy. If they are given at the
-///    nodes, they are those of the point where the contact began.
+///  - The weights of the tools are latched at contact onset: changing them during contact would add energy. If they are given per
+///    node, they are interpolated at the point where the contact began.
 ///  - The chapter does not say what a move of c costs. At fixed c the force is the gradient of U in p, so energy can come only from
 ///    a move of c at fixed p that raises U: by eq. (7) alone a box of 40 x 40 x 20 mm gives 5 mJ back. Here no move raises U, so
 ///    the node is passive for every mesh, frame, curve and mu. dissipated_energy is the fall of U, and never falls.
-///  - Without friction the barycentric weights n_i give way to smooth ones (framework/kit/smooth_weights.hpp). The gradient of
-///    barycentric weights steps at the edges, and so would the force. A flat body with given frames that lean is the exception:
-///    there the weights stay barycentric, and dU/dc neglects that the frames turn. This is the law of the golden set
-///    `deformation`. It steps at edges and is not passive; the node says so.
+///  - Without friction the barycentric weights n_i are replaced by smooth ones (framework/kit/smooth_weights.hpp). The gradient of
+///    barycentric weights steps at the edges, and so would the force. The exception is a flat body whose given frames lean: there
+///    the weights stay barycentric, and dU/dc neglects that the frames turn. This is the law of the golden set `deformation`. Its
+///    force steps at edges, and it is not passive; the node warns if the frames lean by more than 5 degrees.
 ///
 /// Good to know
 ///  - With c fixed, the force is the gradient of stored_energy, whatever the frames: along a closed path on which the contact
 ///    sticks, it does no work.
 ///  - Without friction on a curved body, the minimum of U may vanish under the tool, as at an edge of a box. c then drops to the
-///    next minimum, with a step of force and some heat.
-///  - If the drag over the push should be the same at every depth, give the curves along x and y the shape of those along z:
+///    next minimum: the force steps, and some energy is dissipated.
+///  - To make the ratio of drag to push the same at every depth, give the curves along x and y the shape of those along z:
 ///    f^x (mu_c d) = mu f^z (d).
 ///  - Finding the patch: with search_ticks 0 every triangle is searched within the tick, while nothing is touched. With
 ///    search_ticks above 0, a thread searches and answers that many ticks later; meanwhile the node walks over neighbouring
@@ -74,9 +74,9 @@ namespace tactus::nodes
 ///    is the normal of the nearest patch.
 ///  - A slip is one step of eq. (7). Where mu_c or the frames change over the mesh it ends near the bound, not on it. The rest
 ///    follows on the next ticks, even for a tool at rest; this takes about ten ticks.
-///  - A tool that is farther past the rim of an open mesh than it is above or below it is outside the body: a contact that is
-///    dragged there opens. A tool that came in past the rim, was inside when the first search ended, or has let go inside the
-///    body, feels nothing until it has been outside the body once: a contact that begins inside would be a gift of energy.
+///  - A tool that is farther past the rim of an open mesh than above or below the mesh is outside the body: a contact that is
+///    dragged that far ends. A tool that entered around the rim, was inside when the first search ended, or has let go inside the
+///    body feels nothing until it has been outside the body once: a contact that begins inside would create energy.
 ///  - Energy in the sideways stretch at the moment the tool lets go is dissipated.
 struct ElasticSurface
 {
@@ -95,7 +95,7 @@ struct ElasticSurface
     struct Params
     {
         Friction friction = Friction::bound;
-        Adhesion::Kind adhesion = Adhesion::Kind::stick;
+        Bristle::Adhesion adhesion = Bristle::Adhesion::stick;
         double static_ratio = 1.0;
         double break_away = 0.7;
     };
@@ -142,13 +142,13 @@ struct ElasticSurface
         param (&Params::static_ratio, "static_ratio", unit::gain, "d_stick / d_max, d_max = mu_c d^z; above 1: stick-slip",
                { .hard = { 1, inf }, .usual = { 1, 5 } }),
         param (&Params::break_away, "break_away", unit::gain, "d_ba / d_max, where adhesion dupont begins to yield", { .hard = { 0, 1 } }),
-        setting (&Settings::surface, "surface", unit::count, "mesh, frames, curves and deflection ratios mu by shape of tool, tools as weights of shapes"),
+        setting (&Settings::surface, "surface", unit::count, "mesh; frames, curves and deflection ratios mu for each tool shape; tools as mixes of the shapes"),
         setting (&Settings::scale, "scale", unit::metre, "length of one unit of the mesh", { .hard = { 1e-9, inf }, .usual = { 1e-3, 1.0 } }),
         setting (&Settings::origin, "origin", unit::metre, "position of the mesh's origin"),
         setting (&Settings::rotation, "rotation", unit::radian, "rotation of the mesh: axis times angle"),
         setting (&Settings::search_ticks, "search_ticks", unit::count, "ticks that the search for the nearest patch takes; 0: within the tick",
                  { .hard = { 0, 1000 }, .usual = { 0, 40 } }),
-        setting (&Settings::adhesion_curve, "adhesion_curve", unit::gain, unit::gain, "zeta d_max over |d| / d_max, for adhesion curve"),
+        setting (&Settings::adhesion_curve, "adhesion_curve", unit::gain, unit::gain, "zeta d_max as a curve over |d| / d_max; only for adhesion curve"),
         output (&Outputs::force, "force", unit::newton, "force on the tool"),
         output (&Outputs::resistance, "resistance", unit::newton, "part of the force along the inward normal, f^z"),
         output (&Outputs::depth, "depth", unit::metre, "deflection along the inward normal, d^z; 0 while apart"),
@@ -253,8 +253,8 @@ struct ElasticSurface
     }
 
     /// The stored energy if the tool went to p while the contact point stays where it is, or, without friction on a flat body, stays
-    /// the projection of p; 0 while apart. The work of the hand between two samples is the difference of this energy: a test of
-    /// the energy balance that does not depend on how far apart the samples are.
+    /// the projection of p; 0 while apart. The hand's work between two samples is the difference between this energy at the two
+    /// positions. So a test can check the energy balance however far apart the samples are.
     double energyAt (const Vec3& p) const noexcept
     {
         if (! isTouching()) return 0.0;
@@ -269,7 +269,7 @@ private:
     {
         Spot spot {};   // contact point c; no triangle while apart
         bool frictionless = false;
-        Adhesion::Kind adhesion {};
+        Bristle::Adhesion adhesion {};
         bool slipped = false;   // on this tick
         double hit = 0.0;       // on this tick
     };
@@ -319,11 +319,11 @@ private:
         touch.frictionless = isFrictionless();
         touch.adhesion = params.adhesion;
         touch.hit = last.known ? std::max (0.0, finiteOrZero ((felt.d.z() - last.depth) / dt)) : 0.0;
-        return move (touch.frictionless ? last.position : p, p);   // a bristle is not stretched before the touch
+        return move (touch.frictionless ? last.position : p, p);   // with friction, motion before the touch does not stretch the contact
     }
 
-    /// The triangle through which the tool came in since the last sample, if any. A way that is shorter than the distance to the mesh
-    /// crosses nothing.
+    /// The triangle through which the tool has entered since the last sample; negative if there is none. A move that is shorter than
+    /// the distance to the mesh crosses nothing.
     int enteredFrom (const Spot& before, const Vec3& p) const noexcept
     {
         if (! last.known || behind || before.triangle < 0) return -1;
@@ -331,8 +331,8 @@ private:
         return (p - last.position).squaredNorm() < gap2 * (1.0 - 1e-9) ? -1 : body->walk().entered (last.position, p);
     }
 
-    /// The contact point of a tool that came in through a triangle is on that side of the body, even if another side is nearer. A way
-    /// that goes in and out again counts only if the tool ends below that side, as behind a thin plate, not beside it.
+    /// Puts the contact point of a tool that entered through a triangle on that side of the body, even if another side is nearer. If
+    /// the tool is already outside again, this happens only if it is below that side, as behind a thin plate, and not beside it.
     void belongTo (int entered, const Inputs& in, Spot& spot, Felt& felt) noexcept
     {
         const Spot there = body->walk().nearestFacing (entered, in.position, in.position - last.position);
@@ -357,12 +357,14 @@ private:
     SurfaceStep stepped (const Vec3& from, const Vec3& p) const noexcept
     {
         if (touch.frictionless) return projects ? projectOn (*body, tool, touch.spot, p) : slideOn (*body, tool, touch.spot, from, p);
-        const Adhesion adhesion { touch.adhesion, params.static_ratio, params.break_away, &settings.adhesion_curve };
-        return stickOn (*body, tool, touch.spot, adhesion, from, p);
+        const Bristle unit {
+            .adhesion = touch.adhesion, .d_max = 1.0, .d_stick = params.static_ratio, .d_ba = params.break_away, .own = &settings.adhesion_curve
+        };
+        return stickOn (*body, tool, touch.spot, unit, from, p);
     }
 
-    /// Ends the contact. A tool that is still inside the body somewhere else must leave it before it can touch again: a touch that begins
-    /// inside would be a gift of energy. It counts as outside if it has been inside by less than this step.
+    /// Ends the contact. A tool that is still inside another part of the body must leave the body before it can touch again: a touch
+    /// that begins inside would create energy. A tool that is no deeper than the length of this step counts as outside.
     Felt letGo (const Felt& felt, const Vec3& p) noexcept
     {
         dissipate (felt.energy);
@@ -431,8 +433,8 @@ private:
     bool slippery = false;      // mu is 0 everywhere
     bool projects = false;      // the body is flat: without friction, c is the projection of p
     bool leans = false;         // the body is flat, but its frames are not level
-    // The tool is inside, but did not come in through the surface: it went around the rim of an open mesh, was already inside when first
-    // found, or has let go inside. It feels nothing until it has been outside.
+    // The tool is inside, but did not enter through the surface: it went around the rim of an open mesh, was already inside when the
+    // first search ended, or has let go inside. It feels nothing until it has been outside once.
     bool behind = false;
     Spot near;   // the nearest point of the mesh while apart, if known
     Sample last;

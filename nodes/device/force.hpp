@@ -8,8 +8,8 @@ namespace tactus::nodes
 
 /// The force and torque that a device applies to the tool in the hand. This is where forces leave the graph.
 ///
-/// Several sinks of one role add up. The sum always goes through the role's guard; `applied` shows what reached the motors on the
-/// last tick, after the guard and the limits of the motors. On a non-finite value the guard brings the device to zero.
+/// Several sinks of one role add up. The sum always goes through the role's guard; `applied` shows the force that reached the motors
+/// on the last tick, after the limits of the guard and of the motors. On a non-finite value the guard brings the device to zero.
 struct DeviceForce
 {
     struct Inputs
@@ -35,7 +35,7 @@ struct DeviceForce
     static constexpr std::tuple ports {
         input (&Inputs::force, "force", unit::newton, "force on the tool"),
         input (&Inputs::torque, "torque", unit::torque, "torque on the tool"),
-        output (&Outputs::applied, "applied", unit::newton, "force on the tool since the last tick, as the guard and the motors limit it"),
+        output (&Outputs::applied, "applied", unit::newton, "force on the tool since the last tick, after the limits of the guard and of the motors"),
     };
 
     Params params;

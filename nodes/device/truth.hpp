@@ -9,8 +9,8 @@ namespace tactus::nodes
 /// The true position of a simulated tool, before its encoders round it, and its true velocity.
 ///
 /// Use it for plots and tests, and to see the effect of the resolution. A graph that computes forces from it cannot work on a
-/// real device. On a simulated device with a first mode, this is the end of the structure, where the hand holds it, while
-/// device.position reads the motor.
+/// real device. On a simulated device with a first mode, this node gives the position of the end of the structure, where the hand
+/// holds it, while device.position gives that of the motor.
 /// Only simulated devices provide it; it is 0 on other devices, and on a reading that is not valid or not finite.
 struct DeviceTruth
 {

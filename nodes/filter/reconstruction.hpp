@@ -7,8 +7,8 @@
 namespace tactus::nodes
 {
 
-/// The reconstruction filter of a device: smooths the force of a motor, so that the steps between samples and vibrations above the
-/// first resonance do not shake the structure.
+/// The reconstruction filter of a device. It smooths the force of a motor, so that the steps between samples, and vibrations above the
+/// first resonance, do not shake the structure.
 ///
 ///     H(s) = 1 / (s^2 + sqrt (2) s + 1),  s in units of w_c      on each component
 ///
@@ -20,9 +20,9 @@ namespace tactus::nodes
 ///
 /// Good to know
 ///  - It delays the force by about 1 / (pi sqrt (2) cutoff) s at low frequencies: 7.5 ms at 30 Hz, 0.56 ms at 400 Hz. For the stability
-///    of a wall this counts like ticks of delay: the damping of the device must be at least (2 d + 1) sigma T / 2, d T the delay.
-///    So filter textures and vibrations with it, and walls only if they are soft.
-///  - A step overshoots by 4 %.
+///    of a wall, this delay counts like ticks of delay: the damping of the device must be at least (2 d + 1) sigma T / 2, where sigma
+///    is the stiffness and d T the delay. So filter textures and vibrations, and walls only if they are soft.
+///  - The response to a step overshoots by 4 %.
 ///  - It starts from rest, even after a non-finite input.
 struct Reconstruction
 {

@@ -21,15 +21,15 @@ namespace tactus::nodes
 ///     c <- c + |dp| zeta d~                               the other functions, by Euler's rule               (4)
 ///     f = -sigma d,   sigma = mu f_n / d_max              force on the tool, in the tangent plane
 ///
-/// The load f_n may change while the bristle is stretched. `load` says what it moves:
+/// The load f_n may change while the bristle is stretched. The param `load` selects what follows the load:
 ///
 ///     bound      sigma is constant while the tool touches, and the contact slides at the stretch s instead of d_max:
 ///                sigma = stiffness, or mu0 reference_load / d_max0;   s = (mu f_n / sigma) (d_max / d_max0)
 ///     scale      sigma = mu f_n / d_max at each sample, as printed
-///     passive    the same, but where sigma rises, the contact point moves up so that the force stays
+///     passive    as `scale`, but when sigma rises, the contact point moves towards the tool so that the force stays the same
 ///
-/// mu0 and d_max0 are the values that mu and d_max have at the touch in file and knobs, without wires. With `bound` d_stick, d_ba
-/// and zeta scale with s. Section 4 bounds the stretch by the depth in the same way.
+/// mu0 and d_max0 are the values of mu and d_max in file and knobs at the touch, without wires. With `bound`, d_stick, d_ba and
+/// zeta scale with s. Section 4 bounds the stretch by the depth in the same way.
 ///
 /// The adhesion functions of Fig. 2, d_stick = static_ratio d_max:
 ///
@@ -55,14 +55,14 @@ namespace tactus::nodes
 ///  - The default for functions 2 to 4 is not eq. (4) but the solution of eq. (2) with zeta held over the step,
 ///    d = d e^(-zeta |dp|) + dp (1 - e^(-zeta |dp|)) / (zeta |dp|). It needs neither clamp nor projection and is exact for Dahl
 ///    at any sampling rate. `integrator: euler` gives eq. (4).
-///  - Eq. (3) leaves a stretch of d_max after every slip, however far the step went beyond d_stick. With static_ratio > 1 this
-///    makes the teeth longer the faster the hand moves, until they are gone. Here a slip leaves
+///  - Eq. (3) leaves a stretch of d_max after every slip, however far the step went beyond d_stick. With static_ratio > 1, the
+///    teeth then get longer the faster the hand moves, and finally vanish. Here, a slip leaves
 ///    d_max + (|d~| - d_stick) mod (d_stick - d_max).
 ///  - With sigma following the load as printed, pressing harder while the bristle is stretched adds energy that comes back on
-///    release (1.6e-4 J in 50 strokes; see the test). `load: passive` takes none, because new contact area is not sheared yet,
-///    but it walks: under a load that trembles by 10 % at 10 Hz, a tool that leans with 0.2 N on a contact that holds 0.5 N
-///    creeps by 81 um/s, while the state is 1. `load: bound` neither gives energy nor walks, and is the default. In graph
-///    files of version 1 the default was `passive`.
+///    release (1.6e-4 J in 50 strokes; see the test). `load: passive` adds none, because new contact area is not sheared yet,
+///    but the contact point walks: if the load trembles by 10 % at 10 Hz, a tool that leans with 0.2 N on a contact that can hold
+///    0.5 N creeps by 81 um/s, although the state is 1. `load: bound` neither gives energy nor walks, and is the default. In graph
+///    files of version 1, the default was `passive`.
 ///  - Eq. (1) to (4) are one-dimensional. Here d and dp are projected on the tangent plane of each sample, so that a turning
 ///    normal takes the contact point along.
 ///
@@ -71,20 +71,21 @@ namespace tactus::nodes
 ///    not change a single bit of the state.
 ///  - stored_energy is sigma |d|^2 / 2. dissipated_energy is what the bristle has lost since the start, along the straight path
 ///    between the samples: sigma times the stretch times the slip of c, each collapse of a step, and everything released when
-///    the load falls, the contact re-anchors, the normal turns or the contact opens. So the work of the hand is the growth of
+///    the load falls, the contact re-anchors, the normal turns or the contact opens. So the work of the hand is the increase of
 ///    stored plus dissipated energy, and dissipated_energy never falls. Under `load: scale` it does fall when the load rises:
-///    this is the energy that rule creates. Energy stored when a fault opens the contact is not counted.
+///    this is the energy that `scale` creates. Energy stored when a fault opens the contact is not counted.
 ///  - The force is held between samples, so while the contact sticks, the device needs a damping of at least sigma T / 2
 ///    (section 1), or twice that with functions 2 to 4, which are twice as stiff on a reversal.
 ///  - If the bound shrinks below the stretch, the bristle slips immediately, even at rest. This is how a texture on mu or d_max
-///    is felt: with `bound`, sliding needs the force mu f_n d_max / d_max0. So a d_max that is turned while the tool touches
-///    changes the drag, and softens the contact only from the next touch on.
-///  - With `bound`, a mu of 0 in file and knobs at the touch makes sigma 0, and no wire on mu brings friction until the next touch.
+///    is felt: with `bound`, sliding needs the force mu f_n d_max / d_max0. So if d_max changes while the tool touches, the drag
+///    changes at once, but the softness of the contact only at the next touch.
+///  - With `bound` and no `stiffness`, a mu of 0 in file and knobs at the touch makes sigma 0. Then even a wire on mu brings no
+///    friction until the next touch.
 ///  - With `scale` and `passive`, `stiffness` above 0 keeps sigma constant, and d_max alone is the bound: mu has no effect, and
 ///    normal_force only opens and closes the contact.
-///  - Noise in the position wears functions 2 to 4 down, because each step to and fro lets them yield a little. With 1 um rms
-///    per sample at 10 kHz, 2 mm/s and a d_max of 50 um, a mean drag of 0.5 N becomes 0.39 N with function 2, 0.21 N with 3 and
-///    0.09 N with 4. Function 1 keeps 0.49 N.
+///  - Position noise weakens the drag of functions 2 to 4, because the bristle yields a little with each small step back and forth.
+///    With a noise of 1 um rms at 10 kHz, 2 mm/s and a d_max of 50 um, a mean drag of 0.5 N becomes 0.39 N with function 2,
+///    0.21 N with 3 and 0.09 N with 4. Function 1 keeps 0.49 N.
 ///  - With functions 2 and 3 and static_ratio > 1, the exponential integrator slides at a stretch between d_max and d_stick,
 ///    while eq. (4) collapses to d_max and buzzes. Use function 1 for stick-slip.
 ///  - With a table that never reaches 1, the bristle stretches beyond d_max; with one that ends in 0, without limit.
@@ -158,10 +159,10 @@ struct ElastoPlastic
                { .hard = { 0, inf }, .usual = { 0, 1e5 } }),
         choice (&Params::adhesion, "adhesion", adhesion_names, "how the contact yields, Fig. 2"),
         choice (&Params::integrator, "integrator", integrator_names, "exponential solves eq. (2) over each step; euler is eq. (4)"),
-        choice (&Params::load, "load", load_names, "what the load moves: the bound of the stretch, the stiffness, or the stiffness with re-anchoring"),
+        choice (&Params::load, "load", load_names, "what follows the load: the bound of the stretch, the stiffness, or the stiffness with re-anchoring"),
         param (&Params::reference_load, "reference_load", unit::newton, "load at which the contact slides at d_max, with load bound and no stiffness",
                { .hard = { 1e-9, inf }, .usual = { 0.1, 10 } }),
-        setting (&Settings::adhesion_curve, "adhesion_curve", unit::gain, unit::gain, "zeta d_max over |d| / d_max, for adhesion curve"),
+        setting (&Settings::adhesion_curve, "adhesion_curve", unit::gain, unit::gain, "zeta d_max as a curve over |d| / d_max; only for adhesion curve"),
         output (&Outputs::force, "force", unit::newton, "force on the tool"),
         output (&Outputs::deflection, "deflection", unit::metre, "stretch d of the contact"),
         output (&Outputs::stored_energy, "stored_energy", unit::joule, "energy in the stretch"),
@@ -201,7 +202,7 @@ struct ElastoPlastic
     Outputs tick (const Inputs&, const Params& stored) noexcept;
 
 private:
-    static constexpr double shortest = 1e-30;   // m; stands for a bound of 0, by which nothing can be divided
+    static constexpr double shortest = 1e-30;   // m; replaces a bound of 0, because the bristle divides by the bound
 
     /// The state from one sample to the next while the tool touches.
     struct Contact
@@ -211,7 +212,7 @@ private:
         Vec3 given = Vec3::UnitZ();                 // the normal input, of any length
         Vec3 d = Vec3::Zero();                      // stretch; the contact point is c = p - d
         double sigma = 0.0;
-        double d_max0 = 0.0;   // stored d_max at the touch
+        double d_max0 = 0.0;   // d_max in file and knobs at the touch, in m
         Load load {};
         Bristle bristle {};
 
@@ -283,13 +284,13 @@ inline ElastoPlastic::Outputs ElastoPlastic::tick (const Inputs& in, const Param
     return out;
 }
 
-/// The stiffness that a contact with load `bound` keeps while it lasts.
+/// The stiffness that a contact with load `bound` keeps until it opens.
 inline double ElastoPlastic::stiffnessAtTouch (const Params& stored) const noexcept
 {
     return params.stiffness > 0.0 ? params.stiffness : stored.mu * params.reference_load / stored.d_max;
 }
 
-/// What holds from the touch until the contact opens.
+/// Sets what stays the same until the contact opens.
 inline void ElastoPlastic::touch (Contact& c, const Params& stored) const noexcept
 {
     c.touching = true;
@@ -301,7 +302,7 @@ inline void ElastoPlastic::touch (Contact& c, const Params& stored) const noexce
     c.sigma = stiffnessAtTouch (stored);
 }
 
-/// The stiffness and the lengths of Fig. 2 under this load. False if they are not finite.
+/// Sets the stiffness and the lengths of Fig. 2 for this load. False if they are not finite.
 inline bool ElastoPlastic::setBound (Contact& c, double normal_force) const noexcept
 {
     double d_max = params.d_max;

@@ -13,37 +13,39 @@ namespace tactus::nodes
 
 /// A wall that is stiffer than a sampled spring can be, for a device whose mass and damping are known.
 ///
-/// A sampled spring acts too late at the touch, too late while the tool turns back, and too long when the tool leaves. So a bounce
-/// leaves faster than it came. This node knows the mass M and the damping B of what it pushes. Every second sample it computes where
-/// a continuous wall would have the tool two samples later, and the two held forces that bring the tool exactly there:
+/// A sampled spring acts too late at the touch, too late while the tool turns back, and too long when the tool leaves. So the tool
+/// leaves faster than it came. This node knows the mass M and the damping B of what it pushes. Every second sample, it computes where
+/// the tool would be two samples later at a continuous wall, and the two held forces that bring the tool exactly there:
 ///
 ///     e = offset - n . p                                        depth; the continuous wall: M e'' = -B e' - K e (e > 0) + d
 ///     (e, e')_(k+2) = A^2 (e, e')_k + (A b + b) d + A b f_k + b f_(k+1)       two equations for the forces f_k and f_(k+1)
 ///
-/// A and b step a mass with damping under a held force. Entering and leaving the wall between two samples is part of the prediction,
-/// so a bounce depends neither on where the samples fall nor on their rate.
+/// A and b describe how a damped mass moves in one sample under a held force. The prediction covers a tool that enters or
+/// leaves the wall between two samples, so a bounce depends neither on where the samples fall nor on their rate.
 ///
-/// The speed e' follows from the last two positions and the force held between them. d is what else pushes, such as the hand: what
-/// the last three positions cannot explain otherwise, smoothed over 10 ms.
+/// The speed e' follows from the last two positions and the force held between them. d is any other force on the tool, such as that of
+/// the hand. It is estimated from the last three positions and the forces held between them, and smoothed over 10 ms.
 ///
-/// Source: Gillespie & Cutkosky 1996, as Hayward, "Physically-Based Haptic Synthesis" (2007), section 1, cites it: control in two samples
-/// of a known mass, with prediction across the surface. The equations are our own.
+/// Source: Gillespie & Cutkosky 1996, as cited in Hayward, "Physically-Based Haptic Synthesis" (2007), section 1: a known mass is
+/// controlled in two samples, with prediction across the surface. The equations are our own.
 ///
-/// Departure: speed and hand are estimated from positions. As the title of the source says "user-specific", M and B may include the
-/// finger that is tied to the tool.
+/// Departure: the speed and the force of the hand are estimated from positions. M and B may include a finger that is tied to the tool:
+/// the title of the source says "user-specific".
 ///
-/// What to expect: with the right mass and damping, a bounce on a wall of 30 times 2B/T leaves with the speed of the continuous wall
-/// to 0.01 %. With a mass that is off by 20 % (0.1 kg, 2 N s/m, 1 kHz), the speed is off by less than 1 % at 3 times 2B/T and by
+/// What to expect: with the right mass and damping, a bounce on a wall of 30 times 2B/T ends with the same speed as on a continuous
+/// wall, within 0.01 %. With a mass that is off by 20 % (0.1 kg, 2 N s/m, 1 kHz), the speed is off by less than 1 % at 3 times 2B/T and by
 /// less than 10 % at 10 times, and a hand that presses comes to rest (see the test).
 ///
 /// Good to know
-///  - Forces act before the touch, by up to two samples, and may pull for one sample when the tool enters or leaves.
-///  - `mass` 0 and `damping` 0 mean those of the device that the position comes from. If the device is unknown, 0.1 kg and 0 N s/m.
-///  - The speed is known from the second sample on. A tool that touches before it, at the start or after a fault, meets the wall late.
-///  - Wire `force` straight to the motor, and nothing else that is strong: what is added, filtered, limited or delayed later counts as a
-///    hand that the node learns too late.
-///  - A wall on which the bounce lasts less than about four samples (K > 0.6 M/T^2) is computed right but felt as two pulses.
-///  - Position noise is amplified: a quantum q is a force of about K q and M q/(10 ms T).
+///  - The force can begin up to two samples before the touch, and may pull for one sample when the tool enters or leaves.
+///  - `mass` 0 and `damping` 0 mean those of the device that the position comes from. If the device is unknown, they mean 0.1 kg and
+///    0 N s/m.
+///  - The speed is known from the second sample on. If the tool touches on the first one, at the start or after a fault, the force
+///    comes late.
+///  - Wire `force` straight to the motor, and add no other strong force. Whatever is added, filtered, limited or delayed after this
+///    node looks like a hand to it, and the node estimates the hand too late.
+///  - If a bounce lasts less than about four samples (K > 0.6 M/T^2), its speed is still correct, but it feels like two pulses.
+///  - Position noise is amplified: a quantum q causes a force of about K q + M q/(10 ms T).
 struct DeadbeatHold
 {
     struct Inputs
@@ -70,7 +72,7 @@ struct DeadbeatHold
     static constexpr Info info {
         .id = "hold.deadbeat",
         .name = "Deadbeat wall",
-        .summary = "A wall that moves a known mass as a continuous wall would, at every second sample.",
+        .summary = "A stiff wall that moves a known mass as a continuous wall would, in steps of two samples.",
         .source = "Gillespie & Cutkosky 1996",
     };
 
@@ -79,8 +81,8 @@ struct DeadbeatHold
         param (&Params::stiffness, "stiffness", unit::stiffness, "stiffness K of the wall", { .hard = { 0, 1e9 }, .usual = { 0, 2e4 } }),
         param (&Params::normal, "normal", unit::gain, "direction out of the wall; any length but 0"),
         param (&Params::offset, "offset", unit::metre, "position of the wall along the unit normal", { .usual = { -0.1, 0.1 } }),
-        param (&Params::mass, "mass", unit::kilogram, "mass M that the force moves; 0: the device's", { .hard = { 0, 1000 }, .usual = { 0, 1 } }),
-        param (&Params::damping, "damping", unit::damping, "damping B of this mass; 0: the device's", { .hard = { 0, 1e6 }, .usual = { 0, 20 } }),
+        param (&Params::mass, "mass", unit::kilogram, "mass M that the force moves; 0: that of the device", { .hard = { 0, 1000 }, .usual = { 0, 1 } }),
+        param (&Params::damping, "damping", unit::damping, "damping B of this mass; 0: that of the device", { .hard = { 0, 1e6 }, .usual = { 0, 20 } }),
         output (&Outputs::force, "force", unit::newton, "force on the tool"),
         output (&Outputs::depth, "depth", unit::metre, "depth of the tool behind the surface; negative while apart"),
         output (&Outputs::state, "state", unit::state, "-1 fault, 0 open, 1 contact"),
@@ -136,15 +138,15 @@ struct DeadbeatHold
 private:
     static constexpr double smoothing = 0.01;   // s
 
-    /// Forces are those into the wall, as the depth is.
+    /// Depths and forces are positive into the wall.
     struct Past
     {
-        double e[2] {};                     // depths on the last sample and the one before, in m
-        double force = 0.0, before = 0.0;   // held from the last sample, and from the one before, in N
+        double e[2] {};                     // depths at the last sample and the one before, in m
+        double force = 0.0, before = 0.0;   // held after the last sample, and after the one before, in N
         double next = 0.0;                  // the second force of the plan, in N
-        double push = 0.0;                  // d, in N
+        double push = 0.0;                  // the estimate of d, in N
         int known = 0;                      // number of depths that are known
-        bool planned = false;               // true if `next` is due
+        bool planned = false;               // true if `next` is the force for this sample
     };
 
     double mass() const noexcept
@@ -161,10 +163,10 @@ private:
         return { .state = -1.0 };
     }
 
-    /// Learns what else pushes, and returns the speed at depth e.
+    /// Updates the estimate of what else pushes, and returns the speed at depth e.
     double observe (Past& now, double e, const HeldStep& step) const noexcept
     {
-        // The speed at the end of a sample, from the depths at both ends and the force in between.
+        // The speed at the end of a sample, from the depths at its start and end and the force held in between.
         const auto speed = [&] (double from, double to, double force) {
             const double start = (to - from - step.x_per_f * force) / step.x_per_v;
             return start + step.v_loss * start + step.v_per_f * force;
@@ -173,7 +175,7 @@ private:
         {
             double expected = now.e[0], v = speed (now.e[1], now.e[0], now.before + now.push);
             step (expected, v, now.force + now.push);
-            const double per_push = step.x_per_f + step.x_per_v * step.v_per_f - (1.0 + step.v_loss) * step.x_per_f;   // of the depth, over both samples
+            const double per_push = step.x_per_f + step.x_per_v * step.v_per_f - (1.0 + step.v_loss) * step.x_per_f;   // depth per N
             now.push += (e - expected) / per_push * -std::expm1 (-dt / smoothing);
         }
         const double v = now.known > 0 ? speed (now.e[0], e, now.force + now.push) : 0.0;

@@ -18,9 +18,9 @@ namespace tactus::nodes
 ///
 ///     velocity = (p_k - p_(k-n)) / (n T)
 ///
-/// where n is the largest, up to `max_window` or the ticks of `window`, for which the line through p_(k-n) and p_k passes within
-/// `noise` of every sample between. A braking hand shortens the window immediately; a steady one is averaged for as long as it is
-/// steady.
+/// where n is the largest number for which the line through p_(k-n) and p_k passes within `noise` of every sample between, up to
+/// `max_window` or the number of ticks in `window`. A braking hand shortens the window immediately; the window of a steady hand is as
+/// long as the hand has been steady.
 ///
 /// Source: Janabi-Sharifi, Hayward & Chen 2000, first-order adaptive windowing, end-fit.
 ///
@@ -38,9 +38,9 @@ namespace tactus::nodes
 ///  - Exact on ramps, from the second sample if its steps exceed the noise, else from the third. With quantised positions the
 ///    error is below 2 noise / (n T). The lag is n T / 2: under an acceleration a, n T is about sqrt (8 noise / a). So the node
 ///    helps most where the hand is slow; with `noise` set too large it lags.
-///  - `window`, in seconds, gives the same resolution at every tick rate. With `max_window`, in ticks, a graph that is ten times faster
-///    sees ten times more of the quantum. The window is at most 256 ticks long: 12.8 ms at 20 kHz.
-///  - Cost grows with the window in ticks.
+///  - `window`, in seconds, gives the same resolution at every tick rate. With `max_window`, in ticks, ten times the tick rate
+///    makes the error from the quantum ten times larger. The window is at most 256 ticks long: 12.8 ms at 20 kHz.
+///  - The cost grows with the number of ticks in the window.
 ///  - It is 0 on the first sample and after a fault. The learnt quantum stays.
 struct Velocity
 {

@@ -12,15 +12,15 @@ namespace tactus::nodes
 
 /// One contact for the hand: the measured one while the tool rests or presses, the played shock while it bounces.
 ///
-/// From a hit until the shock has ended, the measured position is ignored and the played force alone acts; then the contact takes
-/// over again. Neither change steps the force:
+/// From a hit until the shock has ended, the measured position is ignored and only the played force acts. Then the contact takes
+/// over again. The force does not jump at either change:
 ///
-///     resistance = max (0, s + r w)      s: `shock` while a hit or a shock is there, else `contact`
+///     resistance = max (0, s + r w)      s: `shock` on a hit and while `shock` is above 0, else `contact`
 ///     r = last resistance - s            when s changes from one to the other
-///     w = (1 + cos (pi t / fade)) / 2    t: the time since then; 0 after `fade`
+///     w = (1 + cos (pi t / fade)) / 2    t: time since that change; w is 0 after `fade`
 ///
-/// So the force begins where it was, and the difference goes to 0 within `fade`. For a contact with a spring, handing back means
-/// that the surface starts where the tool is when the shock ends, and moves back to its place within `fade`.
+/// So the force starts from its last value, and the difference fades to 0 within `fade`. For a contact with a spring, handing back
+/// means that the surface starts where the tool is when the shock ends, and moves back to its place within `fade`.
 ///
 /// Wire plane.resistance (or surface.resistance) into `contact`, shock.hunt_crossley's resistance into `shock`, and the same hit into
 /// `hit` as into the player. Use the output in place of the contact's: for the force along the normal, and as the normal force of
@@ -31,9 +31,9 @@ namespace tactus::nodes
 /// engineering, with a raised cosine.
 ///
 /// Energy: it stores none, but a surface that moves does work. Handing back to a contact gives the tool at most the energy that
-/// the contact stores at the deepest place that the tool reaches within `fade`. The played shock, too, gives what the hand did not
-/// put in. So this node is not passive, even if its inputs are. With `fade` infinite, the surface stays where the shock has left the
-/// tool until the tool leaves, and handing back gives nothing.
+/// the contact stores at the deepest point that the tool reaches within `fade`. The played shock, too, can give energy that the hand
+/// did not put in. So this node is not passive, even if its inputs are. With `fade` infinite, the surface stays where the tool was at
+/// the end of the shock until the tool leaves, and handing back gives no energy.
 ///
 /// Good to know
 ///  - A touch without a hit, for example one slower than contact.impact's min_speed, is rendered by the measured contact alone.
@@ -63,7 +63,7 @@ struct Handover
     static constexpr Info info {
         .id = "shock.handover",
         .name = "Shock handover",
-        .summary = "Hands over from a contact to a played shock and back, without a step of force.",
+        .summary = "Hands over from a contact to a played shock and back without a jump of the force.",
         .source = "Hayward 2007, section 6; law of the handover: own",
     };
 
@@ -71,7 +71,7 @@ struct Handover
         input (&Inputs::contact, "contact", unit::newton, "resistance of the measured contact"),
         input (&Inputs::shock, "shock", unit::newton, "resistance of the played shock"),
         input (&Inputs::hit, "hit", unit::hit, "the hit that starts the shock"),
-        param (&Params::fade, "fade", unit::second, "time in which the force goes from one to the other", { .hard = { 1e-3, inf }, .usual = { 0.005, 0.2 } }),
+        param (&Params::fade, "fade", unit::second, "duration of the change from one force to the other", { .hard = { 1e-3, inf }, .usual = { 0.005, 0.2 } }),
         output (&Outputs::resistance, "resistance", unit::newton, "force out of the object"),
         output (&Outputs::state, "state", unit::state, "-1 fault, 0 open, 1 contact, 2 shock: the measured contact is ignored"),
     };
@@ -105,7 +105,7 @@ struct Handover
             begin (last - rendered);
         else
             faded = std::min (1.0, faded + dt / params.fade);
-        if (now == Source::contact && contact == 0.0 && difference < 0.0) difference = 0.0;   // the tool has left: the surface is back in its place
+        if (now == Source::contact && contact == 0.0 && difference < 0.0) difference = 0.0;   // the tool has left: the surface returns to its place at once
         source = now;
 
         last = std::max (0.0, rendered + difference * 0.5 * (1.0 + std::cos (std::numbers::pi * faded)));

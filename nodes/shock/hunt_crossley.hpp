@@ -31,15 +31,15 @@ namespace tactus::nodes
 /// whatever its mass and the law. The impulse is m v (1 + e), and the energy m v^2 (1 - e^2) / 2, the area of the loop of force
 /// against depth, is lost. `damping` is given as {"dissipation": lambda}, or as a separate law in N s/m.
 ///
-/// `dissipated_energy` is the sum of what the object has kept of all hits so far: the work of the damping, the integral of D d'
-/// over depth. `gain` scales the output only and does not count in it.
+/// `dissipated_energy` is the energy that the object has kept from all hits so far: the work of the damping, which is the integral of
+/// D d' over depth. `gain` scales only the force and does not change this energy.
 ///
-/// A contact of fewer than four samples has no shape that samples could show. It is solved on the hit, and each sample is its mean
-/// force over the sample before: so the impulse is m v (1 + e) however short the contact, and half a sample late. This costs the tick of
-/// each hit about 400 evaluations of K and D if the contact is that short, else 64.
+/// A contact of fewer than four samples is too short for samples to show its shape. The node solves it on the tick of the hit. Each
+/// sample is then the mean force over the sample period before it, so the impulse is m v (1 + e) however short the contact, and comes
+/// half a sample late. The tick of each hit evaluates K and D about 400 times if the contact is this short, else 64 times.
 ///
-/// `mass` 0 means the mass of the device that the hit comes from: the tool as the hand feels it. Where the device does not say
-/// it, 50 g stand in.
+/// `mass` 0 means the mass of the device that the hit comes from: the tool as the hand feels it. If the device does not give its
+/// mass, the node uses 50 g.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 6, eq. (10); Hunt & Crossley 1975.
 ///
@@ -51,13 +51,13 @@ namespace tactus::nodes
 /// Good to know
 ///  - The force is 0 on the tick of a hit, and at the end: no click. Within a sample the motion takes `substeps` steps of the
 ///    semi-implicit Euler rule; over a contact of 66 samples, 4 substeps are off by 0.13 % of the peak, 16 by 0.03 %.
-///  - The impulse of a contact of four samples or more is that of its samples. At four samples it is off by up to 4 %, at eight by
-///    1 %, and by less if the law starts softer than a spring.
+///  - The impulse of a contact of four samples or more is the sum over its samples. It is off by up to 4 % at four samples, by 1 % at
+///    eight, and by less if the law starts softer than a spring.
 ///  - The steps are explicit: where h D / m approaches 1 (h: the length of a substep), the mass is thrown back too soon. Use more
 ///    substeps then.
 ///  - While all voices sound, a new hit is dropped; no voice is cut short.
-///  - A contact of fewer than four samples keeps its impulse but not its peak: `warning` reports it for a hit of 1 m/s. Harder
-///    hits are shorter: with a stiffness k d^n, their duration is proportional to v^(-(n - 1) / (n + 1)).
+///  - A contact of fewer than four samples keeps its impulse but not its peak: `warning` says so if a hit of 1 m/s is this short.
+///    Harder hits are shorter: with a stiffness k d^n, their duration is proportional to v^(-(n - 1) / (n + 1)).
 ///  - A hit whose speed is not positive or not finite is ignored. A quantised position makes the contact
 ///    flicker: use contact.impact.
 ///  - It gives the hand an impulse that the hand never put in: this node is not passive.
@@ -97,14 +97,15 @@ struct HuntCrossley
 
     static constexpr std::tuple ports {
         input (&Inputs::hit, "hit", unit::hit, "impact speed v"),
-        param (&Params::mass, "mass", unit::kilogram, "mass m that is thrown back; 0: of the device", { .hard = { 0, inf }, .usual = { 0, 1 }, .latch = true }),
+        param (&Params::mass, "mass", unit::kilogram, "mass m that is thrown back; 0: that of the device",
+               { .hard = { 0, inf }, .usual = { 0, 1 }, .latch = true }),
         param (&Params::gain, "gain", unit::gain, "gain of the output", { .usual = { 0, 4 } }),
         setting (&Settings::stiffness, "stiffness", unit::metre, unit::newton, "K, force against depth"),
         setting (&Settings::damping, "damping", unit::metre, unit::damping, "D against depth, or a dissipation that multiplies K"),
         setting (&Settings::substeps, "substeps", unit::count, "steps of the motion in each sample", { .hard = { 1, 1000 }, .usual = { 1, 32 } }),
         setting (&Settings::voices, "voices", unit::count, "number of hits that can sound together", { .hard = { 1, 1000 }, .usual = { 1, 16 } }),
         output (&Outputs::resistance, "resistance", unit::newton, "force out of the object"),
-        output (&Outputs::dissipated_energy, "dissipated_energy", unit::joule, "energy that the object has kept of all hits, without the gain"),
+        output (&Outputs::dissipated_energy, "dissipated_energy", unit::joule, "energy that the object has kept from all hits; gain has no effect on it"),
     };
 
     Params params;
@@ -156,10 +157,10 @@ struct HuntCrossley
     }
 
 private:
-    static constexpr int few = 4;                   // a contact of fewer samples is played by its mean forces
-    static constexpr double faded = 1e-9;           // in N and m/s; a voice below both stops: a mass brought to rest by damping would never leave the object
-    static constexpr double usual_mass = 0.05;      // kg, where the device does not tell its own
-    static constexpr double lightest_mass = 1e-6;   // kg; less has no meaning
+    static constexpr int few = 4;                   // a contact of fewer samples is played as mean forces
+    static constexpr double faded = 1e-9;           // in N and m/s; a voice stops below both, because a mass stopped by damping never leaves the object
+    static constexpr double usual_mass = 0.05;      // kg, used if the device does not give its mass
+    static constexpr double lightest_mass = 1e-6;   // kg; a smaller `mass` counts as this
 
     /// A contact of a few samples, solved in advance.
     struct Score
@@ -170,7 +171,7 @@ private:
         };
 
         std::array<Sample, few + 1> samples {};
-        int length = 0, played = 0;   // length 0: the contact is longer and is not solved in advance
+        int length = 0, played = 0;   // length 0: the contact is too long to be solved in advance
     };
 
     /// A mass on its way through the object.
@@ -183,7 +184,7 @@ private:
 
     struct Push
     {
-        double N, K;   // the force, and the elastic part of it, in N
+        double N, K;   // the force, and its elastic part, in N
     };
 
     /// Eq. (10).
@@ -247,8 +248,8 @@ private:
 //==============================================================================
 // Implementation below.
 
-/// The mean force of each sample follows from the momentum that the mass has lost in it, and the energy lost from the balance of
-/// motion and spring.
+/// Starts a voice, and solves a short contact in advance. The mean force of each sample follows from the momentum that the mass loses in
+/// this time, and the dissipated energy from the change of kinetic energy and of energy in the spring.
 inline void HuntCrossley::start (Voice& voice, double speed) const noexcept
 {
     voice = { .v = speed, .m = massNow(), .sounds = true };
@@ -273,7 +274,8 @@ inline std::string HuntCrossley::warning (const Setup& setup) const
     std::ostringstream text;
     text << std::setprecision (2);
     if (! (params.mass > 0.0) && ! (device_mass > 0.0))
-        text << "mass is 0, so it is that of the device, which the graph does not give; until a device gives it, " << usual_mass << " kg are used";
+        text << "mass is 0, which means the mass of the device, but the graph does not give it; set mass, or " << usual_mass
+             << " kg is used until a device gives its mass";
 
     const auto force = [this] (double d, double v) noexcept { return push (d, v).N; };
     const auto rebound = freeImpact (force, massNow(), 1.0, few * setup.dt_s());

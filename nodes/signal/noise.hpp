@@ -19,13 +19,13 @@ namespace tactus::nodes
 ///
 /// n is a function of time, not of ticks: its spectrum is flat up to 0.8 `bandwidth` and 60 dB down from `bandwidth` upwards, and
 /// its RMS is 1. So all graphs with a rate of at least 2 `bandwidth` get the same noise with the RMS `amplitude`. A slower graph
-/// cannot hold the whole band. Its noise has the part of the power that lies below half of its rate.
+/// cannot render the whole band: its noise has only the power that lies below half of its rate.
 ///
 /// With a bandwidth of 0 the noise is white: a new random number each tick. This noise depends on the rate: a faster graph spreads
 /// the same power over a wider band, so less of it is felt.
 ///
-/// The same seed gives the same noise on every run. Two nodes that must sound different need two seeds. The generator is the
-/// node's own (framework/kit/random.hpp); it gives the same bits on every machine whose std::log, std::cos and std::sin agree.
+/// The same seed gives the same noise on every run. Two nodes that must sound different need different seeds. The generator is
+/// Tactus's own (framework/kit/random.hpp). It gives the same bits on all machines whose std::log, std::cos and std::sin agree.
 struct SignalNoise
 {
     using Inputs = Empty;
@@ -52,7 +52,7 @@ struct SignalNoise
 
     static constexpr std::tuple ports {
         param (&Params::amplitude, "amplitude", any_unit, "standard deviation", { .hard = { 0, inf }, .usual = { 0, 10 } }),
-        param (&Params::bandwidth, "bandwidth", unit::hertz, "end of the band of the noise; 0: white, a new number each tick",
+        param (&Params::bandwidth, "bandwidth", unit::hertz, "upper end of the band; 0: white noise, a new number each tick",
                { .hard = { 0, inf }, .usual = { 0, 1000 } }),
         setting (&Settings::seed, "seed", unit::count, "number that selects the noise", { .hard = { 0, 2147483647 }, .usual = { 1, 1000 } }),
         output (&Outputs::out, "out", sameAs ("amplitude"), "the noise"),
@@ -85,7 +85,7 @@ struct SignalNoise
     {
         if (! (2.0 * params.bandwidth > setup.rate_hz)) return {};
         const auto hertz = [] (double f) { return std::to_string (std::lround (std::min (f, 1e15))); };
-        return "a rate of " + hertz (setup.rate_hz) + " Hz holds only the noise below " + hertz (0.5 * setup.rate_hz)
+        return "at a rate of " + hertz (setup.rate_hz) + " Hz, the noise has only the frequencies below " + hertz (0.5 * setup.rate_hz)
                + " Hz: raise the rate to twice the bandwidth, " + hertz (2.0 * params.bandwidth) + " Hz, or lower the bandwidth";
     }
 
@@ -100,7 +100,7 @@ private:
     BandNoise band;
     double dt = 1.0 / Setup {}.rate_hz;   // s
     double portion = 0.0;                 // 2 bandwidth dt, at most 1; 0: white
-    double level = 1.0;                   // RMS that the rate leaves
+    double level = 1.0;                   // RMS of the part of the noise that the rate can render
 };
 
 }   // namespace tactus::nodes

@@ -12,10 +12,11 @@ namespace tactus::nodes
 /// Triggers a hit each time a signal rises through a threshold.
 ///
 ///     hit    speed, on the tick where `in` rises above threshold + hysteresis / 2
-///     gate   1 from there until `in` has been at threshold - hysteresis / 2 or below for longer than `hold`, which arms the next hit
+///     gate   1 from that tick until `in` has been at threshold - hysteresis / 2 or below for longer than `hold`, which arms the next hit
 ///
-/// `hold` is for signals that come in pulses: the state of friction or of a blade is that of one tick, so between two steps of the
-/// encoder it says that nothing moves. A gate with a hold says whether something has moved during the last moment, at any rate.
+/// `hold` is for signals that come in pulses. The state of a friction or blade node is that of a single tick, so between two steps of
+/// the encoder it says that nothing moves. With a hold, the gate says whether something has moved within the last `hold` seconds,
+/// and this does not depend on the tick rate.
 ///
 /// A signal that is already high on the first sample, or on the first sample after a non-finite one, opens the gate without a
 /// hit. The hysteresis should be wider than the noise on the signal, or one crossing makes many hits.
@@ -51,7 +52,7 @@ struct SignalTrigger
         param (&Params::threshold, "threshold", sameAs ("in"), "middle of the two levels", { .usual = { -1, 1 } }),
         param (&Params::hysteresis, "hysteresis", sameAs ("in"), "distance between the two levels", { .hard = { 0, inf }, .usual = { 0, 1 } }),
         param (&Params::speed, "speed", unit::speed, "impact speed of each hit", { .hard = { 0, inf }, .usual = { 0, 5 } }),
-        param (&Params::hold, "hold", unit::second, "time for which the gate stays open after the signal was last high",
+        param (&Params::hold, "hold", unit::second, "time for which the gate stays open after the signal has become low",
                { .hard = { 0, inf }, .usual = { 0, 0.1 } }),
         output (&Outputs::hit, "hit", unit::hit, "speed on the tick of the hit, else 0"),
         output (&Outputs::gate, "gate", unit::gain, "1 while the signal is high and during hold, else 0"),

@@ -87,7 +87,7 @@ TEST_CASE ("expert 2: every node gives a finite and steady response to a tool at
 {
     // A node whose force depends on position alone gives identical bits for a repeated sample. A node with memory comes to
     // rest, and so does deform.surface, which slips once per tick until it is within its bound.
-    // hold.deadbeat learns the hand for 10 ms, and the two forces of its plan then differ by rounding.
+    // hold.deadbeat estimates the force of the hand, smoothed over 10 ms; after that, its two planned forces differ only by rounding.
     constexpr std::string_view timeless[] { "friction.elasto_plastic", "cut.blade", "cut.scissors", "texture.grating" };
 
     for (const auto& type : catalogue())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Section 3, Fig. 5: an edge at an angle, and a cut that has a place."""
+"""Section 3, Fig. 5: an edge at an angle, and a cut that stays where it was made."""
 
 import numpy as np
 from style import BLUE, GREEN, INK, PURPLE, VERMILION, axis, data, figure, name

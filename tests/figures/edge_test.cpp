@@ -10,7 +10,7 @@ using namespace tactus;
 
 namespace
 {
-constexpr double f_cut = 4.0, width = 0.02, stiffness = 2000.0, rupture = 0.003;   // N, 200 J/m2 times 20 mm; m; N/m; m, where 6 N burst it
+constexpr double f_cut = 4.0, width = 0.02, stiffness = 2000.0, rupture = 0.003;   // N, 200 J/m2 times 20 mm; m; N/m; m, the depth at which 6 N bursts it
 }
 
 TEST_CASE ("figure: the force of a tilted edge ramps over width times sine of the angle, up to the cost of its surface", "[figures]")
@@ -30,7 +30,7 @@ TEST_CASE ("figure: the force of a tilted edge ramps over width times sine of th
                 ++plateau;
                 CHECK (f == Approx (f_cut * std::cos (angle)).epsilon (1e-3));
             }
-            // A whole sample is loaded where the edge has entered, deepest / tan (angle) long, by half the depth on average.
+            // Before the rupture, the edge is inside the sample over a length of deepest / tan (angle), at half of `deepest` on average.
             if (angle > 0.0 && deepest > 0.5e-3 && deepest < 0.99 * rupture)
                 CHECK (f == Approx (0.5 * stiffness / width * deepest * deepest / std::tan (angle)).epsilon (0.01));
             if (angle > 0.0 && deepest > 0.0) CHECK (f < 1.01 * f_cut * std::cos (angle));   // no snap

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the presets with a cut that has a place say about themselves.
+// The presets whose cut has a place do what their descriptions say.
 
 #include "figures/figure_data.hpp"
 
@@ -12,7 +12,7 @@ using namespace tactus;
 
 namespace
 {
-/// The number of ticks between two times on which a condition holds.
+/// The number of ticks between two times at which a condition holds.
 template <typename Condition>
 int count (const test::Record& run, double from, double to, const Condition& condition)
 {
@@ -45,6 +45,6 @@ TEST_CASE ("the preset Liver cut deforms, slips over and cuts one body", "[graph
     CHECK (count (run, 0.0, 2.4, [&] (std::size_t k) { return whole (k) && run.at ("flesh.state", k) == 2.0; }) > 100);
     CHECK (count (run, 0.0, 2.4, bursts) == 0);
     CHECK (count (run, 2.4, 3.4, bursts) == 1);
-    CHECK (count (run, 3.4, 6.2, bursts) > 5);    // drawn along itself, it opens column after column
+    CHECK (count (run, 3.4, 6.2, bursts) > 5);    // drawn along its edge, the blade opens column after column
     CHECK (count (run, 6.2, 9.0, bursts) == 0);   // back in the cut, which has moved with the flesh
 }

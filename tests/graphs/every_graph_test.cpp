@@ -106,8 +106,9 @@ Run run (const graph::Graph& g, const std::vector<plan::Override>& overrides = {
     return result;
 }
 
-/// The devices on which a preset was checked, and the conditions of docs/check.md that it breaks there: on the simulated device that it
-/// describes, and on those of the profiles whose damping is known, because without it the first condition cannot be judged.
+/// The devices on which a preset is checked, each with the conditions of docs/check.md that the preset breaks there: the simulated
+/// device that the preset describes, and the devices of the profiles that give a damping. Without a damping, `stiffness` cannot be
+/// judged.
 std::string devicesFor (const graph::Graph& g, const host::hid::LoadedProfiles& profiles)
 {
     static host::FileAssets assets;
@@ -140,9 +141,9 @@ std::string readme()
     const auto profiles = host::hid::loadProfiles (fs::path (TACTUS_SOURCE_DIR) / "host" / "profiles");
     std::string text = "# Presets\n\nOpen one in the host, or run `tactus play graphs/NAME.json`. This list is generated from the preset files: "
                        "`TACTUS_UPDATE=1 build/release/bin/tactus_tests \"the list of presets*\"`. "
-                       "[Why their guards have the limits that they have](../docs/safety.md#the-limits-of-presets-and-profiles). The column "
-                       "`devices` lists what [`tactus check`](../docs/check.md) finds broken on each: on the simulated device of the preset (its own), and on "
-                       "the devices whose profile tells their damping.\n\n"
+                       "[Why their guards have these limits](../docs/safety.md#the-limits-of-presets-and-profiles). The column "
+                       "`devices` lists the conditions that [`tactus check`](../docs/check.md) finds broken: on the simulated device of the preset (its "
+                       "own), and on each device whose profile states its damping.\n\n"
                        "| preset | what it feels like | controls | needs | devices | tags |\n|---|---|---|---|---|---|\n";
     for (const auto& path : presets())
     {

@@ -24,7 +24,7 @@ namespace
 {
 const fs::path folder = fs::path (TACTUS_SOURCE_DIR) / "graphs";
 
-/// Repeats readings, and then the last one forever.
+/// Plays readings back, then repeats the last one forever.
 class Repeated final : public Device
 {
 public:
@@ -46,7 +46,7 @@ std::shared_ptr<Plan> compiled (const graph::Graph& g, std::vector<std::string> 
     return plan;
 }
 
-/// The numbers of the friction nodes of a plan.
+/// The indices of a plan's friction nodes.
 std::vector<std::size_t> contactsOf (const Plan& plan)
 {
     std::vector<std::size_t> all;
@@ -112,7 +112,7 @@ TEST_CASE ("a hand held still on every preset keeps its drag, while its pressure
         for (const auto node : contactsOf (*compiled (g)))
         {
             const auto stroke = strokeOf (g, node);
-            if (stroke.drag == 0.0) continue;   // its own gesture does not stroke
+            if (stroke.drag == 0.0) continue;   // the preset's gesture does not stroke this contact
             const auto name = std::string (compiled (g)->flat().nodes[node].path);
             INFO (entry.path().stem().string() << ": " << name);
 

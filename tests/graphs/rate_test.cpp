@@ -28,18 +28,18 @@ namespace
 {
 const fs::path folder = fs::path (TACTUS_SOURCE_DIR) / "graphs";
 
-/// Slow is what the hand follows, vibration what the skin feels. 1 kHz can carry both.
+/// The slow force is what the hand follows, the vibration what the skin feels. A rate of 1 kHz can render both bands.
 constexpr double slow_below_hz = 30.0, vibration_below_hz = 400.0;
 
-/// Presets that cannot be rendered at 1 kHz: the rate in Hz that they need, and why. Their rate_hz is at least this.
+/// Presets that cannot be rendered at 1 kHz: the rate in Hz that they need, and why. Their rate_hz is at least this rate.
 const std::map<std::string, std::pair<double, std::string>> needs {
     { "dry_wood", { 4000.0, "stick-slip of up to 900 teeth per second" } },
-    { "machined_steel", { 4000.0, "friction that gives by 10 um: 60 N/mm" } },
+    { "machined_steel", { 4000.0, "friction that yields within 10 um, which is a stiffness of 60 N/mm" } },
     { "oak_board", { 4000.0, "stick-slip and grain of up to 1000 Hz" } },
     { "padded_bench", { 4000.0, "stick-slip and grain of the wood" } },
     { "singing_glass", { 4000.0, "tones of 900 and 2088 Hz" } },
     { "squealing_rubber", { 4000.0, "stick-slip of up to 500 teeth per second" } },
-    { "window_pane", { 4000.0, "friction that gives by 5 um, and tones of 900 and 1870 Hz" } },
+    { "window_pane", { 4000.0, "friction that yields within 5 um, and tones of 900 and 1870 Hz" } },
 };
 
 struct Played
@@ -91,7 +91,7 @@ struct Rms
     double slow = 0.0, vibration = 0.0;   // N
 };
 
-/// The same frequencies at every rate, because the duration is the same.
+/// The RMS of the force in both bands. The bins have the same frequencies at every rate, because the duration is the same.
 Rms rmsOf (const Played& played, double rate_hz)
 {
     Rms power;
@@ -119,7 +119,7 @@ double rateFrom (const std::string& preset)
     return found == needs.end() ? 1000.0 : found->second.first;
 }
 
-/// How often a signal of 0 and 1 rises, and the share of the time for which it is 1.
+/// How often a signal rises from 0 to 1, and the share of the time for which it is 1.
 std::pair<int, double> openings (const std::vector<double>& gate)
 {
     int rises = 0;
@@ -186,7 +186,7 @@ TEST_CASE ("an encoder does not chop the crunch of the potato, at any rate", "[g
             INFO (rate << " Hz, " << quantum);
             g.devices[0].second["quantum"] = quantum;
             const auto [rises, open] = openings (play (g, rate, "parting.gate").recorded);
-            CHECK (rises <= 4);   // at the end the blade creeps: a step takes longer than the hold
+            CHECK (rises <= 4);   // at the end the blade is so slow that an encoder step takes longer than `hold`
             CHECK (open == Approx (exact.second).margin (0.04));
         }
 

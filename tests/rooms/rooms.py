@@ -42,7 +42,7 @@ def includes(root, file):
 
 
 def in_the_tree(header):
-    """Where the sources have the header that an installed Tactus has under this name."""
+    """The path in the sources of a header that an installed Tactus has under this name."""
     if header.startswith("tactus/nodes/"):
         return pathlib.PurePath(header.removeprefix("tactus/"))
     return pathlib.PurePath("framework" + header.removeprefix("tactus") if header.startswith("tactus/") else header)

@@ -73,7 +73,7 @@ private:
     const graph::Graph& g;
     std::map<std::string, Instance> instances;
     std::vector<Wire> wires;
-    std::map<std::string, std::vector<std::size_t>> wires_to;   // indices into wires, by the node at their end
+    std::map<std::string, std::vector<std::size_t>> wires_to;   // indices into `wires`, by the node where the wires end
     std::vector<Section> sections { {} };
     std::map<std::string, std::unique_ptr<DeviceState>> roles;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A simulator plays a graph in its own loop: it moves the tool, and feels the force of the graph.
+// A simulator plays a graph in its own loop: it moves the tool, and the graph's force acts on the tool.
 #include <tactus/file/graph_file.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/run/run.hpp>

@@ -48,7 +48,7 @@ DeviceNumbers numbersOf (const Simulation& sim, const GuardLimits& guard)
         n.first_mode_damping = given (sim.first_mode_damping);
         n.end_mass = given (endMassOf (sim));
     }
-    if (guard.max_force != GuardLimits::none) n.peak_force = DeviceNumber { .value = guard.max_force, .source = "max_force of its guard" };
+    if (guard.max_force != GuardLimits::none) n.peak_force = DeviceNumber { .value = guard.max_force, .source = "max_force of the device's guard" };
     return n;
 }
 

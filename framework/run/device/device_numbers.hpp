@@ -34,9 +34,9 @@ struct DeviceReach
     bool operator== (const DeviceReach&) const = default;
 };
 
-/// What a device is like for the hand and for the control loop: the numbers in the conditions of stability and in Table 1 of
-/// Hayward, "Physically-Based Haptic Synthesis". An empty number is unknown. The names are the keys of profiles ("physics") and,
-/// as far as they are properties of a simulated device, of its description.
+/// The properties of a device that matter to the hand and to the control loop: the numbers in the conditions of stability and in
+/// Table 1 of Hayward, "Physically-Based Haptic Synthesis". An empty number is unknown. Profiles use the same names as keys of
+/// "physics". The descriptions of simulated devices use those that have `is_simulated` in the table below.
 struct DeviceNumbers
 {
     using Number = std::optional<DeviceNumber>;
@@ -49,7 +49,7 @@ struct DeviceNumbers
     Number delay {};                ///< d, delay of the force in whole ticks, in addition to the hold
     Number first_mode {};           ///< F_0, first resonance of the structure, in Hz, > 0; infinite for a rigid simulated device
     Number first_mode_damping {};   ///< damping ratio of the first resonance, 0 to 1
-    Number end_mass {};             ///< part of the mass beyond the compliance, at the tool, in kg, > 0 and less than mass
+    Number end_mass {};             ///< part of the mass that is at the tool, on the far side of the structure, in kg, > 0 and less than mass
     Number peak_force {};           ///< largest force at the tool, in N, > 0
     Number rate {};                 ///< 1/T, ticks per second, in Hz, > 0
     std::optional<DeviceReach> workspace {};
@@ -57,7 +57,7 @@ struct DeviceNumbers
     bool operator== (const DeviceNumbers&) const = default;
 };
 
-/// A row of the table of all numbers but the workspace.
+/// A row of the table of all numbers except the workspace.
 struct DeviceNumberRow
 {
     std::string_view id;
@@ -70,11 +70,12 @@ struct DeviceNumberRow
 
 std::span<const DeviceNumberRow> deviceNumberRows() noexcept;
 
-/// True if not a single number is known.
+/// True if no number is known.
 bool isEmpty (const DeviceNumbers&);
 
-/// The numbers of a simulated device. All are known but the rate, which is that of the run, and the workspace, which has no bounds.
-/// The peak force is the guard's max_force, if it has one. [main thread]
+/// The numbers of a simulated device. The rate is left empty, because it is that of the run, and so is the workspace, because it has
+/// no bounds. The peak force is the max_force of the guard, and empty without one. A rigid device has no first_mode_damping and no
+/// end_mass. [main thread]
 DeviceNumbers numbersOf (const Simulation&, const GuardLimits& = {});
 
 }   // namespace tactus

@@ -10,12 +10,12 @@ namespace tactus
 namespace
 {
 constexpr double finest_s = 1e-12;
-constexpr int finest_level = 40, finest_grid = 8, most_phases = 64;   // the bounds in the header follow from these
-constexpr double tie = 1e-12;                                         // relative: a load this close to the Coulomb friction still sticks
+constexpr int finest_level = 40, finest_grid = 8, most_phases = 64;   // the header states the bounds that follow
+constexpr double tie = 1e-12;                                         // relative: with a load this close to the Coulomb friction, the motor still sticks
 
 using Square = Eigen::Matrix<double, 6, 6>;
 
-/// How often a number must be halved to become at most 1, but not more often than `most`.
+/// The number of halvings after which a number is at most 1, but never more than `most`.
 int halvingsOf (double number, int most) noexcept
 {
     int n = 0;
@@ -48,7 +48,7 @@ FlexibleTool::FlexibleTool (const Properties& properties, double dt_s) : what (p
     k = e * w * w;
     c = 2.0 * what.first_mode_damping * e * w;
 
-    // Rows and columns: w x, v, w stretch, end_v, motor force / (m w), hand force / (e w). In these, all entries are rates.
+    // Rows and columns: w x, v, w stretch, end_v, motor force / (m w), hand force / (e w). So all entries are rates, in 1/s.
     Square slip = Square::Zero();
     slip (0, 1) = w;
     slip.row (1) << 0.0, -(what.damping + c) / m, k / (m * w), c / m, w, 0.0;
@@ -71,7 +71,7 @@ FlexibleTool::FlexibleTool (const Properties& properties, double dt_s) : what (p
         sticks.push_back (changeIn (stick, std::ldexp (dt_s, -level)));
     }
 
-    const double share = 1.0 + e / m, fastest = w * std::sqrt (share) + c / e * share + what.damping / m;   // of both masses, free; 1/s
+    const double share = 1.0 + e / m, fastest = w * std::sqrt (share) + c / e * share + what.damping / m;   // rate of the two free masses, in 1/s
     grid = halvingsOf (dt_s * fastest / 0.4, std::min (finest_grid, finest));
 }
 
@@ -103,7 +103,7 @@ double FlexibleTool::energy() const noexcept
     return 0.5 * twice;
 }
 
-/// The state after the tick divided by 2^level, if the phase lasts that long.
+/// The state after dt / 2^level, if the phase lasts that long.
 FlexibleTool::Axis FlexibleTool::advanced (const Axis& a, Phase phase, Held held, int level) const noexcept
 {
     const double motor = held.motor - static_cast<int> (phase) * what.coulomb;
@@ -151,7 +151,7 @@ int FlexibleTool::stepDryAxis (Axis& axis, Held held) const noexcept
     return phases;
 }
 
-/// Moves the axis until the phase or the units are over, and returns how many units that took.
+/// Moves the axis to the end of the phase, but by at most `most` units of time. Returns the number of units that have passed.
 std::int64_t FlexibleTool::run (Axis& axis, Phase phase, Held held, std::int64_t most) const noexcept
 {
     std::int64_t gone = 0;
@@ -168,9 +168,10 @@ std::int64_t FlexibleTool::run (Axis& axis, Phase phase, Held held, std::int64_t
     return gone;
 }
 
-/// If the phase ends in the step from `axis` to `next`, moves the axis to its end and returns how many units that took; else 0.
+/// If the phase ends in the step from `axis` to `next`, moves the axis to the end of the phase and returns the number of units that
+/// have passed; else returns 0.
 ///
-/// It ends if a margin is negative at the end of the step, or if the margin falls and rises again within the step and its lowest
+/// The phase ends if a margin is negative at the end of the step, or if a margin falls and rises again within the step and its lowest
 /// value is negative.
 std::int64_t FlexibleTool::unitsToEnd (Axis& axis, const Axis& next, Phase phase, Held held, int level) const noexcept
 {
@@ -178,7 +179,7 @@ std::int64_t FlexibleTool::unitsToEnd (Axis& axis, const Axis& next, Phase phase
     Axis end;
     for (const int side : { 1, -1 })
     {
-        if (phase != Phase::stick && side < 0) break;   // a slip has one margin
+        if (phase != Phase::stick && side < 0) break;   // only sticking has a second margin
         const auto after = margin (next, phase, held, side);
         const bool crosses = after.value < 0.0;
         if (! crosses && ! (after.rate > 0.0 && margin (axis, phase, held, side).rate < 0.0)) continue;
@@ -193,7 +194,7 @@ std::int64_t FlexibleTool::unitsToEnd (Axis& axis, const Axis& next, Phase phase
             at = half;
             units += unitsOf (finest, l);
         }
-        at = advanced (at, phase, held, finest);   // just beyond the end, so that the next phase is clear
+        at = advanced (at, phase, held, finest);   // just beyond the end of the phase, so that phaseOf finds the next one
         if (margin (at, phase, held, side).value >= 0.0 || (first > 0 && units >= first)) continue;
         first = units;
         end = at;

@@ -13,23 +13,24 @@ namespace tactus
 {
 
 /// A tool on a structure that bends: a mass at the motor and a mass at the end, with a spring and a damper between them. The
-/// motor pushes the first, the hand the second. Viscous and Coulomb friction act on the first.
+/// motor pushes the mass at the motor, and the hand pushes the mass at the end. Viscous and Coulomb friction act on the mass at the
+/// motor.
 ///
 ///     m_m v_m' = F_m - B v_m - f_f sgn (v_m) + k s + c (v_e - v_m)      s = x_e - x_m
 ///     m_e v_e' = F_h - k s - c (v_e - v_m)
 ///     k = m_e (2 pi F_0)^2,  c = 2 zeta m_e 2 pi F_0                    so that the end swings at F_0 while the motor is held
 ///
-/// Axis by axis: each axis has its own dry friction, as if driven by a motor of its own.
+/// Each axis moves by itself and has its own dry friction, as if it had its own motor.
 ///
-/// The forces are held for a tick. Between two changes of the dry friction, the motion is that of a linear system, and is computed
-/// exactly by the matrix exponential: the motor sticks, or slips in one direction. The instant at which a phase ends is found by
-/// halving to less than 1e-12 s (for a tick of more than 1 s, to 2^-40 of the tick).
+/// The forces are held for a tick. In each phase of the motion, the motor either sticks or slips in one direction. The system is then
+/// linear, and its motion is computed exactly by the matrix exponential. The end of a phase is found by bisection, to within 1e-12 s
+/// (for a tick of more than 1 s, to 2^-40 of the tick).
 ///
 /// Good to know
-///  - Work per tick and axis is bounded: one step without dry friction. With it, at most 256 + 64 * 40 steps, and at most 80 more for
-///    each end of a phase that is looked for; each is a product of a 4 x 5 matrix and a vector. Usual are 16 steps per period of the
-///    structure and 40 for each change between stick and slip.
-///  - After the 64th phase of a tick, the motor sticks to the end of the tick. If a tick is longer than 16 periods of the two free
+///  - The work per tick and axis is bounded. Without dry friction it is one step, which is a product of a 4 x 5 matrix and a vector.
+///    With dry friction it is at most 256 + 64 * 40 steps, plus at most 80 for each search for the end of a phase. Usual are 16 steps
+///    per period of the structure, and 40 for each change between stick and slip.
+///  - After the 64th phase of a tick, the motor sticks until the tick ends. If a tick is longer than 16 periods of the two free
 ///    masses, a phase shorter than a period can be missed.
 class FlexibleTool
 {
@@ -42,16 +43,16 @@ public:
 
     struct Axis
     {
-        double x = 0.0;         ///< of the motor, in m
-        double v = 0.0;         ///< of the motor, in m/s; exactly 0 while it sticks
-        double stretch = 0.0;   ///< of the end beyond the motor, in m
-        double end_v = 0.0;     ///< of the end, in m/s
+        double x = 0.0;         ///< position of the motor, in m
+        double v = 0.0;         ///< velocity of the motor, in m/s; exactly 0 while the motor sticks
+        double stretch = 0.0;   ///< position of the end minus that of the motor, in m
+        double end_v = 0.0;     ///< velocity of the end, in m/s
     };
 
     FlexibleTool() = default;
     FlexibleTool (const Properties&, double dt_s);   ///< [main thread]
 
-    void start (const Vec3& position, const Vec3& velocity) noexcept;   ///< unstretched
+    void start (const Vec3& position, const Vec3& velocity) noexcept;   ///< of both masses; the spring is not stretched
     void step (const Vec3& motor_force, const Vec3& hand_force) noexcept;
 
     Vec3 motor() const noexcept { return { axes[0].x, axes[1].x, axes[2].x }; }
@@ -59,9 +60,9 @@ public:
     Vec3 endVelocity() const noexcept { return { axes[0].end_v, axes[1].end_v, axes[2].end_v }; }
 
     const Axis& axis (int i) const noexcept { return axes[static_cast<std::size_t> (i)]; }
-    double energy() const noexcept;                                ///< kinetic and elastic, in J
-    double stiffness() const noexcept { return k; }                ///< of the structure, in N/m
-    int mostPhases() const noexcept { return most_phases_seen; }   ///< in any tick since the start; a phase is a stick or a slip
+    double energy() const noexcept;                                ///< kinetic and elastic energy of all axes, in J
+    double stiffness() const noexcept { return k; }                ///< k, in N/m
+    int mostPhases() const noexcept { return most_phases_seen; }   ///< most phases of an axis in a tick since the start
 
 private:
     struct Held
@@ -77,10 +78,10 @@ private:
         backward = -1
     };
 
-    /// The change of (x, v, stretch, end_v) in a stretch of time, for v, stretch, end_v, motor force and hand force.
+    /// Multiplied by (v, stretch, end_v, motor force, hand force), gives the change of (x, v, stretch, end_v) in one time step.
     using Change = Eigen::Matrix<double, 4, 5>;
 
-    /// A margin that is negative outside the phase, and its rate of change.
+    /// A value that is negative once the phase is over, and its rate of change.
     struct Margin
     {
         double value = 0.0, rate = 0.0;
@@ -95,8 +96,8 @@ private:
 
     Properties what;
     double k = 0.0, c = 0.0;
-    std::vector<Change> slips, sticks;   // by level: for the tick divided by 2^level
-    int finest = 0, grid = 0;            // levels of the finest step, and of the steps between which phases are looked for
+    std::vector<Change> slips, sticks;   // by level: for a time step of the tick divided by 2^level
+    int finest = 0, grid = 0;            // level of the finest step; level of the steps after which the end of a phase is checked
     std::array<Axis, 3> axes {};
     int most_phases_seen = 0;
 };

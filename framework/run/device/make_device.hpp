@@ -37,8 +37,8 @@ struct MadeDevice
 /// Each device may have a "guard"; "about" and "ui" are ignored here.
 ///
 /// Defaults of a simulated device: mass 0.1 kg, damping 1 N s/m; with a first mode, a damping ratio of 0.05 and half of the mass at
-/// the end; for a hand, stiffness 100 N/m and damping 2 N s/m. The default
-/// position is the start of the hand's path, because the tool is in the hand, or 0 without a hand.
+/// the end; for a hand, stiffness 100 N/m and damping 2 N s/m. The default position is the start of the hand's path, because the
+/// tool is in the hand, or 0 without a hand.
 ///
 /// The drivers "hid" and "audio" are for real devices, which are opened by hid::openDevice and audio::openAudio; here they are
 /// refused.

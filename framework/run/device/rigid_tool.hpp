@@ -11,12 +11,12 @@ namespace tactus
 ///
 ///     M v' = F - B v - f_f sgn (v)
 ///
-/// Axis by axis: each axis has its own dry friction, as if driven by a motor of its own. With friction, an axis stops at most once
+/// Each axis is solved on its own, with its own dry friction, as if it had its own motor. With friction, an axis stops at most once
 /// per tick, at a time that has a closed form, and then sticks (|F| <= f_f) or moves on in the direction of the force.
 class RigidTool
 {
 public:
-    /// Mass in kg (> 0), damping in N s/m, Coulomb friction in N.
+    /// The mass is in kg (> 0), the damping in N s/m, the Coulomb friction in N.
     RigidTool (double mass, double damping, double coulomb, double dt_s) noexcept
         : m (mass), b (damping), friction (coulomb), dt (dt_s), whole (mass, damping, dt_s)
     {
@@ -28,7 +28,7 @@ public:
         v = velocity;
     }
 
-    /// The force is in N, held for a tick.
+    /// Moves the tool by one tick under a held force, in N.
     void step (const Vec3& force) noexcept;
 
     const Vec3& position() const noexcept { return x; }

@@ -44,7 +44,7 @@ struct Simulation
     double coulomb = 0.0;               ///< Coulomb friction of the mechanics, in N
     double first_mode = 0.0;            ///< first resonance of the structure, in Hz; 0: a rigid tool
     double first_mode_damping = 0.05;   ///< damping ratio of the first resonance
-    double end_mass = 0.0;              ///< part of the mass at the tool, beyond the compliance, in kg, < mass; 0: half of the mass
+    double end_mass = 0.0;              ///< part of the mass that is at the tool, on the far side of the structure, in kg, < mass; 0: half of it
     Vec3 position = Vec3::Zero();
     Vec3 velocity = Vec3::Zero();
     Vec3 rotation = Vec3::Zero();     ///< constant; torque is accepted but has no effect
@@ -54,13 +54,13 @@ struct Simulation
     int signal_outputs = 0;      ///< channels that are accepted but have no effect
 };
 
-/// In ticks. A longer delay would be several seconds, which must be a mistake.
+/// In ticks. A longer delay would last for seconds, and must be a mistake.
 inline constexpr int longest_delay = 10'000;
 
-/// In Hz. A higher resonance does not differ from a rigid tool.
+/// In Hz. With a higher resonance, the tool would move like a rigid one.
 inline constexpr double highest_first_mode = 1e6;
 
-/// The part of the mass at the tool, in kg.
+/// The mass at the tool if the structure bends, in kg.
 inline double endMassOf (const Simulation& sim) noexcept { return sim.end_mass > 0.0 ? sim.end_mass : 0.5 * sim.mass; }
 
 /// A tool of mass M with viscous damping B and Coulomb friction, pushed by the graph's force and by a hand. Both forces are held
@@ -68,11 +68,11 @@ inline double endMassOf (const Simulation& sim) noexcept { return sim.end_mass >
 /// the physics of a sampled loop, not through integration errors.
 ///
 /// With a `first_mode`, the tool is a structure that bends (FlexibleTool): the graph's force acts on the motor, where the sensor is
-/// and where damping and friction act; the hand acts on the end, and true position and velocity are those of the end. Without
-/// one, motor and end are the same.
+/// and where damping and friction act; the hand acts on the end, and true position and velocity are those of the end. Without a
+/// `first_mode`, motor and end are the same.
 ///
 /// On each tick, read() reports the position, rounded half up to the quantum. write() takes the guarded force, rounds it to the
-/// force quantum, holds the force from `delay` ticks ago (0 before the first one) and the force of the hand, and steps. The
+/// force quantum, and moves the tool by one tick under the force from `delay` ticks ago (0 at first) and that of the hand. The
 /// hand's force is not delayed, because the hand is at the tool. It is computed from the true motion at the tick.
 ///
 /// Good to know
@@ -113,7 +113,7 @@ private:
     Simulation what;
     double dt = 1e-3;
     RigidTool rigid { 1.0, 0.0, 0.0, dt };
-    FlexibleTool flexible;          // used instead if there is a first mode
+    FlexibleTool flexible;          // used instead of `rigid` if there is a first mode
     std::vector<MovingAxis> axes;   // in the order of what.axes
     std::vector<Vec3> on_the_way;   // forces of the last `delay` ticks
     std::size_t oldest = 0;

@@ -54,7 +54,7 @@ Json toJson (const std::map<std::string, GuardLimits>& guards)
     return json;
 }
 
-/// Includes only devices of which something is known: axes, efforts, buttons, signals, or the tool's mass and damping.
+/// Leaves out devices of which nothing is known: no axes, efforts, buttons or signals, no mass and no damping of the tool.
 Json toJson (const std::map<std::string, DeviceLayout>& devices)
 {
     auto json = Json::object();

@@ -13,16 +13,16 @@
 namespace tactus::host
 {
 
-/// Connects the stop keys of a window and its STOP button to a StopSwitch, past the message thread, where the system allows that:
-/// see WindowStop. [message thread]
+/// Connects the stop keys and the STOP button of a window directly to a StopSwitch, so that a stop does not wait for the message
+/// thread, where the system allows this: see WindowStop. [message thread]
 class DirectStop
 {
 public:
     /// The switch must outlive this object.
     explicit DirectStop (StopSwitch& s) : pressed (s) {}
 
-    /// From now on, a click on this part of the component stops; an empty part receives no click. Call it many times a second, because
-    /// windows and components move. Returns why stops go through the message thread, once for each window where they do.
+    /// From now on, a click on this part of the component is a stop. An empty part receives no clicks. Call this many times a second,
+    /// because windows and components move. If direct stops do not work for a window, returns the reason, once per window.
     std::optional<Message> follow (juce::Component&, juce::Rectangle<int> part);
 
 private:

@@ -245,7 +245,7 @@ void LiveRun::rearm() noexcept
     held = false;
     if (! isLive()) return;
     run->engine().rearm();
-    if (stop_switch != nullptr && stop_switch->isAhead()) run->engine().emergencyStop();   // pressed since the first line: a rearm must not undo it
+    if (stop_switch != nullptr && stop_switch->isAhead()) run->engine().emergencyStop();   // pressed since canRearm(): a rearm must not undo it
 }
 
 bool LiveRun::isStoppedForGood() const

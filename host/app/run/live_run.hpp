@@ -64,8 +64,8 @@ public:
     void use (const DeviceSetup&);
     void setupChanged();
 
-    /// From now on, the tick thread obeys this switch, and no run begins while there is a press that has not been noticed. The caller
-    /// must notice the presses, and then call stop() or emergencyStop(). The switch must outlive this object.
+    /// From now on, the tick thread obeys this switch, and no run begins while the switch has a press that nobody has noticed. The
+    /// caller must call notice() on the switch, and then stop() or emergencyStop(). The switch must outlive this object.
     void obey (const StopSwitch& s) noexcept { stop_switch = &s; }
 
     /// The state of the run's sound; empty if it neither plays nor records.
@@ -195,7 +195,7 @@ private:
     std::chrono::steady_clock::time_point stopped_at = std::chrono::steady_clock::time_point::min();
     bool held = false;   // an emergency stop or another latched stop holds the forces at zero until rearm()
     const StopSwitch* stop_switch = nullptr;
-    StopSwitch::Presses obeyed;                              // [tick thread]
+    StopSwitch::Presses obeyed;                              // by the tick thread   [tick thread]
     std::uint32_t alarms_told = 0, alarms_stopped = 0;       // alarms of the failsafe; the second is for the tick thread
     bool begins = false;                                     // starts once the previous run is over
     bool wanted = false;                                     // started and not stopped: the run begins as soon as the graph compiles

@@ -27,7 +27,7 @@ public:
     void endPreview();   ///< runs the document again if it ran before
     bool isPreviewing() const noexcept { return preview_run != nullptr; }
 
-    /// Stops what runs, however busy the message thread is. Valid as long as this object.
+    /// Stops the document's run or the preview, even if the message thread is busy. Valid as long as this object exists.
     StopSwitch& stopSwitch() noexcept { return stop_switch; }
 
     void attend();   ///< call many times a second

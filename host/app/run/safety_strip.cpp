@@ -69,10 +69,10 @@ public:
         shown_at = juce::Time::getCurrentTime();
     }
 
-    /// True if the latest click was so soon after the text had changed that it was meant for the text before.
+    /// True if the latest click came so soon after a change of the text that it was meant for the old text.
     bool isTooSoon() const noexcept { return too_soon; }
 
-    /// JUCE's times of events can be in the future, if the first event had to wait.
+    /// JUCE's event times can lie in the future if the first event had to wait.
     void mouseDown (const juce::MouseEvent& e) override
     {
         too_soon = std::min (e.eventTime, juce::Time::getCurrentTime()) < shown_at + juce::RelativeTime (pause_before_start_s);
@@ -93,7 +93,7 @@ public:
     }
 
 private:
-    juce::Time shown_at;   // when the text became what it is
+    juce::Time shown_at;   // when the text last changed
     bool too_soon = false;
 };
 
@@ -106,7 +106,7 @@ SafetyStrip::SafetyStrip (Playback& p) : playback (p), button (std::make_unique<
     button->onClick = [this] {
         if (shown.running)
             playback.stop();
-        else if (! button->isTooSoon())   // the second click of a double click on STOP must not start again
+        else if (! button->isTooSoon())   // the second click of a double click on STOP must not restart the run
             playback.restart();
     };
     button->setTooltip ("Ramps all forces to zero immediately. Esc does the same. With Shift+Esc, the graph keeps running without forces.");

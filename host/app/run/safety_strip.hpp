@@ -20,7 +20,7 @@ public:
 
     void refresh();   ///< call many times a second
 
-    /// Where a click is a stop; empty while there is nothing to stop.
+    /// The part of the strip where a click is a stop. Empty while there is nothing to stop.
     juce::Rectangle<int> stopPlace() const;
 
     void paint (juce::Graphics&) override;

@@ -8,8 +8,8 @@
 namespace tactus::host
 {
 
-/// Stops the runs of a window, however busy the message thread is. Any thread can press it. The tick thread of each run looks at it
-/// before every tick; the message thread notices a press when it has time.
+/// Stops the runs of a window, however busy the message thread is. Any thread can press the switch. The tick thread of each run
+/// checks it before every tick; the message thread notices a press when it has time.
 class StopSwitch
 {
 public:
@@ -26,12 +26,12 @@ public:
     void emergencyStop() noexcept { emergencies.fetch_add (1, std::memory_order_relaxed); }
     Presses presses() const noexcept { return { stops.load (std::memory_order_relaxed), emergencies.load (std::memory_order_relaxed) }; }
 
-    /// The presses that the message thread knew of at its last notice(). A run starts from these, so that it obeys a later press that
-    /// came before its first tick. [message thread]
+    /// The presses that the message thread knew of at its last notice(). A new run counts these as obeyed. So it also obeys a press that
+    /// comes between notice() and its first tick. [message thread]
     const Presses& noticed() const noexcept { return known; }
     bool isAhead() const noexcept { return presses() != known; }   ///< true if there is a press to notice   [message thread]
 
-    /// Returns what was known before. [message thread]
+    /// Marks all presses as noticed, and returns those that noticed() gave before. [message thread]
     Presses notice() noexcept { return std::exchange (known, presses()); }
 
 private:

@@ -42,7 +42,7 @@ public:
         bool light = false;           ///< light theme, whatever the settings say
         std::vector<std::filesystem::path> files {};
         std::optional<OscListen> osc {};   ///< where to listen for OSC
-        bool stops_directly = false;       ///< the view is in a window of the system, which DirectStop can watch
+        bool stops_directly = false;       ///< the view is in a native window, which DirectStop can watch
     };
 
     /// Reads the settings, offers to recover crashed sessions, and opens the files or the welcome page.

@@ -36,7 +36,7 @@ using GraphHandle = std::unique_ptr<tactus_graph, Free>;
 using RunHandle = std::unique_ptr<tactus_run, Free>;
 using Text = std::unique_ptr<char, Free>;
 
-/// A spring on the z axis, and the force that it makes.
+/// A tool that presses against a spring along z.
 GraphHandle spring (tactus_messages* m)
 {
     GraphHandle g { tactus_graph_create ("Spring", 1000.0, m) };
@@ -197,7 +197,7 @@ TEST_CASE ("C API: a pushed device is guarded, and silence removes its force", "
     const MessageList m { tactus_messages_create() };
     const auto run = pushedSpring ("{\"max_force\": \"2 N\", \"watchdog\": \"20 ms\"}", m.get());
     tactus_run_tick (run.get());
-    CHECK (forceZ (run.get()) == 0.0);   // nothing was pushed yet
+    CHECK (forceZ (run.get()) == 0.0);   // no reading has been pushed yet
 
     auto reading = at (-0.001);
     for (int k = 0; k < 50; ++k)
@@ -209,7 +209,7 @@ TEST_CASE ("C API: a pushed device is guarded, and silence removes its force", "
     reading = at (-0.010);
     tactus_run_push (run.get(), "stylus", &reading);
     tactus_run_tick (run.get());
-    CHECK (forceZ (run.get()) == Approx (2.0));   // not 10 N
+    CHECK (forceZ (run.get()) == Approx (2.0));   // the guard limits the 10 N of the spring
     for (int k = 0; k < 50; ++k)
         tactus_run_tick (run.get());
     CHECK (forceZ (run.get()) == 0.0);
@@ -265,7 +265,7 @@ TEST_CASE ("C API: feeds drive ports, parameters are set, and an edit takes over
     REQUIRE (tactus_graph_set_param (g.get(), "", "wall", "stiffness", "250", m.get()) == TACTUS_OK);
     REQUIRE (tactus_run_edit (run.get(), g.get(), m.get()) == TACTUS_OK);
     REQUIRE (tactus_run_steps (run.get(), 200, depth.data(), force.data()) == TACTUS_OK);
-    CHECK (force.front() > 0.9);   // ramps
+    CHECK (force.front() > 0.9);   // the force fades from 1 N to 0.5 N
     CHECK (force.back() == Approx (0.5));
 }
 
@@ -279,7 +279,7 @@ TEST_CASE ("C API: a run in real time records every tick, and ends at rest", "[c
     start.length = 400;
     start.buffer = 100'000;
     REQUIRE (tactus_run_start (run.get(), &start, m.get()) == TACTUS_OK);
-    CHECK (tactus_run_tick (run.get()) == TACTUS_MISUSE);   // the timer ticks it
+    CHECK (tactus_run_tick (run.get()) == TACTUS_MISUSE);   // the tick thread ticks this run
     tactus_status status = TACTUS_STATUS;
     do
     {
@@ -320,7 +320,7 @@ TEST_CASE ("C API: a program that knows fewer members of a struct keeps its memo
     const MessageList m { tactus_messages_create() };
     const auto run = pushedSpring (nullptr, m.get());
     tactus_status status = TACTUS_STATUS;
-    status.size = offsetof (tactus_status, force);   // an older version without the last members
+    status.size = offsetof (tactus_status, force);   // as in a program built with an older version, without the last members
     status.peak_force = 123.0;
     status.is_emergency = 77;
     REQUIRE (tactus_run_status (run.get(), &status) == TACTUS_OK);

@@ -14,7 +14,7 @@ using namespace tactus;
 
 namespace
 {
-/// A stroke over a soft ribbed board. A good device breaks no condition with it.
+/// A stroke over a soft ribbed board. A good device can render it without breaking a condition.
 struct Board
 {
     double rate_hz = 2000.0;
@@ -23,7 +23,7 @@ struct Board
     double amplitude = 0.1, spatial_frequency = 100.0;   // of the grating, N and 1/m
     double knock = 0.0;                                  // amplitude of a square wave, N
     const char* path = "stroke";
-    int delay = 0;   // ticks on the wire from the wall
+    int delay = 0;   // of the wire from the wall, in ticks
 
     graph::Graph graph() const
     {
@@ -243,7 +243,8 @@ TEST_CASE ("a low-pass in the loop counts as the delay that it has at low freque
     const auto demand = check::measure ({ s.graph, catalogue() }, motion, { .places = 4 });
     const auto& slope = demand.roles[0].slopes.back();
     CHECK (slope.stiffness == Approx (500.0).epsilon (0.02));
-    // 1/(pi sqrt 2 f_c) at low frequency; the overshoot is counted on its own, so that the sum is never too small.
+    // At low frequency the filter lags by 1/(pi sqrt 2 f_c). Its overshoot counts as damping and is not subtracted from the lag, so the
+    // sum of both is never too small.
     const double delay = 1.0 / (3.14159265 * 1.41421356 * 400.0);
     CHECK (slope.lag - slope.damping == Approx (500.0 * delay).epsilon (0.1));
     CHECK (slope.lag >= 500.0 * delay);

@@ -13,7 +13,7 @@ using namespace tactus;
 
 namespace
 {
-/// A wall that a constant force presses the tool against. It touches all the time, so that it is a spring.
+/// A wall, for a tool that a constant force presses against it. The tool always touches, so the wall acts as a spring.
 graph::Graph wall (double stiffness, double rate_hz)
 {
     test::Sketch s;
@@ -35,7 +35,7 @@ Simulation resting (Simulation sim, double stiffness)
     return sim;
 }
 
-/// The stiffest wall that the conditions allow on a device: measured on a soft wall, and scaled up to the limit.
+/// The stiffness of the wall, in N/m, that just meets a condition: measured on a soft wall, and scaled up to the limit.
 double predicted (const Simulation& sim, double rate_hz, std::string_view id)
 {
     const double soft = 10.0;
@@ -51,7 +51,7 @@ double predicted (const Simulation& sim, double rate_hz, std::string_view id)
     return 0.0;
 }
 
-/// Half the distance between the largest and the smallest position in the second half of a run, over that in the first half.
+/// The range of the positions in the second half of a run, divided by their range in the first half.
 double growth (const Simulation& sim, double stiffness, double rate_hz, int ticks)
 {
     SimulatedDevice device { resting (sim, stiffness) };
@@ -77,7 +77,7 @@ rc::Gen<double> between (double min, double max)
 
 TEST_CASE ("a wall on a light damped tool starts to oscillate within 10 % of where the condition says", "[check]")
 {
-    // The condition is exact for a damping that takes many ticks to stop the tool, B T << M, and a delay that is short against the period.
+    // The condition is exact if the damping takes many ticks to stop the tool (B T << M), and the delay is short compared with the period.
     rc::prop ("onset", [] {
         const double rate_hz = *between (500.0, 10e3), mass = *between (0.02, 1.0), share = *between (0.003, 0.02);
         const int delay = *rc::gen::inRange (0, 4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each step of the migration does to a graph file, and that files of the newest version stay as they are.
+// Each step of the migration changes a graph file as intended, and files of the newest version stay as they are.
 #include <tactus/file/graph_file.hpp>
 
 #include <support/temporary_folder.hpp>
@@ -18,7 +18,7 @@ std::string file (int version, const std::string& members)
     return R"({ "format": "tactus-graph", "version": )" + std::to_string (version) + ", " + members + " }";
 }
 
-/// The `load` of a node, as text; empty if the file does not say.
+/// The `load` of a node, as text; empty if the file does not give it.
 std::string loadOf (const graph::Patch& patch, const std::string& node)
 {
     const auto& params = patch.find (node)->params;

@@ -73,9 +73,9 @@ TEST_CASE ("bouncing mass: it follows an independent integration in small steps"
 
 TEST_CASE ("bouncing mass: a touch that is over within a step is not missed", "[kit]")
 {
-    // The mass turns back in free flight, 1 um beyond the surface.
+    // Without the surface, the mass would turn back 1 um beyond it.
     BouncingMass body { .mass = 0.1, .stiffness = 1e7, .force = -2.0 };
-    const double v = std::sqrt (2.0 * 20.0 * 1.001e-3);   // at 1 mm before the surface
+    const double v = std::sqrt (2.0 * 20.0 * 1.001e-3);   // the speed 1 mm before the surface
     const auto [end, touched] = body.after ({ .depth = -1e-3, .speed = v }, 0.02);
     CHECK (touched);
     body.stiffness = 0.0;

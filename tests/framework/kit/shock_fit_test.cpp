@@ -159,7 +159,7 @@ TEST_CASE ("fit of a shock: a recording that is none is refused, with the reason
         d = -std::abs (d);
     CHECK (problem (bad) == "fit/no_contact");
 
-    bad = good;   // only the way in
+    bad = good;   // without the way out
     const auto deepest = std::ranges::max_element (bad.depth) - bad.depth.begin();
     for (auto* column : { &bad.depth, &bad.force, &bad.time })
         column->resize (std::size_t (deepest) + 1);

@@ -13,7 +13,7 @@ namespace
 {
 using Values = std::array<double, 3>;
 
-/// What smooth weights interpolate over a triangle in the xy plane, from values at its corners.
+/// The value that smooth weights interpolate at p, in a triangle in the xy plane, from the values at its corners.
 double interpolated (const Corners& corners, const Values& values, const Vec3& p)
 {
     const auto gradients = gradientsOf (corners);
@@ -39,7 +39,7 @@ Vec3 slope (const Corners& corners, const Values& values, const Vec3& p)
 
 TEST_CASE ("smooth weights: neither the value nor its gradient steps across an edge, and the weights are shares of a whole", "[kit]")
 {
-    rc::prop ("two triangles with an edge in common", [] (unsigned seed) {
+    rc::prop ("two triangles that share an edge", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         const Vec3 a (-1.0, 0.1 * one (dice), 0.0), b (1.0, 0.1 * one (dice), 0.0);

@@ -19,7 +19,7 @@ using test::Sketch;
 
 namespace
 {
-/// Two tools at rest, and a shock of the device's mass that is struck through several nodes, on the way from one of them.
+/// Two tools, and a shock node that takes its mass from the device. The tool `hand` triggers the shock through several nodes.
 Sketch struck (const std::string& hand)
 {
     Sketch s;
@@ -35,13 +35,13 @@ Sketch struck (const std::string& hand)
     return s;
 }
 
-/// It moves into the wall at the same speed, whatever its mass.
+/// A tool that moves into the wall at the same speed, whatever its mass.
 SimulatedDevice tool (double mass)
 {
     return SimulatedDevice ({ .mass = mass, .damping = 0.0, .position = { 0.0, 0.0, 1e-5 }, .velocity = { 0.0, 0.0, -0.1 } });
 }
 
-/// The forces of the blow.
+/// The forces of the shock with tools of these masses. If `own_mass` is not 0, the node uses it instead.
 std::vector<double> blow (const Sketch& sketch, double left, double right, double own_mass = 0.0)
 {
     auto s = sketch;
@@ -126,7 +126,7 @@ TEST_CASE ("the wall's warning of a rate too low uses the mass that the graph de
     s.graph.rate_hz = 1000.0;
     CHECK_FALSE (has (s.compile().messages, "node/warning"));
     s.graph.devices = { { "right", { { "driver", "sim" }, { "mass", "50 g" } } } };
-    CHECK_FALSE (has (s.compile().messages, "node/warning"));   // the other tool
+    CHECK_FALSE (has (s.compile().messages, "node/warning"));   // this describes only the other tool
     s.graph.devices.push_back ({ "left", { { "driver", "sim" }, { "mass", "50 g" } } });
     const auto messages = s.compile().messages;
     REQUIRE (has (messages, "node/warning"));
@@ -134,6 +134,6 @@ TEST_CASE ("the wall's warning of a rate too low uses the mass that the graph de
     CHECK (messages[0].text.find ("2200 Hz") != std::string::npos);
     s.graph.rate_hz = 4000.0;
     CHECK_FALSE (has (s.compile().messages, "node/warning"));
-    s.graph.devices[1].second["mass"] = "no mass";   // reported where the device is made
+    s.graph.devices[1].second["mass"] = "no mass";   // the error is reported only when the device is made
     CHECK_FALSE (has (s.compile().messages, "node/warning"));
 }

@@ -367,7 +367,7 @@ TEST_CASE ("a surface may have frames and ratios for each tool, ratios as curves
     CHECK (contains (fault ("mu", Json::array ({ { 0.1 }, { 0.1, 0.2 } })), "/mu/1: it must be one ratio for each of the 4 nodes, or one for all"));
     CHECK (contains (fault ("mu", { { "curve", { { 0, 1 }, { 0.1, -1 } } } }), "/mu/curve/1/1: -1 is out of range"));
     CHECK (contains (fault ("weights", Json::array()), "/weights: it needs the weights of at least one tool"));
-    CHECK (contains (fault ("weights", Json::array ({ { 1, 0, 0 } })), "/weights/0: it must be a share of each of the 2 tools that have curves"));
+    CHECK (contains (fault ("weights", Json::array ({ { 1, 0, 0 } })), "/weights/0: it must be one share for each of the 2 tools that have curves"));
     CHECK (contains (fault ("weights", Json::array ({ { 1, 1.5 } })), "/weights/0/1: 1.5 is out of range"));
 }
 

@@ -25,7 +25,7 @@ graph::Graph read (const std::string& nodes, const std::string& devices = "", co
     return std::move (found.graph);
 }
 
-/// Pushes with 5 N, and asks for a guard of 1 N.
+/// A graph that pushes with 5 N and has this guard, 1 N by default.
 std::shared_ptr<const graph::Graph> pushing (const std::string& guard = R"("max_force": "1 N")")
 {
     auto graph = read (R"("push": { "type": "signal.constant", "params": { "value": 5 } }, "motor": { "type": "device.force", "role": "tip" })",
@@ -44,7 +44,7 @@ public:
     double force = 0.0;
 };
 
-/// The forces by role after a tick of the graph, on devices without limits. The messages are those of openDevices.
+/// The force on each role after one tick of the graph, on devices without limits. `messages` gets those of openDevices.
 std::map<std::string, double> forces (const graph::Graph& graph, Messages* messages = nullptr)
 {
     std::map<std::string, Still*> devices;

@@ -18,7 +18,8 @@ struct Scheduling
     int policy = -1, priority = -1;
 };
 
-/// The scheduling of a thread that has asked for it; empty if this user may not have it, for then it must not have changed.
+/// The scheduling of a thread after it has asked for a priority. Empty if the request was refused: then the policy must be the same as
+/// before.
 template <typename Ask>
 std::optional<Scheduling> after (Ask&& ask)
 {
@@ -48,14 +49,14 @@ TEST_CASE ("the thread of an emergency stop comes before the tick, and the threa
     for (const int wanted : { tactus::priority::stop, tactus::priority::messages })
     {
         const auto got = after ([&] { return ! tactus::raisePriority (wanted); });
-        if (! got) continue;   // tested where the user has the right
+        if (! got) continue;   // this user may not use real-time priorities
         CHECK (got->policy == SCHED_FIFO);
         CHECK (got->priority == wanted);
         REQUIRE (tick);
         CHECK (tick->policy == SCHED_FIFO);
         CHECK ((got->priority > tick->priority) == (wanted == tactus::priority::stop));
     }
-    CHECK_FALSE (after ([] { return ! tactus::raisePriority (1000); }));   // no such priority
+    CHECK_FALSE (after ([] { return ! tactus::raisePriority (1000); }));   // this priority does not exist
 }
 
 #endif

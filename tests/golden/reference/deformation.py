@@ -175,7 +175,7 @@ def stored(surface, contact, d):
 
 
 def downhill(surface, contact, d, p, step):
-    """Moves c along a step as far as the stored energy does not rise, and tells whether it moved."""
+    """Moves c along a step while the stored energy does not rise. Last value: whether c moved."""
     c, start = contact["c"], stored(surface, contact, d)
     inward, here = contact["axes"][2], contact["triangle"]
     facing = [t for t, corners in enumerate(surface["triangles"])
@@ -212,7 +212,7 @@ def downhill(surface, contact, d, p, step):
 
 
 def slipped(surface, contact, d, p):
-    """Contact and deflection after the bound, whether c moved, and whether the bound was exceeded."""
+    """Contact and deflection within the bound, whether c moved, and whether the bound was exceeded."""
     most, reach = bound(surface, contact, d[2]), math.hypot(d[0], d[1])
     if reach <= most * (1.0 + EPS_SLIP):
         return contact, d, False, False
@@ -226,7 +226,7 @@ def area_normal(surface, corners):
 
 
 def entered(surface, start, end):
-    """The first triangle that the way crosses inwards, or None."""
+    """The first triangle that the line from start to end crosses inwards, or None."""
     way, found = vec.sub(end, start), (1.0 + ON_EDGE, None)
     for index, corners in enumerate(surface["triangles"]):
         normal, at = area_normal(surface, corners), [surface["nodes"][i] for i in corners]
@@ -245,7 +245,7 @@ def entered(surface, start, end):
 
 
 def came_in(surface, contact, d, last, p):
-    """The contact of a tool on the side that it came through, and whether it came through any."""
+    """Contact and deflection on the side by which the tool came in, and whether it came in."""
     if last is None or entered(surface, last[0], p) is None:
         return contact, d, False
     way = vec.sub(p, last[0])

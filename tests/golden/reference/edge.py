@@ -20,7 +20,7 @@ WHOLE = (0.0, True, False)  # crack, virgin, in two
 
 
 class Strip:
-    """The sample, as a level edge meets it."""
+    """How the sample responds to a level edge."""
 
     def __init__(self, now):
         self.g0, self.g1 = now["law"], now["cracked_law"] or now["law"]
@@ -33,7 +33,7 @@ class Strip:
             self.last, laws.energy(self.g0, self.d_r))
 
     def press(self, column, delta):
-        """The column afterwards, its elastic energy, what was lost, and what happened."""
+        """Returns the column afterwards, its elastic energy, the energy lost, and what happened."""
         crack, virgin, in_two = column
         lost, bursts, cuts = 0.0, False, False
         if in_two or delta <= crack:
@@ -54,7 +54,7 @@ class Strip:
 
 
 def hat_mean(a, b):
-    """The integral of the hat function 1 - |u| from a to b, and the mean u there."""
+    """The integral of the hat function 1 - |u| from a to b, and the mean of u weighted by it."""
     stops = [a, *(u for u in (-1.0, 0.0, 1.0) if a < u < b), b]
     area = moment = 0.0
     for low, high in zip(stops, stops[1:]):
@@ -66,7 +66,7 @@ def hat_mean(a, b):
 
 
 def covered(x, depth, h):
-    """(column, share, mean depth) of the columns under the line from (x[0], depth[0]) to (x[1], depth[1])."""
+    """Yields (column, share, mean depth) for the columns under the line from (x[0], depth[0]) to (x[1], depth[1])."""
     (low, d_low), (high, d_high) = sorted(zip(x, depth))
     for j in range(math.floor(low / h), math.ceil(high / h) + 1):
         share, middle = hat_mean(low / h - j, high / h - j)
@@ -112,7 +112,7 @@ class Body:
         return cut
 
     def follow(self, cut, a, b):
-        """A cut without a crack is where the edge is."""
+        """Moves a cut that has no crack yet to where the edge is."""
         along = vec.unit(vec.across(self.n, vec.unit(vec.sub(b, a))))
         cut.update(origin=vec.scale(0.5, vec.add(a, b)), along=along, aside=vec.cross(self.n, along))
 

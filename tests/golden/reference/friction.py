@@ -44,7 +44,7 @@ def zeta(now, r):
 
 
 def stiffness(now, stored, touching):
-    """sigma; touching is sigma of the sample before, None on the first."""
+    """sigma; touching is sigma at the previous sample, None at the first touch."""
     if now["load"] != "bound":
         return now["stiffness"] or now["mu"] * now["normal_force"] / now["d_max"]
     if touching is not None:
@@ -70,7 +70,7 @@ def slip(now, r):
 
 
 def let_go(now, d):
-    """The stretch after the bound fell below it, and whether it did."""
+    """The stretch, cut back if the bound has fallen below it, and whether it was."""
     if now["adhesion"] == "stick" or now["integrator"] == "euler":
         return d, False
     excess = zeta(now, vec.norm(d)) * vec.norm(d)

@@ -67,7 +67,7 @@ class Set:
             self.expected.append(Expected(name, values, allowed, set(free)))
 
     def within(self, port, column, allowed):
-        """Compares a port with a column, using this tolerance."""
+        """Compares a port with a column, using the tolerance `allowed`."""
         for name, values in parts(port, column).items():
             self.expected.append(Expected(name, values, allowed))
 
@@ -107,9 +107,9 @@ def friction_params(rng):
 
 
 def moving(rng, params, name, rows):
-    """A parameter that moves. The specification leaves two cases open: what
-    a falling d_max does to a step solved by eq. (2) if load is not "bound",
-    and whether load "scale" applies to a given stiffness."""
+    """A parameter that changes over time. The specification leaves two cases open:
+    what a falling d_max does to a step solved by eq. (2) if load is not "bound",
+    and whether load "scale" applies to a stiffness that is given."""
     out = [params[name] * (1.0 + 0.5 * math.tanh(x))
            for x in draw.stroke(rng, rows, 1.0)]
     if params["load"] == "bound":
@@ -192,7 +192,7 @@ def cutting_set(rng):
 
 
 def edge_set(rng):
-    """An edge that is pressed in, tilted, drawn, lifted and moved aside."""
+    """An edge that is pressed in, tilted, moved along the surface, and lifted."""
     rows = 300
     set_ = Set(draw.rate(rng), rows, time_free=True)
     params = {"width": draw.spread(rng, 0.003, 0.03),

@@ -75,7 +75,7 @@ def solve(now, mass, speed, dt, steps):
 
 
 def score(now, mass, speed, dt):
-    """Mean force and energy lost for each tick of a short contact; None for others."""
+    """Mean force and energy lost for each tick of a short contact; None for a longer one."""
     found = solve(now, mass, speed, dt, 200)
     if found is None:
         return None

@@ -210,7 +210,7 @@ TEST_CASE ("a face with more corners than the budget allows is refused before th
     CHECK (problem (head + "1000 0 0 0\n", "a.ply") == "mesh/truncated at a.ply:9");
 
     CHECK (problem ("OFF\n1 1 0\n0 0 0\n2000000000 0 0 0\n", "a.off") == "mesh/too_large at a.off:4");
-    CHECK (problem ("OFF\n1 1 0\n0 0 0\n1000 0 0 0\n", "a.off") == "mesh/syntax at a.off:4");   // a word is missing
+    CHECK (problem ("OFF\n1 1 0\n0 0 0\n1000 0 0 0\n", "a.off") == "mesh/syntax at a.off:4");   // the line has fewer words than corners
     const WithLimits limits { "triangles=3" };
     CHECK (problem ("v 0 0 0\nf 1 1 1 1 1 1 x\n", "a.obj") == "mesh/too_large at a.obj:2");
 }

@@ -126,7 +126,7 @@ TEST_CASE ("one thread of a play handles the emergency signals, and where real-t
             std::string text, field;
             std::getline (stat, text);
             std::istringstream fields (text.substr (text.rfind (')') + 1));
-            for (int i = 3; i <= 40; ++i)   // the name, the second field, may contain anything
+            for (int i = 3; i <= 40; ++i)   // starts after field 2, the name, which may contain anything
                 fields >> field;
             thread.priority = std::stoi (field);
         }

@@ -17,7 +17,7 @@ using test::Scratch;
 
 namespace
 {
-/// A free impact of 30 g on 5e5 d^1.5 with a dissipation of 0.5 s/m, at 0.8 m/s.
+/// The recording of a free impact: 30 g at 0.8 m/s on a spring of 5e5 d^1.5 N, with a dissipation of 0.5 s/m.
 std::string recording (bool with_times)
 {
     std::ostringstream csv;

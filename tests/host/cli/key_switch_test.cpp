@@ -110,7 +110,7 @@ std::vector<long> randomStrokes (double deepest, double step)
 /// The largest error of a sum over steps: once per stroke, it misses the kink where a bristle of this stiffness begins to slip.
 double missed (std::size_t strokes, double stiffness, double step) { return static_cast<double> (strokes + 1) * stiffness * step * step / 8.0 + 1e-12; }
 
-/// A bristle may exceed its bound by a billionth before it slips (N).
+/// Tolerance in N: a bristle may exceed its bound by a relative 1e-9 before it slips.
 constexpr double slack = 2e-9;
 
 /// A random key. It may have kinks anywhere, a falling force, and any loss that does not make the force on the way up negative.
@@ -294,7 +294,8 @@ TEST_CASE ("any two curves, if down is above up, make a key that follows both, r
             pressed.to (std::lround (loop.travel[i] / step));
             RC_ASSERT (std::abs (pressed.force() - loop.press[i]) < 0.2 * mN + slack);
         }
-        // So deep that the bristle has reversed, after 2 bound / stiffness, when the finger is back.
+        // The finger goes so far beyond the last point that the bristle, which needs 2 bound / stiffness to reverse, has reversed
+        // when the finger is back there.
         pressed.to (std::lround (loop.travel.back() / step) + 20);
         for (std::size_t i = loop.travel.size() - 1; i > 0; --i)
         {

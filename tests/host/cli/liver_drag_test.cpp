@@ -44,7 +44,7 @@ TEST_CASE ("the liver drags with a tenth of the push at every working depth, wit
     for (std::size_t r = 0; r < table->rows(); ++r)
     {
         const auto value = [&] (std::size_t i) { return table->at (r, *table->column (outputs[i])); };
-        if (value (4) != 2.0 || value (5) < 1e-4) continue;   // where the tool leaves the liver, there is no push to compare with
+        if (value (4) != 2.0 || value (5) < 1e-4) continue;   // not slipping, or hardly touching: there is no push to compare the drag with
         const double all2 = value (0) * value (0) + value (1) * value (1) + value (2) * value (2), push = value (3);
         const double ratio = std::sqrt (std::max (0.0, all2 - push * push)) / push;
         least = std::min (least, ratio);

@@ -211,7 +211,7 @@ TEST_CASE ("device.force.applied shows the force that the motors render, decoded
         Engine engine { compiled.plan };
         engine.attach (compiled.plan->roles()[0].name, device, profile->limits.guard);
 
-        constexpr double count = 1e-3;   // in N or A, for the coarser device
+        constexpr double count = 1e-3;   // one count of the coarser device, in N or A
         for (int k = 0; k < 40; ++k)
         {
             const auto before = device.sent;

@@ -11,7 +11,7 @@ using namespace tactus::host::hid;
 
 namespace
 {
-/// A device that is known but cannot be opened, with every number.
+/// The profile of a device that cannot be opened. It gives every number.
 const Json& known()
 {
     static const Json json = Json::parse (R"({
@@ -24,7 +24,7 @@ const Json& known()
     return json;
 }
 
-/// The same with one entry replaced; null removes the entry.
+/// The same profile with one entry replaced, or removed if the value is null.
 Json with (const std::string& pointer, const Json& value)
 {
     Json json = known();
@@ -94,7 +94,7 @@ TEST_CASE ("physics of a profile: every mistake is reported with its place", "[h
         { "/physics/workspace/min", null, "profile/missing" },
         { "/physics/workspace/min", Json ({ 1, 0, 0 }), "profile/out_of_range" },
         { "/physics/workspace/source", null, "profile/missing" },
-        { "/match", Json::parse (R"([{ "vid": "0x1209" }])"), "profile/missing" },   // what it matches has no reports
+        { "/match", Json::parse (R"([{ "vid": "0x1209" }])"), "profile/missing" },   // a profile with `match` needs reports
     };
     for (const auto& mistake : mistakes)
     {
@@ -113,7 +113,7 @@ TEST_CASE ("physics of a profile: limits and rate fill in what is missing", "[hi
     profile.physics.peak_force.reset();
     profile.physics.rate.reset();
     profile.limits.position_quantum = 54e-6;
-    profile.limits.first_mode = 99.0;   // physics has this number already
+    profile.limits.first_mode = 99.0;   // ignored, because physics has this number
     profile.limits.guard.max_force = 5.0;
     profile.rate = 500.0;
 

@@ -187,7 +187,7 @@ TEST_CASE ("own profiles: one that drives the device of a shipped profile otherw
         { "stream", [] (Profile& p) { p.outputs[0].stream = Stream { .at = 48, .frames = 4, .rate = 1000.0, .channels = { "l" } }; } },
         { "kinematics", [] (Profile& p) { p.kinematics = LinearMap { .matrix = 10.0 * Mat3::Identity() }; } },
         { "axes", [] (Profile& p) { p.axes.col (0) = -p.axes.col (0); } },
-        // The limits depend on the readings.
+        // The limits depend on the readings, so a change of the readings is refused too.
         { "position y", [] (Profile& p) { inputOf (p, "y").scale *= 1e-3; } },
         { "position x", [] (Profile& p) { p.position[0] = "axis1"; } },
         { "position z", [] (Profile& p) { p.position[2].clear(); } },
@@ -286,7 +286,7 @@ TEST_CASE ("own profiles: one that leaves out an init or exit report of the ship
         return profileNamed (joined ({ { std::make_shared<const Profile> (std::move (own)) }, {} }, shipped), "mine") != nullptr;
     };
     CHECK (isUsed ([] (Profile&) {}));
-    CHECK (isUsed ([] (Profile& p) { p.init.erase (p.init.begin() + 1); }));   // reads only
+    CHECK (isUsed ([] (Profile& p) { p.init.erase (p.init.begin() + 1); }));   // this step only reads
     CHECK_FALSE (isUsed ([] (Profile& p) { p.init.pop_back(); }));
     CHECK_FALSE (isUsed ([] (Profile& p) { std::swap (p.init.front(), p.init.back()); }));
     CHECK_FALSE (isUsed ([] (Profile& p) { p.exit.clear(); }));

@@ -57,7 +57,7 @@ TEST_CASE ("a device known by numbers: a profile that lacks a number gives the d
 {
     DeviceNumbers numbers;
     numbers.mass = DeviceNumber { .value = 0.2 };
-    numbers.end_mass = DeviceNumber { .value = 0.1 };   // means nothing without a first mode
+    numbers.end_mass = DeviceNumber { .value = 0.1 };   // has no effect without a first mode
     numbers.peak_force = DeviceNumber { .value = 30.0 };
     const auto sim = host::withNumbers (Json::parse (R"({ "driver": "sim", "damping": 7, "first_mode": 50, "guard": { "max_force": "20 N" } })"), numbers);
     CHECK (sim == Json::parse (R"({ "driver": "sim", "guard": { "max_force": "20 N" }, "mass": 0.2 })"));

@@ -81,7 +81,7 @@ TEST_CASE ("positions are scaled and shifted, and everything else is unchanged",
     });
 
     Placed placed { { 3.0, { 0.0, 0.0, 0.01 } } };
-    CHECK (placed.device->layout() == DeviceLayout { .axes = { "trigger" }, .mass = 0.02, .damping = 0.5 });   // scale 3: the same force moves it further
+    CHECK (placed.device->layout() == DeviceLayout { .axes = { "trigger" }, .mass = 0.02, .damping = 0.5 });   // a third, because motion is scaled by 3
     CHECK (placed.device->duration() == 3.0);
     NoAllocation none;
     placed.device->read();

@@ -100,7 +100,7 @@ TEST_CASE ("impact: a braking approach has the same speed at every rate", "[node
     {
         const auto speed = [&] (double rate) {
             const auto depth = [&] (int k) {
-                const double t = k / rate - 0.1003;   // comes at 0.3 m/s, loses 5 m/s2
+                const double t = k / rate - 0.1003;   // arrives at 0.3 m/s, and brakes at 5 m/s2
                 return 0.3 * t - 2.5 * t * t;
             };
             return strike (impact ({ .release = release }, rate), static_cast<int> (0.11 * rate), depth).speed;
@@ -114,7 +114,7 @@ TEST_CASE ("impact: a braking approach has the same speed at every rate", "[node
 
 TEST_CASE ("impact: the speed is not taken over more than the window", "[nodes][contact]")
 {
-    // The tool speeds up 20 ms before the contact, by less than a generous `release` tells apart.
+    // The tool speeds up 18 ms before the contact. So large a `release` hides the change, so only `window` keeps it out of the speed.
     const auto depth = [] (int k) { return k < 180 ? -1e-3 * (220 - k) / 10.0 : -3.5e-3 + 2e-4 * (k - 180); };
     for (const double window : { 0.005, 0.015 })
         CHECK (strike (impact ({ .release = 1e-2, .window = window }), 300, depth).speed == Approx (0.2).epsilon (1e-6));

@@ -46,7 +46,7 @@ struct Bench
         return out;
     }
 
-    /// Moves the edge to a place and rotation in n equal steps.
+    /// Moves the edge to a position and rotation in n equal steps.
     const Edge::Outputs& move (const Vec3& to, const Vec3& turned, int n)
     {
         const Vec3 from = position, from_rotation = rotation;
@@ -81,11 +81,11 @@ private:
     std::mt19937 random;
 };
 
-/// A potato that bursts at the cutting force: a cut without a dip, for closed forms.
+/// A potato that bursts at the cutting force. Its force does not dip after the rupture, so it has a closed form.
 const Edge::Params skinless { .rupture_force = 4.0 };
 constexpr double toughness = 200.0, width = 0.02;
 
-/// A smooth random walk through and beside the body, which comes back to its start after 1.
+/// A smooth random path through and beside the body. It is closed: s = 1 is the start again.
 class Walk
 {
 public:
@@ -225,9 +225,9 @@ TEST_CASE ("edge: cut, withdraw, move aside, press: a second rupture; back in th
     CHECK (bench.ruptures == 1);
     CHECK (bench.most == Approx (6.0).epsilon (2e-3));
 
-    stroke (0.0, 0.0, 0.3);   // turned: another plane
+    stroke (0.0, 0.0, 0.3);   // turned: the edge cuts another plane
     CHECK (bench.ruptures == 1);
-    stroke (0.0, 0.0, M_PI);   // turned all the way round: the first plane again
+    stroke (0.0, 0.0, M_PI);   // turned by half a turn: the first plane again
     CHECK (bench.ruptures == 0);
     stroke (0.0, 0.05, 0.0);
     CHECK (bench.ruptures == 0);
@@ -242,8 +242,8 @@ TEST_CASE ("edge: half beside its cut, it bursts the other half alone, and is tu
     bench.ruptures = 0;
     bench.move ({ 0.01, 0.0, -0.00299 }, 399);
     CHECK (bench.ruptures <= 1);
-    CHECK (bench.out.resistance == Approx (0.475 * 2000.0 * 0.00299).epsilon (1e-9));                       // half a column more than half was opened
-    CHECK (bench.out.torque.y() == Approx (-0.25 * width * 1.05 * bench.out.resistance).epsilon (0.001));   // lifts the uncut half
+    CHECK (bench.out.resistance == Approx (0.475 * 2000.0 * 0.00299).epsilon (1e-9));                       // 9.5 mm uncut: half the edge minus half a column
+    CHECK (bench.out.torque.y() == Approx (-0.25 * width * 1.05 * bench.out.resistance).epsilon (0.001));   // lifts the half over uncut material
     bench.move ({ 0.01, 0.0, -0.00301 }, 2);
     CHECK (bench.ruptures >= 1);
     bench.move ({ 0.01, 0.0, -0.02 }, 1000);
@@ -261,7 +261,7 @@ TEST_CASE ("edge: drawn along itself at a depth, it pays for the surface that it
     {
         bench.tick (bench.position + Vec3 { 2e-5, 0.0, 0.0 });
         REQUIRE (bench.out.force.x() == Approx (-toughness * depth).epsilon (1e-9));
-        REQUIRE (bench.out.resistance == Approx (4.0).epsilon (0.05));   // the end that has not cut yet presses with up to J_c h more or less
+        REQUIRE (bench.out.resistance == Approx (4.0).epsilon (0.05));   // +- J_c h: the column at the leading end is not cut yet
     }
     bench.move ({ 0.05, 0.0, -0.012 }, 3000);
     CHECK (bench.taken() - before == Approx (toughness * depth * 0.05).epsilon (0.05));
@@ -307,7 +307,8 @@ TEST_CASE ("edge: what is spent does not depend on the rate, and a jump ends whe
     Dice dice { 3 };
     for (int trial = 0; trial < 8; ++trial)
     {
-        // Within one plane: whether the edge finds an old cut, which needs both ends within a column's width, may depend on the sample.
+        // The edge stays in one plane. Otherwise it could enter an old cut only when a sample has both ends within a column's width of
+        // it, and this depends on the rate.
         const Walk walk (dice, 0.02, 0.0, 0.006, 0.4);
         double spent[2] {};
         for (int fast = 0; fast < 2; ++fast)
@@ -433,15 +434,15 @@ TEST_CASE ("edge: it remembers 16 cuts and 512 columns of each", "[nodes][cut]")
         CHECK (ruptures (0.0, 0.01 * i) == 1);
     for (int i = 0; i < 16; ++i)
         CHECK (ruptures (0.0, 0.01 * i) == 0);
-    CHECK (ruptures (0.0, 0.5) == 1);   // replaces the first
+    CHECK (ruptures (0.0, 0.5) == 1);   // replaces the first cut
     CHECK (ruptures (0.0, 0.01) == 0);
-    CHECK (ruptures (0.0, 0.0) == 1);   // replaces the third, which was not used for longest
+    CHECK (ruptures (0.0, 0.0) == 1);   // replaces the third cut, the least recently used
     CHECK (ruptures (0.0, 0.01) == 0);
     CHECK (ruptures (0.0, 0.02) == 1);
 
     CHECK (ruptures (0.4, 0.02) == 1);
     CHECK (ruptures (0.0, 0.02) == 0);
-    CHECK (ruptures (0.512, 0.02) == 1);   // the columns above which the first part was
+    CHECK (ruptures (0.512, 0.02) == 1);   // 512 columns further along: overwrites the first part of the cut
     CHECK (ruptures (0.0, 0.02) == 1);
 }
 
@@ -479,7 +480,7 @@ TEST_CASE ("edge: an instance replaced in the middle of a cut keeps cutting", "[
         CHECK (a.state == b.state);
     }
 
-    Bench turned ({}, { .normal = Vec3::UnitY() });   // another surface: its cuts are elsewhere
+    Bench turned ({}, { .normal = Vec3::UnitY() });   // another surface: the old cuts are not in it
     turned.node.adopt (bench.node);
     CHECK (turned.tick ({ 0.0, -0.01, 0.0 }).state == 2.0);
 }

@@ -7,11 +7,11 @@
 #include <sstream>
 #include <string>
 
-/// Bodies of the kinds on which an elastic surface that slips carelessly generates energy.
+/// Bodies on which an elastic surface with a careless slip rule would generate energy.
 namespace tactus::test
 {
 
-/// A closed box about its centre, with n x n cells on each side.
+/// A closed box centred at the origin, with n x n cells on each side.
 inline Mesh box (const Vec3& size, int n = 1)
 {
     Mesh mesh;
@@ -65,7 +65,7 @@ struct Body
 {
     std::string name;
     std::shared_ptr<const Surface> surface;
-    Vec3 centre, reach;   // where a hand moves, m
+    Vec3 centre, reach;   // of the region in which a hand moves, m
 };
 
 inline std::vector<Body> bodies (double mu)

@@ -242,7 +242,7 @@ TEST_CASE ("plane: the hand's work is what is stored plus what is dissipated, on
         for (int k = 1; k < 20'000; ++k)
         {
             const auto out = node.tick ({ .position = { 0, 0, -depth (k) } });
-            const double before = std::max (0.0, depth (k - 1)), now = std::max (0.0, depth (k));   // damping steps the force at the surface
+            const double before = std::max (0.0, depth (k - 1)), now = std::max (0.0, depth (k));   // with damping, the force steps at the surface
             const double mean = before == 0.0 ? out.resistance : (now == 0.0 ? last.resistance : 0.5 * (out.resistance + last.resistance));
             const double step = mean * (now - before);
             work += step;
@@ -276,15 +276,15 @@ TEST_CASE ("plane: a rate too low for a hard hit is reported, with the rate that
 {
     auto node = ready<Plane> ({ .dissipation = 1.0 });
     node.settings.law = { .kind = tactus::Law::Kind::power, .a = 5e5, .b = 1.5, .table = {} };
-    CHECK (node.warning ({ .rate_hz = 1000.0 }) == "");   // without a mass nobody can tell
+    CHECK (node.warning ({ .rate_hz = 1000.0 }) == "");   // without a mass, the node cannot judge the rate
     node.learn ({ .mass = 0.05 });
     CHECK (node.warning ({ .rate_hz = 1000.0 })
            == "a tool of 0.05 kg that hits at 2 m/s comes back at 1.5 times its speed instead of 0.41 times, because the contact lasts only 5.2 samples; "
-              "it needs a rate of 2200 Hz, a softer law, or shock.hunt_crossley to play it");
+              "raise the rate to 2200 Hz, use a softer law, or play the contact with shock.hunt_crossley");
     CHECK (node.warning ({ .rate_hz = 2200.0 }) == "");
     CHECK (node.warning ({ .rate_hz = 20'000.0 }) == "");
 
-    // What it says is what a mass does: at 1 kHz it comes back faster than it came, at 2200 Hz as it should, within 0.2.
+    // A simulated mass confirms the warning: at 1 kHz it can come back faster than it came; at 2200 Hz it is right to within 0.22.
     const auto returned = [&] (double rate, double phase) {
         auto wall = node;
         wall.prepare ({ .rate_hz = rate });

@@ -15,7 +15,7 @@ using Frictions = ElasticSurface::Friction;
 
 namespace
 {
-/// A closed path of the tool about the surface of a body, which begins and ends above it.
+/// A closed path of the tool around the surface of a body. It begins and ends above the body.
 class Loop
 {
 public:
@@ -31,7 +31,7 @@ public:
             }
     }
 
-    /// The position at a share of the path from 0 to 1. The first and last tenth lead down and up.
+    /// The position at a share of the path from 0 to 1. The first tenth leads down, the last tenth leads up.
     Vec3 operator() (double share) const
     {
         const double down = std::clamp (10.0 * std::min (share, 1.0 - share), 0.0, 1.0), s = 2.0 * std::numbers::pi * (share - 0.1) / 0.8;
@@ -51,10 +51,10 @@ private:
 
 struct Balance
 {
-    double missing = 0.0;   // J; dissipated + stored - work, the largest
+    double missing = 0.0;   // J; the largest |dissipated + stored - work|
     double fall = 0.0;      // J; the largest fall of dissipated_energy
-    double moved = 0.0;     // J; the work that was moved in total
-    double held = 0.0;      // J; the work by the trapezoid rule
+    double moved = 0.0;     // J; the sum of |work| over all steps
+    double held = 0.0;      // J; the work of the hand by the trapezoid rule
     int slips = 0, touches = 0;
 };
 
@@ -72,7 +72,7 @@ Balance handled (ElasticSurface node, const Loop& loop, int steps)
         double step = node.energyAt (next) - node.energyAt (p);
         const auto out = node.tick ({ .position = next });
         const double lost = out.dissipated_energy - before.dissipated_energy;
-        const bool begins = before.state == 0.0 && (out.state > 0.0 || lost > 0.0);   // it may begin and end in one step
+        const bool begins = before.state == 0.0 && (out.state > 0.0 || lost > 0.0);   // a contact may begin and end in one step
         if (begins) step = out.stored_energy + lost;
         work += step;
         balance.moved += std::abs (step);

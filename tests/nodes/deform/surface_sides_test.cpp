@@ -31,7 +31,7 @@ TEST_CASE ("surface: a tool that passes the middle of a thin plate in one sample
                     CHECK (node.tick ({ .position = up * Vec3 (0.003, 0.002, 0.0015) }).state == 0.0);   // 0.5 mm above a face
                 const auto out = node.tick ({ .position = up * Vec3 (0.003, 0.002, -0.0005) });          // 1.5 mm below the face, 0.5 mm from the other
                 CHECK (out.state > 0.0);
-                CHECK (out.depth == Approx (0.0015).epsilon (0.2));   // the frames of the corners lean
+                CHECK (out.depth == Approx (0.0015).epsilon (0.2));   // not exact, because the frames at the corners of the box lean
                 CHECK (out.contact.z() == Approx (up * 0.001));
                 CHECK (out.force.z() * up > 1.0);
                 CHECK (out.hit > 1.0);
@@ -48,12 +48,12 @@ TEST_CASE ("surface: a tool that jumps through a thin plate is still pushed back
 
     auto beside = made (plate());
     beside.tick ({ .position = Vec3 (0.0195, 0.002, 0.0015) });
-    CHECK (beside.tick ({ .position = Vec3 (0.025, 0.002, 0.0) }).state == 0.0);   // through an edge, and out again
+    CHECK (beside.tick ({ .position = Vec3 (0.025, 0.002, 0.0) }).state == 0.0);   // passes through an edge of the plate and out again
 }
 
 TEST_CASE ("surface: fast or slow, a tool that goes into a plate is pushed back in the same direction", "[nodes][deform]")
 {
-    rc::prop ("straight ways from above into the plate", [] (unsigned seed) {
+    rc::prop ("straight paths from above into the plate", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         const Vec3 from (0.012 * one (dice), 0.012 * one (dice), 0.0012 + 0.001 * std::abs (one (dice)));
@@ -73,8 +73,8 @@ TEST_CASE ("surface: fast or slow, a tool that goes into a plate is pushed back 
 
 TEST_CASE ("surface: a contact that opens inside a body does not begin again before the tool has been outside", "[nodes][deform]")
 {
-    // c hooks on the edge of the box while the tool is dragged off; whatever the tool does inside, the energy balance holds (see
-    // surface_energy_test.cpp). From outside, the body is felt again.
+    // The contact point catches on the edge of the box while the tool is dragged off. Whatever the tool then does inside, the energy
+    // balance holds (see surface_energy_test.cpp). When it enters from outside, the body is felt again.
     auto node = made (body (box ({ 0.04, 0.04, 0.02 }), { { curves (500.0, 1000.0) } }, { { .number = 0.1 } }));
     node.tick ({ .position = Vec3 (0.0, 0.003, 0.012) });
     node.tick ({ .position = Vec3 (0.0, 0.003, 0.008) });
@@ -87,7 +87,7 @@ TEST_CASE ("surface: a contact that opens inside a body does not begin again bef
 
 TEST_CASE ("mesh walk: a way into a box crosses one triangle of the side that it enters, and a way out crosses none", "[kit]")
 {
-    rc::prop ("ways from outside to inside", [] (unsigned seed) {
+    rc::prop ("straight paths from outside to inside", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::normal_distribution<double> bell;
         std::uniform_real_distribution<double> one (-1.0, 1.0);

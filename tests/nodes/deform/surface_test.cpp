@@ -185,7 +185,7 @@ TEST_CASE ("surface: without friction, the force does not step where a slide cro
         };
         const double coarse = largestStep (500);
         RC_ASSERT (coarse < 0.05);
-        RC_ASSERT (largestStep (2000) < 0.3 * coarse);   // a step would remain, however fine the path is
+        RC_ASSERT (largestStep (2000) < 0.3 * coarse);   // a real step would stay as large on a finer path
     });
 }
 
@@ -195,7 +195,7 @@ TEST_CASE ("surface: the force does not step where a slide crosses an edge", "[n
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         const auto mesh = grid (4, 0.04, [&] (double x, double y) { return 0.001 * std::sin (100.0 * x + y * 70.0); });
-        auto node = made (uneven (mesh, seed, 1.0));   // with less friction the contact hooks where it is uphill, and snaps
+        auto node = made (uneven (mesh, seed, 1.0));   // with less friction the contact point catches where U rises, and then snaps
         const Vec3 from (0.004, 0.02 + 0.012 * one (dice), -0.003), to (0.036, 0.02 + 0.012 * one (dice), -0.003);
         constexpr int steps = 8000;
         std::vector<double> inside, across;

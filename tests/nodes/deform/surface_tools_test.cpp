@@ -42,7 +42,7 @@ TEST_CASE ("surface: a tool may be a mix of any number of shapes, and there may 
     CHECK (press (node, 1.0).resistance == Approx (0.2 * 1.0 + 0.3 * 3.0 + 0.5 * 8.0));
     CHECK (press (node, 3.0).resistance == Approx (2.0));
     CHECK (press (node, 9.0).resistance == Approx (2.0));
-    CHECK (press (node, 2.5).resistance == Approx (0.5 * 8.0 + 0.5 * 2.0));   // between two tools
+    CHECK (press (node, 2.5).resistance == Approx (0.5 * 8.0 + 0.5 * 2.0));   // halfway between tools 2 and 3
     CHECK (press (node, 0.25).resistance == Approx (0.75 * 1.0 + 0.25 * 5.1));
 }
 
@@ -58,7 +58,7 @@ TEST_CASE ("surface: weights at the nodes make a tool feel different over bone, 
 
     press (node, 0.0, Vec3 (0.01, 0.013, 0.0));
     const NoAllocation watch;
-    const auto dragged = node.tick ({ .position = Vec3 (0.03, 0.013, -depth) });   // the contact point has moved to the bone
+    const auto dragged = node.tick ({ .position = Vec3 (0.03, 0.013, -depth) });   // the contact point is over the bone now
     CHECK (watch.allocations() == 0);
     CHECK (dragged.state == 2.0);
     CHECK (dragged.resistance == Approx (0.75 * 1.0 + 0.25 * 8.0));

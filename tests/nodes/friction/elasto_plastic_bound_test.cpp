@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Load `bound`: the stiffness is constant while the tool touches, and load, mu and d_max only move the stretch at which the contact
-// slides. Also what noise of the position does to the adhesion functions.
+// Load `bound`: the stiffness is constant while the tool touches, and load, mu and d_max only change the stretch at which the contact
+// slides. Also tested: what position noise does to the adhesion functions.
 #include <tactus/nodes/friction/elasto_plastic.hpp>
 
 #include <catch2/catch.hpp>
@@ -23,8 +23,8 @@ constexpr auto all_adhesions = { Adhesion::stick, Adhesion::dupont, Adhesion::ra
 /// A hand that leans sideways on a tool of 50 g with 0.2 N, while the contact can hold 0.5 N and its load trembles.
 struct Lean
 {
-    double rate = 4000.0, depth = 0.1, frequency = 10.0;   // Hz, fraction of the load, Hz
-    double quantum = 0.0;                                  // of the measured position, m
+    double rate = 4000.0, depth = 0.1, frequency = 10.0;   // Hz; depth and frequency of the trembling: fraction of the load, Hz
+    double quantum = 0.0;                                  // of the measured position, in m
     Load load = Load::bound;
     double seconds = 60.0;
 
@@ -50,7 +50,7 @@ struct Lean
     }
 };
 
-/// Mean drag of a contact of 0.5 N with a d_max of 50 um, at 10 kHz and 2 mm/s. The position is measured with noise of this rms (m).
+/// Mean drag of a contact of 0.5 N with a d_max of 50 um, at 10 kHz and 2 mm/s. `noise`: rms of the position noise, in m.
 double meanDrag (Adhesion adhesion, double noise)
 {
     std::mt19937 random (1);
@@ -114,7 +114,7 @@ TEST_CASE ("friction: with load bound, stiffness is the stiffness and mu normal_
     CHECK (node.tick ({ .position = { 1e-2, 0, 0 } }).force.x() == Approx (-0.5));
     CHECK (node.tick ({ .position = { 2e-2, 0, 0 }, .normal_force = 3.0 }).force.x() == Approx (-1.5));
 
-    node.params.stiffness = 9000.0;   // holds from the next touch
+    node.params.stiffness = 9000.0;   // takes effect at the next touch
     CHECK (node.tick ({ .position = { 2e-2, 0, 0 }, .normal_force = 3.0 }).deflection.x() == Approx (1.5 / 2000.0));
     node.tick ({ .normal_force = 0.0 });
     node.tick ({});
@@ -124,7 +124,7 @@ TEST_CASE ("friction: with load bound, stiffness is the stiffness and mu normal_
 TEST_CASE ("friction: with load bound and a mu of 0 nothing drags", "[nodes][friction]")
 {
     for (const auto adhesion : all_adhesions)
-        for (const double mu : { 0.0, 0.5 })   // 0 from the touch on, or later by a wire
+        for (const double mu : { 0.0, 0.5 })   // mu is 0 from the touch on, or a wire sets it to 0 later
         {
             ElastoPlastic node;
             node.params = { .mu = mu, .adhesion = adhesion };

@@ -11,7 +11,7 @@ using tactus::nodes::ElastoPlastic;
 namespace
 {
 constexpr double d_max = 1e-4, ratio = 2.5, gap = (ratio - 1.0) * d_max, mu = 0.4;
-constexpr double collapse = 0.5 * (mu / d_max) * (ratio * ratio - 1.0) * d_max * d_max;   // J, lost by each slip at 1 N
+constexpr double collapse = 0.5 * (mu / d_max) * (ratio * ratio - 1.0) * d_max * d_max;   // J, lost in each slip at 1 N
 
 /// A contact with stick-slip under 1 N, dragged along x.
 struct Rub
@@ -31,11 +31,11 @@ struct Rub
         ++ticks;
     }
 
-    double slips() const { return out.dissipated_energy / collapse; }   // counted by their heat
+    double slips() const { return out.dissipated_energy / collapse; }   // computed from the dissipated energy
 
     ElastoPlastic node;
     ElastoPlastic::Outputs out;
-    double p = 0.0, pull = 0.0;   // m; N, summed over the ticks
+    double p = 0.0, pull = 0.0;   // m; N, the drag summed over all ticks
     int seen = 0, ticks = 0;
 };
 }   // namespace

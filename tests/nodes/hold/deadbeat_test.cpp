@@ -19,14 +19,15 @@ double between (double low, double high) { return low + (high - low) * 1e-6 * *r
 
 struct Trial
 {
-    double mass = 0.1, damping = 2.0, dt = 1e-3, start = -1.3e-3, speed = 0.1, hand = 0.0, quantum = 0.0;   // depths and forces into the wall
-    double believed = 1.0;                                                                                  // share of the mass that the node knows
+    double mass = 0.1, damping = 2.0, dt = 1e-3, start = -1.3e-3, speed = 0.1, hand = 0.0, quantum = 0.0;   // start, speed and hand: positive into the wall
+    double believed = 1.0;                                                                                  // mass given to the node, divided by the true mass
     int ticks = 200;
 
     double stiffnessOf (double times) const { return times * 2.0 * damping / dt; }
 };
 
-/// Plays a node with a member `position` and an output `force` on a simulated device over a wall at z = 0. Calls back before each tick.
+/// Plays `wall`, a node with the input `position` and the output `force`, on a simulated device. The surface is at z = 0. Calls `see` with
+/// the true depth and speed before each tick.
 template <typename Wall, typename See>
 void play (const Trial& t, Wall& wall, const See& see)
 {
@@ -66,7 +67,7 @@ TEST_CASE ("deadbeat: a bounce leaves as from the continuous wall, wherever the 
         Trial t;
         t.dt = *rc::gen::element (1e-4, 2.5e-4, 1e-3);
         t.speed = between (0.02, 0.4);
-        t.start = -t.speed * t.dt * between (1.01, 3.0);   // it takes two samples to know the speed
+        t.start = -t.speed * t.dt * between (1.01, 3.0);   // the node needs two samples to know the speed
         t.ticks = 400;
         const double stiffness = t.stiffnessOf (times);
         auto wall = wallFor (t, stiffness);
@@ -137,7 +138,7 @@ TEST_CASE ("deadbeat: with a mass that is off by 20 %, it stays bounded", "[node
             fastest = std::max (fastest, std::abs (v));
             if (k++ > 2500) last = std::max (last, std::abs (v));
         });
-        // Of the continuous wall, undamped; the hand pushes from the start.
+        // Speed and depth at a continuous wall without damping. The hand pushes from the start.
         const double arrives = std::sqrt (t.speed * t.speed + 2.0 * t.hand * -t.start / t.mass);
         const double reach = arrives * std::sqrt (t.mass / stiffness) + 2.0 * t.hand / stiffness;
         RC_ASSERT (most < 1.5 * reach + 1e-4);

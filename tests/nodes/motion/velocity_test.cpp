@@ -224,5 +224,5 @@ TEST_CASE ("velocity: with a window in seconds, a quantised ramp has the same no
     const double bound = 2.0 * q / 0.01;
     for (const double rate : { 1000.0, 4000.0, 20000.0 })
         CHECK (worst (rate, 0.01) <= bound);
-    CHECK (worst (20000.0, 0.0) > 3.0 * bound);   // 16 ticks
+    CHECK (worst (20000.0, 0.0) > 3.0 * bound);   // window 0: max_window, 16 ticks
 }

@@ -23,7 +23,7 @@ namespace
 {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// A hand that taps a plane, which hands over to a played shock and back.
+/// A hand taps a plane. The plane hands over to a played shock, and the shock hands back to the plane.
 struct Tap
 {
     double rate;
@@ -69,9 +69,9 @@ TEST_CASE ("handover: neither direction steps the force, at any speed and rate",
             const double depth = std::min (deepest, (k - apart) * v / rate + 0.5 * v / rate);
             const auto now = tap.at (k < apart + stay / 2 ? depth : depth - deepest * 3.0 * (k - apart - stay / 2) / stay);
             const bool played = now.out.state == 2.0;
-            // The largest change that what is rendered makes on its own, and that of the fade.
+            // The output may change as much as the input that is rendered, and in addition by the change of the fade.
             const double own = played == (before.out.state == 2.0) ? std::abs (played ? now.shock - before.shock : now.contact - before.contact) : 0.0;
-            largest = std::max ({ largest, last, now.contact, now.shock });   // no difference is larger
+            largest = std::max ({ largest, last, now.contact, now.shock });   // upper bound of |r|
             RC_ASSERT (std::abs (now.out.resistance - last) <= own + 1.6 * largest / (fade * rate) + 1e-12);
             RC_ASSERT (now.out.resistance >= 0.0);
             was_played = was_played || (played && now.shock > 0.0);
@@ -94,7 +94,7 @@ TEST_CASE ("handover: on the tick of either change the force stays exactly where
     for (int k = 0; k < 30; ++k)
         node.tick ({ .contact = 9.0, .shock = 2.0 });
     const auto played = node.tick ({ .contact = 9.0, .shock = 2.0 });
-    CHECK (played.resistance == 2.0);   // the contact is ignored
+    CHECK (played.resistance == 2.0);   // the contact is ignored while the shock is played
     const auto back = node.tick ({ .contact = 4.0 });
     CHECK (back.resistance == Approx (2.0));
     CHECK (back.state == 1.0);

@@ -65,7 +65,7 @@ struct Impact
     double impulse = 0.0;      // N s
     double loop = 0.0;         // J, the area of the loop of force against depth
     double peak = 0.0;         // N
-    double dissipated = 0.0;   // J, as the node counts it
+    double dissipated = 0.0;   // J, from the output of the node
     int samples = 0;
 };
 
@@ -155,7 +155,7 @@ TEST_CASE ("shock: a contact shorter than a tick still gives its impulse and tak
         Dice dice { seed };
         const double m = dice.size (0.005, 0.5), v = dice.size (0.02, 2.0), d_max = dice.size (1e-4, 5e-3), n = dice.uniform (1.0, 2.5);
         const double k = 0.5 * (n + 1.0) * m * v * v / std::pow (d_max, n + 1.0), x = dice.size (0.01, 3.0), e = restitution (x);
-        const double rate = dice.size (1e-4, 0.8) * v / d_max;   // it lasts two to five times d_max / v
+        const double rate = dice.size (1e-4, 0.8) * v / d_max;   // the contact lasts two to five times d_max / v
 
         auto node = shock ({ .stiffness = power (k, n), .damping = dissipation (x / v) }, rate, { .mass = m });
         RC_ASSERT (node.tick ({ .hit = v }).resistance == 0.0);
@@ -172,7 +172,7 @@ TEST_CASE ("shock: a contact shorter than a tick still gives its impulse and tak
         }
         RC_ASSERT (samples >= 1);
         RC_ASSERT (samples <= 5);
-        const double tolerance = samples <= 4 ? 1e-3 : 0.05;   // from four samples on, the samples of the force itself are played
+        const double tolerance = samples <= 4 ? 1e-3 : 0.05;   // a contact of four samples or more plays samples of the force itself
         RC_ASSERT (std::abs (impulse / (m * v * (1.0 + e)) - 1.0) <= tolerance);
         RC_ASSERT (std::abs (dissipated / (0.5 * m * v * v) - (1.0 - e * e)) <= tolerance);
     });
@@ -180,7 +180,7 @@ TEST_CASE ("shock: a contact shorter than a tick still gives its impulse and tak
 
 TEST_CASE ("shock: the impulse is right at any rate", "[nodes][shock]")
 {
-    const double m = 0.05, v = 0.3, e = 0.832868868;   // of the default law; x = 0.3
+    const double m = 0.05, v = 0.3, e = 0.832868868;   // e: restitution of the default law, where x = 0.3
     for (double rate = 10.0; rate < 50'000.0; rate *= 1.07)
     {
         auto node = shock ({}, rate);
@@ -228,11 +228,11 @@ TEST_CASE ("shock: a mass of 0 is that of the device, and of 50 g if the device 
     CHECK (push (0.0, 0.2) == push (0.2, 0.0));
     CHECK (push (0.0, 0.2) != push (0.0, 0.0));
     CHECK (push (0.0, 0.0) == push (0.05, 0.0));
-    CHECK (push (0.03, 0.2) == push (0.03, 0.0));   // its own mass takes precedence
+    CHECK (push (0.03, 0.2) == push (0.03, 0.0));   // the mass of the node takes precedence over that of the device
 
     auto node = shock ({}, 4000.0, { .mass = 0.0 });
     CHECK (node.warning ({ .rate_hz = 4000.0 })
-           == "mass is 0, so it is that of the device, which the graph does not give; until a device gives it, 0.05 kg are used");
+           == "mass is 0, which means the mass of the device, but the graph does not give it; set mass, or 0.05 kg is used until a device gives its mass");
     node.learn ({ .mass = 0.08 });
     CHECK (node.warning ({ .rate_hz = 4000.0 }) == "");
 }

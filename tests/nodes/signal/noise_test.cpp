@@ -24,7 +24,7 @@ std::vector<double> noiseOf (int seed, int n, double amplitude = 1.0)
     return all;
 }
 
-/// The noise of a band of 250 Hz.
+/// Noise with a bandwidth of 250 Hz.
 SignalNoise inBand (double rate_hz, double amplitude = 2.0)
 {
     SignalNoise node;
@@ -108,14 +108,14 @@ TEST_CASE ("noise: in a band it is the same function of time at every rate of at
 
 TEST_CASE ("noise: its RMS lies within the band and is the amplitude, at 1, 4 and 20 kHz", "[nodes][signal]")
 {
-    // 100 s of 225 Hz, the width of the spectrum, hold 45000 independent numbers: the standard error of the RMS is 0.33 %.
+    // The spectrum is 225 Hz wide, so 100 s contain 45000 independent numbers: the standard error of the RMS is 0.33 %.
     constexpr double five_errors = 0.017;
     for (const double rate : { 1000.0, 4000.0, 20000.0 })
     {
         const auto x = lasting (100.0, rate);
         CHECK (rms (x, rate, 0.0, 250.0) == Approx (2.0).epsilon (five_errors));
         CHECK (rms (x, rate, 250.0, 0.5 * rate) < 5e-3 * 2.0);
-        CHECK (rms (x, rate, 0.0, 100.0) == Approx (rms (x, rate, 100.0, 200.0)).epsilon (0.04));   // flat, 20000 numbers each
+        CHECK (rms (x, rate, 0.0, 100.0) == Approx (rms (x, rate, 100.0, 200.0)).epsilon (0.04));   // flat; 20000 independent numbers in each half
         CHECK (rms (x, rate, 0.0, 200.0) == Approx (2.0 * std::sqrt (200.0 / 225.0)).epsilon (0.02));
     }
 }

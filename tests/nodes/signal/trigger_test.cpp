@@ -83,7 +83,7 @@ TEST_CASE ("trigger: pulses closer than hold keep the gate open and make one hit
         node.prepare ({ .rate_hz = rate });
         node.tick ({ .in = 3.0 });
         double hits = 0.0;
-        for (int k = 0; k < static_cast<int> (0.5 * rate); ++k)   // a blade that an encoder moves on every 15 ms
+        for (int k = 0; k < static_cast<int> (0.5 * rate); ++k)   // a slow blade: its encoder steps every 15 ms
         {
             const auto out = node.tick ({ .in = k % static_cast<int> (0.015 * rate) == 0 ? 4.0 : 3.0 });
             REQUIRE (out.gate == 1.0);

@@ -10,7 +10,7 @@
 namespace my
 {
 
-/// Rings around a centre, as of a stone in water: f = a sin(2 pi k r) along the radius.
+/// Rings around the origin, like those around a stone dropped into water: f = a sin(2 pi k r) along the radius.
 struct Ripple
 {
     struct Inputs

@@ -33,7 +33,7 @@ Properties anyTool (bool is_dry)
     return p;
 }
 
-/// Times at which a signal rises through 0, from its samples.
+/// The times at which a sampled signal rises through 0.
 std::vector<double> risesOf (const std::vector<double>& samples, double dt)
 {
     std::vector<double> times;
@@ -91,7 +91,7 @@ TEST_CASE ("flexible tool: while a force is constant, the motion does not depend
             for (int i = 0; i < parts; ++i)
                 split.step (motor, hand);
         }
-        // A change of phase is found to 1e-12 s, so speeds differ by that times the acceleration, at most 1e4 m/s2.
+        // A phase change is located to within 1e-12 s, so speeds differ by that times the acceleration, at most 1e4 m/s2.
         RC_ASSERT (std::abs (whole.axis (0).x - split.axis (0).x) < 1e-10);
         RC_ASSERT (std::abs (whole.axis (0).v - split.axis (0).v) < 2e-7);
         RC_ASSERT (std::abs (whole.axis (0).end_v - split.axis (0).end_v) < 2e-7);
@@ -128,7 +128,7 @@ TEST_CASE ("flexible tool: damping and friction only take energy", "[host][devic
             const double before = tool.energy();
             tool.step (motor, hand);
             const double work = motor.dot (tool.motor() - m) + hand.dot (tool.end() - e), lost = before + work - tool.energy();
-            const double slid = std::abs (tool.motor().x() - m.x());   // at least; more if it has turned back
+            const double slid = std::abs (tool.motor().x() - m.x());   // the motor slid at least this far; farther if it has turned back
             RC_ASSERT (lost > properties.coulomb * slid - 1e-13 - 1e-10 * tool.energy());
         }
         RC_ASSERT (tool.mostPhases() < 64);
@@ -156,7 +156,7 @@ TEST_CASE ("flexible tool: while the motor is held, the end swings at the first 
             CHECK (1.0 / period == Approx (damped).epsilon (2e-3));
 
             const auto at = [&] (int k) { return stretch[static_cast<std::size_t> (k)]; };
-            const auto amplitude = [&] (int k) {   // from value and rate
+            const auto amplitude = [&] (int k) {   // from the stretch and its rate
                 const double rate = (at (k + 1) - at (k - 1)) / (2.0 * dt), w = 2.0 * std::numbers::pi * f;
                 return std::hypot (at (k), (rate + zeta * w * at (k)) / w);
             };
@@ -168,8 +168,8 @@ TEST_CASE ("flexible tool: below the Coulomb friction it sticks for ever, not a 
 {
     FlexibleTool tool ({ .coulomb = 0.3, .first_mode_hz = 30.0 }, 1e-3);
     tool.start (alongX (0.01), Vec3::Zero());
-    for (int k = 0; k < 60'000; ++k)                                     // a minute
-        tool.step (alongX (0.1 * std::sin (0.05 * k)), alongX (0.19));   // the end overshoots by less than a factor of 2 once, at the start
+    for (int k = 0; k < 60'000; ++k)                                     // for a minute
+        tool.step (alongX (0.1 * std::sin (0.05 * k)), alongX (0.19));   // at the start, the end overshoots, by less than a factor of 2
     CHECK (std::abs (tool.motor().x() - 0.01) < 1e-3);
     const double there = tool.motor().x();
     for (int k = 0; k < 60'000; ++k)
@@ -186,7 +186,7 @@ TEST_CASE ("flexible tool: below the Coulomb friction it sticks for ever, not a 
 
 TEST_CASE ("rigid tool: on a spring, Coulomb friction takes the same from each half swing", "[host][devices]")
 {
-    // Per half swing, the amplitude falls by 2 f_f/k. The spring is sampled, here so finely that what it leaks stays below 10 um.
+    // Per half swing, the amplitude falls by 2 f_f/k. The spring is sampled so finely that the error is below 10 um.
     constexpr double mass = 0.1, k = 400.0, friction = 0.2, start = 0.0102, dt = 2e-6;
     RigidTool tool (mass, 0.0, friction, dt);
     tool.start (alongX (start), Vec3::Zero());
@@ -199,7 +199,7 @@ TEST_CASE ("rigid tool: on a spring, Coulomb friction takes the same from each h
         if (before * v < 0.0 || (before != 0.0 && v == 0.0)) turns.push_back (std::abs (tool.position().x()));
         before = v;
     }
-    REQUIRE (turns.size() == 10);   // until |x| < f_f/k = 0.5 mm
+    REQUIRE (turns.size() == 10);   // the tool stops where |x| < f_f/k = 0.5 mm
     for (std::size_t i = 0; i < turns.size(); ++i)
         CHECK (turns[i] == Approx (start - 2.0 * friction / k * static_cast<double> (i + 1)).margin (1e-5));
     CHECK (tool.velocity().x() == 0.0);
@@ -207,7 +207,7 @@ TEST_CASE ("rigid tool: on a spring, Coulomb friction takes the same from each h
 
 TEST_CASE ("rigid tool: with friction, the motion does not depend on the tick, and a stop is exact", "[host][devices]")
 {
-    // v' = -(f_f + B v)/M from v0: it stops after (M/B) ln (1 + B v0/f_f), at (M/B) (v0 - f_f/B ln (1 + B v0/f_f)).
+    // v' = -(f_f + B v)/M from v0: it stops at the time (M/B) ln (1 + B v0/f_f), at x = (M/B) (v0 - f_f/B ln (1 + B v0/f_f)).
     constexpr double mass = 0.1, b = 2.0, friction = 0.25, v0 = 0.3;
     const double way = mass / b * (v0 - friction / b * std::log1p (b * v0 / friction));
     for (const double dt : { 1e-4, 1e-3, 7e-3, 1.0 })
@@ -227,7 +227,7 @@ TEST_CASE ("flexible tool: the stiffer the structure, the closer it is to the ri
     for (const double f : { 100.0, 1000.0, 10'000.0, 100'000.0 })
         for (const double friction : { 0.0, 0.1 })
         {
-            if (friction > 0.0 && f > 1000.0) continue;   // sticking then differs by the ringing
+            if (friction > 0.0 && f > 1000.0) continue;   // the ringing then changes where the tool sticks
             const Properties properties {
                 .motor_mass = 0.06, .end_mass = 0.04, .damping = 1.0, .coulomb = friction, .first_mode_hz = f, .first_mode_damping = 0.5
             };

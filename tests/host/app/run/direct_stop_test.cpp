@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The keys and the STOP button of the window stop the forces while the message thread does something else, as docs/safety.md claims.
+// The keys and the STOP button of the window stop the forces while the message thread is busy, as docs/safety.md claims.
 //
-// JUCE opens its display once per process. So each test runs itself again in a process of its own, on a virtual screen. There, the
-// thread of the test is the message thread: while it waits for xdotool or for the force, it handles no message.
+// JUCE opens its display once per process. So each test runs again in a process of its own, on a virtual screen. In that process,
+// the thread of the test is the message thread: while it waits for xdotool or for the force, it handles no message.
 
 #include "host/app/support/canvas_rig.hpp"
 
@@ -28,7 +28,7 @@ using namespace std::chrono_literals;
 
 namespace
 {
-/// An X server without a screen. `name` is empty if it cannot be started.
+/// An X server without a physical screen. `name` is empty if it cannot be started.
 struct Screen
 {
     Screen()
@@ -40,7 +40,7 @@ struct Screen
         {
             close (ends[0]);
             const auto end = std::to_string (ends[1]);
-            // Never :0, which JUCE would use in the other tests: they have no DISPLAY and need none.
+            // Never :0, because JUCE would open it in the other tests, which have no DISPLAY and need none.
             const auto number = ":" + std::to_string (1000 + getpid() % 50'000);
             if (std::freopen ("/dev/null", "w", stderr) != nullptr)
                 execlp ("Xvfb", "Xvfb", number.c_str(), "-displayfd", end.c_str(), "-screen", "0", "1280x720x24", "-nolisten", "tcp", nullptr);
@@ -72,7 +72,7 @@ void onScreen (const char* test)
     const Screen screen;
     if (screen.name.empty() || std::system ("command -v xdotool > /dev/null") != 0)
     {
-        std::puts ("skipped: Xvfb or xdotool is not installed");
+        std::puts ("skipped: Xvfb does not start, or xdotool is not installed");
         return;
     }
     const auto command = "DISPLAY=" + screen.name + " " + std::filesystem::read_symlink ("/proc/self/exe").string() + " \"" + test + '"';
@@ -81,7 +81,7 @@ void onScreen (const char* test)
 
 void xdo (const std::string& what) { REQUIRE (std::system (("xdotool " + what).c_str()) == 0); }
 
-/// JUCE, as in an application: it then ignores errors of the X server, which a screen without a window manager causes.
+/// Starts JUCE as in an application: it then ignores the X errors that a screen without a window manager causes.
 struct Application
 {
     static bool isOne() noexcept
@@ -94,7 +94,7 @@ struct Application
     const juce::ScopedJuceInitialiser_GUI juce_runs;
 };
 
-/// A window with only the strip, and a run that pushes with 2 N.
+/// A window with only the safety strip, and a run that pushes with 2 N.
 struct Window final : private Application, public juce::Component
 {
     Window() : rig (graph())
@@ -120,7 +120,7 @@ struct Window final : private Application, public juce::Component
 
     void paint (juce::Graphics& g) override { g.fillAll (juce::Colours::black); }
 
-    /// What the timer of the window does.
+    /// Handles messages for 10 ms, then does what the timer of the real window does.
     void attend()
     {
         juce::MessageManager::getInstance()->runDispatchLoopUntil (10);
@@ -137,7 +137,7 @@ struct Window final : private Application, public juce::Component
         return isSo();
     }
 
-    /// Waits without handling any message.
+    /// Waits without handling messages.
     template <typename F>
     static bool untilStuck (F&& isSo)
     {
@@ -149,7 +149,7 @@ struct Window final : private Application, public juce::Component
     LiveRun& run() { return playback.run(); }
     double force() { return run().status() ? run().status()->force : 0.0; }
 
-    /// Starts, and waits until the force is there and everything is in its place.
+    /// Starts the run, and waits until the force is 2 N and the window is in front, with the keyboard focus.
     void start()
     {
         run().start ({});
@@ -184,24 +184,24 @@ TEST_CASE ("on a screen: Shift+Esc", "[.screen]")
 {
     Window w;
     w.start();
-    xdo ("key a space Return ctrl+s");   // other keys are not stops
+    xdo ("key a space Return ctrl+s");   // these keys must not stop anything
     std::this_thread::sleep_for (100ms);
     REQUIRE (w.force() == 2.0);
 
     xdo ("key shift+Escape");
     const auto pressed = std::chrono::steady_clock::now();
     REQUIRE (Window::untilStuck ([&] { return w.force() == 0.0; }));
-    std::printf ("zero at most %.1f ms after xdotool has ended\n", 1e3 * std::chrono::duration<double> (std::chrono::steady_clock::now() - pressed).count());
+    std::printf ("zero force at most %.1f ms after xdotool ended\n", 1e3 * std::chrono::duration<double> (std::chrono::steady_clock::now() - pressed).count());
     CHECK (w.run().isRunning());          // the graph keeps running
     CHECK (w.run().isStoppedForGood());   // latched
     w.run().rearm();                      // a REARM that was clicked before the stop, but is handled after it
     std::this_thread::sleep_for (100ms);
     CHECK (w.force() == 0.0);
-    std::this_thread::sleep_for (2s);   // still stuck
+    std::this_thread::sleep_for (2s);   // the message thread is still stuck
     CHECK (w.force() == 0.0);
 
     w.attend();
-    CHECK_FALSE (w.run().canRearm());   // the pause counts from when the window has noticed
+    CHECK_FALSE (w.run().canRearm());   // the pause before a REARM counts from when the window notices the stop
     REQUIRE (w.until ([&] { return w.run().canRearm(); }));
     CHECK (w.run().isStoppedForGood());
     w.run().rearm();
@@ -218,13 +218,13 @@ TEST_CASE ("on a screen: a click on STOP", "[.screen]")
     Window w;
     w.start();
     xdo ("mousemove 200 300 click 1");                         // elsewhere in the window
-    xdo ("mousemove " + w.stopPlace() + " click 4 click 5");   // the wheel
+    xdo ("mousemove " + w.stopPlace() + " click 4 click 5");   // the mouse wheel, over STOP
     std::this_thread::sleep_for (100ms);
     REQUIRE (w.force() == 2.0);
 
     xdo ("click --repeat 3 --delay 30 1");
     REQUIRE (Window::untilStuck ([&] { return ! w.run().isRunning(); }));
-    CHECK (w.run().isWanted());   // the window has not noticed yet
+    CHECK (w.run().isWanted());   // the window has not noticed the stop yet
     std::this_thread::sleep_for (1s);
     const auto shown = std::chrono::steady_clock::now();
     for (int i = 0; i < 10; ++i)
@@ -232,10 +232,10 @@ TEST_CASE ("on a screen: a click on STOP", "[.screen]")
     CHECK_FALSE (w.run().isWanted());
     CHECK_FALSE (w.run().isRunning());
 
-    xdo ("click 1");   // START is there now, but for less than a second
+    xdo ("click 1");   // the button has been START for less than a second
     std::this_thread::sleep_for (50ms);
     w.attend();
-    if (std::chrono::steady_clock::now() - shown < 950ms) CHECK_FALSE (w.run().isWanted());   // else the machine is too busy to tell
+    if (std::chrono::steady_clock::now() - shown < 950ms) CHECK_FALSE (w.run().isWanted());   // otherwise the machine was too slow for this test
     const auto later = std::chrono::steady_clock::now() + 1200ms;
     w.until ([&] { return std::chrono::steady_clock::now() > later; });
     if (! w.run().isWanted()) xdo ("click 1");
@@ -279,7 +279,7 @@ TEST_CASE ("a press of the stop switch before a run begins is not lost", "[app][
     Playback playback { rig.document, catalogue(), sound, setup, [] {} };
     const bool is_emergency = GENERATE (false, true);
     is_emergency ? playback.stopSwitch().emergencyStop() : playback.stopSwitch().stop();
-    playback.restart();   // a click on START that waited behind the press
+    playback.restart();   // a click on START, made before the press but handled after it
     CHECK_FALSE (playback.run().isWanted());
     playback.attend();
     CHECK_FALSE (playback.run().isRunning());

@@ -164,11 +164,11 @@ TEST_CASE ("an emergency stop over OSC takes the force away while the message th
     REQUIRE (r.until ([&] { return r.live_run.status() && r.live_run.status()->force > 0.0; }));
 
     r.other->send (r.server.port(), OSCMessage ("/tactus/emergency"));
-    const auto isLatched = [&] { return r.live_run.isStoppedForGood(); };   // asks only for what the tick thread has published
+    const auto isLatched = [&] { return r.live_run.isStoppedForGood(); };   // reads only what the tick thread has published
     for (const auto end = std::chrono::steady_clock::now() + 20s; ! isLatched() && std::chrono::steady_clock::now() < end;)
         std::this_thread::sleep_for (1ms);
     REQUIRE (isLatched());
-    r.live_run.rearm();   // the message thread does not know of the stop yet, so it cannot undo the stop
+    r.live_run.rearm();   // the message thread has not noticed the stop yet, so rearm() must have no effect
     std::this_thread::sleep_for (50ms);
     CHECK (isLatched());
 }
