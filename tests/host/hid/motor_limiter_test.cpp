@@ -6,6 +6,7 @@
 #include <host/hid/bits.hpp>
 
 #include <tactus/run/guard.hpp>
+#include <tactus/text/json_text.hpp>
 
 #include <rapidcheck/catch.h>
 
