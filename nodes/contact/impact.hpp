@@ -30,8 +30,9 @@ namespace tactus::nodes
 /// the line of variable length is from Janabi-Sharifi, Hayward & Chen 2000.
 ///
 /// Good to know
-///  - Noise and window are in metres and seconds, not in ticks, so the speed does not depend on the tick rate. For a steady approach
-///    at 5 mm/s or more in steps of 50 um, it is within 5 %, with a window of 40 ms and a rate of 1 kHz or more.
+///  - Noise and window are in metres and seconds, not in ticks, so the speed does not depend on the tick rate, as long as the edges
+///    of the encoder are clean: a jitter of 2 um rms before steps of 50 um makes the speed 25 % too high at 20 kHz. For a steady
+///    approach at 5 mm/s or more in steps of 50 um, it is within 5 %, with a window of 40 ms and a rate of 1 kHz or more.
 ///  - A braking approach is averaged at most over the time in which it departs from a straight line by the noise. So a large
 ///    `release` makes the speed of a braking tool too high: by a few percent with 50 um, 0.3 m/s and 5 m/s2.
 ///  - If the position has noise other than encoder steps, or the object is tilted against the axes of the device, set `release` to

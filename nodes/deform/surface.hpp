@@ -62,8 +62,9 @@ namespace tactus::nodes
 /// Good to know
 ///  - With c fixed, the force is the gradient of stored_energy, whatever the frames: along a closed path on which the contact
 ///    sticks, it does no work.
-///  - Without friction on a curved body, the minimum of U may vanish under the tool, as at an edge of a box. c then drops to the
-///    next minimum: the force steps, and some energy is dissipated.
+///  - Without friction on a curved body, the minimum of U may vanish under the tool, at the edges of a box and also between the
+///    triangles of a sphere. c then drops to the next minimum: the force steps (by up to a fifth on a coarse sphere), and some energy
+///    is dissipated.
 ///  - To make the ratio of drag to push the same at every depth, give the curves along x and y the shape of those along z:
 ///    f^x (mu_c d) = mu f^z (d).
 ///  - Finding the patch: with search_ticks 0 every triangle is searched within the tick, while nothing is touched. With

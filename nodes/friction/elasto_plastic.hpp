@@ -61,10 +61,11 @@ namespace tactus::nodes
 ///  - With sigma following the load as printed, pressing harder while the bristle is stretched adds energy that comes back on
 ///    release (1.6e-4 J in 50 strokes; see the test). `load: passive` adds none, because new contact area is not sheared yet,
 ///    but the contact point walks: if the load trembles by 10 % at 10 Hz, a tool that leans with 0.2 N on a contact that can hold
-///    0.5 N creeps by 81 um/s, although the state is 1. `load: bound` neither gives energy nor walks, and is the default. In graph
-///    files of version 1, the default was `passive`.
+///    0.5 N creeps by 81 um/s, although the state is 1. `load: bound` neither gives energy nor walks, however the load changes,
+///    and is the default. In graph files of version 1, the default was `passive`.
 ///  - Eq. (1) to (4) are one-dimensional. Here d and dp are projected on the tangent plane of each sample, so that a turning
-///    normal takes the contact point along.
+///    normal takes the contact point along. Each turn shortens d by the cosine of its angle, so under a normal that trembles at
+///    every sample a resting contact loses its force: smooth such a normal before wiring it.
 ///
 /// Good to know
 ///  - Time-free: only displacement moves the state. A tool at rest feels a constant force forever, and repeating a sample does

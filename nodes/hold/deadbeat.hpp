@@ -45,7 +45,8 @@ namespace tactus::nodes
 ///  - Wire `force` straight to the motor, and add no other strong force. Whatever is added, filtered, limited or delayed after this
 ///    node looks like a hand to it, and the node estimates the hand too late.
 ///  - If a bounce lasts less than about four samples (K > 0.6 M/T^2), its speed is still correct, but it feels like two pulses.
-///  - Position noise is amplified: a quantum q causes a force of about K q + M q/(10 ms T).
+///  - Position quanta are amplified. With 0.1 kg at 1 kHz, a wall of 3 times 2B/T and a quantum of 10 um, a pressing hand meets a
+///    limit cycle of about 1 N, unless the device has a Coulomb friction of about 0.5 N. A delay in the device makes the wall unstable.
 struct DeadbeatHold
 {
     struct Inputs

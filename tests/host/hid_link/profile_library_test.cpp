@@ -195,7 +195,7 @@ TEST_CASE ("own profiles: one that drives the device of a shipped profile otherw
         { "valid", [] (Profile& p) { p.valid.clear(); } },
         { "alarm", [] (Profile& p) { p.alarms.pop_back(); } },
         { "alarm", [] (Profile& p) { p.alarms.back().while_driven = 1e9; } },
-        { "the number or the time", [] (Profile& p) { p.inputs[0].sequence.clear(); } },
+        { "the sequence number or the timestamp", [] (Profile& p) { p.inputs[0].sequence.clear(); } },
         { "axis 'axis4'", [] (Profile& p) { p.inputs[0].fields.pop_back(); } },
         { "init", [] (Profile& p) { p.init.push_back ({ .kind = Step::Kind::output, .bytes = Bytes (64) }); } },
     };
