@@ -247,7 +247,7 @@ else:
 
 check("No HID device is connected." in text("none.txt"), "without a device, the list says so")
 check("tactus_board" in text("devices.txt") and "spacemouse" in text("devices.txt"), "the list names the profiles that fit")
-devices = json.loads(text("devices.json"))
+devices = [d for d in json.loads(text("devices.json")) if not d.get("numbers_only")]   # these are profiles, not connected
 check({p["id"] for d in devices for p in d["profiles"][:1]} >= {"tactus_board", "spacemouse"} and all(d["may_open"] for d in devices),
       "the list as JSON names them too")
 if any(d["product"] == "Test joystick" for d in devices):
