@@ -37,13 +37,16 @@
 #include <stdint.h>
 
 #ifdef __cplusplus
-extern "C" {
+#define TACTUS_API_C extern "C"
+#else
+#define TACTUS_API_C
 #endif
 
+/** Before each function of this interface. */
 #if defined(_WIN32)
-#define TACTUS_API
+#define TACTUS_API TACTUS_API_C
 #else
-#define TACTUS_API __attribute__ ((visibility ("default")))
+#define TACTUS_API TACTUS_API_C __attribute__ ((visibility ("default")))
 #endif
 
 /** The version of this interface. It grows only when a program compiled against an older version no longer works. */
@@ -61,9 +64,9 @@ typedef struct tactus_messages tactus_messages; /**< a list of errors and warnin
 typedef struct tactus_graph tactus_graph;       /**< a graph with its undo history */
 typedef struct tactus_run tactus_run;           /**< a graph that is played */
 
-TACTUS_API const char* tactus_version (void);       /**< of the library, such as "0.2.0" [any thread] */
-TACTUS_API uint32_t tactus_api_version (void);      /**< TACTUS_API_VERSION of the library [any thread] */
-TACTUS_API void tactus_text_free (char* text);      /**< frees a text that a function allocated for you [any thread] */
+TACTUS_API const char* tactus_version (void);  /**< of the library, such as "0.2.0" [any thread] */
+TACTUS_API uint32_t tactus_api_version (void); /**< TACTUS_API_VERSION of the library [any thread] */
+TACTUS_API void tactus_text_free (char* text); /**< frees a text that a function allocated for you [any thread] */
 
 /** The datasheets of all node types as JSON, in the format of `tactus nodes --json`. Free it with tactus_text_free. [any thread] */
 TACTUS_API char* tactus_nodes_json (void);
@@ -73,22 +76,25 @@ TACTUS_API char* tactus_nodes_json (void);
 typedef struct tactus_message
 {
     uint32_t size;
-    int32_t is_error;   /**< 1: an error, 0: a warning */
-    const char* id;     /**< stable, such as "unit/mismatch" */
-    const char* where;  /**< JSON pointer into the graph file, a file name, or "" */
-    const char* text;   /**< what is wrong */
-    const char* remedy; /**< what to do about it */
-    const char* file;   /**< the file that the text was read from, or "" */
+    int32_t is_error;     /**< 1: an error, 0: a warning */
+    const char* id;       /**< stable, such as "unit/mismatch" */
+    const char* where;    /**< JSON pointer into the graph file, a file name, or "" */
+    const char* text;     /**< what is wrong */
+    const char* remedy;   /**< what to do about it */
+    const char* file;     /**< the file that the text was read from, or "" */
     int32_t line, column; /**< counted from 1; 0 if unknown */
 } tactus_message;
 
-#define TACTUS_MESSAGE { sizeof (tactus_message), 0, 0, 0, 0, 0, 0, 0, 0 }
+#define TACTUS_MESSAGE                                  \
+    {                                                   \
+        sizeof (tactus_message), 0, 0, 0, 0, 0, 0, 0, 0 \
+    }
 
-TACTUS_API tactus_messages* tactus_messages_create (void);                 /**< [any thread] */
-TACTUS_API void tactus_messages_free (tactus_messages*);                   /**< [main thread] */
-TACTUS_API void tactus_messages_clear (tactus_messages*);                  /**< [main thread] */
-TACTUS_API size_t tactus_messages_count (const tactus_messages*);          /**< [main thread] */
-TACTUS_API int32_t tactus_messages_have_errors (const tactus_messages*);   /**< [main thread] */
+TACTUS_API tactus_messages* tactus_messages_create (void);               /**< [any thread] */
+TACTUS_API void tactus_messages_free (tactus_messages*);                 /**< [main thread] */
+TACTUS_API void tactus_messages_clear (tactus_messages*);                /**< [main thread] */
+TACTUS_API size_t tactus_messages_count (const tactus_messages*);        /**< [main thread] */
+TACTUS_API int32_t tactus_messages_have_errors (const tactus_messages*); /**< [main thread] */
 
 /** The texts stay valid until the list changes. [main thread] */
 TACTUS_API tactus_result tactus_messages_get (const tactus_messages*, size_t index, tactus_message*);
@@ -105,10 +111,14 @@ TACTUS_API tactus_graph* tactus_graph_load (const char* path, tactus_messages*);
  *  their own are not read. [main thread] */
 TACTUS_API tactus_graph* tactus_graph_parse (const char* text, size_t length, const char* folder, tactus_messages*);
 
-TACTUS_API void tactus_graph_free (tactus_graph*);                                            /**< [main thread] */
-TACTUS_API tactus_result tactus_graph_save (const tactus_graph*, const char* path, tactus_messages*);   /**< [main thread] */
-TACTUS_API char* tactus_graph_text (const tactus_graph*);   /**< the text of its file; free it with tactus_text_free [main thread] */
-TACTUS_API double tactus_graph_rate (const tactus_graph*);  /**< in Hz [main thread] */
+TACTUS_API void tactus_graph_free (tactus_graph*); /**< [main thread] */
+
+/** [main thread] */
+TACTUS_API tactus_result tactus_graph_save (const tactus_graph*, const char* path, tactus_messages*);
+
+/** The text of its file. Free it with tactus_text_free. [main thread] */
+TACTUS_API char* tactus_graph_text (const tactus_graph*);
+TACTUS_API double tactus_graph_rate (const tactus_graph*); /**< in Hz [main thread] */
 
 /* Edits. Each is one undo step, is checked, and changes nothing if it fails. `patch` is "" for the graph itself, or the name of a
  * subgraph. Values are JSON, as in a graph file: 0.4, "20 um", [0, 0, 1]; NULL removes the value. [main thread] */
@@ -125,24 +135,27 @@ TACTUS_API tactus_result tactus_graph_add_wire (tactus_graph*, const char* patch
 TACTUS_API tactus_result tactus_graph_remove_wire (tactus_graph*, const char* patch, const char* wire, tactus_messages*);
 /** The description of a role's device: {"driver": "sim", …}. */
 TACTUS_API tactus_result tactus_graph_set_device (tactus_graph*, const char* role, const char* description, tactus_messages*);
-TACTUS_API int32_t tactus_graph_undo (tactus_graph*);   /**< 0 if there is nothing to undo */
-TACTUS_API int32_t tactus_graph_redo (tactus_graph*);   /**< 0 if there is nothing to redo */
+TACTUS_API int32_t tactus_graph_undo (tactus_graph*); /**< 0 if there is nothing to undo */
+TACTUS_API int32_t tactus_graph_redo (tactus_graph*); /**< 0 if there is nothing to redo */
 
 /* ============================================================================ Runs */
 
 typedef struct tactus_run_options
 {
     uint32_t size;
-    double rate_hz;             /**< 0: the graph's rate */
-    const char* const* feeds;   /**< ports driven by you: "drag.position.x", "drag.mu" */
+    double rate_hz;           /**< 0: the graph's rate */
+    const char* const* feeds; /**< ports driven by you: "drag.position.x", "drag.mu" */
     size_t feed_count;
     const char* const* records; /**< ports to record: "motor.force"; none: the inputs of all sinks */
     size_t record_count;
-    const char* const* sets;    /**< values that replace those of the graph: "drag.mu=0.3" */
+    const char* const* sets; /**< values that replace those of the graph: "drag.mu=0.3" */
     size_t set_count;
 } tactus_run_options;
 
-#define TACTUS_RUN_OPTIONS { sizeof (tactus_run_options), 0.0, 0, 0, 0, 0, 0, 0 }
+#define TACTUS_RUN_OPTIONS                                 \
+    {                                                      \
+        sizeof (tactus_run_options), 0.0, 0, 0, 0, 0, 0, 0 \
+    }
 
 /** Compiles a graph, which may be freed or edited afterwards. NULL if it does not compile. [main thread] */
 TACTUS_API tactus_run* tactus_run_create (const tactus_graph*, const tactus_run_options*, tactus_messages*);
@@ -150,13 +163,13 @@ TACTUS_API tactus_run* tactus_run_create (const tactus_graph*, const tactus_run_
 /** Stops the run, waits until all forces are zero, and frees it. [main thread] */
 TACTUS_API void tactus_run_free (tactus_run*);
 
-TACTUS_API double tactus_run_rate (const tactus_run*);                        /**< in Hz [main thread] */
-TACTUS_API size_t tactus_run_role_count (const tactus_run*);                  /**< [main thread] */
-TACTUS_API const char* tactus_run_role (const tactus_run*, size_t index);     /**< name of a role [main thread] */
-TACTUS_API size_t tactus_run_feed_count (const tactus_run*);                  /**< [main thread] */
-TACTUS_API size_t tactus_run_record_count (const tactus_run*);                /**< components, not ports [main thread] */
-TACTUS_API const char* tactus_run_record_name (const tactus_run*, size_t index);   /**< "motor.force.x" [main thread] */
-TACTUS_API const char* tactus_run_record_unit (const tactus_run*, size_t index);   /**< "N"; "" if unknown [main thread] */
+TACTUS_API double tactus_run_rate (const tactus_run*);                           /**< in Hz [main thread] */
+TACTUS_API size_t tactus_run_role_count (const tactus_run*);                     /**< [main thread] */
+TACTUS_API const char* tactus_run_role (const tactus_run*, size_t index);        /**< name of a role [main thread] */
+TACTUS_API size_t tactus_run_feed_count (const tactus_run*);                     /**< [main thread] */
+TACTUS_API size_t tactus_run_record_count (const tactus_run*);                   /**< components, not ports [main thread] */
+TACTUS_API const char* tactus_run_record_name (const tactus_run*, size_t index); /**< "motor.force.x" [main thread] */
+TACTUS_API const char* tactus_run_record_unit (const tactus_run*, size_t index); /**< "N"; "" if unknown [main thread] */
 
 /* ---------------------------------------------------------------------------- Devices, before tactus_run_open */
 
@@ -170,12 +183,12 @@ TACTUS_API tactus_result tactus_run_device (tactus_run*, const char* role, const
 typedef struct tactus_reading
 {
     uint32_t size;
-    int32_t valid;        /**< 0: the device has nothing to report, and the guard holds its force at zero */
-    double position[3];   /**< m */
-    double rotation[3];   /**< rotation vector, rad */
-    double pressure;      /**< N */
-    double age_s;         /**< time since the device took this reading */
-    uint32_t buttons;     /**< bit i: button i is down */
+    int32_t valid;      /**< 0: the device has nothing to report, and the guard holds its force at zero */
+    double position[3]; /**< m */
+    double rotation[3]; /**< rotation vector, rad */
+    double pressure;    /**< N */
+    double age_s;       /**< time since the device took this reading */
+    uint32_t buttons;   /**< bit i: button i is down */
     uint32_t axis_count, signal_count;
     double axes[TACTUS_CHANNELS], signals[TACTUS_CHANNELS];
 } tactus_reading;
@@ -184,8 +197,8 @@ typedef struct tactus_reading
 typedef struct tactus_effort
 {
     uint32_t size;
-    double force[3];    /**< on the tool, N */
-    double torque[3];   /**< on the tool, N m */
+    double force[3];  /**< on the tool, N */
+    double torque[3]; /**< on the tool, N m */
     uint32_t axis_count, signal_count;
     double axes[TACTUS_CHANNELS], signals[TACTUS_CHANNELS];
 } tactus_effort;
@@ -194,17 +207,20 @@ typedef struct tactus_effort
 typedef struct tactus_device_options
 {
     uint32_t size;
-    const char* const* axes;      /**< names of axes that can be read */
+    const char* const* axes; /**< names of axes that can be read */
     size_t axis_count;
-    const char* const* efforts;   /**< names of axes that can be pushed */
+    const char* const* efforts; /**< names of axes that can be pushed */
     size_t effort_count;
     const char* const* buttons;
     size_t button_count;
     int32_t signal_inputs, signal_outputs;
-    const char* guard;            /**< JSON with the limits of docs/safety.md: {"max_force": "3 N", "watchdog": "20 ms", …} */
+    const char* guard; /**< JSON with the limits of docs/safety.md: {"max_force": "3 N", "watchdog": "20 ms", …} */
 } tactus_device_options;
 
-#define TACTUS_DEVICE_OPTIONS { sizeof (tactus_device_options), 0, 0, 0, 0, 0, 0, 0, 0, 0 }
+#define TACTUS_DEVICE_OPTIONS                                     \
+    {                                                             \
+        sizeof (tactus_device_options), 0, 0, 0, 0, 0, 0, 0, 0, 0 \
+    }
 
 /** Your own device: you push readings and take efforts. Until the first reading, and when readings stop for longer than the guard's
  *  watchdog, the effort is zero. [main thread] */
@@ -242,12 +258,15 @@ TACTUS_API double tactus_run_duration (const tactus_run*);
 typedef struct tactus_start_options
 {
     uint32_t size;
-    int32_t core;      /**< CPU core for the tick thread; -1: any */
-    uint64_t length;   /**< in ticks; 0: until it is stopped */
-    size_t buffer;     /**< recorded ticks that are kept until tactus_run_collect; 0: none */
+    int32_t core;    /**< CPU core for the tick thread; -1: any */
+    uint64_t length; /**< in ticks; 0: until it is stopped */
+    size_t buffer;   /**< recorded ticks that are kept until tactus_run_collect; 0: none */
 } tactus_start_options;
 
-#define TACTUS_START_OPTIONS { sizeof (tactus_start_options), -1, 0, 0 }
+#define TACTUS_START_OPTIONS                    \
+    {                                           \
+        sizeof (tactus_start_options), -1, 0, 0 \
+    }
 
 /** Ticks the run by a timer on a thread of its own. From now on, that is the tick thread. Real-time privileges that the system
  *  refuses are warnings. Call it once. [main thread] */
@@ -267,9 +286,9 @@ TACTUS_API tactus_result tactus_run_stop (tactus_run*);
 
 typedef enum tactus_phase
 {
-    TACTUS_IDLE = 0,     /**< not started; ticked by you */
+    TACTUS_IDLE = 0, /**< not started; ticked by you */
     TACTUS_RUNNING = 1,
-    TACTUS_HALTING = 2,  /**< the forces are falling to zero */
+    TACTUS_HALTING = 2, /**< the forces are falling to zero */
     TACTUS_OVER = 3
 } tactus_phase;
 
@@ -277,14 +296,17 @@ typedef struct tactus_status
 {
     uint32_t size;
     tactus_phase phase;
-    uint64_t ticks, late_ticks;   /**< late: began at least one period late */
-    double force, peak_force;     /**< largest force of all roles in N: now, and since the start */
+    uint64_t ticks, late_ticks; /**< late: began at least one period late */
+    double force, peak_force;   /**< largest force of all roles in N: now, and since the start */
     int32_t is_emergency;
 } tactus_status;
 
-#define TACTUS_STATUS { sizeof (tactus_status), TACTUS_IDLE, 0, 0, 0.0, 0.0, 0 }
+#define TACTUS_STATUS                                          \
+    {                                                          \
+        sizeof (tactus_status), TACTUS_IDLE, 0, 0, 0.0, 0.0, 0 \
+    }
 
-TACTUS_API tactus_result tactus_run_status (const tactus_run*, tactus_status*);   /**< [any thread] */
+TACTUS_API tactus_result tactus_run_status (const tactus_run*, tactus_status*); /**< [any thread] */
 
 /* ---------------------------------------------------------------------------- While it plays */
 
@@ -303,7 +325,4 @@ TACTUS_API tactus_result tactus_run_emergency_stop (tactus_run*);
 /** Ends emergency stops and all other stops of the guards. Only a person should decide this. [any thread] */
 TACTUS_API tactus_result tactus_run_rearm (tactus_run*);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

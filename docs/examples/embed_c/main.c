@@ -19,7 +19,7 @@ int main (int argc, char** argv)
     tactus_messages* messages = tactus_messages_create();
     tactus_graph* graph = tactus_graph_load (argc > 1 ? argv[1] : "dry_wood.json", messages);
     tactus_run* run = tactus_run_create (graph, NULL, messages);
-    const size_t ticks = argc > 2 ? (size_t) atol (argv[2]) : 4000, width = tactus_run_record_count (run);
+    const size_t ticks = argc > 2 ? (size_t)atol (argv[2]) : 4000, width = tactus_run_record_count (run);
     size_t k, i;
     double* values;
     if (tactus_run_open (run, messages) != TACTUS_OK) return fail (messages);
@@ -32,7 +32,7 @@ int main (int argc, char** argv)
     {
         tactus_run_tick (run);
         tactus_run_get_records (run, values);
-        printf ("\n%.17g", (double) k / tactus_run_rate (run));
+        printf ("\n%.17g", (double)k / tactus_run_rate (run));
         for (i = 0; i < width; ++i)
             printf (",%.17g", values[i]);
     }
