@@ -46,7 +46,8 @@ endfunction ()
 function (tactus_add_nodes program folder)
     get_filename_component (folder ${folder} ABSOLUTE)
     tactus_collect_nodes (sources ${folder} ${folder} "static const tactus::NodeLibrary library { nodeTypes };")
-    add_library (${program}_nodes OBJECT ${sources})   # objects, because a linker drops members of an archive that nobody calls
+    # An object library: from a static library, the linker would drop the nodes, because no code calls them.
+    add_library (${program}_nodes OBJECT ${sources})
     target_link_libraries (${program}_nodes PUBLIC tactus::nodes)
     target_link_libraries (${program} PRIVATE ${program}_nodes tactus::nodes)
 endfunction ()

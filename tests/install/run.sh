@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs the libraries into a folder of its own, and builds and runs docs/examples against them, as a stranger would:
+# Installs the libraries into a temporary folder, and builds and runs docs/examples against them, as a user would:
 #   tests/install/run.sh BUILD
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -9,12 +9,12 @@ build=$(realpath "${1:-build/release}")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-cmake --install "$build" --component library --prefix "$work/root" >/dev/null
-cmake --install "$build" --component development --prefix "$work/root" >/dev/null
-libs=$(dirname "$(find "$work/root" -name 'libtactus.so.*' | head -n 1)")
+cmake --install "$build" --component library --prefix "$work/prefix" >/dev/null
+cmake --install "$build" --component development --prefix "$work/prefix" >/dev/null
+libs=$(dirname "$(find "$work/prefix" -name 'libtactus.so.*' | head -n 1)")
 
 # No header may need more than Eigen and the standard library, and none may name a file that is not installed.
-if grep -rlE '#include <(nlohmann|juce|hidapi|framework|host)' "$work/root/include"; then
+if grep -rlE '#include <(nlohmann|juce|hidapi|framework|host)' "$work/prefix/include"; then
     echo "an installed header includes what is not installed" >&2
     exit 1
 fi
@@ -27,13 +27,13 @@ echo "the shared library exports the $(wc -l <"$work/symbols") functions of the 
 examples=$work/examples
 cp -r docs/examples "$examples"
 for example in embed embed_c own_node; do
-    cmake -S "$examples/$example" -B "$work/$example" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/root" >/dev/null
+    cmake -S "$examples/$example" -B "$work/$example" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" >/dev/null
     cmake --build "$work/$example" >/dev/null
     "$work/$example/$example" "$source/graphs/dry_wood.json" >"$work/$example.txt"
     echo "docs/examples/$example: built against the shared library, $(wc -l <"$work/$example.txt") lines printed"
 done
 
-cmake -S "$examples/embed_c" -B "$work/static" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/root" -DTactus_USE_STATIC_LIBS=ON >/dev/null
+cmake -S "$examples/embed_c" -B "$work/static" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" -DTactus_USE_STATIC_LIBS=ON >/dev/null
 cmake --build "$work/static" >/dev/null
 "$work/static/embed_c" graphs/dry_wood.json >"$work/static.txt"
 cmp "$work/static.txt" "$work/embed_c.txt"
@@ -74,7 +74,7 @@ if (NOT before STREQUAL after OR options OR link_options)
 endif ()
 foreach (target tactus tactus-host tactus_tests)
     if (TARGET \${target})
-        message (FATAL_ERROR "\${target} is built though nobody asked for it")
+        message (FATAL_ERROR "\${target} is built, but only the libraries should be")
     endif ()
 endforeach ()
 if (NOT TARGET tactus::framework OR NOT TARGET tactus::nodes OR NOT TARGET tactus::run)

@@ -19,7 +19,7 @@ struct DeviceNumber
 {
     double value = 0.0;
     std::string source {};   ///< where the number comes from
-    bool guess = false;      ///< true if nobody has published or measured the number
+    bool guess = false;      ///< true if the number is neither published nor measured
 
     bool operator== (const DeviceNumber&) const = default;
 };

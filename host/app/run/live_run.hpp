@@ -64,8 +64,9 @@ public:
     void use (const DeviceSetup&);
     void setupChanged();
 
-    /// From now on, the tick thread obeys this switch, and no run begins while the switch has a press that nobody has noticed. The
-    /// caller must call notice() on the switch, and then stop() or emergencyStop(). The switch must outlive this object.
+    /// From now on, the tick thread checks this switch before every tick, and no run starts while the switch has a new press
+    /// (StopSwitch::isAhead). When there is one, the caller must call notice() on the switch, and then stop() or emergencyStop(). The
+    /// switch must outlive this object.
     void obey (const StopSwitch& s) noexcept { stop_switch = &s; }
 
     /// The state of the run's sound; empty if it neither plays nor records.

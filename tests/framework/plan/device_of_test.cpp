@@ -83,7 +83,7 @@ TEST_CASE ("a node without inputs from a device learns of the device to which it
     CHECK (blow (s, 0.02, 0.2) == blow (s, 0.5, 0.5, 0.2));
 }
 
-TEST_CASE ("a node learns anew when an edit wires it to another device", "[plan][devices][edit]")
+TEST_CASE ("a node learns the numbers of the new device when an edit rewires it", "[plan][devices][edit]")
 {
     const CompileOptions options { .records = { "blow.resistance" } };
     auto before = struck ("left");
