@@ -39,7 +39,7 @@ TEST_CASE ("figure: the force of a tilted edge ramps over width times sine of th
     }
 }
 
-TEST_CASE ("figure: an edge bursts its sample once in each place", "[figures]")
+TEST_CASE ("figure: an edge breaks through its sample once in each place", "[figures]")
 {
     const auto run = test::renderFigure ("edge", "edge_moved", { "--duration", "8.5", "--record", "strokes.out,moved.resistance,moved.state" });
     const auto strongest = [&] (double from, double to) {

@@ -133,7 +133,7 @@ std::pair<int, double> openings (const std::vector<double>& gate)
 }
 }   // namespace
 
-TEST_CASE ("every preset renders the same slow force and the same vibration at 1, 4 and 20 kHz, or says which rate it needs", "[graphs][rate]")
+TEST_CASE ("every preset renders the same slow force and the same vibration at 1, 4 and 20 kHz, or from the rate that it is listed to need", "[graphs][rate]")
 {
     for (const auto& entry : fs::directory_iterator (folder))
     {
@@ -172,7 +172,7 @@ TEST_CASE ("the list of presets that need a higher rate names only presets that 
         }
 }
 
-TEST_CASE ("an encoder does not chop the crunch of the potato, at any rate", "[graphs][rate]")
+TEST_CASE ("the steps of an encoder do not interrupt the crunch of the potato, at any rate", "[graphs][rate]")
 {
     auto g = loadGraph (folder / "potato_cut.json").graph;
     const auto exact = openings (play (g, 4000.0, "parting.gate").recorded);

@@ -147,7 +147,7 @@ TEST_CASE ("a graph or a device that breaks one condition breaks only that one",
     CHECK (brokenBy ([&] (Trial& t) { finelyRibbed (t); t.board.amplitude = 0.5; }) == Names { "gain" });
 }
 
-TEST_CASE ("a graph that breaks everything is told so, condition by condition", "[check]")
+TEST_CASE ("every condition that a graph breaks is reported by name", "[check]")
 {
     Trial t;
     t.board = { .rate_hz = 1000.0, .stiffness = 1e5, .d_max = 1e-6, .amplitude = 0.01, .spatial_frequency = 20e3 };
@@ -229,7 +229,7 @@ TEST_CASE ("a tone that a slip sets off is an event, not a slope", "[check]")
     }
 }
 
-TEST_CASE ("a low-pass in the loop counts as the delay that it has at low frequency", "[check]")
+TEST_CASE ("a low-pass in the loop counts as a delay, as long as the one it has at low frequency", "[check]")
 {
     test::Sketch s;
     s.node ("hand", "device.position").node ("motor", "device.force");
@@ -274,7 +274,7 @@ TEST_CASE ("the PHANTOM renders a 10 mm grating below 0.3 m/s and a 1 mm one bel
     }
 }
 
-TEST_CASE ("what the device does not tell is unknown, not broken", "[check]")
+TEST_CASE ("a condition that needs an unknown number of the device is unknown, not broken", "[check]")
 {
     Trial t;
     t.device = {};

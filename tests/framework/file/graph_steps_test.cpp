@@ -34,7 +34,7 @@ const std::string contacts = R"("nodes": {
   "graphs": { "part": { "nodes": { "silent": { "type": "friction.elasto_plastic" } }, "wires": [] } })";
 }   // namespace
 
-TEST_CASE ("friction of version 1 that says nothing about load keeps load passive, in subgraphs too")
+TEST_CASE ("friction without load in a file of version 1 keeps load passive, in subgraphs too")
 {
     const auto loaded = readGraph (file (1, contacts));
     CHECK (loaded.messages.empty());
@@ -47,7 +47,7 @@ TEST_CASE ("friction of version 1 that says nothing about load keeps load passiv
     CHECK (g.root.find ("part")->overrides.size() == 1);
 }
 
-TEST_CASE ("friction of version 2 that says nothing about load is left alone, and ticks with load bound")
+TEST_CASE ("friction without load in a file of version 2 is not changed, and uses load bound")
 {
     const auto loaded = readGraph (file (2, contacts));
     CHECK (loaded.messages.empty());

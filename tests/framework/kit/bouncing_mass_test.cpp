@@ -35,7 +35,7 @@ TEST_CASE ("bouncing mass: without damping it leaves as fast as it came, after h
     CHECK_FALSE (body.after ({ .depth = -1e-3, .speed = 0.2 }, 0.0049).touched);
 }
 
-TEST_CASE ("bouncing mass: two stretches of time give the same as one", "[kit]")
+TEST_CASE ("bouncing mass: two steps give the same result as one step of the same length", "[kit]")
 {
     rc::prop ("any mass, spring and force", [] {
         const auto body = anyBody();
@@ -71,7 +71,7 @@ TEST_CASE ("bouncing mass: it follows an independent integration in small steps"
     });
 }
 
-TEST_CASE ("bouncing mass: a touch that is over within a step is not missed", "[kit]")
+TEST_CASE ("bouncing mass: a touch that begins and ends within a step is not missed", "[kit]")
 {
     // Without the surface, the mass would turn back 1 um beyond it.
     BouncingMass body { .mass = 0.1, .stiffness = 1e7, .force = -2.0 };

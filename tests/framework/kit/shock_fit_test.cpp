@@ -138,7 +138,7 @@ TEST_CASE ("fit of a shock: a loop without area has no damping", "[kit][shock]")
     CHECK (fit->stiffness.a == Approx (5e5).epsilon (0.02));
 }
 
-TEST_CASE ("fit of a shock: a recording that is none is refused, with the reason", "[kit][shock]")
+TEST_CASE ("fit of a shock: a recording that contains no impact is refused, with the reason", "[kit][shock]")
 {
     const auto good = record ({});
     CHECK (problem (good) == "");

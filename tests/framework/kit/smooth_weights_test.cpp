@@ -37,7 +37,7 @@ Vec3 slope (const Corners& corners, const Values& values, const Vec3& p)
 }
 }   // namespace
 
-TEST_CASE ("smooth weights: neither the value nor its gradient steps across an edge, and the weights are shares of a whole", "[kit]")
+TEST_CASE ("smooth weights: neither the value nor its gradient steps across an edge, and the weights add up to 1", "[kit]")
 {
     rc::prop ("two triangles that share an edge", [] (unsigned seed) {
         std::mt19937 dice (seed);

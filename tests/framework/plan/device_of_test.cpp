@@ -65,14 +65,14 @@ std::vector<double> blow (const Sketch& sketch, double left, double right, doubl
 }
 }   // namespace
 
-TEST_CASE ("a node learns of the device from which its inputs come, through other nodes", "[plan][devices]")
+TEST_CASE ("a node learns the numbers of the device from which its inputs come, through other nodes", "[plan][devices]")
 {
     CHECK (blow (struck ("left"), 0.02, 0.2) == blow (struck ("left"), 0.5, 0.5, 0.02));
     CHECK (blow (struck ("right"), 0.02, 0.2) == blow (struck ("right"), 0.5, 0.5, 0.2));
     CHECK (blow (struck ("right"), 0.02, 0.2) != blow (struck ("left"), 0.02, 0.2));
 }
 
-TEST_CASE ("a node without inputs from a device learns of the device to which its outputs go", "[plan][devices]")
+TEST_CASE ("a node without inputs from a device learns the numbers of the device to which its outputs go", "[plan][devices]")
 {
     Sketch s;
     s.node ("beat", "signal.lfo", { { "frequency", 200 } }).node ("pulse", "signal.trigger", { { "threshold", 0.5 }, { "speed", 0.3 } });

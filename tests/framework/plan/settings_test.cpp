@@ -344,7 +344,7 @@ TEST_CASE ("a surface may have frames, and curves and ratios for each node", "[p
     CHECK (s->mu[3](0.5) == 1.0);
 }
 
-TEST_CASE ("a surface may have frames and ratios for each tool, ratios as curves, and tools as weights", "[plan][settings]")
+TEST_CASE ("a surface may have frames and ratios for each tool, ratios as curves, and tools as mixes of shapes", "[plan][settings]")
 {
     const Json frame = { { 0, 1, 0 }, { 1, 0, 0 }, { 0, 0, -1 } };
     const Json curve = { { "curve", { { 0, "2 mm" }, { 0.1, 0.5 } } } };

@@ -40,7 +40,7 @@ std::optional<Scheduling> after (Ask&& ask)
 }
 }   // namespace
 
-TEST_CASE ("the thread of an emergency stop comes before the tick, and the thread that anyone can flood after the tick", "[run][safety]")
+TEST_CASE ("the thread of the emergency stop has a priority above the tick's, and the thread of OSC one below it", "[run][safety]")
 {
     CHECK (tactus::priority::stop > tactus::priority::tick);
     CHECK (tactus::priority::messages < tactus::priority::tick);

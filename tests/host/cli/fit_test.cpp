@@ -40,7 +40,7 @@ std::string recording (bool with_times)
 }
 }   // namespace
 
-TEST_CASE ("fit shock: the preset has the law of the recording, and plays", "[cli][fit]")
+TEST_CASE ("fit shock: the preset has the law of the recording, and can be played", "[cli][fit]")
 {
     const Scratch scratch;
     const auto csv = scratch.write ("tap.csv", recording (false)), preset = scratch.path ("tap.json"), picture = scratch.path ("tap.png");

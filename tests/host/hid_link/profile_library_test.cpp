@@ -152,7 +152,7 @@ TEST_CASE ("own profiles: one that replaces a shipped profile keeps to the limit
     CHECK (all.messages[2].id == "profile/shadows");
 }
 
-TEST_CASE ("own profiles: one that drives the device of a shipped profile otherwise is refused", "[hid]")
+TEST_CASE ("own profiles: one that drives the device of a shipped profile differently is refused", "[hid]")
 {
     struct Case
     {

@@ -233,7 +233,7 @@ TEST_CASE ("edge: cut, withdraw, move aside, press: a second rupture; back in th
     CHECK (bench.ruptures == 0);
 }
 
-TEST_CASE ("edge: half beside its cut, it bursts the other half alone, and is turned out of it", "[nodes][cut]")
+TEST_CASE ("edge: half beside its cut, it breaks through on the other half alone, and feels a torque", "[nodes][cut]")
 {
     Bench bench;
     bench.move ({ 0.0, 0.0, -0.01 }, 1000);
@@ -250,7 +250,7 @@ TEST_CASE ("edge: half beside its cut, it bursts the other half alone, and is tu
     CHECK (bench.out.resistance == Approx (4.0));
 }
 
-TEST_CASE ("edge: drawn along itself at a depth, it pays for the surface that its end opens, without ripple", "[nodes][cut]")
+TEST_CASE ("edge: drawn along itself at a depth, it feels the cost of the surface that its end opens, without ripple", "[nodes][cut]")
 {
     Bench bench (skinless);
     bench.move ({ 0.0, 0.0, -0.012 }, 1000);
@@ -302,7 +302,7 @@ TEST_CASE ("edge: the work of the hand is stored or spent on cracks, however it 
     });
 }
 
-TEST_CASE ("edge: what is spent does not depend on the rate, and a jump ends where a slow edge does", "[nodes][cut]")
+TEST_CASE ("edge: the dissipated energy does not depend on the rate, and a jump ends in the same state as a slow motion", "[nodes][cut]")
 {
     Dice dice { 3 };
     for (int trial = 0; trial < 8; ++trial)

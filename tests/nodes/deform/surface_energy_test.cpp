@@ -114,12 +114,12 @@ void neverGives (int loops, int steps)
 }
 }   // namespace
 
-TEST_CASE ("surface: dissipated plus stored energy is the work, to rounding, and what is dissipated never comes back", "[nodes][deform][energy]")
+TEST_CASE ("surface: dissipated plus stored energy equals the work, to rounding, and dissipated energy never falls", "[nodes][deform][energy]")
 {
     neverGives (200, 60);   // 5 frictions, so 1000 loops on each body
 }
 
-TEST_CASE ("surface: dissipated plus stored energy is the work, on long loops too", "[.][long][nodes][deform][energy]")
+TEST_CASE ("surface: dissipated plus stored energy equals the work, on long loops too", "[.][long][nodes][deform][energy]")
 {
     neverGives (1000, 2000);
 }

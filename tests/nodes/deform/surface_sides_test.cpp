@@ -85,7 +85,7 @@ TEST_CASE ("surface: a contact that opens inside a body does not begin again bef
     CHECK (node.tick ({ .position = Vec3 (0.0, 0.003, 0.008) }).state > 0.0);
 }
 
-TEST_CASE ("mesh walk: a way into a box crosses one triangle of the side that it enters, and a way out crosses none", "[kit]")
+TEST_CASE ("mesh walk: a line into a box crosses one triangle of the side that it enters, and a line out crosses none", "[kit]")
 {
     rc::prop ("straight paths from outside to inside", [] (unsigned seed) {
         std::mt19937 dice (seed);

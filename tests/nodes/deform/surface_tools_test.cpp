@@ -64,7 +64,7 @@ TEST_CASE ("surface: weights at the nodes make a tool feel different over bone, 
     CHECK (dragged.resistance == Approx (0.75 * 1.0 + 0.25 * 8.0));
 }
 
-TEST_CASE ("surface: every shape may have frames and mu of its own", "[nodes][deform]")
+TEST_CASE ("surface: each shape may have its own frames and mu", "[nodes][deform]")
 {
     auto s = threeShapes();
     s.curves.resize (2);
@@ -93,7 +93,7 @@ TEST_CASE ("surface: every shape may have frames and mu of its own", "[nodes][de
     }
 }
 
-TEST_CASE ("surface: weights that are not shares of a whole are refused", "[nodes][deform]")
+TEST_CASE ("surface: weights that do not add up to 1 are refused", "[nodes][deform]")
 {
     auto s = threeShapes();
     s.weights = { { { 1.0, 0.0, 0.0 } }, { { 0.2, 0.3, 0.6 } } };

@@ -50,7 +50,7 @@ TEST_CASE ("reconstruction: a slow force comes 1/(pi sqrt 2 cutoff) later", "[no
     }
 }
 
-TEST_CASE ("reconstruction: one bad component silences all, and leaves no trace", "[nodes][filter]")
+TEST_CASE ("reconstruction: one component that is not finite gives 0 on all, and has no effect afterwards", "[nodes][filter]")
 {
     auto node = ready<Reconstruction> ({ .cutoff = 30.0 }), fresh = node;
     for (int k = 0; k < 20; ++k)

@@ -137,7 +137,7 @@ TEST_CASE ("friction: with load bound and a mu of 0 nothing drags", "[nodes][fri
         }
 }
 
-TEST_CASE ("friction: with load bound a hand that leans for a minute on a trembling load walks nowhere", "[nodes][friction]")
+TEST_CASE ("friction: with load bound, a hand that leans on a trembling load for a minute does not move", "[nodes][friction]")
 {
     for (const double depth : { 0.1, 0.3 })
         for (const double frequency : { 1.0, 30.0 })
@@ -157,13 +157,13 @@ TEST_CASE ("friction: with load bound a hand that leans for a minute on a trembl
     });
 }
 
-TEST_CASE ("friction: with load passive the same hand walks, as the header says", "[nodes][friction]")
+TEST_CASE ("friction: with load passive, the same hand moves, as the header says", "[nodes][friction]")
 {
     const double walked = Lean { .load = Load::passive, .seconds = 11.0 }.walk();   // 10 s after the first ten cycles
     CHECK (walked / 10.0 == Approx (81e-6).epsilon (0.05));
 }
 
-TEST_CASE ("friction: noise of the position wears functions 2 to 4 down, as the header says", "[nodes][friction]")
+TEST_CASE ("friction: position noise lowers the drag of functions 2 to 4, as the header says", "[nodes][friction]")
 {
     for (const auto adhesion : all_adhesions)
         CHECK (meanDrag (adhesion, 0.0) == Approx (0.5).epsilon (1e-3));

@@ -163,7 +163,7 @@ TEST_CASE ("deadbeat: a hand that rests on the wall sinks in as far as the stiff
     }
 }
 
-TEST_CASE ("deadbeat: a tool that does not come near feels nothing", "[nodes][hold]")
+TEST_CASE ("deadbeat: a tool far from the wall feels no force", "[nodes][hold]")
 {
     Trial t;
     t.start = -0.05;

@@ -131,7 +131,7 @@ TEST_CASE ("handover: while the shock is played, the measured position has no ef
     }
 }
 
-TEST_CASE ("handover: handing back gives at most the energy of the contact at the deepest place", "[nodes][shock][energy]")
+TEST_CASE ("handover: handing back to the contact gives at most the energy that the contact stores at the deepest place", "[nodes][shock][energy]")
 {
     rc::prop ("any spring and way", [] (unsigned seed) {
         std::mt19937 random { seed };
@@ -158,7 +158,7 @@ TEST_CASE ("handover: handing back gives at most the energy of the contact at th
     });
 }
 
-TEST_CASE ("handover: a fault gives 0, and the next sample is a fresh contact; a hit that is not finite is none", "[nodes][shock]")
+TEST_CASE ("handover: a fault gives 0, and the next sample is a new contact; a hit that is not finite does not count", "[nodes][shock]")
 {
     for (const double bad : { not_a_number, tactus::inf, -tactus::inf })
     {
@@ -174,7 +174,7 @@ TEST_CASE ("handover: a fault gives 0, and the next sample is a fresh contact; a
     }
 }
 
-TEST_CASE ("handover: a new instance goes on where the old one was", "[nodes][shock]")
+TEST_CASE ("handover: an instance that replaces another one continues its fade", "[nodes][shock]")
 {
     auto old = ready<Handover> ({}), twin = ready<Handover> ({}), next = ready<Handover> ({});
     for (auto* node : { &old, &twin })

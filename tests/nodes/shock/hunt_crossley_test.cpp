@@ -215,7 +215,7 @@ TEST_CASE ("shock: the dissipated energy adds up over hits, never falls, and ign
     });
 }
 
-TEST_CASE ("shock: a mass of 0 is that of the device, and of 50 g if the device does not tell it", "[nodes][shock]")
+TEST_CASE ("shock: a mass of 0 means that of the device, or 50 g if that is unknown", "[nodes][shock]")
 {
     const auto push = [] (double mass, double of_device) {
         auto node = shock ({}, 4000.0, { .mass = mass });

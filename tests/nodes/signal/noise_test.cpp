@@ -120,7 +120,7 @@ TEST_CASE ("noise: its RMS lies within the band and is the amplitude, at 1, 4 an
     }
 }
 
-TEST_CASE ("noise: its first second is as loud as every other", "[nodes][signal]")
+TEST_CASE ("noise: its first second is as loud as any other", "[nodes][signal]")
 {
     double squares = 0.0;
     for (int seed = 0; seed < 4000; ++seed)
@@ -133,7 +133,7 @@ TEST_CASE ("noise: its first second is as loud as every other", "[nodes][signal]
     CHECK (squares / 4000.0 == Approx (1.0).epsilon (5.0 * std::sqrt (2.0 / 4000.0)));
 }
 
-TEST_CASE ("noise: a graph too slow for the band has the part of the noise below half its rate, and is warned", "[nodes][signal]")
+TEST_CASE ("noise: if the rate is too low for the band, the part below half the rate is left, and a warning says so", "[nodes][signal]")
 {
     const auto x = lasting (100.0, 300.0);
     double squares = 0.0;
@@ -144,7 +144,7 @@ TEST_CASE ("noise: a graph too slow for the band has the part of the noise below
     CHECK (inBand (300.0).warning ({ .rate_hz = 300.0 }).find ("500 Hz") != std::string::npos);
 }
 
-TEST_CASE ("noise: a band that moves leaves it within its claim", "[nodes][signal]")
+TEST_CASE ("noise: its claimed amplitude holds while the bandwidth changes", "[nodes][signal]")
 {
     auto node = inBand (1000.0);
     for (int k = 0; k < 20000; ++k)

@@ -5,7 +5,7 @@
 
 using namespace tactus;
 
-TEST_CASE ("numbers of a device: a simulated one knows all of its own", "[host][devices]")
+TEST_CASE ("numbers of a device: all numbers of a simulated device are known", "[host][devices]")
 {
     CHECK (isEmpty (DeviceNumbers {}));
 

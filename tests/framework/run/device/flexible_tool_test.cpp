@@ -164,7 +164,7 @@ TEST_CASE ("flexible tool: while the motor is held, the end swings at the first 
         }
 }
 
-TEST_CASE ("flexible tool: below the Coulomb friction it sticks for ever, not a nanometre away", "[host][devices]")
+TEST_CASE ("flexible tool: a force below the Coulomb friction never moves it", "[host][devices]")
 {
     FlexibleTool tool ({ .coulomb = 0.3, .first_mode_hz = 30.0 }, 1e-3);
     tool.start (alongX (0.01), Vec3::Zero());
@@ -184,7 +184,7 @@ TEST_CASE ("flexible tool: below the Coulomb friction it sticks for ever, not a 
     CHECK (rigid.position().x() == 0.01);
 }
 
-TEST_CASE ("rigid tool: on a spring, Coulomb friction takes the same from each half swing", "[host][devices]")
+TEST_CASE ("rigid tool: on a spring, Coulomb friction shortens each half swing by the same amount", "[host][devices]")
 {
     // Per half swing, the amplitude falls by 2 f_f/k. The spring is sampled so finely that the error is below 10 um.
     constexpr double mass = 0.1, k = 400.0, friction = 0.2, start = 0.0102, dt = 2e-6;

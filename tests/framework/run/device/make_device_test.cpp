@@ -326,7 +326,7 @@ TEST_CASE ("the option --device: unreadable text is refused with a list of the v
     CHECK (refused ("stylus=" + (folder / "none.json").string()).id == "device/unreadable");
 }
 
-TEST_CASE ("device description: a first mode needs an end that is lighter than the whole, and nothing of it stands without it", "[host][devices]")
+TEST_CASE ("device description: the end must be lighter than the whole device, and the keys of the first mode need a first mode", "[host][devices]")
 {
     CHECK (found (made (R"({"driver": "sim", "mass": "50 g", "first_mode": 30, "end_mass": "50 g"})"))
            == std::vector<std::string> { "device/out_of_range /end_mass" });
