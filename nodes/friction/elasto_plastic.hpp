@@ -63,20 +63,26 @@ namespace tactus::nodes
 ///    but the contact point walks: if the load trembles by 10 % at 10 Hz, a tool that leans with 0.2 N on a contact that can hold
 ///    0.5 N creeps by 81 um/s, although the state is 1. `load: bound` neither gives energy nor walks, however the load changes,
 ///    and is the default. In graph files of version 1, the default was `passive`.
-///  - Eq. (1) to (4) are one-dimensional. Here d and dp are projected on the tangent plane of each sample, so that a turning
-///    normal takes the contact point along. Each turn shortens d by the cosine of its angle, so under a normal that trembles at
-///    every sample a resting contact loses its force: smooth such a normal before wiring it.
+///  - Eq. (1) to (4) are one-dimensional. Here d and dp lie in the tangent plane. When the normal turns, the plane turns with it
+///    by the smallest angle and takes d along, so d keeps its length and the turn does no work. If d were projected on the new
+///    plane instead, each turn would shorten it, and a contact that is held under a trembling normal would walk.
 ///
 /// Good to know
 ///  - Time-free: only displacement moves the state. A tool at rest feels a constant force forever, and repeating a sample does
 ///    not change a single bit of the state.
 ///  - stored_energy is sigma |d|^2 / 2. dissipated_energy is what the bristle has lost since the start, along the straight path
 ///    between the samples: sigma times the stretch times the slip of c, each collapse of a step, and everything released when
-///    the load falls, the contact re-anchors, the normal turns or the contact opens. So the work of the hand is the increase of
+///    the load falls, the contact re-anchors or the contact opens. So the work of the hand is the increase of
 ///    stored plus dissipated energy, and dissipated_energy never falls. Under `load: scale` it does fall when the load rises:
 ///    this is the energy that `scale` creates. Energy stored when a fault opens the contact is not counted.
 ///  - The force is held between samples, so while the contact sticks, the device needs a damping of at least sigma T / 2
 ///    (section 1), or twice that with functions 2 to 4, which are twice as stiff on a reversal.
+///  - A normal that trembles, about one axis or several, brings the force back when the normal comes back. Only if the normal
+///    turns by more than 60 degrees may the stretch come back turned within the plane, as on a tool that is carried around a ball.
+///    Opposite normals have the same plane, so the sign of the normal does not matter.
+///  - A tool that is held in place does not lose any force under a trembling normal. A tool that leans with a constant force
+///    stretches the contact by a little more or less as the plane tilts. It walks by at most 2 |d| angle^4 in each cycle, with the
+///    angle in rad: 2 nm for a stretch of 20 um and +-5 degrees.
 ///  - If the bound shrinks below the stretch, the bristle slips immediately, even at rest. This is how a texture on mu or d_max
 ///    is felt: with `bound`, sliding needs the force mu f_n d_max / d_max0. So if d_max changes while the tool touches, the drag
 ///    changes at once, but the softness of the contact only at the next touch.
@@ -203,6 +209,8 @@ struct ElastoPlastic
     Outputs tick (const Inputs&, const Params& stored) noexcept;
 
 private:
+    // While `home` stays, the stretch depends on where the normal is, not on how it got there. So `home` follows only a large turn.
+    static constexpr double far = 0.5;          // cosine of 60 degrees
     static constexpr double shortest = 1e-30;   // m; replaces a bound of 0, because the bristle divides by the bound
 
     /// The state from one sample to the next while the tool touches.
@@ -211,7 +219,8 @@ private:
         bool touching = false;
         Vec3 p = Vec3::Zero(), n = Vec3::UnitZ();   // position of the tool, unit normal
         Vec3 given = Vec3::UnitZ();                 // the normal input, of any length
-        Vec3 d = Vec3::Zero();                      // stretch; the contact point is c = p - d
+        Vec3 home = Vec3::UnitZ();                  // unit normal of the plane in which d is kept, at most 60 degrees from n
+        Vec3 d = Vec3::Zero();                      // stretch, before it is turned from `home` to n
         double sigma = 0.0;
         double d_max0 = 0.0;   // d_max in file and knobs at the touch, in m
         Load load {};
@@ -221,6 +230,7 @@ private:
     };
 
     static Vec3 tangential (const Vec3& v, const Vec3& n) noexcept { return v - n * n.dot (v); }
+    static Vec3 turned (const Vec3& v, const Vec3& from, const Vec3& to) noexcept;
     double stiffnessAtTouch (const Params& stored) const noexcept;
     void touch (Contact&, const Params& stored) const noexcept;
     bool setBound (Contact&, double normal_force) const noexcept;
@@ -245,6 +255,7 @@ inline ElastoPlastic::Outputs ElastoPlastic::tick (const Inputs& in, const Param
 
     Contact now = contact;
     if (in.normal != contact.given) now.n = (in.normal / longest).normalized();
+    if (contact.touching && now.n.dot (now.home) < 0.0) now.n = -now.n;
     now.given = in.normal;
     now.p = in.position;
     if (! contact.touching) touch (now, stored);
@@ -258,11 +269,10 @@ inline ElastoPlastic::Outputs ElastoPlastic::tick (const Inputs& in, const Param
         // Changes since the last sample take effect where the tool was, before it moves.
         const Bristle &bristle = now.bristle, &before = contact.bristle;
         if (now.sigma > contact.sigma && (now.load == Load::passive || params.stiffness > 0.0)) now.d *= contact.sigma / now.sigma;
-        if (now.n != contact.n) now.d = tangential (now.d, now.n);
         if (bristle.d_max < before.d_max || bristle.d_stick < before.d_stick) slips = bristle.letGo (now.d);
         lost = contact.stored() - now.stored();
 
-        const Vec3 dp = tangential (now.p - contact.p, now.n);
+        const Vec3 dp = turned (tangential (now.p - contact.p, now.n), now.n, now.home);
         if (! isFinite (dp.squaredNorm())) return fault();
 
         const auto step = bristle.stretch (now.d, dp);
@@ -271,9 +281,15 @@ inline ElastoPlastic::Outputs ElastoPlastic::tick (const Inputs& in, const Param
         slips = slips || step.slips;
     }
 
+    const Vec3 d = turned (now.d, now.home, now.n);
+    if (now.n.dot (now.home) < far)
+    {
+        now.d = d;
+        now.home = now.n;
+    }
     const Outputs out {
-        .force = -now.sigma * now.d,
-        .deflection = now.d,
+        .force = -now.sigma * d,
+        .deflection = d,
         .stored_energy = now.stored(),
         .dissipated_energy = dissipated + lost,
         .state = slips ? 2.0 : 1.0,
@@ -283,6 +299,14 @@ inline ElastoPlastic::Outputs ElastoPlastic::tick (const Inputs& in, const Param
     contact = now;
     dissipated = out.dissipated_energy;
     return out;
+}
+
+/// Turns a vector in the plane with the unit normal `from` together with this plane, by the smallest angle, into the plane with the
+/// unit normal `to`. The normals are at most a right angle apart.
+inline Vec3 ElastoPlastic::turned (const Vec3& v, const Vec3& from, const Vec3& to) noexcept
+{
+    if (from == to) return v;
+    return v - v.dot (to) / (1.0 + from.dot (to)) * (from + to);
 }
 
 /// The stiffness that a contact with load `bound` keeps until it opens.
@@ -295,6 +319,7 @@ inline double ElastoPlastic::stiffnessAtTouch (const Params& stored) const noexc
 inline void ElastoPlastic::touch (Contact& c, const Params& stored) const noexcept
 {
     c.touching = true;
+    c.home = c.n;
     c.d.setZero();
     c.load = params.load;
     c.bristle.adhesion = params.adhesion;

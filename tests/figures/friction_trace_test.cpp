@@ -11,7 +11,7 @@ using namespace tactus;
 TEST_CASE ("figure: along a stroke the contact follows on a leash of d_max, and moves only while the leash is taut", "[figures]")
 {
     constexpr double d_max = 1e-3;
-    const auto run = test::renderFigure ("friction_trace", "friction_trace", { "--duration", "4", "--record", "tool.out,contact.deflection,contact.state" });
+    const auto run = test::renderFigure ("friction_trace", "friction_trace", { "--duration", "3.75", "--record", "tool.out,contact.deflection,contact.state" });
 
     std::size_t stuck = 0, slips = 0;
     double furthest = 0.0;
@@ -38,4 +38,8 @@ TEST_CASE ("figure: along a stroke the contact follows on a leash of d_max, and 
     CHECK (furthest <= d_max * (1.0 + 1e-9));
     CHECK (stuck > run.rows() / 10);
     CHECK (slips > run.rows() / 4);
+
+    const auto last = run.rows() - 1;   // the stroke ends stuck, on a stretched leash
+    CHECK (run.at ("contact.state", last) == 1.0);
+    CHECK (std::hypot (run.at ("contact.deflection.x", last), run.at ("contact.deflection.y", last)) > 0.3 * d_max);
 }

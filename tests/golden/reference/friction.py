@@ -5,6 +5,8 @@ dc = zeta(|d|) |dp| d, with d = p - c and f = -sigma d, sigma = mu f_n / d_max.
 Adhesion "stick" follows eq. (3). The others follow eq. (4) with a factor that
 is at most 1 ("euler"), or eq. (2) solved over each straight step
 ("exponential"): d = d0 e^(-z |dp|) + u (1 - e^(-z |dp|)) / z.
+
+d is kept in the tangent plane of a normal `home`, and turned to that of n.
 """
 
 import math
@@ -14,6 +16,7 @@ import table
 import vec
 
 EPS_SLIP = 1e-9
+HOMING = 0.5  # cosine of the angle beyond which `home` follows the normal
 ZERO = (0.0, 0.0, 0.0)
 DEFAULTS = {"position": ZERO, "normal": (0.0, 0.0, 1.0), "normal_force": 1.0,
             "mu": 0.4, "d_max": 1e-4, "static_ratio": 1.0, "break_away": 0.7,
@@ -98,6 +101,16 @@ def stretch(now, d0, dp):
                    vec.scale(reach / step, dp)), step * z > 0.0
 
 
+def turned(v, a, b):
+    """v in the plane with unit normal a, turned with this plane by the smallest
+    angle into the plane with unit normal b."""
+    axis = vec.cross(a, b)
+    if vec.norm(axis) == 0.0:
+        return v
+    angle = math.atan2(vec.norm(axis), vec.dot(a, b))
+    return vec.times(vec.rotation(vec.scale(angle / vec.norm(axis), axis)), v)
+
+
 def result(sigma, d, state):
     return {"force": vec.scale(-sigma, d), "deflection": d,
             "stored_energy": 0.5 * sigma * vec.dot(d, d), "state": state}
@@ -116,19 +129,24 @@ def steps(params, feed):
             yield result(0.0, ZERO, 0)
             continue
         p, n = now["position"], vec.unit(now["normal"])
-        p0, d, sigma0, s0 = last or (p, ZERO, None, 0.0)
+        p0, home, d, sigma0, s0 = last or (p, n, ZERO, None, 0.0)
+        if vec.dot(n, home) < 0.0:
+            n = vec.scale(-1.0, n)
         sigma = stiffness(now, stored, sigma0)
         now["d_max"] = bound(now, stored, sigma)
         slips = lets_go = False
         if last:
             if now["load"] == "passive" and sigma > sigma0:
                 d = vec.scale(sigma0 / sigma, d)
-            d = vec.across(n, d)
             if now["d_max"] < s0:
                 d, lets_go = let_go(now, d)
-            d, slips = stretch(now, d, vec.across(n, vec.sub(p, p0)))
-        last = p, d, sigma, now["d_max"]
-        yield result(sigma, d, 2 if slips or lets_go else 1)
+            dp = vec.across(n, vec.sub(p, p0))
+            d, slips = stretch(now, d, turned(dp, n, home))
+        there = turned(d, home, n)
+        if vec.dot(n, home) < HOMING:
+            home, d = n, there
+        last = p, home, d, sigma, now["d_max"]
+        yield result(sigma, there, 2 if slips or lets_go else 1)
 
 
 def run(params, feed):
