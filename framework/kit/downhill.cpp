@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "downhill.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tactus
@@ -8,7 +9,7 @@ namespace tactus
 
 using Felt = PlacedSurface::Felt;
 
-bool Downhill::along (const Vec3& step, Spot& spot, Felt& felt) const noexcept
+bool Downhill::along (const Vec3& step, Spot& spot, Felt& felt, Reach reach) const noexcept
 {
     constexpr double least = 1.0 / 1024.0;   // the smallest share of a step that is tried
     const Spot from = spot;
@@ -25,10 +26,10 @@ bool Downhill::along (const Vec3& step, Spot& spot, Felt& felt) const noexcept
         return true;
     };
 
-    if (lower (1.0, before)) return true;
+    if (reach == Reach::whole && lower (1.0, before)) return true;
     if (! lower (least, before)) return false;
     const double fall = before - energy;
-    double share = 0.5;
+    double share = reach == Reach::whole ? 0.5 : 1.0;
     while (share > least && ! lower (share, felt.energy))
         share *= 0.5;
     if (share <= least) return true;
@@ -141,8 +142,8 @@ private:
     Vec3 x, y;     // directions in the plane of the triangle
 };
 
-/// Newton's method within the triangle of the spot.
-void Downhill::descend (Spot& spot, Felt& felt) const noexcept
+/// Newton's method within the triangle of the spot. Reduces `left`, in m, by the distance that the contact point moves.
+void Downhill::descend (Spot& spot, Felt& felt, double& left) const noexcept
 {
     constexpr int most = 12, halvings = 6;
     const Patch patch (*this, spot.triangle);
@@ -151,6 +152,11 @@ void Downhill::descend (Spot& spot, Felt& felt) const noexcept
         Vec3 step = patch.wanted (spot, felt.energy);
         auto [share, edge] = patch.room (spot, step);
         step *= share;
+        if (const double length = step.norm(); length > left)
+        {
+            step *= std::max (0.0, left) / length;
+            edge = -1;
+        }
         if (edge < 0 && patch.isShort (step)) return;
 
         bool fell = false;
@@ -166,6 +172,7 @@ void Downhill::descend (Spot& spot, Felt& felt) const noexcept
             fell = edge < 0 ? now.energy < felt.energy : now.energy <= felt.energy;   // a step to a very near edge counts even at equal energy
             if (fell)
             {
+                left -= (there.on.point - spot.on.point).norm();
                 spot = there;
                 felt = now;
             }
@@ -176,32 +183,37 @@ void Downhill::descend (Spot& spot, Felt& felt) const noexcept
     }
 }
 
-void Downhill::settle (Spot& spot, Felt& felt) const noexcept
+void Downhill::settle (Spot& spot, Felt& felt, double longest) const noexcept
 {
     constexpr int most = 16;          // triangles in one tick
     constexpr double lower = 1e-13;   // relative: smaller differences are rounding
     constexpr double on_it = 1e-9;    // relative to the size of the coordinates
+    double left = longest;
     for (int k = 0; k < most; ++k)
     {
-        descend (spot, felt);
+        descend (spot, felt, left);
         const auto& weights = spot.on.weights;
         if (weights[0] > 0.0 && weights[1] > 0.0 && weights[2] > 0.0) return;
 
         Spot best = spot;
         Felt least = felt;
+        double rest = left;
         body.walk().around (spot, [&] (int triangle) {
             if (triangle == spot.triangle) return;
             Spot there = body.walk().spotOn (triangle, spot.on.point);
             if (! ((there.on.point - spot.on.point).norm() <= on_it * (spot.on.point.norm() + (p - spot.on.point).norm()))) return;
             Felt now = body.feel (there, p, tool);
-            descend (there, now);
+            double beyond = left;
+            descend (there, now, beyond);
             if (! (now.energy < least.energy * (1.0 - lower))) return;
             best = there;
             least = now;
+            rest = beyond;
         });
         if (best.triangle == spot.triangle) return;
         spot = best;
         felt = least;
+        left = rest;
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tactus/kit/free_impact.hpp>
+#include <tactus/kit/past_window.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
@@ -19,8 +20,9 @@ namespace tactus::nodes
 ///     N     = max (0, K (depth) (1 + dissipation rate) + damping rate)   while depth > 0; N = 0 otherwise
 ///     f     = N n                                             force on the tool
 ///
-/// K is `law`, or stiffness times depth if no law is given. `rate` is the change of the measured depth per sample,
-/// divided by the sample period, even while apart: on the first sample inside it is the speed of the approach.
+/// K is `law`, or stiffness times depth if no law is given. `rate` is the change of the measured depth over `window` (0: one tick),
+/// divided by this time, even while apart: on the first sample inside it is the speed of the approach. While the depth changes in
+/// the other direction than over the window, `rate` is 0, so that the damping never drives the tool.
 ///
 /// Damping acts from the first touch and so steps the force. Dissipation (Hunt and Crossley's lambda, section 6) grows with K
 /// and does not step it. With dissipation alone, and any power law, a tool of any mass comes back with the fraction
@@ -41,7 +43,9 @@ namespace tactus::nodes
 ///    at up to 1.5 times its speed instead of 0.41 times, depending on where the samples fall. `warning` computes such a hit with
 ///    the mass of the device, if the graph gives the mass, and names the rate that the contact needs. shock.hunt_crossley can play
 ///    such a contact at a lower rate.
-///  - The rate of a quantised position is coarse: one quantum in one sample. Damping times quantum / T is felt as a tick.
+///  - One quantum q of the position in one tick is a rate of q / T: 0.1 m/s for 5 um at 20 kHz. The damping times this rate is felt as
+///    ticks, and these grow with the tick rate. A `window` of 1 ms makes them as small at every rate as at 1 kHz. The damping then
+///    acts half a window late, so use 0 if a contact is shorter than about ten windows.
 ///  - A wall that is moved by a wire or a knob does work, as a real moving wall does.
 struct Plane
 {
@@ -62,6 +66,7 @@ struct Plane
     struct Settings
     {
         Law law;
+        double window = 0.0;
     };
 
     struct Outputs
@@ -91,6 +96,7 @@ struct Plane
         param (&Params::dissipation, "dissipation", unit::second_per_metre, "Hunt-Crossley damping: the law is multiplied by 1 + dissipation times rate",
                { .hard = { 0, inf }, .usual = { 0, 10 } }),
         setting (&Settings::law, "law", unit::metre, unit::newton, "force against depth; none: stiffness times depth"),
+        setting (&Settings::window, "window", unit::second, "time over which the rate is measured; 0: one tick", { .hard = { 0, 0.1 }, .usual = { 0, 0.01 } }),
         output (&Outputs::force, "force", unit::newton, "force on the tool"),
         output (&Outputs::resistance, "resistance", unit::newton, "magnitude of the force"),
         output (&Outputs::depth, "depth", unit::metre, "depth of the tool in the object; negative while apart"),
@@ -103,10 +109,10 @@ struct Plane
     Params params;
     Settings settings;
 
-    void prepare (const Setup& setup) noexcept
+    void prepare (const Setup& setup)
     {
-        dt = setup.dt_s();
-        last = {};
+        past.prepare (settings.window, setup.dt_s());
+        stored_before = 0.0;
     }
 
     void update() noexcept
@@ -114,11 +120,12 @@ struct Plane
         n = direction (params.normal);
     }
 
-    void learn (const DeviceLayout& device) noexcept { tool = { device.mass, device.damping }; }
+    void learn (const DeviceMechanics& device) noexcept { tool = { device.mass, device.damping }; }
 
     void adopt (const Plane& old) noexcept
     {
-        last = old.last;
+        past.adopt (old.past);
+        stored_before = old.stored_before;
         dissipated = old.dissipated;
     }
 
@@ -132,13 +139,13 @@ struct Plane
     Outputs tick (const Inputs& in) noexcept
     {
         const double depth = params.offset - n.dot (in.position);
-        const double rate = last.known ? (depth - last.depth) / dt : 0.0;
-        const bool inside = depth > 0.0, onset = inside && last.known && last.depth <= 0.0;
+        const double rate = rateAt (depth);
+        const bool inside = depth > 0.0, onset = inside && ! past.isEmpty() && past.last() <= 0.0;
 
         const double elastic = inside ? std::max (0.0, law (depth)) : 0.0;
         const double stored = inside ? energy (depth) : 0.0;
         const double N = inside ? push (elastic, rate) : 0.0;
-        const double lost = last.known ? loss (depth, stored, rate) : 0.0;
+        const double lost = past.isEmpty() ? 0.0 : loss (depth, stored, rate);
 
         const Outputs out {
             .force = N * n,
@@ -151,17 +158,26 @@ struct Plane
         };
         if (n.isZero (0.0) || ! isFinite (in.position, depth, rate, out.force, out.resistance, out.stored_energy))
         {
-            last = {};
+            past.clear();
             return { .dissipated_energy = dissipated, .state = -1.0 };
         }
         dissipated = out.dissipated_energy;
-        last = { .depth = depth, .stored = stored, .known = true };
+        past.remember (depth);
+        stored_before = stored;
         return out;
     }
 
 private:
     double law (double depth) const noexcept { return settings.law ? settings.law (depth) : params.stiffness * depth; }
     double energy (double depth) const noexcept { return settings.law ? settings.law.energy (depth) : 0.5 * params.stiffness * depth * depth; }
+
+    /// The change of depth over the window, in m/s; 0 while the last step of the depth goes the other way.
+    double rateAt (double depth) const noexcept
+    {
+        const auto change = past.to (depth);
+        if (! (change.time > 0.0) || (depth - past.last()) * change.by < 0.0) return 0.0;
+        return change.by / change.time;
+    }
 
     /// The force N of a tool inside the wall: eq. (10), with `elastic` for K, plus viscous damping.
     double push (double elastic, double rate) const noexcept
@@ -174,10 +190,10 @@ private:
     double loss (double depth, double stored, double rate) const noexcept
     {
         if (params.dissipation == 0.0 && params.damping == 0.0) return 0.0;
-        const double before = std::max (0.0, last.depth), now = std::max (0.0, depth);
-        const double stored_before = settings.law ? last.stored : energy (before);   // a knob may have changed the stiffness since
-        const double damped = rate * (params.dissipation * (stored - stored_before) + params.damping * (now - before));
-        return std::max (0.0, rate < 0.0 ? std::min (damped, stored_before - stored) : damped);
+        const double before = std::max (0.0, past.last()), now = std::max (0.0, depth);
+        const double earlier = settings.law ? stored_before : energy (before);   // a knob may have changed the stiffness since
+        const double damped = rate * (params.dissipation * (stored - earlier) + params.damping * (now - before));
+        return std::max (0.0, rate < 0.0 ? std::min (damped, earlier - stored) : damped);
     }
 
     double returned (double rate_hz, double phase) const;
@@ -190,17 +206,11 @@ private:
         double mass = 0.0, damping = 0.0;   // kg, N s/m; mass 0: unknown
     };
 
-    struct Sample
-    {
-        double depth = 0.0, stored = 0.0;   // m, J
-        bool known = false;                 // false until the first finite sample
-    };
-
     Vec3 n = Vec3::UnitZ();
-    double dt = 1.0 / Setup {}.rate_hz;   // s
-    double dissipated = 0.0;              // J
+    PastWindow<double> past { Setup {}.dt_s() };   // depths, in m
+    double stored_before = 0.0;                    // J, at the last sample
+    double dissipated = 0.0;                       // J
     Tool tool;
-    Sample last;
 };
 
 //==============================================================================
@@ -215,11 +225,15 @@ inline double Plane::returned (double rate_hz, double phase) const
     const double kept = std::exp (-decay), per_force = decay > 0.0 ? -std::expm1 (-decay) / tool.damping : T / tool.mass;
     const double per_speed = decay > 0.0 ? per_force * tool.mass : T, rise = decay > 0.0 ? (T - per_speed) / tool.damping : 0.5 * T * T / tool.mass;
 
-    double d = phase * hard_hit * T, before = d - hard_hit * T, v = hard_hit;
+    double d = phase * hard_hit * T, v = hard_hit;
+    Plane hit = *this;
+    hit.past.prepare (settings.window, T);
+    for (auto k = std::lround (settings.window / T) + 1; k > 0; --k)
+        hit.past.remember (d - static_cast<double> (k) * hard_hit * T);
     for (int k = 0; k < longest && d > 0.0; ++k)
     {
-        const double f = -push (law (d), (d - before) * rate_hz);
-        before = d;
+        const double f = -push (law (d), hit.rateAt (d));
+        hit.past.remember (d);
         d += per_speed * v + rise * f;
         v = kept * v + per_force * f;
     }

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -45,7 +46,7 @@ TEST_CASE ("figure: a tool four times as wide raises the response by two orders 
     {
         const double e = depth[k];
         if (e <= 0.0) continue;
-        const double thin = 4e-3 * std::expm1 (700.0 * e), wide = 0.4 * std::expm1 (700.0 * e);   // as in the graph
+        const double thin = 4e-3 * std::expm1 (450.0 * e), wide = 0.2 * std::expm1 (900.0 * e);   // as in the graph
         std::vector<double> row { e };
         for (std::size_t i = 0; i < responses.size(); ++i)
         {
@@ -56,6 +57,12 @@ TEST_CASE ("figure: a tool four times as wide raises the response by two orders 
         rows.push_back (row);
     }
     REQUIRE (rows.size() > 500);
+    const auto ratioAt = [&] (double e) {
+        const auto at = std::ranges::find_if (rows, [e] (const auto& row) { return row[0] >= e; });
+        return at->back() / (*at)[1];
+    };
+    CHECK (ratioAt (0.0) == Approx (100.0).epsilon (0.01));   // as docs/chapter.md says
+    CHECK (ratioAt (4.5e-3) == Approx (430.0).epsilon (0.01));
     test::writeFigure ("tools", { "depth", "thin", "quarter", "half", "three_quarters", "wide" }, rows);
 }
 

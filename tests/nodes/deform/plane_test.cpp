@@ -378,3 +378,62 @@ TEST_CASE ("plane: it claims the steepest slope of its law", "[nodes][deform]")
     node.settings.law = { .kind = tactus::Law::Kind::exponential, .a = 0.1, .b = 300.0, .table = {} };
     CHECK (node.claims().stiffness == tactus::inf);
 }
+
+namespace
+{
+/// The largest error of the force on a tool that a hand moves up and down in a wall of 1 N/mm and 2 N s/m. The wall reads the position in
+/// steps of 5 um.
+double worstDamping (double rate, double window)
+{
+    Plane node;
+    node.params = { .stiffness = 1000.0, .damping = 2.0 };
+    node.settings.window = window;
+    node.prepare ({ .rate_hz = rate });
+    node.update();
+    const double w = 2.0 * M_PI * 2.0, size = 1e-3, quantum = 5e-6;
+    double worst = 0.0;
+    for (int k = 0; k < static_cast<int> (0.5 * rate); ++k)
+    {
+        const double t = k / rate, depth = size * (1.0 + std::sin (w * t));
+        const double force = node.tick ({ .position = { 0, 0, -quantum * std::floor (depth / quantum + 0.5) } }).force.z();
+        if (t < 0.01 || depth < 5e-5) continue;
+        worst = std::max (worst, std::abs (force - std::max (0.0, 1000.0 * depth + 2.0 * size * w * std::cos (w * t))));
+    }
+    return worst;
+}
+}   // namespace
+
+TEST_CASE ("plane: with a window, the damping of a coarse position is the same at every rate", "[nodes][deform]")
+{
+    for (const double rate : { 1000.0, 4000.0, 20'000.0 })
+        CHECK (worstDamping (rate, 1e-3) < 0.015);
+    CHECK (worstDamping (20'000.0, 0.0) > 0.1);
+}
+
+TEST_CASE ("plane: with a window, the damping never gives energy", "[nodes][deform][energy]")
+{
+    rc::prop ("any tremor, seen exactly or in steps", [] {
+        std::mt19937 random (*rc::gen::arbitrary<unsigned>());
+        std::uniform_real_distribution<double> uniform;
+        Plane node;
+        node.params = { .stiffness = 1000.0, .damping = 5.0, .dissipation = 3.0 };
+        node.settings.window = 1e-3 * (1.0 + 9.0 * uniform (random));
+        node.prepare ({ .rate_hz = 4000.0 });
+        node.update();
+        const double quantum = uniform (random) < 0.5 ? 0.0 : 1e-5;
+        double z = 1e-4, v = 0.0, work = 0.0, dissipated = 0.0;
+        for (int k = 0; k < 2000; ++k)
+        {
+            v = 0.9 * v + 2e-5 * (uniform (random) - 0.5) - 0.01 * (z + 1e-4);
+            const double before = z;
+            z += v;
+            const double seen = quantum > 0.0 ? quantum * std::floor (z / quantum + 0.5) : z;
+            const double last = quantum > 0.0 ? quantum * std::floor (before / quantum + 0.5) : before;
+            const auto out = node.tick ({ .position = { 0, 0, seen } });
+            work -= out.force.z() * (seen - last);   // of the force at the end of the step: at least what is stored
+            RC_ASSERT (work >= out.stored_energy - 1e-12);
+            RC_ASSERT (out.dissipated_energy >= dissipated);
+            dissipated = out.dissipated_energy;
+        }
+    });
+}

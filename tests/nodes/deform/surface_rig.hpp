@@ -110,6 +110,16 @@ inline ElasticSurface made (std::shared_ptr<const Surface> surface, ElasticSurfa
     return node;
 }
 
+/// The work of the hand on the last tick, between two positions. While the contact point does not move, the work is the difference of
+/// energyAt(); the contact point moves when the tool is at movedAt(). Takes the node before and after the tick.
+inline double workOf (const ElasticSurface& earlier, const ElasticSurface& node, const Vec3& from, const Vec3& to)
+{
+    const double share = node.movedAt();
+    const Vec3 between = share < 1.0 ? Vec3 { from + share * (to - from) } : to;
+    const double before = earlier.energyAt (between) - earlier.energyAt (from);
+    return share < 1.0 ? before + node.energyAt (to) - node.energyAt (between) : before;
+}
+
 /// The work of the hand along a path, computed with the trapezoid rule.
 struct Hand
 {

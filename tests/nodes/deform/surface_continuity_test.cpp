@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+// The force of an elastic surface does not step while the tool touches it, and its energy does not depend on the rate.
+#include "bodies.hpp"
+#include "surface_rig.hpp"
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+using namespace tactus;
+using namespace tactus::test;
+
+namespace
+{
+/// Straight strokes between random places around the surface of a body.
+class Strokes
+{
+public:
+    Strokes (const Body& b, unsigned seed) : body (b), dice (seed) { place.z() = body.centre.z() + 3.0 * body.reach.z() + 0.005; }
+
+    /// Calls visit (position) along the next stroke, in steps of at most this length.
+    template <typename Visit>
+    void stroke (double step, Visit visit)
+    {
+        const Vec3 from = place, to = body.centre + 0.8 * Vec3 (one (dice), one (dice), one (dice)).cwiseProduct (body.reach);
+        const int n = static_cast<int> ((to - from).norm() / step) + 1;
+        for (int k = 1; k <= n; ++k)
+            visit (Vec3 { from + (to - from) * k / n });
+        place = to;
+    }
+
+    const Vec3& at() const { return place; }
+
+private:
+    const Body& body;
+    std::mt19937 dice;
+    std::uniform_real_distribution<double> one { -1.0, 1.0 };
+    Vec3 place = body.centre;
+};
+
+/// The steepest curve of a body up to a depth, N/m.
+double stiffness (const Body& body, double depth)
+{
+    double most = 0.0;
+    for (const auto& node : body.surface->curves[0])
+        for (const auto& law : node)
+            most = std::max (most, law.kind == Law::Kind::table ? law.steepest() : law.steepest (depth));
+    return most;
+}
+
+bool same (const ElasticSurface::Outputs& a, const ElasticSurface::Outputs& b)
+{
+    return a.force == b.force && a.resistance == b.resistance && a.depth == b.depth && a.normal == b.normal && a.contact == b.contact
+           && a.triangle == b.triangle && a.stored_energy == b.stored_energy && a.dissipated_energy == b.dissipated_energy
+           && (a.state == 0.0) == (b.state == 0.0);
+}
+}   // namespace
+
+TEST_CASE ("surface: on any body, the force changes by little more than the stiffness times the step of the tool", "[nodes][deform]")
+{
+    constexpr double step = 1e-5;
+    for (const double mu : { 0.0, 0.01, 0.1, 0.5, 1.0 })
+        for (const auto& body : bodies (mu))
+        {
+            if (body.name == "box") continue;              // a contact that has caught at a right angle may end while it is stretched
+            const bool may_catch = body.name == "bumps";   // so may one between coarse bumps
+            double most = 0.0, usual = 0.0;
+            for (unsigned seed = 0; seed < 4; ++seed)
+            {
+                Strokes strokes (body, seed);
+                auto node = made (body.surface);
+                Vec3 p = strokes.at();
+                auto before = node.tick ({ .position = p });
+                for (int s = 0; s < 6; ++s)
+                    strokes.stroke (step, [&] (const Vec3& next) {
+                        const auto out = node.tick ({ .position = next });
+                        const bool ends = before.state > 0.0 && out.state == 0.0;
+                        const double depth = std::max (out.depth, before.depth), slope = stiffness (body, depth);
+                        const double change = depth > 0.0 ? (out.force - before.force).norm() / (slope * (next - p).norm()) : 0.0;
+                        // A contact that is stretched as the tool leaves comes back within the depth that is left.
+                        const double stretch = before.depth > 0.0 ? (p - before.contact).norm() / before.depth : 1.0;
+                        if (! (ends && may_catch)) most = std::max (most, change / std::max (1.0, stretch));
+                        if (! may_catch) usual = std::max (usual, change);
+                        p = next;
+                        before = out;
+                    });
+            }
+            CAPTURE (body.name, mu, usual);
+            CHECK (most < 2.0);
+            CHECK (usual < 3.0);
+        }
+}
+
+TEST_CASE ("surface: on a sphere without friction, the force does not step where the contact changes its triangle", "[nodes][deform]")
+{
+    const auto all = bodies (0.0);
+    const auto& sphere = *std::ranges::find (all, "sphere", &Body::name);
+    for (const double step : { 1e-4, 1e-5, 1e-6 })
+    {
+        auto node = made (sphere.surface);
+        double most = 0.0;
+        Vec3 force = Vec3::Zero();
+        const int n = static_cast<int> (0.012 / step);
+        for (int k = 0; k <= n; ++k)
+        {
+            const double x = -0.006 + step * k, r = 0.02 - 0.00244;
+            const auto out = node.tick ({ .position = Vec3 (x, 0.0013, std::sqrt (r * r - x * x - 0.0013 * 0.0013)) });
+            if (k > 0) most = std::max (most, (out.force - force).norm());
+            force = out.force;
+        }
+        CAPTURE (step);
+        CHECK (force.norm() == Approx (2.4).epsilon (0.1));
+        CHECK (most < 2.0 * 1000.0 * step);
+    }
+}
+
+TEST_CASE ("surface: a repeated sample changes nothing", "[nodes][deform]")
+{
+    rc::prop ("random strokes over all bodies, at any friction and adhesion", [] (unsigned seed) {
+        std::mt19937 dice (seed);
+        std::uniform_real_distribution<double> one (-1.0, 1.0);
+        const double mus[] { 0.0, 0.01, 0.1, 0.5, 1.0 };
+        const auto all = bodies (mus[dice() % 5]);
+        const auto& body = all[dice() % all.size()];
+        auto node = made (body.surface);
+        node.params.adhesion = static_cast<Bristle::Adhesion> (dice() % 4);
+        node.params.static_ratio = dice() % 2 == 0 ? 1.0 : 1.7;
+        Strokes strokes (body, seed);
+        const double step = std::pow (10.0, -4.0 + one (dice));
+        for (int s = 0; s < 4; ++s)
+        {
+            strokes.stroke (step, [&] (const Vec3& p) {
+                const auto out = node.tick ({ .position = p });
+                for (int k = 0; k < 3; ++k)
+                    RC_ASSERT (same (node.tick ({ .position = p }), out));
+            });
+        }
+    });
+}
+
+TEST_CASE ("surface: a slip ends on its bound within the tick, however far the tool goes", "[nodes][deform]")
+{
+    const auto surface = uneven (flat(), 7, 0.5);   // mu differs from node to node
+    for (const double far : { 1e-4, 1e-3, 1e-2 })
+    {
+        auto node = made (surface);
+        Vec3 p (0.01, 0.012, 0.001);
+        node.tick ({ .position = p });
+        p.z() = -0.002;
+        node.tick ({ .position = p });
+        double ratio = 0.0;
+        ElasticSurface::Outputs out;
+        for (int k = 0; k < 3; ++k)
+        {
+            p.x() += far * 0.5;
+            out = node.tick ({ .position = p });
+        }
+        const PlacedSurface placed (surface, 1.0, Vec3::Zero(), Vec3::Zero());
+        auto tool = placed.noTool();
+        const Spot spot = placed.walk().nearestOfAll (out.contact);
+        placed.choose (0.0, spot, tool);
+        ratio = placed.ratio (spot, out.depth, tool);
+        const double stretch = std::hypot (p.x() - out.contact.x(), p.y() - out.contact.y());
+        CAPTURE (far);
+        CHECK (stretch <= ratio * out.depth * (1.0 + 2e-5));
+    }
+}
+
+TEST_CASE ("surface: dissipated energy is the same at 1, 4 and 20 kHz", "[nodes][deform][energy]")
+{
+    for (const double mu : { 0.1333, 0.5 })
+        for (const auto& body : bodies (mu))
+        {
+            if (body.name == "box" || body.name == "bumps") continue;   // where a contact catches, the length of a tick decides when it comes free
+            const auto lost = [&] (double rate_hz) {
+                auto node = made (body.surface, ElasticSurface::Friction::bound, rate_hz);
+                const int n = static_cast<int> (0.5 * rate_hz);
+                double sum = 0.0;
+                for (int k = 0; k <= n; ++k)   // a circle at 0.15 m/s
+                {
+                    const double phi = 4.0 * 3.14159265358979 * k / n;
+                    const Vec3 p = body.centre + Vec3 (0.5 * body.reach.x() * std::sin (phi), 0.5 * body.reach.y() * std::cos (phi), 0.0);
+                    sum = node.tick ({ .position = Vec3 (p.x(), p.y(), body.centre.z() - 0.3 * body.reach.z()) }).dissipated_energy;
+                }
+                return sum;
+            };
+            const double fine = lost (20000.0);
+            CAPTURE (body.name, mu, fine);
+            CHECK (fine > 0.0);
+            CHECK (lost (4000.0) == Approx (fine).epsilon (0.02));
+            CHECK (lost (1000.0) == Approx (fine).epsilon (0.02));
+        }
+}
