@@ -6,6 +6,7 @@
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tactus::nodes
@@ -29,6 +30,9 @@ namespace tactus::nodes
 /// Source: Gillespie & Cutkosky 1996, as cited in Hayward, "Physically-Based Haptic Synthesis" (2007), section 1: a known mass is
 /// controlled in two samples, with prediction across the surface. The equations are our own.
 ///
+/// With a delay of `delay` ticks from the sensor to the motor, the forces of the last `delay` ticks are still on their way. The node
+/// knows them and plans from the state in which they leave the tool.
+///
 /// Departure: the speed and the force of the hand are estimated from positions. M and B may include a finger that is tied to the tool:
 /// the title of the source says "user-specific".
 ///
@@ -42,11 +46,18 @@ namespace tactus::nodes
 ///    0 N s/m.
 ///  - The speed is known from the second sample on. If the tool touches on the first one, at the start or after a fault, the force
 ///    comes late.
-///  - Wire `force` straight to the motor, and add no other strong force. Whatever is added, filtered, limited or delayed after this
-///    node looks like a hand to it, and the node estimates the hand too late.
+///  - Wire `force` straight to the motor, and add no other strong force. Whatever is added, filtered or limited after this node
+///    looks like a hand to it, and the node estimates the hand too late.
+///  - `delay` must be the whole delay: that of the device plus that of nodes and wires. `tactus validate` warns of each: rate/late names
+///    the delay of nodes and wires, and rate/device_delay a described device whose delay is longer than `delay`. If the delay is wrong
+///    by one tick, a pressing hand meets a limit cycle; with two ticks, a bounce gains speed.
 ///  - If a bounce lasts less than about four samples (K > 0.6 M/T^2), its speed is still correct, but it feels like two pulses.
-///  - Position quanta are amplified. With 0.1 kg at 1 kHz, a wall of 3 times 2B/T and a quantum of 10 um, a pressing hand meets a
-///    limit cycle of about 1 N, unless the device has a Coulomb friction of about 0.5 N. A delay in the device makes the wall unstable.
+///  - A position quantum q makes the speed at which a tool leaves wrong by less than (3 + 2 delay) q sqrt (K/M), whatever T, B and
+///    the speed are; without a delay, it is wrong by 0.4 to 0.8 q sqrt (K/M) rms. For each plan, the position is wrong by up to q / 2
+///    and the speed by up to q / T. A wall turns these into a speed of up to 2 (K T/M) (q/2 + (1 + delay) q). A bounce takes
+///    pi/(2T) sqrt (M/K) plans, and on average 2/pi of the speed that each plan adds is left at the end.
+///  - Position quanta also keep a pressing hand from coming to rest. With 0.1 kg at 1 kHz, a wall of 3 times 2B/T and a quantum of
+///    10 um, the hand meets a limit cycle of about 1 N, unless the device has a Coulomb friction of about 0.5 N.
 struct DeadbeatHold
 {
     struct Inputs
@@ -63,6 +74,11 @@ struct DeadbeatHold
         double damping = 0.0;
     };
 
+    struct Settings
+    {
+        int delay = 0;
+    };
+
     struct Outputs
     {
         Vec3 force = Vec3::Zero();
@@ -77,6 +93,8 @@ struct DeadbeatHold
         .source = "Gillespie & Cutkosky 1996",
     };
 
+    static constexpr int longest_delay = 16;   // ticks
+
     static constexpr std::tuple ports {
         input (&Inputs::position, "position", unit::metre, "tool position p"),
         param (&Params::stiffness, "stiffness", unit::stiffness, "stiffness K of the wall", { .hard = { 0, 1e9 }, .usual = { 0, 2e4 } }),
@@ -84,14 +102,16 @@ struct DeadbeatHold
         param (&Params::offset, "offset", unit::metre, "position of the wall along the unit normal", { .usual = { -0.1, 0.1 } }),
         param (&Params::mass, "mass", unit::kilogram, "mass M that the force moves; 0: that of the device", { .hard = { 0, 1000 }, .usual = { 0, 1 } }),
         param (&Params::damping, "damping", unit::damping, "damping B of this mass; 0: that of the device", { .hard = { 0, 1e6 }, .usual = { 0, 20 } }),
+        setting (&Settings::delay, "delay", unit::count, "delay from sensor to motor in addition to the hold, in ticks", { .hard = { 0, longest_delay } }),
         output (&Outputs::force, "force", unit::newton, "force on the tool"),
         output (&Outputs::depth, "depth", unit::metre, "depth of the tool behind the surface; negative while apart"),
         output (&Outputs::state, "state", unit::state, "-1 fault, 0 open, 1 contact"),
     };
 
     Params params;
+    Settings settings;
 
-    void learn (const DeviceLayout& device) noexcept
+    void learn (const DeviceMechanics& device) noexcept
     {
         device_mass = device.mass;
         device_damping = device.damping;
@@ -116,21 +136,21 @@ struct DeadbeatHold
         const HeldStep step (body.mass, body.damping, dt);
         Past now = past;
         const double v = observe (now, e, step);
+        double force = now.next;
         if (now.planned)
-        {
-            now.force = now.next;
             now.planned = false;
-        }
         else
         {
             body.force = now.push;
-            plan (now, { .depth = e, .speed = v }, body, step);
+            force = plan (now, arrival (now, { .depth = e, .speed = v }, step), body, step);
         }
+        std::ranges::copy_backward (now.sent.begin(), now.sent.end() - 1, now.sent.end());
+        now.sent[0] = force;
         now.e[1] = now.e[0];
         now.e[0] = e;
         now.known = std::min (now.known + 1, 2);
 
-        const Outputs out { .force = -now.force * n, .depth = e, .state = e > 0.0 ? 1.0 : 0.0 };
+        const Outputs out { .force = -force * n, .depth = e, .state = e > 0.0 ? 1.0 : 0.0 };
         if (! isFinite (out.force, now.next, now.push)) return fault();
         past = now;
         return out;
@@ -142,12 +162,12 @@ private:
     /// Depths and forces are positive into the wall.
     struct Past
     {
-        double e[2] {};                     // depths at the last sample and the one before, in m
-        double force = 0.0, before = 0.0;   // held after the last sample, and after the one before, in N
-        double next = 0.0;                  // the second force of the plan, in N
-        double push = 0.0;                  // the estimate of d, in N
-        int known = 0;                      // number of depths that are known
-        bool planned = false;               // true if `next` is the force for this sample
+        double e[2] {};                                       // depths at the last sample and the one before, in m
+        std::array<double, at (longest_delay) + 2> sent {};   // the last outputs, the newest first, in N
+        double next = 0.0;                                    // the second force of the plan, in N
+        double push = 0.0;                                    // the estimate of d, in N
+        int known = 0;                                        // number of depths that are known
+        bool planned = false;                                 // true if `next` is the force for this sample
     };
 
     double mass() const noexcept
@@ -172,24 +192,31 @@ private:
             const double start = (to - from - step.x_per_f * force) / step.x_per_v;
             return start + step.v_loss * start + step.v_per_f * force;
         };
+        const double held = now.sent[at (settings.delay)], before = now.sent[at (settings.delay) + 1];   // the force since the last sample, and the one before
         if (now.known == 2)
         {
-            double expected = now.e[0], v = speed (now.e[1], now.e[0], now.before + now.push);
-            step (expected, v, now.force + now.push);
+            double expected = now.e[0], v = speed (now.e[1], now.e[0], before + now.push);
+            step (expected, v, held + now.push);
             const double per_push = step.x_per_f + step.x_per_v * step.v_per_f - (1.0 + step.v_loss) * step.x_per_f;   // depth per N
             now.push += (e - expected) / per_push * -std::expm1 (-dt / smoothing);
         }
-        const double v = now.known > 0 ? speed (now.e[0], e, now.force + now.push) : 0.0;
-        now.before = now.force;
-        return v;
+        return now.known > 0 ? speed (now.e[0], e, held + now.push) : 0.0;
     }
 
-    /// Finds the forces for this sample and the next one.
-    void plan (Past& now, BouncingMass::State s, const BouncingMass& body, const HeldStep& step) const noexcept
+    /// The state of the tool when the next output arrives at the motor. Until then, the outputs that are on their way push the tool.
+    BouncingMass::State arrival (const Past& now, BouncingMass::State s, const HeldStep& step) const noexcept
     {
-        now.force = now.next = 0.0;
+        for (int i = settings.delay - 1; i >= 0; --i)
+            step (s.depth, s.speed, now.sent[at (i)] + now.push);
+        return s;
+    }
+
+    /// Finds the forces for two samples from the state s on. Returns the first and stores the second.
+    double plan (Past& now, BouncingMass::State s, const BouncingMass& body, const HeldStep& step) const noexcept
+    {
+        now.next = 0.0;
         const auto wanted = body.after (s, 2.0 * dt);
-        if (! wanted.touched) return;
+        if (! wanted.touched) return 0.0;
 
         double e = s.depth, v = s.speed;
         for (int i = 0; i < 2; ++i)
@@ -198,9 +225,10 @@ private:
 
         // de = (x_per_f + x_per_v v_per_f) f_k + x_per_f f_(k+1), dv = (1 + v_loss) v_per_f f_k + v_per_f f_(k+1)
         const double first = step.x_per_f + step.x_per_v * step.v_per_f, keeps = 1.0 + step.v_loss;
-        now.force = (de - dv * step.x_per_f / step.v_per_f) / (first - keeps * step.x_per_f);
-        now.next = dv / step.v_per_f - keeps * now.force;
+        const double force = (de - dv * step.x_per_f / step.v_per_f) / (first - keeps * step.x_per_f);
+        now.next = dv / step.v_per_f - keeps * force;
         now.planned = true;
+        return force;
     }
 
     Vec3 n = Vec3::UnitZ();

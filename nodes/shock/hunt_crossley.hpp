@@ -130,7 +130,7 @@ struct HuntCrossley
         voices.assign (at (settings.voices), {});
     }
 
-    void learn (const DeviceLayout& device) noexcept { device_mass = device.mass; }
+    void learn (const DeviceMechanics& device) noexcept { device_mass = device.mass; }
 
     /// Hits that are still sounding continue, up to the number of voices. Each keeps its index, because the order in which voices are
     /// added shows in the last bit of the sum.

@@ -94,6 +94,49 @@ TEST_CASE ("impact: a slow approach seen by a coarse encoder has its speed withi
                 }
 }
 
+TEST_CASE ("impact: an encoder that flickers by one quantum at each step changes the speed by no more than the header says", "[nodes][contact]")
+{
+    std::mt19937 random (9);
+    std::uniform_real_distribution<double> uniform;
+    std::normal_distribution<double> gauss;
+    for (const double rate : { 1000.0, 4000.0, 20'000.0 })
+        for (const double quantum : { 5e-6, 2e-5, 5e-5 })
+            for (const double v : { 0.005, 0.02, 0.1 })
+                for (const double width : { 0.02, 0.04, 0.1 })   // rms of the jitter before rounding, in quanta
+                    for (int trial = 0; trial < 30; ++trial)
+                    {
+                        const double surface = quantum * uniform (random), start = -0.1 * v * (2.0 + uniform (random));
+                        const auto depth = [&] (int k) {
+                            const double jitter = width * quantum * gauss (random);
+                            return quantised (start + v * k / rate + surface + jitter, quantum) - surface;
+                        };
+                        const auto [hits, speed] = strike (impact ({}, rate), static_cast<int> (0.4 * rate), depth);
+                        const double error = width < 0.03 ? 0.05 : width < 0.05 ? 0.07
+                                                                                : 0.12;
+                        INFO (rate << " Hz, quantum " << quantum << ", " << v << " m/s, jitter " << width);
+                        REQUIRE (hits == 1);
+                        REQUIRE (speed == Approx (v).epsilon (error));
+                    }
+}
+
+TEST_CASE ("impact: a tool that waits and waggles before it touches hits with the speed of its last stroke", "[nodes][contact]")
+{
+    const double quantum = 5e-6;
+    for (const double rate : { 1000.0, 20'000.0 })
+        for (const double nearest : { -2e-3, -5e-4, -1e-4 })
+        {
+            const auto depth = [&] (int k) {
+                const double t = k / rate, out = 0.1, in = 0.12;   // comes near, goes back by 2 mm at 0.1 m/s, and strikes at 0.2 m/s
+                const double x = t < out ? nearest - 0.1 * (out - t) : t < in ? nearest - 0.1 * (t - out)
+                                                                              : nearest - 0.1 * (in - out) + 0.2 * (t - in);
+                return quantised (x, quantum);
+            };
+            const auto [hits, speed] = strike (impact ({}, rate), static_cast<int> (0.2 * rate), depth);
+            CHECK (hits == 1);
+            CHECK (speed == Approx (0.2).epsilon (0.05));
+        }
+}
+
 TEST_CASE ("impact: a braking approach has the same speed at every rate", "[nodes][contact]")
 {
     for (const double release : { 1e-6, 1e-5, 5e-5 })

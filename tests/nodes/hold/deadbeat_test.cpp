@@ -21,6 +21,7 @@ struct Trial
 {
     double mass = 0.1, damping = 2.0, dt = 1e-3, start = -1.3e-3, speed = 0.1, hand = 0.0, quantum = 0.0;   // start, speed and hand: positive into the wall
     double believed = 1.0;                                                                                  // mass given to the node, divided by the true mass
+    int delay = 0;                                                                                          // of the device, and known to the node, in ticks
     int ticks = 200;
 
     double stiffnessOf (double times) const { return times * 2.0 * damping / dt; }
@@ -34,6 +35,7 @@ void play (const Trial& t, Wall& wall, const See& see)
     SimulatedDevice device ({ .mass = t.mass,
                               .damping = t.damping,
                               .quantum = t.quantum,
+                              .delay = t.delay,
                               .position = { 0, 0, -t.start },
                               .velocity = { 0, 0, -t.speed },
                               .hand_force = { 0, 0, -t.hand } });
@@ -54,6 +56,7 @@ DeadbeatHold wallFor (const Trial& t, double stiffness)
     wall.params.stiffness = stiffness;
     wall.params.mass = t.believed * t.mass;
     wall.params.damping = t.damping;
+    wall.settings.delay = t.delay;
     return wall;
 }
 
@@ -195,4 +198,63 @@ TEST_CASE ("deadbeat: mass and damping 0 mean those of the device", "[nodes][hol
     learnt.learn ({ .mass = 0.05, .damping = t.damping });
     play (t, learnt, [&] (double e, double) { b.push_back (e); });
     CHECK_FALSE (std::equal (a.begin(), a.end(), b.end() - t.ticks));
+}
+
+TEST_CASE ("deadbeat: a delay that the node knows changes neither a bounce nor a hand that presses", "[nodes][hold]")
+{
+    for (const int delay : { 1, 2, 5, 16 })
+        for (const double times : { 0.5, 3.0, 10.0 })
+        {
+            INFO (delay << " ticks, wall of " << times << " times 2B/T");
+            Trial t;
+            t.delay = delay;
+            t.start = -t.speed * t.dt * (delay + 3.4);   // the node needs two samples to know the speed, and its force comes `delay` later
+            t.ticks = 300;
+            const double stiffness = t.stiffnessOf (times);
+            const auto ideal = continuous (t, stiffness).after ({ t.start, t.speed }, (t.ticks - 1) * t.dt).state;
+            auto wall = wallFor (t, stiffness);
+            double leaves = 0.0;
+            play (t, wall, [&] (double, double v) { leaves = v; });
+            CHECK (leaves == Approx (ideal.speed).epsilon (1e-5));
+        }
+}
+
+TEST_CASE ("deadbeat: with a delay that the node does not know, a bounce gains speed", "[nodes][hold]")
+{
+    Trial t;
+    t.delay = 2;
+    const double stiffness = t.stiffnessOf (3.0);
+    auto wall = wallFor (t, stiffness);
+    wall.settings.delay = 0;
+    double fastest = 0.0;
+    play (t, wall, [&] (double, double v) { fastest = std::max (fastest, std::abs (v)); });
+    CHECK (fastest > 1.5 * t.speed);
+}
+
+TEST_CASE ("deadbeat: a position quantum changes the speed of a tool that leaves by less than the header says", "[nodes][hold]")
+{
+    rc::prop ("any mass, damping, stiffness, period, quantum and delay", [] {
+        const auto spread = [] (double low, double high) { return low * std::pow (high / low, between (0.0, 1.0)); };
+        Trial t;
+        t.delay = *rc::gen::element (0, 0, 1, 4);
+        t.dt = spread (1e-4, 1e-3);
+        t.mass = spread (0.01, 1.0);
+        t.damping = between (0.0, 0.01) * t.mass / t.dt;
+        t.speed = spread (0.01, 0.5);
+        t.quantum = spread (0.003, 1.0) * t.speed * t.dt;
+        t.start = -t.speed * t.dt * (15.0 + t.delay + between (0.0, 10.0));
+        const double turn = spread (0.05, 2.0), stiffness = t.mass * turn * turn / (t.dt * t.dt);   // turn: by how much the bounce advances per sample, rad
+        t.ticks = 60 + t.delay + static_cast<int> (4.0 / turn);
+
+        auto wall = wallFor (t, stiffness);
+        BouncingMass::State ideal { t.start, t.speed };
+        double leaves = 0.0;
+        int k = 0;
+        play (t, wall, [&] (double, double v) {
+            if (k++ > 0) ideal = continuous (t, stiffness).after (ideal, t.dt).state;
+            leaves = v;
+        });
+        RC_ASSERT (ideal.speed < 0.0);
+        RC_ASSERT (std::abs (leaves - ideal.speed) < (3.0 + 2.0 * t.delay) * t.quantum * std::sqrt (stiffness / t.mass));
+    });
 }

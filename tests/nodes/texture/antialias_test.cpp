@@ -146,3 +146,49 @@ TEST_CASE ("antialias: a new instance adopts the previous position", "[nodes][te
     next.adopt (old);
     CHECK (next.tick ({ .position = { 0.1001, 0, 0 } }).speed == Approx (0.1));
 }
+
+TEST_CASE ("antialias: with a window, the gain of a coarse encoder is the same at every rate", "[nodes][texture]")
+{
+    const double quantum = 2e-5, speed = 0.18, k = 1600.0, f_max = 400.0;
+    const auto range = [&] (double rate, double window) {
+        AntiAlias node;
+        node.params = { .spatial_frequency = k, .f_max = f_max };
+        node.settings.window = window;
+        node.prepare ({ .rate_hz = rate });
+        node.update();
+        double least = 1.0, most = 0.0;
+        for (int i = 0; i < static_cast<int> (rate); ++i)
+        {
+            const double x = quantum * std::floor (speed * i / rate / quantum + 0.5);
+            const auto out = node.tick ({ .position = { x, 0, 0 } });
+            if (i < rate / 10.0) continue;
+            least = std::min (least, out.gain);
+            most = std::max (most, out.gain);
+        }
+        return std::pair { least, most };
+    };
+    const double right = 0.5 * (1.0 + std::cos (M_PI * (k * speed / (0.5 * f_max) - 1.0)));
+    for (const double rate : { 1000.0, 4000.0, 20'000.0 })
+    {
+        const auto [least, most] = range (rate, 5e-3);
+        INFO (rate << " Hz: " << least << " to " << most << ", should be " << right);
+        CHECK (least > right - 0.06);
+        CHECK (most < right + 0.06);
+    }
+    CHECK (range (20'000.0, 0.0) == std::pair { 0.0, 1.0 });
+}
+
+TEST_CASE ("antialias: a new instance adopts the window", "[nodes][texture]")
+{
+    AntiAlias old, next;
+    for (auto* node : { &old, &next })
+    {
+        node->settings.window = 5e-3;
+        node->prepare ({ .rate_hz = 1000.0 });
+        node->update();
+    }
+    for (int i = 0; i < 20; ++i)
+        old.tick ({ .position = { 1e-6 * i * i, 0, 0 } });
+    next.adopt (old);
+    CHECK (next.tick ({ .position = { 4e-4, 0, 0 } }).speed == old.tick ({ .position = { 4e-4, 0, 0 } }).speed);
+}
