@@ -21,12 +21,20 @@ Bench::Bench (const Subject& subject, const HandMotion& motion)
     }
 }
 
-void Bench::follow (const HandMotion& motion, std::size_t tick) noexcept
+void Bench::follow (const HandMotion& motion, double tick) noexcept
 {
     for (std::size_t r = 0; r < tools.size(); ++r)
     {
         auto& tool = *tools[r];
-        tool.now = motion.roles[r].readings[tick];
+        const auto& readings = motion.roles[r].readings;
+        const auto before = std::min (static_cast<std::size_t> (tick), readings.size() - 1), after = std::min (before + 1, readings.size() - 1);
+        const double part = tick - static_cast<double> (before);
+        tool.now = readings[before];
+        if (part > 0.0)
+        {
+            tool.now.position += part * (readings[after].position - readings[before].position);
+            tool.now.true_position += part * (readings[after].true_position - readings[before].true_position);
+        }
         tool.home = tool.now.position;
         tool.true_home = tool.now.true_position;
     }

@@ -19,8 +19,9 @@ public:
     /// The graph must compile: measure() checks that first. [main thread]
     Bench (const Subject&, const HandMotion&);
 
-    /// Moves all tools to their positions in the motion at a tick.
-    void follow (const HandMotion&, std::size_t tick) noexcept;
+    /// Moves all tools to their positions in the motion at a tick. A fraction of a tick lies on the straight line between the positions
+    /// of two ticks.
+    void follow (const HandMotion&, double tick) noexcept;
 
     /// Moves the tool of a role away from its position in the motion, in m, until the next call of follow or shift.
     void shift (std::size_t role, const Vec3& by) noexcept;
@@ -31,6 +32,7 @@ public:
     void tick() noexcept;
 
     const Vec3& force (std::size_t role) const noexcept { return plan().roles()[role].state->applied.force; }   ///< on the tool, in N
+    const Vec3& position (std::size_t role) const noexcept { return tools[role]->home; }                        ///< of the tool, without the shift, in m
     const Plan& plan() const noexcept { return *its_plan; }
 
 private:

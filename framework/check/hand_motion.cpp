@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 namespace tactus::check
@@ -32,6 +33,31 @@ HandMotion recordMotion (std::shared_ptr<Plan> plan, std::span<const Hand> hands
             motion.roles[r].readings.push_back (engine.plan().roles()[r].state->reading);
     }
     return motion;
+}
+
+Messages divergence (const HandMotion& motion, std::span<const Reach> reaches)
+{
+    Messages all;
+    for (const auto& role : motion.roles)
+    {
+        const auto reach = std::ranges::find (reaches, role.role, &Reach::role);
+        const auto isAway = [&] (const Reading& reading) {
+            const Vec3& p = reading.position;
+            if (! p.allFinite()) return true;
+            if (reach == reaches.end()) return (p - role.readings.front().position).norm() > farthest_m;
+            const Vec3 inside = p.cwiseMax (reach->min).cwiseMin (reach->max);
+            return (p - inside).norm() > (reach->max - reach->min).norm();
+        };
+        const auto at = std::ranges::find_if (role.readings, isAway);
+        if (at == role.readings.end()) continue;
+        char time[32];
+        std::snprintf (time, sizeof time, "%.3g", static_cast<double> (at - role.readings.begin()) / motion.rate_hz);
+        all.push_back (Message::error ("check/diverged", "/devices/" + role.role,
+                                       "the tool of '" + role.role + "' runs away at " + time + " s, so slopes along its motion say nothing",
+                                       "the graph is unstable with this hand: make its forces weaker, or check it along --device " + role.role
+                                           + "=gesture:NAME or --sweep"));
+    }
+    return all;
 }
 
 void SweepDevice::prepare (double dt_s)

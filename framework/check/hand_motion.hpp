@@ -4,6 +4,7 @@
 #include <tactus/graph/graph.hpp>
 #include <tactus/node/device.hpp>
 #include <tactus/plan/compile.hpp>
+#include <tactus/text/message.hpp>
 
 #include <cstddef>
 #include <span>
@@ -47,6 +48,21 @@ struct Hand
 /// Runs the graph with these devices and keeps what they report. A role without a hand stays at the origin. The plan must not have
 /// run yet. [main thread]
 HandMotion recordMotion (std::shared_ptr<Plan>, std::span<const Hand>, std::size_t ticks);
+
+/// The box that the tool of a role can reach, in m.
+struct Reach
+{
+    std::string role;
+    Vec3 min = Vec3::Zero(), max = Vec3::Zero();
+};
+
+/// How far a tool may move from where it started if nothing is known about its reach, in m.
+inline constexpr double farthest_m = 1.0;
+
+/// An error (check/diverged) for each role whose tool ran away while the motion was recorded: one of its positions is not finite,
+/// is further outside the role's reach than the diagonal of the reach, or, without a reach, is further from the start than
+/// farthest_m. The slopes along such a motion say nothing about the graph. [any thread]
+Messages divergence (const HandMotion&, std::span<const Reach> = {});
 
 /// Moves a tool through a box, for a device without a hand: a Lissajous curve that comes close to every point. It does not react to
 /// forces. `lasts_s` is the time for the whole curve.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace tactus::check
 {
@@ -70,6 +71,11 @@ RecordedMotion recordMotion (const Subject& subject, std::span<const HandChoice>
     if (duration_s <= 0.0) duration_s = longest > 0.0 ? std::min (longest, longest_s) : default_length_s;
     const double rate_hz = plan->rateHz();
     recorded.motion = recordMotion (std::move (plan), hands, static_cast<std::size_t> (std::ceil (duration_s * rate_hz)));
+    if (auto away = divergence (recorded.motion); ! away.empty())
+    {
+        recorded.motion = {};
+        std::ranges::move (away, std::back_inserter (recorded.messages));
+    }
     return recorded;
 }
 

@@ -35,7 +35,7 @@ inline constexpr double default_length_s = 2.0, longest_s = 6.0;
 struct RecordedMotion
 {
     HandMotion motion {};   ///< has no ticks if there are errors
-    Messages messages {};   ///< of the devices, with `where` /devices/ROLE/…; of the graph, if it does not compile
+    Messages messages {};   ///< of the devices, with `where` /devices/ROLE/…; of the graph, if it does not compile; check/diverged, if a tool runs away
 };
 
 /// Moves the hands of a graph once. Roles without a choice get the hand of the graph's description, or strokes. `duration_s` 0: as

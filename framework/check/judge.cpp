@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "judge.hpp"
+#include "judging.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 
@@ -13,30 +12,15 @@ namespace tactus::check
 
 namespace
 {
-/// Three digits are enough, because the conditions are necessary but not sufficient.
-std::string text (double v)
-{
-    char buffer[32];
-    return { buffer, static_cast<std::size_t> (std::snprintf (buffer, sizeof buffer, "%.3g", v)) };
-}
-
-std::string text (double v, std::string_view unit) { return text (v) + " " + std::string (unit); }
-
-enum class Strict
-{
-    no,
-    yes
-};
+using namespace judging;
 
 /// All conditions of one role.
 class RoleJudge
 {
 public:
     RoleJudge (const Demand& d, const RoleDemand& r, const DeviceNumbers& n, const JudgeOptions& o)
-        : demand (d), role (r), numbers (n), options (o), period_s (1.0 / d.rate_hz)
+        : demand (d), role (r), numbers (n), options (o), period_s (periodOf (d, n))
     {
-        // A device that is slower than the graph holds each force for longer.
-        if (n.rate && n.rate->value > 0.0) period_s = std::max (period_s, 1.0 / n.rate->value);
     }
 
     std::vector<Condition> all()
@@ -47,6 +31,7 @@ public:
             damping();
             quantum();
         }
+        jump();
         if (! role.slopes.empty() || role.peak_force > 0.0)
         {
             peakForce();
@@ -54,6 +39,8 @@ public:
         }
         for (const auto& s : demand.stretches)
             if (s.role == role.role) stretch (s);
+        for (const auto& wall : demand.deadbeats)
+            if (wall.role == role.role) deadbeat (wall);
         for (const auto& t : demand.textures)
             if (t.role == role.role) texture (t);
         return std::move (conditions);
@@ -69,7 +56,7 @@ private:
 
     using Number = DeviceNumbers::Number;
 
-    double delay() const noexcept { return numbers.delay ? numbers.delay->value : 0.0; }
+    double delay() const noexcept { return delayOf (numbers); }
 
     Condition& add (std::string_view id, std::string_view law, std::string_view unit, std::string sentence)
     {
@@ -83,33 +70,6 @@ private:
         return c;
     }
 
-    /// Sets the verdict. `better`: the recommended factor between the value and the limit.
-    static void decide (Condition& c, double value, double limit, Strict strict, double better, const std::string& remedy)
-    {
-        c.value = value;
-        c.limit = limit;
-        constexpr double rounding = 1e-5;   // relative error of a measured slope
-        const auto isWithin = [&] (double v) { return strict == Strict::yes ? v < limit : v <= (1.0 + rounding) * limit; };
-        c.verdict = ! isWithin (value) ? Verdict::broken : isWithin (better * value) ? Verdict::holds
-                                                                                     : Verdict::close;
-        if (c.verdict == Verdict::broken || c.verdict == Verdict::close) c.remedy = remedy;
-    }
-
-    static void unknown (Condition& c, double value, std::string_view missing)
-    {
-        c.value = value;
-        c.remedy = "the device's " + std::string (missing) + " is not known: add it to \"physics\" in its profile";
-    }
-
-    /// The node whose own force is steepest at a place.
-    std::string steepestNode (const Slope& s) const
-    {
-        const auto most = std::ranges::max_element (s.by_node);
-        if (most == s.by_node.end() || ! (*most > 0.0)) return "";
-        const auto& node = demand.nodes[static_cast<std::size_t> (most - s.by_node.begin())];
-        return "'" + node.path + "' (" + node.type + ", " + text (*most, "N/m") + ")";
-    }
-
     /// The largest b, in N s/m.
     double virtualDamping() const
     {
@@ -119,11 +79,20 @@ private:
         return most;
     }
 
-    /// True if b breaks the condition `damping`. Then `stiffness` is judged without b, because b would break it too.
-    bool isOverdamped() const
+    /// The mass that a virtual damper moves in a tick, in kg: if the first mode of the structure is below half the tick rate, only the mass
+    /// at the motor.
+    double motorMass() const
     {
-        return numbers.damping && numbers.mass && ! (virtualDamping() < numbers.damping->value + 2.0 * numbers.mass->value / period_s);
+        const double mass = numbers.mass->value;
+        if (! numbers.first_mode || numbers.first_mode->value >= 0.5 / period_s) return mass;
+        return mass - (numbers.end_mass ? numbers.end_mass->value : 0.5 * mass);
     }
+
+    /// The largest b at which the virtual damper does not oscillate, in N s/m.
+    double largestDamper() const { return numbers.damping->value + 2.0 * motorMass() / period_s; }
+
+    /// True if b breaks the condition `damping`. Then `stiffness` is judged without b, because b would break it too.
+    bool isOverdamped() const { return numbers.damping && numbers.mass && ! (virtualDamping() < largestDamper()); }
 
     /// The largest slope that the device allows a texture, in N/m.
     double stiffestTexture() const { return numbers.damping ? stiffestWall (numbers.damping->value, period_s, delay()) : inf; }
@@ -181,7 +150,7 @@ private:
             remedy = "a stiffness of at most " + text (stiffestWall (room, period_s, late), "N/m") + ", a rate of at least "
                      + text ((value - b) / (room * period_s), "Hz") + ", or ";
         remedy += "a device with a damping of at least " + text (value, "N*s/m");
-        if (const auto node = steepestNode (*s); ! node.empty()) remedy += "; the steepest node is " + node;
+        if (const auto node = steepestNode (demand, s->by_node); ! node.empty()) remedy += "; the steepest node is " + node;
         decide (c, value, limit, Strict::no, 1.0, remedy);
     }
 
@@ -191,8 +160,8 @@ private:
         auto& c = add ("damping", "b < B + 2M/T", "N*s/m", "b " + text (most, "N*s/m") + ", T " + text (1e3 * period_s, "ms"));
         if (! numbers.damping) return unknown (c, most, "damping");
         if (! numbers.mass) return unknown (c, most, "mass");
-        const double limit = numbers.damping->value + 2.0 * numbers.mass->value / period_s;
-        const double rate = (most - numbers.damping->value) / (2.0 * numbers.mass->value);
+        const double limit = largestDamper(), rate = (most - numbers.damping->value) / (2.0 * motorMass());
+        if (motorMass() < numbers.mass->value) c.text += ", M " + text (motorMass(), "kg") + " at the motor";
         decide (c, most, limit, Strict::yes, 1.0, "a virtual damping below " + text (limit, "N*s/m") + ", or a rate above " + text (rate, "Hz"));
     }
 
@@ -212,6 +181,26 @@ private:
             remedy = "a stiffness of at most " + text (2.0 * limit / delta, "N/m") + ", a quantum of at most " + text (2e6 * limit / most, "um")
                      + ", or " + remedy;
         decide (c, value, limit, Strict::no, 1.0, remedy);
+    }
+
+    /// A force that steps by F changes by F from one step of the sensor to the next, so its slope is at least F/delta.
+    void jump()
+    {
+        const Jump* most = nullptr;
+        for (const auto& j : demand.jumps)
+            if (j.role == role.role && (most == nullptr || j.force > most->force)) most = &j;
+        if (most == nullptr) return;
+        auto& c = add ("jump", "(2d + 1) F T/(2 delta) <= B", "N*s/m",
+                       "the force steps by F " + text (most->force, "N") + " against the movement at " + text (most->t_s, "s"));
+        if (most->node) c.node = demand.nodes[*most->node].path;
+        if (! numbers.quantum) return unknown (c, 0.0, "quantum");
+        const double delta = numbers.quantum->value, value = most->force * period_s * (0.5 + delay()) / delta;
+        c.text += ", delta " + text (1e6 * delta, "um");
+        if (! numbers.damping) return unknown (c, value, "damping");
+        const double limit = numbers.damping->value;
+        decide (c, value, limit, Strict::no, 1.0,
+                limit > 0.0 ? "a force that rises over at least " + text (1e3 * most->force / stiffestWall (limit, period_s, delay()), "mm")
+                            : "a force that does not step");
     }
 
     void peakForce()
@@ -235,11 +224,43 @@ private:
 
     void stretch (const Stretch& s)
     {
-        auto& c = add (s.node, "d_max", "delta < d_max, better 10 delta < d_max", "m", "d_max " + text (1e6 * s.d_max, "um"));
+        const bool has_teeth = s.teeth > 0.0 && s.teeth < s.d_max;
+        const double limit = has_teeth ? s.teeth : s.d_max;
+        auto& c = add (s.node, "d_max", "delta < d_max, better 10 delta < d_max", "m",
+                       "slides at a stretch of " + text (1e6 * s.d_max, "um") + (has_teeth ? ", with teeth of " + text (1e6 * s.teeth, "um") : ""));
         if (! numbers.quantum) return unknown (c, 0.0, "quantum");
         const double delta = numbers.quantum->value;
-        decide (c, delta, s.d_max, Strict::yes, Factors::better,
-                "a d_max of at least " + text (1e7 * delta, "um") + ", or a quantum of at most " + text (1e5 * s.d_max, "um"));
+        decide (c, delta, limit, Strict::yes, Factors::better,
+                (has_teeth ? "teeth" : "a stretch") + std::string (" of at least ") + text (1e7 * delta, "um")
+                    + (has_teeth ? " (d_max times static_ratio - 1)" : "")
+                    + ", or a quantum of at most " + text (1e5 * limit, "um"));
+    }
+
+    /// The node computes the speed from the last positions, and the forces that change it within two ticks. A position that is wrong by
+    /// delta then causes a force of about M delta/T^2. The tolerance of the mass is the range that the tests of the node cover.
+    void deadbeat (const Deadbeat& wall)
+    {
+        constexpr double tolerance = 0.2;
+        auto& c = add (wall.node, "deadbeat", "d = 0, M within 20 %, M delta/(2 T^2) <= f_f", "N", "");
+        if (! numbers.mass) return unknown (c, 0.0, "mass");
+        const double mass = numbers.mass->value, assumed = wall.mass > 0.0 ? wall.mass : mass;
+        c.text = "M " + text (mass, "kg") + ", assumed " + text (assumed, "kg") + ", d " + text (delay());
+        if (delay() > 0.0 || std::abs (assumed - mass) > tolerance * mass)
+        {
+            c.verdict = Verdict::broken;
+            c.value = delay() > 0.0 ? delay() : std::abs (assumed - mass);
+            c.unit = delay() > 0.0 ? "1" : "kg";
+            c.limit = delay() > 0.0 ? 0.0 : tolerance * mass;
+            c.remedy = delay() > 0.0 ? "a device without delay, or a softer deform.plane"
+                                     : "mass 0, which takes the mass of the device, or the mass of this device";
+            return;
+        }
+        if (! numbers.quantum) return unknown (c, 0.0, "quantum");
+        const double value = 0.5 * assumed * numbers.quantum->value / (period_s * period_s);
+        c.text += ", delta " + text (1e6 * numbers.quantum->value, "um");
+        if (! numbers.coulomb && value > 0.0) return unknown (c, value, "Coulomb friction");
+        const double limit = numbers.coulomb ? numbers.coulomb->value : 0.0;
+        decide (c, value, limit, Strict::no, 1.0, "a lower rate, a finer quantum, or a device with a dry friction of at least " + text (value, "N"));
     }
 
     //==========================================================================
@@ -356,6 +377,7 @@ std::vector<Condition> judge (const Demand& demand, std::span<const RoleDevice> 
         const DeviceNumbers none;
         std::ranges::move (RoleJudge (demand, role, device == devices.end() ? none : device->numbers, options).all(), std::back_inserter (all));
     }
+    judgeLinks (demand, devices, all);
     return all;
 }
 

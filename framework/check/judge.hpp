@@ -2,7 +2,7 @@
 #pragma once
 
 /// Compares what a graph demands with what a device can do: the conditions of Hayward, "Physically-Based Haptic Synthesis" (2007),
-/// sections 1, 2 and 5. All are necessary; none is sufficient.
+/// sections 1, 2 and 5, and what docs/check.md derives from them for several axes and hands. None is sufficient.
 ///
 /// Some faults would break two conditions: a texture that is too steep on its own also makes the sum too steep. The sum is then
 /// judged without that texture, so that each fault is reported once. Condition::text says what was left out.

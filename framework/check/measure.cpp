@@ -2,13 +2,13 @@
 #include "measure.hpp"
 #include "bench.hpp"
 #include "slopes.hpp"
-
-#include <tactus/plan/knobs.hpp>
+#include "stretches.hpp"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace tactus::check
@@ -30,7 +30,7 @@ Forces forcesAlong (const Subject& subject, const HandMotion& motion, std::vecto
     Forces forces (motion.roles.size());
     for (std::size_t k = 0; k < motion.ticks; ++k)
     {
-        bench.follow (motion, k);
+        bench.follow (motion, static_cast<double> (k));
         bench.tick();
         for (std::size_t r = 0; r < forces.size(); ++r)
             forces[r].push_back (bench.force (r));
@@ -49,7 +49,7 @@ Vec3 velocityAt (const HandMotion& motion, std::size_t role, std::size_t tick)
     return (readings[last].position - readings[first].position) * (motion.rate_hz / static_cast<double> (last - first));
 }
 
-/// The nodes on a path from a source of a role to a sink of the same role.
+/// The nodes on a path from a source of a role to a sink of the same role; if the role is empty, from a source to a sink of any roles.
 std::vector<bool> nodesOf (const Plan& plan, const std::string& role)
 {
     const auto& flat = plan.flat();
@@ -59,7 +59,8 @@ std::vector<bool> nodesOf (const Plan& plan, const std::string& role)
         for (int n = 0; n < flat.nodeCount(); ++n)
         {
             const auto& node = flat.node (n);
-            if (node.runs() && node.role == role && node.type->bind != nullptr && (node.type->effort == nullptr) == forwards) open.push_back (n);
+            if (node.runs() && (role.empty() || node.role == role) && node.type->bind != nullptr
+                && (node.type->effort == nullptr) == forwards) open.push_back (n);
         }
         while (! open.empty())
         {
@@ -79,32 +80,11 @@ std::vector<bool> nodesOf (const Plan& plan, const std::string& role)
     return both;
 }
 
-/// Finds the smallest d_max of a node while the node gives a force.
-struct StretchWatch
-{
-    std::size_t node;
-    std::size_t knob;
-    NodeForces forces;
-    double least = inf;
-
-    void look (const Plan& plan)
-    {
-        if (forces.largest() > 0.0) least = std::min (least, *plan.instances()[node].param (knob));
-    }
-};
-
 std::vector<StretchWatch> stretchesIn (const Plan& plan)
 {
     std::vector<StretchWatch> all;
     for (std::size_t n = 0; n < plan.flat().nodes.size(); ++n)
-    {
-        const auto& node = plan.flat().nodes[n];
-        if (! node.runs()) continue;
-        const auto row = std::ranges::find (node.type->params, "d_max", &PortSheet::id);
-        if (row == node.type->params.end() || row->unit.unit.symbol != "m") continue;
-        const auto knob = plan::Knobs::indexOf (*node.type, static_cast<std::size_t> (row - node.type->params.begin()), 0);
-        all.push_back ({ n, knob, NodeForces (plan, n) });
-    }
+        if (auto watch = StretchWatch::of (plan, n)) all.push_back (std::move (*watch));
     return all;
 }
 
@@ -168,7 +148,8 @@ public:
             demand.nodes.push_back ({ node.path, std::string (node.type->info.id) });
         followMotion();
         for (std::size_t r = 0; r < motion.roles.size(); ++r)
-            addRole (r, how);
+            addRole (r);
+        addSlopes (how);
         for (const auto& watched : textures)
             addTexture (watched);
         return std::move (demand);
@@ -211,11 +192,11 @@ private:
         {
             const auto its = nodesOf (*plan, role.name);
             for (const auto& w : stretches)
-                if (its[w.node] && w.least < inf) demand.stretches.push_back ({ w.node, role.name, w.least });
+                if (its[w.node()] && w.shortest() < inf) demand.stretches.push_back ({ w.node(), role.name, w.shortest(), w.teeth() });
         }
     }
 
-    void addRole (std::size_t r, const Thoroughness& how)
+    void addRole (std::size_t r)
     {
         const auto& role = plan->roles()[r];
         RoleDemand d { .role = role.name };
@@ -228,18 +209,51 @@ private:
             if (k > 0) d.fastest_force = std::max (d.fastest_force, (forces[r][k] - forces[r][k - 1]).norm() * motion.rate_hz);
             d.speed = std::max (d.speed, velocityAt (motion, r, k).norm());
         }
-        directions.emplace_back();
-        if (hasLoop (role.name))
-        {
-            SlopeWork work { .role = r, .places = how.places, .longest_delay = d.longest, .without = struckNodes() };
-            d.slopes = measureSlopes (subject, motion, work, directions.back());
-            for (const auto& t : textures)
-                work.without.push_back (t.node);
-            Directions unused;
-            if (! textures.empty()) d.nominal = measureSlopes (subject, motion, work, unused);
-        }
         d.has_other_efforts = hasOtherSinks (role.name);
         demand.roles.push_back (std::move (d));
+    }
+
+    /// Lists the walls of hold.deadbeat, and adds them to the demand. Their response to a shift of a resting tool is not a slope.
+    std::vector<std::size_t> findDeadbeats()
+    {
+        std::vector<std::size_t> all;
+        const auto& nodes = plan->flat().nodes;
+        for (std::size_t n = 0; n < nodes.size(); ++n)
+            if (nodes[n].runs() && nodes[n].type->info.id == "hold.deadbeat") all.push_back (n);
+        for (const auto& role : plan->roles())
+        {
+            const auto its = nodesOf (*plan, role.name);
+            for (const auto n : all)
+                if (its[n]) demand.deadbeats.push_back ({ n, role.name, valueInFile (*plan, n, "mass", 0.0) });
+        }
+        return all;
+    }
+
+    /// Measures the slopes of all roles, if the force of any role depends on the position of any role.
+    void addSlopes (const Thoroughness& how)
+    {
+        directions.resize (motion.roles.size());
+        if (! hasLoop ("")) return;
+        SlopeWork work { .without = struckNodes() };
+        for (const auto& path : plan->delays())
+            work.longest_delay = std::max (work.longest_delay, path.longest);
+        std::ranges::copy (findDeadbeats(), std::back_inserter (work.without));
+        work.spots = chooseSpots (subject, motion, how.places, work.without);
+        auto all = measureSlopes (subject, motion, work);
+        demand.linked = std::move (all.linked);
+        demand.jumps = std::move (all.jumps);
+        directions = std::move (all.directions);
+        Slopes nominal;
+        for (const auto& t : textures)
+            work.without.push_back (t.node);
+        work.looks_for_jumps = false;
+        if (! textures.empty()) nominal = measureSlopes (subject, motion, work);
+        for (std::size_t r = 0; r < motion.roles.size(); ++r)
+            if (auto& role = demand.roles[r]; hasLoop (role.role))
+            {
+                role.slopes = std::move (all.by_role[r]);
+                if (! textures.empty()) role.nominal = std::move (nominal.by_role[r]);
+            }
     }
 
     /// The nodes whose inputs are all hits: they play when they are hit.

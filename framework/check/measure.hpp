@@ -30,6 +30,29 @@ struct Slope
     std::vector<double> by_node {};   ///< by node number: the largest response of the node's own forces, in N/m
 };
 
+/// How the forces of all roles respond to small displacements of all roles at one point of the motion. Each matrix has three rows and
+/// three columns for each role, in the order of Demand::roles: a row for each component of a force, a column for each component of a
+/// displacement. A positive number pulls the tool back.
+struct Linked
+{
+    double t_s = 0.0;
+    Eigen::MatrixXd settled {};       ///< force per displacement once the force has settled, in N/m
+    Eigen::MatrixXd late {};          ///< force that is missing because it comes late, integrated over time, per displacement, in N s/m
+    Eigen::MatrixXd excess {};        ///< excess force while it settles, integrated over time, per displacement, in N s/m
+    std::vector<double> by_node {};   ///< as in Slope: the largest response over all roles
+    bool is_smooth = true;            ///< true if opposite displacements have opposite responses; false for friction
+};
+
+/// A force that steps at a place, as that of a relay does.
+struct Jump
+{
+    std::string role;                     ///< the role whose force steps most
+    std::optional<std::size_t> node {};   ///< the node whose own force steps most
+    double t_s = 0.0;
+    Vec3 position = Vec3::Zero();   ///< m
+    double force = 0.0;             ///< how far the force steps, in N; half of that if it steps across the movement
+};
+
 /// What a role's device is asked to do.
 struct RoleDemand
 {
@@ -43,12 +66,21 @@ struct RoleDemand
     bool has_other_efforts = false;   ///< torques, axes or signals, which are not judged
 };
 
-/// A friction node that stretches a little before it slides: any node with a param d_max in m.
+/// A contact that stretches a little before it slides: any node with a param d_max in m, and deform.surface.
 struct Stretch
 {
     std::size_t node = 0;
     std::string role;
-    double d_max = 0.0;   ///< its smallest value while the node gave a force, in m
+    double d_max = 0.0;   ///< the shortest stretch at which it slides while at least half of its largest drag is felt, in m
+    double teeth = 0.0;   ///< length of the teeth of stick-slip, in m; 0 without stick-slip
+};
+
+/// A wall of hold.deadbeat. It computes its force two ticks ahead for a known mass, so it has no slope that a condition could judge.
+struct Deadbeat
+{
+    std::size_t node = 0;
+    std::string role;
+    double mass = 0.0;   ///< the mass that the node assumes, in kg; 0: that of the device
 };
 
 /// A node that claims a spatial frequency and whose force the hand felt.
@@ -74,7 +106,10 @@ struct Demand
     double rate_hz = 0.0;
     double lasts_s = 0.0;   ///< duration of the motion
     std::vector<RoleDemand> roles {};
+    std::vector<Linked> linked {};   ///< along the motion; empty if no force depends on a position
+    std::vector<Jump> jumps {};      ///< that the motion crosses
     std::vector<Stretch> stretches {};
+    std::vector<Deadbeat> deadbeats {};
     std::vector<Texture> textures {};
     std::vector<MeasuredNode> nodes {};   ///< by node number
 };
@@ -82,12 +117,13 @@ struct Demand
 /// How thoroughly a graph is measured. More points take longer.
 struct Thoroughness
 {
-    std::size_t places = 96;   ///< number of points at which slopes are measured, spaced evenly along the motion
+    std::size_t places = 96;   ///< number of points at which slopes are measured: see chooseSpots()
 };
 
 /// Measures a graph along a motion that was recorded at the same rate. The result is a pure function of the arguments. Takes about
-/// 150,000 ticks of the graph for each role with a position and a force, twice that if there are textures, and one run along the
-/// motion for each texture. The graph must compile without errors. [any thread, as long as no other thread uses the assets]
+/// 150,000 ticks of the graph for each role, twice that if there are textures, up to four times that if sections do not run on
+/// every tick, 40,000 ticks to choose the points, and one run along the motion for each texture. The graph must compile without
+/// errors, and the motion must not diverge (see divergence()). [any thread, as long as no other thread uses the assets]
 Demand measure (const Subject&, const HandMotion&, const Thoroughness& = {});
 
 }   // namespace tactus::check

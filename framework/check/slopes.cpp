@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "slopes.hpp"
+#include "pair.hpp"
 
 #include <tactus/kit/at.hpp>
 
@@ -8,18 +9,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 namespace tactus::check
 {
 
 namespace
 {
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
 using Matrix = Eigen::Matrix3d;
 
-constexpr double nudge = 1e-9;              // m; far below any quantum or d_max, far above the rounding of a position
-constexpr std::size_t least_hold = 24;      // ticks; longer than the window of motion.velocity
-constexpr std::size_t longest_hold = 240;   // ticks
+constexpr std::size_t least_hold = 24;       // ticks; longer than the window of motion.velocity
+constexpr std::size_t longest_watch = 264;   // ticks
+constexpr double narrowest = 2e-8;           // m; a change of force over less is a jump
+
+Eigen::Index first (std::size_t role) noexcept { return static_cast<Eigen::Index> (3 * role); }
 
 /// The largest factor by which the matrix stretches a vector, and that vector.
 struct Stretched
@@ -35,231 +39,197 @@ Stretched mostStretched (const Matrix& m)
     return { std::sqrt (std::max (0.0, parts.eigenvalues()[2])), parts.eigenvectors().col (2) };
 }
 
-/// The response of the force to a shift in one direction, per metre.
-struct Response
-{
-    Vec3 settled = Vec3::Zero();   // N/m
-    Vec3 late = Vec3::Zero();      // N s/m
-    Vec3 excess = Vec3::Zero();    // N s/m
-};
-
-class Pair
+/// Does the work of measureSlopes().
+class SlopeSurvey
 {
 public:
-    Pair (const Subject& subject, const HandMotion& m, const SlopeWork& work) : motion (m), role (work.role), still (subject, m), nudged (subject, m)
+    SlopeSurvey (const Subject& subject, const HandMotion& m, const SlopeWork& w)
+        : motion (m), work (w), pair (subject, m, w.without, holdFor (w.longest_delay)), roles (m.roles.size())
     {
-        still.silence (work.without);
-        nudged.silence (work.without);
-        for (std::size_t n = 0; n < still.plan().instances().size(); ++n)
+        found.by_role.resize (roles);
+        found.directions.assign (roles, Directions (pair.nodes(), Matrix::Zero()));
+    }
+
+    Slopes measure()
+    {
+        for (const auto& spot : work.spots)
         {
-            forces.emplace_back (still.plan(), n);
-            nudged_forces.emplace_back (nudged.plan(), n);
+            pair.moveTo (spot.middle());
+            const double slope = measureHere();
+            if (work.looks_for_jumps && spot.to > spot.from) lookCloser (spot, slope);
         }
-        for (const auto& f : forces)
-            numbers += f.size();
-        settled.resize (numbers);
-        before.resize (numbers);
+        return std::move (found);
     }
 
-    std::size_t nodes() const noexcept { return forces.size(); }
+private:
+    const HandMotion& motion;
+    const SlopeWork& work;
+    Pair pair;
+    std::size_t roles;
+    Slopes found {};
 
-    /// Advances both copies to a tick of the motion.
-    void moveTo (std::size_t tick) noexcept
+    static std::size_t holdFor (std::int64_t delay)
     {
-        for (; now < tick; ++now)
+        return std::min (longest_watch, least_hold + static_cast<std::size_t> (std::max<std::int64_t> (delay, 0)));
+    }
+
+    /// Adds the slopes at the place where the pair is. Returns the Frobenius norm of the Jacobian of all forces, in N/m.
+    double measureHere()
+    {
+        const auto size = first (roles);
+        const MatrixXd zero = MatrixXd::Zero (size, size);
+        Linked all { .t_s = pair.time(), .settled = zero, .late = zero, .excess = zero, .by_node = std::vector<double> (pair.nodes(), 0.0) };
+        for (std::size_t r = 0; r < roles; ++r)
+            found.by_role[r].push_back (slopeOf (r, all));
+        // So far, the matrices describe the force on the tool. In Linked, a positive number pulls the tool back.
+        for (auto* m : { &all.settled, &all.late, &all.excess })
+            *m = -*m;
+        for (std::size_t r = 0; r < roles; ++r)
+            for (std::size_t n = 0; n < pair.nodes(); ++n)
+                all.by_node[n] = std::max (all.by_node[n], found.by_role[r].back().by_node[n]);
+        const double steepest = all.settled.norm();
+        found.linked.push_back (std::move (all));
+        return steepest;
+    }
+
+    /// Shifts the tool of a role along each axis, to both sides, and fills in the columns of the role in the matrices. Of the
+    /// responses to the two sides, the larger one is kept.
+    Slope slopeOf (std::size_t role, Linked& all)
+    {
+        Slope slope { .t_s = pair.time(), .position = pair.position (role), .by_node = std::vector<double> (pair.nodes(), 0.0) };
+        std::array<std::vector<double>, 3> own;
+        for (int axis = 0; axis < 3; ++axis)
         {
-            still.follow (motion, now);
-            nudged.follow (motion, now);
-            step();
+            const auto column = first (role) + axis;
+            own[at (axis)].assign (pair.numberOfForces(), 0.0);
+            std::array<VectorXd, 2> sides { VectorXd::Zero (first (roles)), VectorXd::Zero (first (roles)) };
+            for (const double sign : { -1.0, 1.0 })
+                if (const auto response = pair.respond (role, sign * Vec3::Unit (axis)))
+                {
+                    const auto keep = [&] (MatrixXd& m, const VectorXd& v) {
+                        for (std::size_t r = 0; r < roles; ++r)
+                            if (const Vec3 part = v.segment<3> (first (r)); part.norm() > m.block<3, 1> (first (r), column).norm())
+                                m.block<3, 1> (first (r), column) = sign * part;
+                    };
+                    keep (all.settled, response->settled);
+                    keep (all.late, response->late);
+                    keep (all.excess, response->excess);
+                    own[at (axis)] = pair.ownResponses();
+                    pair.raise (slope.by_node);
+                    sides[sign > 0.0] = sign * response->settled;
+                }
+            const double most = std::max (sides[0].norm(), sides[1].norm());
+            if ((sides[0] - sides[1]).norm() > 0.05 * most) all.is_smooth = false;
         }
+        pair.eachForce ([&] (std::size_t node, std::size_t component) {
+            const Vec3 gradient { own[0][component], own[1][component], own[2][component] };
+            found.directions[role][node] += gradient * gradient.transpose();
+        });
+        summarise (slope, role, all);
+        return slope;
     }
 
-    /// Measures the response to a small shift in a direction, with both tools at rest, and shifts the tool back. Empty if a shift of twice
-    /// the size gives a different response per metre: the shift then set off an event, such as a click, and an event has no slope.
-    std::optional<Response> respond (const Vec3& direction, std::size_t hold) noexcept
+    void summarise (Slope& slope, std::size_t role, const Linked& all)
     {
-        constexpr double tolerance = 0.2;
-        const auto once = respondTo (nudge, direction, hold), twice = respondTo (2.0 * nudge, direction, hold);
-        const double most = std::max (once.settled.norm(), twice.settled.norm());
-        if ((once.settled - twice.settled).norm() > tolerance * most) return std::nullopt;
-        return once;
+        const auto own = [&] (const MatrixXd& m) { return Matrix (m.block<3, 3> (first (role), first (role))); };
+        // No matrix describes a nonlinear response, such as that of friction. So the stiffness is measured again in the steepest direction.
+        const Matrix settled = own (all.settled);
+        const Vec3 steepest = mostStretched (settled).direction;
+        for (int axis = 0; axis < 3; ++axis)
+            slope.stiffness = std::max (slope.stiffness, settled.col (axis).norm());
+        if (slope.stiffness > 0.0)
+            for (const double sign : { -1.0, 1.0 })
+                if (const auto response = pair.respond (role, sign * steepest)) slope.stiffness = std::max (slope.stiffness, response->of (role).norm());
+        slope.lag = mostStretched (own (all.late)).factor;
+        slope.damping = mostStretched (own (all.excess)).factor;
     }
 
-    /// Waits, with both tools at rest.
-    void wait (std::size_t ticks) noexcept
+    VectorXd positionsAt (double tick) const
     {
-        for (std::size_t j = 0; j < ticks; ++j)
-            step();
-    }
-
-    /// The responses of all nodes' own forces to the last shift, per metre, one component after another.
-    std::vector<double> ownResponses() const
-    {
-        std::vector<double> all (numbers);
-        for (std::size_t i = 0; i < numbers; ++i)
-            all[i] = (settled[i] - before[i]) / last_size;
+        VectorXd all (first (roles));
+        for (std::size_t r = 0; r < roles; ++r)
+        {
+            const auto& readings = motion.roles[r].readings;
+            const auto k = std::min (static_cast<std::size_t> (tick), readings.size() - 1), next = std::min (k + 1, readings.size() - 1);
+            all.segment<3> (first (r)) = readings[k].position + (tick - static_cast<double> (k)) * (readings[next].position - readings[k].position);
+        }
         return all;
     }
 
-    /// Calls f (node, i) for each component i of ownResponses().
-    template <typename F>
-    void eachForce (F&& f) const
+    /// Narrows down where along a spot the forces change most, unless the slope in the middle explains the change.
+    void lookCloser (const Spot& spot, double slope)
     {
-        std::size_t i = 0;
-        for (std::size_t n = 0; n < forces.size(); ++n)
-            for (std::size_t c = 0; c < forces[n].size(); ++c)
-                f (n, i++);
+        constexpr double unexplained = 1.5;
+        const VectorXd way = positionsAt (spot.to) - positionsAt (spot.from);
+        if (! (way.norm() > narrowest)) return;
+        const auto start = pair.changeAt (spot.from);
+        const VectorXd end = start + pair.changeAt (spot.to);
+        const double change = (end - start).norm();
+        if (change > unexplained * slope * way.norm()) narrow (spot, start, end, way);
+        pair.meet();
     }
 
-    std::size_t numberOfForces() const noexcept { return numbers; }
-
-    /// Raises each entry of `by_node` to the largest response of that node's forces to the last shift, in N/m.
-    void raise (std::vector<double>& by_node) const
+    void narrow (Spot spot, VectorXd start, VectorXd end, const VectorXd& way)
     {
-        std::size_t i = 0;
-        for (std::size_t n = 0; n < forces.size(); ++n)
-            for (const auto width : forces[n].widths())
-            {
-                double square = 0.0;
-                for (const auto end = i + width; i < end; ++i)
-                    square += (settled[i] - before[i]) * (settled[i] - before[i]);
-                by_node[n] = std::max (by_node[n], std::sqrt (square) / last_size);
-            }
-    }
-
-    void reserve (std::size_t hold) { path.reserve (hold + longest_hold); }
-    const Vec3& position() const noexcept { return motion.roles[role].readings[now > 0 ? now - 1 : 0].position; }
-    double time() const noexcept { return static_cast<double> (now > 0 ? now - 1 : 0) / motion.rate_hz; }
-
-private:
-    Response respondTo (double size, const Vec3& direction, std::size_t hold) noexcept
-    {
-        const Vec3 offset = difference();
-        note (before);
-        nudged.shift (role, size * direction);
-        path.clear();
-        while (path.size() < hold || (path.size() < hold + longest_hold && ! hasSettled()))
+        const auto whole = spot;
+        const VectorXd all = end - start;
+        double width = way.norm();
+        VectorXd now = end;   // N; the forces at the last changeAt() minus those in the middle of the whole spot
+        for (; width > narrowest; width *= 0.5)
         {
-            step();
-            path.push_back ((difference() - offset) / size);
-        }
-        note (settled);
-        last_size = size;
-        nudged.shift (role, Vec3::Zero());
-        wait (path.size());
-        return summary();
-    }
-
-    void step() noexcept
-    {
-        still.tick();
-        nudged.tick();
-    }
-
-    /// True if the response has hardly changed over the last ticks.
-    bool hasSettled() const noexcept
-    {
-        constexpr std::size_t recent = 12;
-        constexpr double tolerance = 1e-4;
-        const auto& last = path.back();
-        return std::all_of (path.end() - recent, path.end(), [&] (const Vec3& then) { return (then - last).norm() <= tolerance * last.norm(); });
-    }
-
-    Vec3 difference() const noexcept { return nudged.force (role) - still.force (role); }
-
-    /// For each force of each node, the difference between the two copies.
-    void note (std::vector<double>& all) const noexcept
-    {
-        std::size_t i = 0;
-        for (std::size_t n = 0; n < forces.size(); ++n)
-            for (std::size_t c = 0; c < forces[n].size(); ++c)
-                all[i++] = nudged_forces[n][c] - forces[n][c];
-    }
-
-    /// A response that comes late has too little force at first. Damping responds to the speed of the shift, so it has too much.
-    Response summary() const noexcept
-    {
-        Response r;
-        r.settled = path.back();
-        const double dt = 1.0 / motion.rate_hz;
-        for (const auto& then : path)
-            for (int i = 0; i < 3; ++i)
+            now += pair.changeAt (spot.middle());
+            if ((now - start).norm() >= (end - now).norm())
             {
-                const double rest = then[i] - r.settled[i];
-                (rest * r.settled[i] < 0.0 ? r.late : r.excess)[i] += dt * rest;
+                spot.to = spot.middle();
+                end = now;
             }
-        return r;
+            else
+            {
+                spot.from = spot.middle();
+                start = now;
+            }
+        }
+        now += pair.changeAt (spot.from);
+        const VectorXd step = pair.changeAt (spot.to);
+        std::vector<double> by_node (pair.nodes(), 0.0);
+        pair.raise (by_node);
+        now += step;
+        now += pair.changeAt (whole.from);
+        const VectorXd back = now;
+        now += pair.changeAt (whole.to);
+        // A change that does not repeat when the tools go back and forth again is an event, such as a rupture, or friction.
+        constexpr double same = 0.25;
+        const bool repeats = (now - back - all).norm() <= same * all.norm();
+        pair.meet();
+        if (! repeats) return;
+        if (step.norm() >= same * all.norm()) return addJump (spot, step, way.normalized(), by_node);
+        pair.moveTo (spot.middle());
+        measureHere();
     }
 
-    const HandMotion& motion;
-    std::size_t role;
-    Bench still, nudged;
-    std::vector<NodeForces> forces, nudged_forces;
-    std::size_t numbers = 0, now = 0;
-    double last_size = nudge;   // m
-    std::vector<double> before, settled;
-    std::vector<Vec3> path;
-};
-
-/// The responses to shifts along each axis. Of the responses to the two directions of an axis, the larger one is kept.
-struct Jacobians
-{
-    Matrix settled = Matrix::Zero(), late = Matrix::Zero(), excess = Matrix::Zero();
-
-    void take (int axis, double sign, const Response& r)
+    /// A jump F across a surface with the normal n has the slope -F n^T, whose symmetric part has the largest eigenvalue (|F| - F.n)/2 (per
+    /// width). The path crosses the surface at an unknown angle; all that is known of n is that it points to the same side as the
+    /// path. So a jump against the movement counts in full, one across it by half, and one with it not at all.
+    void addJump (const Spot& spot, const VectorXd& step, const VectorXd& way, const std::vector<double>& by_node)
     {
-        const auto keep = [&] (Matrix& m, const Vec3& column) {
-            if (column.norm() > m.col (axis).norm()) m.col (axis) = sign * column;
-        };
-        keep (settled, r.settled);
-        keep (late, r.late);
-        keep (excess, r.excess);
+        constexpr double across = 0.1;
+        const double along = step.dot (way) / step.norm();
+        if (along > across) return;
+        const double force = (along < -across ? 1.0 : 0.5) * step.norm();
+        std::size_t role = 0;
+        for (std::size_t r = 1; r < roles; ++r)
+            if (step.segment<3> (first (r)).norm() > step.segment<3> (first (role)).norm()) role = r;
+        const auto node = std::ranges::max_element (by_node);
+        found.jumps.push_back ({ .role = motion.roles[role].role,
+                                 .node = node != by_node.end() && *node > 0.0 ? std::optional (static_cast<std::size_t> (node - by_node.begin()))
+                                                                              : std::nullopt,
+                                 .t_s = spot.middle() / motion.rate_hz,
+                                 .position = positionsAt (spot.middle()).segment<3> (first (role)),
+                                 .force = force });
     }
 };
 }   // namespace
 
-std::vector<Slope> measureSlopes (const Subject& subject, const HandMotion& motion, const SlopeWork& work, Directions& directions)
-{
-    Pair pair { subject, motion, work };
-    const auto hold = std::min (longest_hold + least_hold, least_hold + static_cast<std::size_t> (std::max<std::int64_t> (work.longest_delay, 0)));
-    pair.reserve (hold);
-    directions.assign (pair.nodes(), Matrix::Zero());
-
-    std::vector<Slope> slopes;
-    const auto count = std::min (work.places, motion.ticks);
-    for (std::size_t i = 0; i < count; ++i)
-    {
-        pair.moveTo ((2 * i + 1) * motion.ticks / (2 * count) + 1);
-        pair.wait (hold);
-        Jacobians all;
-        Slope slope { .t_s = pair.time(), .position = pair.position(), .by_node = std::vector<double> (pair.nodes(), 0.0) };
-        std::array<std::vector<double>, 3> own;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-            own[at (axis)].assign (pair.numberOfForces(), 0.0);
-            for (const double sign : { -1.0, 1.0 })
-                if (const auto response = pair.respond (sign * Vec3::Unit (axis), hold))
-                {
-                    all.take (axis, sign, *response);
-                    own[at (axis)] = pair.ownResponses();
-                    pair.raise (slope.by_node);
-                }
-        }
-        pair.eachForce ([&] (std::size_t node, std::size_t component) {
-            const Vec3 gradient { own[0][component], own[1][component], own[2][component] };
-            directions[node] += gradient * gradient.transpose();
-        });
-        // No matrix describes a nonlinear response, such as that of friction. So the stiffness is measured again in the steepest direction.
-        const Vec3 steepest = mostStretched (all.settled).direction;
-        for (int axis = 0; axis < 3; ++axis)
-            slope.stiffness = std::max (slope.stiffness, all.settled.col (axis).norm());
-        for (const double sign : { -1.0, 1.0 })
-            if (const auto response = pair.respond (sign * steepest, hold)) slope.stiffness = std::max (slope.stiffness, response->settled.norm());
-        slope.lag = mostStretched (all.late).factor;
-        slope.damping = mostStretched (all.excess).factor;
-        slopes.push_back (std::move (slope));
-    }
-    return slopes;
-}
+Slopes measureSlopes (const Subject& subject, const HandMotion& motion, const SlopeWork& work) { return SlopeSurvey (subject, motion, work).measure(); }
 
 }   // namespace tactus::check

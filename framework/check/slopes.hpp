@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "bench.hpp"
 #include "measure.hpp"
+#include "spots.hpp"
 
 namespace tactus::check
 {
@@ -11,21 +11,31 @@ namespace tactus::check
 /// J is the Jacobian of the forces.
 using Directions = std::vector<Eigen::Matrix3d>;
 
-/// Measures the slopes of a role along the motion.
-///
-/// Two copies of the graph run side by side. At each place, the motion halts in both, and the tool of one copy is shifted by a
-/// nanometre along each axis, to both sides. The difference between the two copies is the response to the shift alone: vibrations,
-/// noise and sounds are the same in both. Nodes that play when they are hit are silent, because they respond to events and not to
-/// the position.
 struct SlopeWork
 {
-    std::size_t role = 0;
-    std::size_t places = 0;                ///< number of places where slopes are measured, spread evenly along the motion
-    std::int64_t longest_delay = 0;        ///< of the compiled paths of the role, in ticks
+    std::vector<Spot> spots {};            ///< where slopes are measured, in the order of the motion
+    std::int64_t longest_delay = 0;        ///< of the compiled paths, in ticks
     std::vector<std::size_t> without {};   ///< nodes that are silent
+    bool looks_for_jumps = true;
 };
 
-/// Also computes `directions`, as described above.
-std::vector<Slope> measureSlopes (const Subject&, const HandMotion&, const SlopeWork&, Directions& directions);
+struct Slopes
+{
+    std::vector<std::vector<Slope>> by_role {};   ///< by role, then place: the spots, and the places that were narrowed down
+    std::vector<Linked> linked {};                ///< by place
+    std::vector<Jump> jumps {};
+    std::vector<Directions> directions {};   ///< by role
+};
+
+/// Measures the slopes of all roles.
+///
+/// Two copies of the graph run side by side (Pair). At each spot, the motion halts in both, and the tool of each role in one copy is
+/// shifted by a nanometre along each axis, to both sides. Nodes that play when they are hit are silent, because they respond to
+/// events and not to the position.
+///
+/// If the forces change by more along the spot than the slope in its middle explains, the place of the change is narrowed down to
+/// 20 nm. The slope is then measured there, too. A change that remains over these 20 nm is a jump, unless it does not
+/// repeat when the tools go back and forth.
+Slopes measureSlopes (const Subject&, const HandMotion&, const SlopeWork&);
 
 }   // namespace tactus::check

@@ -21,6 +21,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <memory>
 
 namespace tactus::host
@@ -212,6 +213,14 @@ std::vector<check::HandChoice> handsOf (const std::vector<CheckedRole>& roles)
     return hands;
 }
 
+std::vector<check::Reach> reachesOf (const std::vector<CheckedRole>& roles)
+{
+    std::vector<check::Reach> reaches;
+    for (const auto& r : roles)
+        if (const auto& box = r.device.numbers.workspace) reaches.push_back ({ r.device.role, box->min, box->max });
+    return reaches;
+}
+
 /// Moves each role through the workspace of its device, or through a box of 10 cm around the origin.
 check::HandMotion sweep (std::shared_ptr<Plan> plan, const std::vector<CheckedRole>& roles, double duration_s)
 {
@@ -251,6 +260,7 @@ void run (const CheckOptions& options)
         recorded.motion = sweep (compiled.plan, roles, options.duration_s);
     else
         recorded = check::recordMotion (subject, handsOf (roles), folder, options.duration_s);
+    std::ranges::move (check::divergence (recorded.motion, reachesOf (roles)), std::back_inserter (recorded.messages));
     if (report (recorded.messages, loaded, options.graph) > 0) throw Stop {};
 
     const auto demand = check::measure (subject, recorded.motion);

@@ -239,6 +239,7 @@ TEST_CASE ("a low-pass in the loop counts as a delay, as long as the one it has 
     s.wire ("hand.position -> wall.position").wire ("wall.resistance -> smooth.in").node ("up", "vector.join").wire ("smooth.out -> up.z");
     s.wire ("up.out -> motor.force");
     s.graph.rate_hz = 10e3;
+    s.graph.devices.emplace_back ("tip", Json { { "driver", "gesture" }, { "path", "stroke" } });   // a free tool would be pushed away
     const auto motion = check::recordMotion ({ s.graph, catalogue() }, {}, ".", 0.1).motion;
     const auto demand = check::measure ({ s.graph, catalogue() }, motion, { .places = 4 });
     const auto& slope = demand.roles[0].slopes.back();

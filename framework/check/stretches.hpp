@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "bench.hpp"
+
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace tactus::check
+{
+
+/// The value of a param or choice as it is set, without wires; the fallback if the node has no such param.
+double valueInFile (const Plan&, std::size_t node, std::string_view id, double fallback);
+
+/// Finds the shortest stretch s at which the contact of a friction node slides while at least half of its largest drag is felt. A light
+/// touch slides at a shorter stretch, but its drag is weaker, too. What counts as s depends on the node:
+///
+///  - A friction with a normal_force and load `bound`: s = (mu f_n/sigma) (d_max/d_max0).
+///  - Any other node with a param d_max in m: s = d_max.
+///  - A surface with a contact, a normal and a depth, such as deform.surface: s is mu_c times the depth; mu_c is the largest
+///    ratio of sideways to normal deflection while the contact slips.
+class StretchWatch
+{
+public:
+    /// Empty if the node does not stretch like this.
+    static std::optional<StretchWatch> of (const Plan&, std::size_t node);
+
+    void look (const Plan&);   ///< call after each tick
+
+    std::size_t node() const noexcept { return its_node; }
+    double shortest() const noexcept;   ///< s, in m; infinite if the node gave no force
+    double teeth() const noexcept;      ///< length of the teeth of stick-slip at this stretch, in m; 0 without stick-slip
+
+private:
+    enum class Kind
+    {
+        fixed,
+        bound,
+        surface
+    };
+
+    StretchWatch (const Plan&, std::size_t node, Kind);
+
+    double input (const Plan&, std::string_view id, int component = 0) const;
+    double output (const Plan&, std::string_view id, int component = 0) const;
+    Vec3 vectorOutput (const Plan&, std::string_view id) const;
+    double param (const Plan&, std::string_view id) const;
+    void lookAtFriction (const Plan&);
+    void lookAtSurface (const Plan&);
+
+    std::size_t its_node;
+    Kind kind;
+    NodeForces forces;
+    std::vector<std::pair<double, double>> seen {};   // for each tick with a force: drag in N, stretch in m (of a surface: depth in m)
+    double ratio = 0.0;                               // of a surface: mu_c
+    double static_ratio = 1.0;                        // 1: no stick-slip
+};
+
+}   // namespace tactus::check

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include <catch2/catch.hpp>
+
+#include "loops.hpp"
+
+using namespace tactus;
+using test::Loops;
+
+namespace
+{
+constexpr double T = 1e-3;   // s
+
+/// True if a condition about the whole loop is broken, as by a wire that is too stiff.
+bool isJudgedUnstable (const std::vector<check::Condition>& all)
+{
+    return std::ranges::any_of (all, [] (const check::Condition& c) {
+        return c.verdict == check::Verdict::broken && (c.id == "stiffness" || c.id == "coupling" || c.id == "curl" || c.id == "damping" || c.id == "jump");
+    });
+}
+}   // namespace
+
+TEST_CASE ("two hands that are stable alone but explode together break 'coupling'", "[check]")
+{
+    Loops loops { .tools = { { .mass = 0.1, .damping = 1.0 }, { .mass = 0.1, .damping = 1.0 } } };
+    loops.spring ("h0.x", "h1.x", 1500.0);   // alone, a hand could have 2B/T = 2000 N/m
+    REQUIRE (loops.growth (20'000) > 10.0);
+    const auto all = loops.conditions();
+    INFO (test::describe (all));
+    CHECK (test::brokenIds (all).substr (2) == ":coupling");
+}
+
+TEST_CASE ("a spring between two hands is judged as the condition on the whole Jacobian says", "[check]")
+{
+    const Simulation light { .mass = 0.05, .damping = 0.5 }, heavy { .mass = 0.3, .damping = 1.0 }, late { .mass = 0.2, .damping = 0.7, .delay = 2 };
+    for (const auto& [a, b] : { std::pair (light, light), std::pair (light, heavy), std::pair (heavy, late), std::pair (late, late) })
+    {
+        // The symmetric stiffness (k -k; -k k) has the load T k sum (d + 1/2)/B, if the delays are equal. If not, the bound is on the safe side.
+        const double unit = T * ((a.delay + 0.5) / a.damping + (b.delay + 0.5) / b.damping);
+        for (const double factor : { 0.9, 1.1 })
+        {
+            Loops loops { .tools = { a, b } };
+            loops.spring ("h0.y", "h1.y", factor / unit);
+            const auto all = loops.conditions();
+            INFO (factor << '\n'
+                         << test::describe (all));
+            if (factor > 1.0 || a.delay == b.delay) CHECK (isJudgedUnstable (all) == (factor > 1.0));
+            if (factor < 1.0) CHECK (loops.growth (10'000) < 1.0);
+            if (factor > 1.0 && a.mass == b.mass) CHECK (loops.growth (10'000) > 1.0);
+        }
+    }
+}
+
+TEST_CASE ("a field that turns breaks 'curl' where the tool alone spirals outwards, and not before", "[check]")
+{
+    const auto judge = [] (double mass, double damping, double stiffness) {
+        for (const double factor : { 0.9, 1.1 })
+        {
+            Loops loops { .tools = { { .mass = mass, .damping = damping } } };
+            const double left = damping - stiffness * T / 2, turn = factor * left * std::sqrt (stiffness / mass);
+            loops.ground ("h0.x", stiffness);
+            loops.ground ("h0.y", stiffness);
+            loops.pull ("h0.x", "h0.y", turn);
+            loops.pull ("h0.y", "h0.x", -turn);
+            const auto all = loops.conditions();
+            INFO (test::describe (all));
+            CHECK ((loops.growth (15'000) > 1.0) == (factor > 1.0));
+            CHECK (test::brokenIds (all) == (factor > 1.0 ? "h0:curl" : ""));
+        }
+    };
+    judge (0.05, 0.5, 20.0);
+    judge (0.1, 1.0, 60.0);
+    judge (0.3, 2.0, 150.0);
+    judge (0.05, 2.0, 150.0);
+}
+
+TEST_CASE ("a force computed on every k-th tick is judged by its own period", "[check]")
+{
+    for (const int k : { 2, 3, 4, 6, 7 })
+    {
+        Loops loops { .tools = { { .mass = 0.5, .damping = 1.0 } } };
+        const double stiffest = 2.0 * 1.0 / (k * T);
+        for (const double factor : { 0.97, 1.03 })
+        {
+            loops.nodes.clear();
+            loops.graphs.clear();
+            loops.wires.clear();
+            loops.slowGround (0, 'x', factor * stiffest, k);
+            INFO ("every " << k << ", factor " << factor << '\n'
+                           << test::describe (loops.conditions()));
+            CHECK ((loops.growth (40'000) > 1.0) == (factor > 1.0));
+            CHECK (isJudgedUnstable (loops.conditions()) == (factor > 1.0));
+        }
+    }
+}
+
+TEST_CASE ("a virtual damper is judged by the mass at the motor if the structure bends", "[check]")
+{
+    const auto judged = [] (const Simulation& tool, double b) {
+        Loops loops { .tools = { tool } };
+        loops.pull ("h0.x", "h0.x", b / T);
+        loops.pull ("h0.x", "h0.x", -b / T, 1);
+        const auto all = loops.conditions();
+        const auto damping = std::ranges::find (all, "damping", &check::Condition::id);
+        REQUIRE (damping != all.end());
+        return std::pair (loops.growth (4000) > 1.5, damping->verdict == check::Verdict::broken);
+    };
+    const Simulation rigid { .mass = 0.1, .damping = 0.1 };
+    const Simulation bends { .mass = 0.1, .damping = 0.1, .first_mode = 30.0 }, light { .mass = 0.1, .damping = 0.1, .first_mode = 30.0, .end_mass = 0.08 };
+    for (const auto& [tool, at_motor] : { std::pair (rigid, 0.1), std::pair (bends, 0.05), std::pair (light, 0.02) })
+    {
+        INFO ("motor mass " << at_motor << " kg");
+        const double limit = 0.1 + 2.0 * at_motor / T;
+        CHECK (judged (tool, 0.97 * limit) == std::pair (false, false));
+        CHECK (judged (tool, 1.03 * limit) == std::pair (true, true));
+    }
+}

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <tactus/check/hands.hpp>
+#include <tactus/check/judge.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/run/device/sim.hpp>
+#include <tactus/run/engine.hpp>
+
+#include "support/sketch.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tactus::test
+{
+
+/// Hands named h0, h1, … on simulated devices, with springs between their positions and their forces. A test first judges
+/// the loop as `tactus check` does, then lets go of the tools near their equilibrium.
+struct Loops
+{
+    double rate_hz = 1000.0;
+    std::vector<Simulation> tools;
+    std::vector<std::string> nodes {}, wires {}, graphs {};   // JSON
+
+    struct Pull
+    {
+        std::string from, to;
+        double stiffness;
+    };
+    std::vector<Pull> pulls {};
+
+    /// True if the springs push the tools away from where they are, however slowly: no device could keep them there.
+    bool pushesAway() const
+    {
+        const auto number = [] (const std::string& place) { return 3 * (place[1] - '0') + place[3] - 'x'; };
+        Eigen::MatrixXd k = Eigen::MatrixXd::Zero (static_cast<Eigen::Index> (3 * tools.size()), static_cast<Eigen::Index> (3 * tools.size()));
+        for (const auto& p : pulls)
+            k (number (p.to), number (p.from)) += p.stiffness;
+        const Eigen::VectorXcd values = k.eigenvalues();
+        return std::any_of (values.begin(), values.end(), [] (const auto& v) { return v.real() < 0.0 && std::abs (v.imag()) < 1e-9 * std::abs (v); });
+    }
+
+    std::string hand (std::size_t i) const { return "h" + std::to_string (i); }
+
+    /// The position `from` ("h0.x") drives the force `to` with this stiffness, in N/m: f = -stiffness p.
+    void pull (const std::string& from, const std::string& to, double stiffness, int delay = 0)
+    {
+        pulls.push_back ({ from, to, stiffness });
+        const auto name = [] (const std::string& place, const char* part) { return place.substr (0, 2) + part + place.substr (2); };
+        wire (name (from, "_at.position"), name (to, "_motor.force"), std::to_string (-stiffness) + " N/m", delay);
+    }
+
+    void wire (const std::string& from, const std::string& to, const std::string& gain = "1", int delay = 0)
+    {
+        const auto late = delay > 0 ? "[" + std::to_string (delay) + "] -> " : std::string();
+        wires.push_back (R"({ "wire": ")" + from + " -> " + late + to + R"(", "gain": ")" + gain + R"(" })");
+    }
+
+    /// A spring from a hand to a fixed point, along one axis.
+    void ground (const std::string& place, double stiffness, int delay = 0) { pull (place, place, stiffness, delay); }
+
+    /// A spring between two hands, along one axis.
+    void spring (const std::string& a, const std::string& b, double stiffness, int delay = 0)
+    {
+        for (const auto& [from, to] : { std::pair (a, b), std::pair (b, a) })
+        {
+            pull (from, from, stiffness, delay);
+            pull (from, to, -stiffness, delay);
+        }
+    }
+
+    /// A spring to a fixed point whose force is computed on every k-th tick and held.
+    void slowGround (std::size_t i, char axis, double stiffness, int k)
+    {
+        const auto name = "slow" + std::to_string (nodes.size());
+        const auto end = std::string (".") + axis;
+        pulls.push_back ({ hand (i) + end, hand (i) + end, stiffness });
+        nodes.push_back ('"' + name + R"(": { "type": "graph:)" + name + R"(", "every": )" + std::to_string (k) + R"( })");
+        graphs.push_back ('"' + name + R"(": { "nodes": { "pass": { "type": "signal.gain" } },
+            "expose": { "inputs": { "in": "pass.in" }, "outputs": { "out": "pass.out" } } })");
+        wire (hand (i) + "_at.position" + end, name + ".in");
+        wire (name + ".out", hand (i) + "_motor.force" + end, std::to_string (-stiffness) + " N/m");
+    }
+
+    graph::Graph graph() const
+    {
+        std::string text = R"({ "format": "tactus-graph", "version": 1, "name": "loops", "rate_hz": )" + std::to_string (rate_hz) + R"(, "nodes": { )";
+        for (std::size_t i = 0; i < tools.size(); ++i)
+        {
+            text += i == 0 ? "" : ", ";
+            text += '"' + hand (i) + R"(_at": { "type": "device.position", "role": ")" + hand (i) + R"(" }, ")" + hand (i)
+                    + R"(_motor": { "type": "device.force", "role": ")" + hand (i) + R"(" })";
+        }
+        for (const auto& n : nodes)
+            text += ", " + n;
+        text += R"( }, "graphs": { )";
+        for (std::size_t i = 0; i < graphs.size(); ++i)
+            text += (i == 0 ? "" : ", ") + graphs[i];
+        text += R"( }, "wires": [ )";
+        for (std::size_t i = 0; i < wires.size(); ++i)
+            text += (i == 0 ? "" : ", ") + wires[i];
+        const auto loaded = readGraph (text + " ] }");
+        INFO (text << '\n'
+                   << test::text (loaded.messages));
+        REQUIRE_FALSE (hasErrors (loaded.messages));
+        return loaded.graph;
+    }
+
+    /// Judges the loop along a slow sweep of a centimetre around the equilibrium.
+    std::vector<check::Condition> conditions (double half_box = 5e-3, check::Thoroughness how = { .places = 6 }) const
+    {
+        const auto g = graph();
+        const check::Subject subject { g, catalogue() };
+        std::vector<std::unique_ptr<check::SweepDevice>> sweeps;
+        std::vector<check::Hand> hands;
+        std::vector<check::RoleDevice> devices;
+        for (std::size_t i = 0; i < tools.size(); ++i)
+        {
+            sweeps.push_back (std::make_unique<check::SweepDevice> (Vec3 (Vec3::Constant (-half_box)), Vec3 (Vec3::Constant (half_box)),
+                                                                    1.0 + 0.37 * double (i)));
+            hands.push_back ({ hand (i), *sweeps.back() });
+            devices.push_back ({ hand (i), numbersOf (tools[i]), "sim" });
+        }
+        auto compiled = compile (g, catalogue(), { .rate_hz = rate_hz });
+        INFO (test::text (compiled.messages));
+        REQUIRE (compiled.plan);
+        const auto motion = check::recordMotion (compiled.plan, hands, static_cast<std::size_t> (rate_hz));
+        return check::judge (check::measure (subject, motion, how), devices);
+    }
+
+    /// Lets the tools go a little off their equilibrium. Returns their largest distance from it in the last quarter of the run, divided by
+    /// that in the first quarter.
+    double growth (int ticks) const
+    {
+        std::vector<std::unique_ptr<SimulatedDevice>> devices;
+        Engine engine { compile (graph(), catalogue(), { .rate_hz = rate_hz }).plan };
+        for (std::size_t i = 0; i < tools.size(); ++i)
+        {
+            auto tool = tools[i];
+            const double a = 1e-6 * (1.0 + 0.3 * static_cast<double> (i));
+            tool.position = { a, -0.7 * a, 0.4 * a };
+            devices.push_back (std::make_unique<SimulatedDevice> (tool));
+            engine.attach (hand (i), *devices.back());
+        }
+        double first = 0.0, last = 0.0;
+        for (int k = 0; k < ticks; ++k)
+        {
+            engine.tick();
+            for (std::size_t i = 0; i < tools.size(); ++i)
+            {
+                const double r = engine.plan().roles()[i].state->reading.true_position.norm();
+                if (! (r < 1e6)) return 1e9;
+                if (k < ticks / 4) first = std::max (first, r);
+                if (k >= 3 * ticks / 4) last = std::max (last, r);
+            }
+        }
+        return last / first;
+    }
+};
+
+inline std::string brokenIds (const std::vector<check::Condition>& all)
+{
+    std::string ids;
+    for (const auto& c : all)
+        if (c.verdict == check::Verdict::broken) ids += (ids.empty() ? "" : " ") + c.role + ":" + std::string (c.id);
+    return ids;
+}
+
+inline std::string describe (const std::vector<check::Condition>& all)
+{
+    std::string text;
+    for (const auto& c : all)
+        text += c.role + ":" + std::string (c.id) + " " + std::to_string (c.value) + " of " + std::to_string (c.limit) + ", " + c.text + "\n";
+    return text;
+}
+
+}   // namespace tactus::test
