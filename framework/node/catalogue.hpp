@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
+#include <iterator>
 #include <memory>
 #include <string>
 
@@ -31,6 +33,9 @@ struct PortSheet
 
 /// A node type. The functions take the node and its outputs as void*. `sources` holds one pointer per input component, in the
 /// order of the datasheet, with the entries of a list one after another. Hooks that the node does not have are null.
+///
+/// The tick thread calls the plain function pointers directly, also those of a plugin. The other functions are std::function, because
+/// those of a plugin translate between C++ and the C interface of plugins. Most of them run only when a graph is read or compiled.
 struct NodeType
 {
     Info info;
@@ -38,25 +43,36 @@ struct NodeType
     std::vector<SettingSheet> settings;
     std::size_t outputs_size, outputs_align, params_size;
 
-    std::shared_ptr<void> (*make)();
+    std::string origin {};                  ///< the file of the plugin that the type comes from; empty: it is compiled in
+    std::shared_ptr<const void> owner {};   ///< keeps the plugin loaded; null: compiled in
+
+    std::function<std::shared_ptr<void>()> make;
     void* (*paramsOf) (void* node) noexcept;
     void (*initialiseOutputs) (void* outputs) noexcept;
     void (*tick) (void* node, const double* const* sources, void* outputs) noexcept;
     void (*tickStored) (void* node, const void* stored, const double* const* sources, void* outputs) noexcept;   ///< `stored` points to a Params
     void (*peek) (void* node, const double* const* sources, void* outputs) noexcept;
     int (*delay) (const void* node) noexcept;
-    Cost (*cost) (const void* node);
-    std::string (*problem) (const void* node);
-    std::string (*warning) (const void* node, const Setup&);
-    void (*prepare) (void* node, const Setup&);
+    std::function<Cost (const void* node)> cost;
+    std::function<std::string (const void* node)> problem;
+    std::function<std::string (const void* node, const Setup&)> warning;
+    std::function<void (void* node, const Setup&)> prepare;
     void (*update) (void* node) noexcept;
     void (*adopt) (void* node, const void* old) noexcept;
-    Claims (*claims) (const void* node);
-    void (*bind) (void* node, const DeviceState&);
-    std::string (*missing) (const void* node, const DeviceLayout&);
-    void (*learn) (void* node, const DeviceLayout&) noexcept;
-    Effort (*effort) (const void* node) noexcept;
+    std::function<Claims (const void* node)> claims;
+    std::function<void (void* node, const DeviceState&)> announce {};   ///< copies what `bind` needs of a layout; may allocate  [main thread]
+    std::function<void (void* node, const DeviceState&)> bind;          ///< allocates nothing  [main or tick thread]
+    std::function<std::string (const void* node, const DeviceLayout&)> missing;
+    std::function<void (void* node, const DeviceMechanics&)> learn {};   ///< allocates nothing  [main or tick thread]
+    std::function<Effort (const void* node)> effort;
 };
+
+/// Binds a node for the first time. [main thread]
+inline void bindFirst (const NodeType& type, void* node, const DeviceState& state)
+{
+    if (type.announce) type.announce (node, state);
+    type.bind (node, state);
+}
 
 /// The nodes of a program that are not in nodes/. The build defines one object of static storage duration per folder; see
 /// tactus_add_nodes in catalogue.cmake.
@@ -77,24 +93,65 @@ private:
     const NodeLibrary* next;
 };
 
-/// All node types, sorted by id.
+/// All node types, sorted by id. A copy is cheap and shares the types; the types live as long as any copy, and a plan keeps one.
 class Catalogue
 {
+    using Types = std::vector<std::shared_ptr<const NodeType>>;
+
 public:
+    class Iterator
+    {
+    public:
+        using iterator_category = std::forward_iterator_tag;
+        using value_type = NodeType;
+        using difference_type = std::ptrdiff_t;
+        using pointer = const NodeType*;
+        using reference = const NodeType&;
+
+        Iterator() = default;
+        explicit Iterator (Types::const_iterator at) noexcept : here (at) {}
+
+        const NodeType& operator*() const noexcept { return **here; }
+        const NodeType* operator->() const noexcept { return here->get(); }
+        Iterator& operator++() noexcept
+        {
+            ++here;
+            return *this;
+        }
+        Iterator operator++ (int) noexcept { return Iterator { here++ }; }
+        bool operator== (const Iterator&) const = default;
+
+    private:
+        Types::const_iterator here {};
+    };
+
+    Catalogue() = default;
+
     /// Throws std::invalid_argument if two types have the same id: a graph would not say which one it means.
     explicit Catalogue (std::vector<NodeType>, std::vector<NodeType> more = {});
 
     const NodeType* find (std::string_view id) const noexcept;
 
-    auto begin() const noexcept { return types.begin(); }
-    auto end() const noexcept { return types.end(); }
+    /// This catalogue with these types in addition. A type replaces one of the same id; all other types keep their address, so
+    /// their nodes continue when a graph is compiled again.
+    Catalogue with (std::vector<NodeType>) const;
+
+    Iterator begin() const noexcept { return types ? Iterator { types->begin() } : Iterator {}; }
+    Iterator end() const noexcept { return types ? Iterator { types->end() } : Iterator {}; }
 
 private:
-    std::vector<NodeType> types;
+    explicit Catalogue (Types);
+
+    std::shared_ptr<const Types> types;
 };
 
-/// The nodes in nodes/ and those of all NodeLibrary objects that exist when this is called for the first time. [any thread]
+/// The nodes in nodes/, those of all NodeLibrary objects that exist when this is called for the first time, and what
+/// extendCatalogue has added. [any thread]
 const Catalogue& catalogue();
+
+/// Adds types to catalogue(), or replaces those of the same id, for everything that is compiled from now on. Existing plans and
+/// runs keep the types that they use. [main thread, while no other thread uses catalogue()]
+void extendCatalogue (std::vector<NodeType>);
 
 //==============================================================================
 // Implementation below.
@@ -307,7 +364,7 @@ NodeType describe()
     if constexpr (Claiming<N>) t.claims = [] (const void* n) { return static_cast<const N*> (n)->claims(); };
     if constexpr (DeviceBound<N>) t.bind = [] (void* n, const DeviceState& s) { static_cast<N*> (n)->bind (s); };
     if constexpr (NamesDeviceParts<N>) t.missing = [] (const void* n, const DeviceLayout& l) { return static_cast<const N*> (n)->missing (l); };
-    if constexpr (LearnsOfDevice<N>) t.learn = [] (void* n, const DeviceLayout& l) noexcept { static_cast<N*> (n)->learn (l); };
+    if constexpr (LearnsOfDevice<N>) t.learn = [] (void* n, const DeviceMechanics& m) noexcept { static_cast<N*> (n)->learn (m); };
     if constexpr (Sink<N>) t.effort = [] (const void* n) noexcept { return static_cast<const N*> (n)->effort(); };
     return t;
 }

@@ -80,6 +80,7 @@ Json toJson (const SettingSheet& s)
 Json datasheetJson (const NodeType& t)
 {
     Json j = { { "id", t.info.id }, { "name", t.info.name }, { "summary", t.info.summary }, { "source", t.info.source } };
+    if (! t.origin.empty()) j["plugin"] = t.origin;
     const auto all = [&] (const char* key, const auto& sheets) {
         j[key] = Json::array();
         for (const auto& s : sheets)

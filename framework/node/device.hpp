@@ -54,6 +54,9 @@ public:
 
     void clear() noexcept { count = 0; }
 
+    /// Where the number of values in use is stored. Plugins read it, and the values from begin(), in place.
+    const int* used() const noexcept { return &count; }
+
     const double* begin() const noexcept { return values; }
     const double* end() const noexcept { return values + count; }
 
@@ -99,6 +102,15 @@ struct Effort
     Channels signals {};          ///< signal outputs, channel 1 first; in N, m/s2 or 1, depending on calibration
 };
 
+/// What is known about the mechanics of a device, at its tool.
+struct DeviceMechanics
+{
+    double mass = 0.0;      ///< mass that the hand moves, in kg; 0: unknown
+    double damping = 0.0;   ///< damping, in N s/m; 0: unknown
+
+    bool operator== (const DeviceMechanics&) const = default;
+};
+
 /// What a device has in addition to a tool that moves and can be pushed, and what is known about that tool. Nodes find their part of a
 /// Reading and an Effort by these names. At most Channels::most axes and channels of each kind, and 32 buttons, are used; the rest is
 /// ignored.
@@ -108,8 +120,7 @@ struct DeviceLayout
     std::vector<std::string> efforts {};   ///< axes that can be pushed
     std::vector<std::string> buttons {};   ///< names by bit; "" for a button without a name
     int signal_inputs = 0, signal_outputs = 0;
-    double mass = 0.0;      ///< mass that the hand moves at the tool, in kg; 0: unknown
-    double damping = 0.0;   ///< damping of the mechanics at the tool, in N s/m; 0: unknown
+    DeviceMechanics mechanics {};
 
     bool operator== (const DeviceLayout&) const = default;
 };

@@ -34,7 +34,7 @@
 ///                             and again when the role gets its device, then without allocating          [main or tick thread]
 ///   missing (layout) -> string  the part that a device node needs and the device of its role lacks, worded to follow "has";
 ///                             empty if none. Without that part the node reads 0, or has no effect       [main thread]
-///   learn (layout)            tells a node that is not bound to a device what is known of the device that its inputs come from,
+///   learn (mechanics)         tells a node that is not bound to a device what is known of the device that its inputs come from,
 ///                             directly or through other nodes, or, if it has no such inputs, of the device that its outputs
 ///                             go to. Called before warning and prepare, with what the graph describes, and again when the
 ///                             role gets its device, then without allocating                             [main or tick thread]
@@ -50,6 +50,8 @@
 #include "device.hpp"
 
 #include <concepts>
+#include <functional>
+#include <memory>
 #include <string>
 #include <type_traits>
 
@@ -62,8 +64,8 @@ class QueryService;
 /// What a host lends to the nodes of a graph. Each service may be missing; nodes work without it.
 struct Services
 {
-    std::unique_ptr<NearestTriangle> (*nearest_triangle) (std::shared_ptr<const Mesh>) = nullptr;   ///< builds an index of a large mesh
-    QueryService* answers = nullptr;                                                                ///< answers the async queries; null: answered when due
+    std::function<std::unique_ptr<NearestTriangle> (std::shared_ptr<const Mesh>)> nearest_triangle {};   ///< builds an index of a large mesh; call it in prepare
+    QueryService* answers = nullptr;                                                                     ///< answers the async queries; null: answered when due
 };
 
 /// What the engine gives every node before it runs.
@@ -72,7 +74,7 @@ struct Setup
     double rate_hz = 4000.0;
     Services services {};
 
-    constexpr double dt_s() const noexcept { return 1.0 / rate_hz; }
+    double dt_s() const noexcept { return 1.0 / rate_hz; }
 };
 
 /// What a node guarantees with its current params and settings.
@@ -150,7 +152,7 @@ template <typename N>
 concept NamesDeviceParts = DeviceBound<N> && requires (const N node, const DeviceLayout& layout) { { node.missing (layout) } -> std::same_as<std::string>; };
 
 template <typename N>
-concept LearnsOfDevice = ! DeviceBound<N> && requires (N node, const DeviceLayout& layout) { { node.learn (layout) } noexcept; };
+concept LearnsOfDevice = ! DeviceBound<N> && requires (N node, const DeviceMechanics& device) { { node.learn (device) } noexcept; };
 
 template <typename N>
 concept Sink = DeviceBound<N> && requires (const N node) { { node.effort() } noexcept -> std::same_as<Effort>; };

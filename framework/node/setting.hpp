@@ -19,6 +19,7 @@
 #include "datasheet.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <variant>
@@ -67,7 +68,7 @@ struct SettingSheet
     Limits limits;
     std::vector<SettingSheet> fields;   ///< fields of the record, or of each of the records
     SettingValue initial;
-    void (*set) (void* node, const SettingValue&);   ///< takes the alternative of `kind`, integers as double; null for a field
+    std::function<void (void* node, const SettingValue&)> set;   ///< takes the alternative of `kind`, integers as double; null for a field
 
     void describe (std::string_view id_, UnitRule unit_, std::string_view about_, Limits limits_) noexcept
     {

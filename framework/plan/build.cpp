@@ -231,7 +231,7 @@ private:
         auto& instance = parts.instances[at (i)];
         if (n.type->learn)
             if (const auto role = std::ranges::find (parts.roles, n.role, &RoleUse::name); role != parts.roles.end())
-                n.type->learn (instance.node.get(), role->state->layout);
+                n.type->learn (instance.node.get(), role->state->layout.mechanics);
         auto own = setup;
         own.rate_hz *= flat.speed (n.section);
         if (n.type->prepare) n.type->prepare (instance.node.get(), own);
@@ -274,7 +274,7 @@ private:
             parts.roles.push_back ({ n.role, std::make_shared<DeviceState>(), {} });
             role = std::prev (parts.roles.end());
         }
-        if (! is_bound) n.type->bind (nodeOf (i), *role->state);
+        if (! is_bound) bindFirst (*n.type, nodeOf (i), *role->state);
         if (n.type->effort) role->sinks.push_back ({ n.type->effort, nodeOf (i), at (i) });
     }
 

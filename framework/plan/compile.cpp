@@ -9,6 +9,7 @@
 
 #include <tactus/graph/instances.hpp>
 #include <tactus/graph/text.hpp>
+#include <tactus/node/node_fault.hpp>
 #include <tactus/text/budget.hpp>
 
 #include <iterator>
@@ -95,6 +96,7 @@ void askNodes (Flat& flat, const Setup& setup, const graph::Graph& graph)
     {
         const auto& n = flat.node (i);
         if (! flat.spend (0.0, bytesOf (n), n.origin)) return;
+        if (n.runs()) warnOfDeviceDelay (flat, n, graph);
         if (! n.type->problem && ! n.type->warning && ! n.type->cost) continue;
         auto own = setup;
         own.rate_hz *= flat.speed (n.section);
@@ -235,9 +237,8 @@ Outside findOutside (Flat& flat, const Scope& top, const CompileOptions& options
     addExposed (top, outside.exposed);
     return outside;
 }
-}   // namespace
 
-Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const CompileOptions& options)
+Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const CompileOptions& options)
 {
     beginReading();
     auto [flat, top, used] = flatten (g, catalogue, options.overrides, options.assets);
@@ -267,6 +268,19 @@ Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const Compi
     auto made = build (flat, units, ordered, std::move (outside), setup, options);
     std::ranges::move (flat.messages, std::back_inserter (messages));
     return { std::move (made), std::move (messages) };
+}
+}   // namespace
+
+Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const CompileOptions& options)
+{
+    try
+    {
+        return compileAll (g, catalogue, options);
+    }
+    catch (const NodeFault& fault)
+    {
+        return { nullptr, { Message::error ("plugin/failed", "", fault.what(), "ask the author of the plugin, or use another node") } };
+    }
 }
 
 }   // namespace tactus

@@ -5,6 +5,9 @@
 #include <tactus/text/object_reader.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
+#include <variant>
 #include <vector>
 
 namespace tactus::plan
@@ -58,7 +61,7 @@ void findDevices (Flat& flat)
             if (const int device = before[at (n)] != none ? before[at (n)] : after[at (n)]; device != none) flat.nodes[at (n)].role = flat.node (device).role;
 }
 
-DeviceLayout describedDevice (const graph::Graph& graph, const std::string& role)
+DeviceMechanics describedDevice (const graph::Graph& graph, const std::string& role)
 {
     const auto* description = graph.device (role);
     if (description == nullptr || ! description->is_object()) return {};
@@ -66,6 +69,24 @@ DeviceLayout describedDevice (const graph::Graph& graph, const std::string& role
     Messages unheeded;   // makeDevice() reports the same problems
     ObjectReader in (*description, {}, unheeded);
     return { .mass = in.number ("mass", unit::kilogram, Bounds::positive(), 0.0), .damping = in.number ("damping", unit::damping, Bounds::notNegative(), 0.0) };
+}
+
+void warnOfDeviceDelay (Flat& flat, const FlatNode& n, const graph::Graph& graph)
+{
+    const auto setting = std::ranges::find (n.type->settings, "delay", &SettingSheet::id);
+    const auto* description = graph.device (n.role);
+    if (n.type->learn == nullptr || setting == n.type->settings.end() || description == nullptr || ! description->is_object()) return;
+
+    Messages unheeded;   // makeDevice() reports the same problems
+    const double device = ObjectReader (*description, {}, unheeded).number ("delay", unit::count, Bounds::notNegative(), 0.0);
+    const auto place = at (setting - n.type->settings.begin());
+    const auto* value = place < n.settings.size() ? std::get_if<double> (&n.settings[place]) : nullptr;
+    const double compensated = (value != nullptr ? *value : 0.0) * flat.ticksOf (n.section);
+    if (! (compensated < device)) return;
+    flat.warn ("rate/device_delay", n.origin,
+               "'" + n.path + "' (" + std::string (n.type->info.id) + ") compensates a delay of " + std::to_string (std::lround (compensated))
+                   + " ticks, but the device '" + n.role + "' alone delays the force by " + std::to_string (std::lround (device)),
+               "set its \"delay\" to the delay of the device plus that of the wires and nodes between hand and motor");
 }
 
 }   // namespace tactus::plan

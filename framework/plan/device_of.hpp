@@ -14,6 +14,10 @@ namespace tactus::plan
 void findDevices (Flat&);
 
 /// What the graph says about the tool of a role's device: `mass` and `damping` in its description. The session may use another device.
-DeviceLayout describedDevice (const graph::Graph&, const std::string& role);
+DeviceMechanics describedDevice (const graph::Graph&, const std::string& role);
+
+/// Warns (rate/device_delay) if a node compensates a shorter delay than its device has in the graph's description. A node compensates
+/// a delay if it learns about its device and has a setting `delay`, in ticks.
+void warnOfDeviceDelay (Flat&, const FlatNode&, const graph::Graph&);
 
 }   // namespace tactus::plan

@@ -145,6 +145,7 @@ struct Section
 
 struct Flat
 {
+    Catalogue catalogue {};        ///< keeps the types of the nodes alive
     std::vector<FlatNode> nodes;   ///< in file order; where a subgraph node was, there are the nodes of its subgraph
     std::vector<FlatWire> wires;
     std::vector<double> values;                                            ///< values of all params, node by node and row by row

@@ -12,6 +12,7 @@
 #include <tactus/graph/text.hpp>
 #include <tactus/text/budget.hpp>
 #include <tactus/text/closest_match.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <cmath>
 
@@ -35,7 +36,8 @@ void makeRoom (std::vector<T>& all, std::size_t more)
 class Flattener
 {
 public:
-    Flattener (const Catalogue& c, std::span<const Override> o, Assets* a, Flattened& r) : nodes (c), overrides (o), assets (a), result (r), flat (r.flat) {}
+    Flattener (const Catalogue& c, std::span<const Override> o, Assets* a, Flattened& r)
+        : nodes (c), overrides (o), assets (a), result (r), flat (r.flat) { flat.catalogue = c; }
 
     void runAlone (const graph::Graph& g, const std::string& subgraph, const graph::Patch& patch)
     {
@@ -129,6 +131,17 @@ private:
         return hasToStop();
     }
 
+    /// The remedy for an unknown node type. The graph may name the plugin, under the id of the type or its family.
+    static std::string whatToInstall (const graph::Graph& g, const std::string& type)
+    {
+        const std::string fate = "it is kept as a placeholder whose outputs are 0; ";
+        if (const auto plugins = g.extra.find ("plugins"); plugins != g.extra.end() && plugins->is_object())
+            for (const auto& key : { type, type.substr (0, type.find ('.')) })
+                if (const auto named = plugins->find (key); named != plugins->end() && named->is_string())
+                    return fate + "install the plugin " + quote (named->get<std::string>());
+        return fate + "`tactus nodes` lists all types";
+    }
+
     void addNode (Scope& scope, const graph::Node& node, Origin here, const Roles& roles, bool muted, Scope::Member& member)
     {
         const auto* type = nodes.find (node.type);
@@ -140,7 +153,7 @@ private:
                 ids.emplace_back (t.info.id);
             flat.error ("node/unknown_type", at (here, "type"),
                         "'" + scope.prefix + node.name + "' has the unknown type '" + node.type + "'" + didYouMean (node.type, ids),
-                        "it is kept as a placeholder whose outputs are 0; `tactus nodes` lists all types");
+                        whatToInstall (*scope.owner, node.type));
             return;
         }
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -51,7 +52,7 @@ namespace plan
 /// A sink node of a role.
 struct SinkUse
 {
-    Effort (*effort) (const void* node) noexcept;
+    std::function<Effort (const void* node)> effort;
     const void* node;
     std::size_t instance;   ///< number of the node's Instance
 };

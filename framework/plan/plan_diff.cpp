@@ -2,6 +2,8 @@
 #include "plan_diff.hpp"
 #include "same_settings.hpp"
 
+#include <tactus/plugin/plugin_node.hpp>
+
 #include <algorithm>
 #include <compare>
 #include <span>
@@ -108,6 +110,48 @@ bool choosesOtherwise (const Flat& a, std::size_t i, const Flat& b, std::size_t 
     return false;
 }
 
+/// The param of `old`, another build of the same type, whose value a param continues; null if there is none, or if the new range may
+/// refuse the value.
+const PortSheet* sameParam (const PortSheet& param, const NodeType& old)
+{
+    const auto fits = [&] (const PortSheet& p) {
+        const auto &range = p.limits.hard, &new_range = param.limits.hard;
+        return p.id == param.id && p.width == param.width && p.list == param.list && std::ranges::equal (p.choices, param.choices)
+               && p.unit.unit.dimension == param.unit.unit.dimension && range.min >= new_range.min && range.max <= new_range.max;
+    };
+    const auto found = std::ranges::find_if (old.params, fits);
+    return found == old.params.end() ? nullptr : &*found;
+}
+
+/// Lets the knobs of a node keep the values to which they were turned when the type of the node is built again, as after an edit of its
+/// C++. A knob whose value in the file has changed does not keep its old value. The new type may have other params, so the node cannot
+/// share the old knobs.
+void keepTurned (Knobs& knobs, const Flat& flat, std::size_t i, const PlanParts& before, std::size_t old, Takeover& takeover)
+{
+    const auto &now = *flat.nodes[i].type, &then = *before.flat.nodes[old].type;
+    const auto* turned = before.instances[old].knobs.get();
+    if (turned == nullptr) return;
+    const auto hold = [&] (auto& to, const auto& from) { takeover.held.push_back ({ &to, &from, sizeof from }); };
+    hold (knobs.started, turned->started);
+    hold (knobs.ramping, turned->ramping);
+    for (std::size_t p = 0; p < now.params.size(); ++p)
+    {
+        const auto* param = sameParam (now.params[p], then);
+        if (param == nullptr) continue;
+        const auto q = static_cast<std::size_t> (param - then.params.data());
+        const auto values = flat.param (static_cast<int> (i), p), values_before = before.flat.param (static_cast<int> (old), q);
+        for (std::size_t c = 0; c < std::min (values.size(), values_before.size()); ++c)
+        {
+            if (values[c] != values_before[c]) continue;
+            auto& knob = knobs.all[Knobs::indexOf (now, p, c)];
+            const auto& knob_before = turned->all[Knobs::indexOf (then, q, c)];
+            hold (knob.left, knob_before.left);
+            hold (knob.to, knob_before.to);
+            hold (knob.value, knob_before.value);
+        }
+    }
+}
+
 std::vector<std::uint64_t> serialsOf (const RoleUse& role, const PlanParts& plan)
 {
     std::vector<std::uint64_t> all;
@@ -157,6 +201,15 @@ PlanDiff::Predecessor PlanDiff::knobsBefore (std::size_t i) const noexcept
     return withdrawn->flat.nodes[node].type == flat.nodes[i].type ? Predecessor { withdrawn, node } : Predecessor {};
 }
 
+PlanDiff::Predecessor PlanDiff::rebuiltFrom (std::size_t i) const noexcept
+{
+    if (matching.nodes[i] < 0) return {};
+    const auto old = at (matching.nodes[i]);
+    const auto &now = *flat.nodes[i].type, &then = *before->flat.nodes[old].type;
+    const bool is_rebuilt = now.make != nullptr && then.make != nullptr && &now != &then && now.info.id == then.info.id;
+    return is_rebuilt ? Predecessor { before, old } : Predecessor {};
+}
+
 /// How often a knob had been turned before the edit that set this value. The withdrawn plan may contain the same edit already.
 std::uint32_t PlanDiff::turnsBefore (const Knobs& knobs, std::size_t knob, double value) const noexcept
 {
@@ -195,6 +248,7 @@ std::shared_ptr<Knobs> PlanDiff::knobsOf (std::size_t i, Takeover& takeover) con
                 knob.target.store (knob.value, std::memory_order_relaxed);
             }
         }
+        if (const auto rebuilt = rebuiltFrom (i); rebuilt.plan) keepTurned (*knobs, flat, i, *rebuilt.plan, rebuilt.node, takeover);
         return knobs;
     }
 
@@ -214,6 +268,13 @@ void PlanDiff::noteSuccessor (std::size_t i, Takeover& takeover) const
 {
     if (flat.nodes[i].type->make == nullptr) return;
     const auto* old = predecessorOf (i);
+    if (const auto rebuilt = rebuiltFrom (i); rebuilt.plan != nullptr)
+    {
+        const auto& then = before->flat.nodes[rebuilt.node];
+        const bool adopts = then.runs() && flat.nodes[i].runs() && plugin::sharesState (*flat.nodes[i].type, *then.type);
+        takeover.successors.push_back ({ i, adopts ? flat.nodes[i].type->adopt : nullptr, before->instances[rebuilt.node].node.get() });
+        return;
+    }
     if (old == nullptr)
     {
         if (knobsBefore (i).plan) takeover.successors.push_back ({ i, nullptr, nullptr });

@@ -52,6 +52,7 @@ private:
     };
 
     Predecessor knobsBefore (std::size_t node) const noexcept;
+    Predecessor rebuiltFrom (std::size_t node) const noexcept;   ///< the node of the previous plan with another build of the same type
     std::uint32_t turnsBefore (const Knobs&, std::size_t knob, double value) const noexcept;
     bool isSame (std::size_t node) const;
     std::vector<bool> changed (const PlanParts&) const;

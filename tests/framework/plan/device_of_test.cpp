@@ -137,3 +137,20 @@ TEST_CASE ("the wall's warning of a rate too low uses the mass that the graph de
     s.graph.devices[1].second["mass"] = "no mass";   // the error is reported only when the device is made
     CHECK_FALSE (has (s.compile().messages, "node/warning"));
 }
+
+TEST_CASE ("a node that compensates less than the delay of its device is named in a warning", "[plan]")
+{
+    const auto warned = [] (int of_device, int of_node) {
+        Sketch s;
+        s.node ("hand", "device.position").node ("wall", "hold.deadbeat", Json::object(), { { "delay", of_node } }).node ("motor", "device.force");
+        for (auto& n : s.graph.root.nodes)
+            if (n.name != "wall") n.role = "stylus";
+        s.graph.devices.emplace_back ("stylus", Json { { "driver", "sim" }, { "delay", of_device } });
+        return has (s.wire ("hand.position -> wall.position").wire ("wall.force -> motor.force").compile().messages, "rate/device_delay");
+    };
+    CHECK (warned (2, 0));
+    CHECK (warned (2, 1));
+    CHECK_FALSE (warned (2, 2));
+    CHECK_FALSE (warned (2, 3));
+    CHECK_FALSE (warned (0, 0));
+}

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "plugin_node.hpp"
+#include "answer.hpp"
+#include "known.hpp"
+#include "lending.hpp"
+#include "setting_values.hpp"
+
+#include <tactus/node/node_fault.hpp>
+#include <tactus/text/quote.hpp>
+
+#include <deque>
+
+namespace tactus::plugin
+{
+
+namespace
+{
+/// What the functions of a NodeType share. The type and each of its nodes keep it alive, and so keep the plugin loaded.
+struct Guest
+{
+    std::shared_ptr<const void> library;
+    std::string file;
+    std::string state_layout {};
+    tactus_plugin_node hooks {};
+    std::deque<std::vector<std::string_view>> choices {};
+
+    [[noreturn]] void failed (const char* hook, const Answer& why) const
+    {
+        throw NodeFault ("the node '" + std::string (hooks.id) + "' of the plugin " + quote (file) + " failed in `" + hook + "`: " + quote (why.text()));
+    }
+
+    /// Calls a hook that can fail, and returns the text that it reports.
+    template <typename Hook>
+    std::string ask (const char* name, Hook&& hook) const
+    {
+        const Answer answer;
+        if (hook (answer.report()) != TACTUS_PLUGIN_OK) failed (name, answer);
+        return answer.text();
+    }
+};
+
+/// NodeType::make. A named type, so that sharesState finds the guest.
+struct MakeNode
+{
+    std::shared_ptr<const Guest> guest;
+
+    std::shared_ptr<void> operator()() const
+    {
+        const Answer why;
+        void* node = guest->hooks.create (why.report());
+        if (node == nullptr) guest->failed ("create", why);
+        return std::shared_ptr<void> (node, [g = guest] (void* n) { g->hooks.destroy (n); });
+    }
+};
+
+UnitRule readUnit (const tactus_plugin_unit& u)
+{
+    Unit unit;
+    for (int q = 0; q <= static_cast<int> (Quantity::state); ++q)
+        if (name (static_cast<Quantity> (q)) == u.quantity) unit.quantity = static_cast<Quantity> (q);
+    unit.dimension = { exponent (u.metre), exponent (u.kilogram), exponent (u.second) };
+    unit.symbol = u.symbol;
+    return { static_cast<UnitRule::Kind> (u.rule), unit, u.a, u.b, u.adds_up != 0 };
+}
+
+Limits readLimits (const tactus_plugin_limits& l)
+{
+    return { .hard = { l.hard_min, l.hard_max }, .usual = { l.usual_min, l.usual_max }, .latch = l.latch != 0 };
+}
+
+PortSheet readPort (const tactus_plugin_port& p, Guest& guest)
+{
+    auto& choices = guest.choices.emplace_back (p.choices, p.choices + p.choice_count);
+    return { .role = static_cast<Role> (p.role),
+             .id = p.id,
+             .unit = readUnit (*p.unit),
+             .about = p.about,
+             .limits = readLimits (*p.limits),
+             .choices = choices,
+             .width = p.width,
+             .list = p.is_list != 0,
+             .offset = p.offset,
+             .initial = { p.initial[0], p.initial[1], p.initial[2] } };
+}
+
+SettingSheet readSetting (const tactus_plugin_setting& s)
+{
+    SettingSheet sheet {};
+    sheet.kind = static_cast<SettingSheet::Kind> (s.kind);
+    sheet.describe (s.id, readUnit (*s.unit), s.about, readLimits (*s.limits));
+    sheet.x_unit = readUnit (*s.x_unit);
+    for (std::size_t i = 0; i < s.field_count; ++i)
+        sheet.fields.push_back (readSetting (*s.fields[i]));
+    sheet.initial = readValue (*s.initial, Keep::no);
+    return sheet;
+}
+
+void readSheet (NodeType& t, Guest& guest)
+{
+    const auto& c = guest.hooks;
+    t.info = { .id = c.id, .name = c.name, .summary = c.summary, .source = c.source };
+    for (std::size_t i = 0; i < c.port_count; ++i)
+    {
+        auto port = readPort (*c.ports[i], guest);
+        auto& outputs_or_params = port.role == Role::output ? t.outputs : t.params;
+        (port.role == Role::input ? t.inputs : outputs_or_params).push_back (port);
+    }
+    for (std::size_t i = 0; i < c.setting_count; ++i)
+    {
+        t.settings.push_back (readSetting (*c.settings[i]));
+        t.settings.back().set = [g = &guest, i] (void* node, const SettingValue& value) {
+            ValueWriter shown;
+            g->ask ("set", [&] (auto* r) { return g->hooks.set (node, i, shown (value), r); });
+        };
+    }
+    t.outputs_size = c.outputs_size;
+    t.outputs_align = c.outputs_align;
+    t.params_size = c.params_size;
+}
+
+/// The functions of the type hold a plain pointer to the guest, because the type and each of its nodes keep the guest alive.
+void addQuestions (NodeType& t, const Guest* g)
+{
+    if (g->hooks.cost)
+        t.cost = [g] (const void* n) {
+            tactus_plugin_cost cost { sizeof cost, 0.0, 0.0 };
+            g->ask ("cost", [&] (auto* r) { return g->hooks.cost (n, &cost, r); });
+            return Cost { .work = cost.work, .memory = cost.memory };
+        };
+    if (g->hooks.problem)
+        t.problem = [g] (const void* n) { return g->ask ("problem", [&] (auto* r) { return g->hooks.problem (n, r); }); };
+    if (g->hooks.warning)
+        t.warning = [g] (const void* n, const Setup& s) {
+            const ShownSetup setup { s };
+            return g->ask ("warning", [&] (auto* r) { return g->hooks.warning (n, setup.get(), r); });
+        };
+    if (g->hooks.prepare)
+        t.prepare = [g] (void* n, const Setup& s) {
+            const ShownSetup setup { s };
+            g->ask ("prepare", [&] (auto* r) { return g->hooks.prepare (n, setup.get(), r); });
+        };
+    if (g->hooks.claims)
+        t.claims = [g] (const void* n) {
+            tactus_plugin_claims c { sizeof c, 0, 0.0, 0.0, 0.0, inf };
+            g->ask ("claims", [&] (auto* r) { return g->hooks.claims (n, &c, r); });
+            return Claims { c.passive != 0, c.stiffness, c.damping, c.spatial_frequency, c.amplitude };
+        };
+}
+
+void addDevice (NodeType& t, const Guest* g)
+{
+    if (g->hooks.learn)
+        t.learn = [learn = g->hooks.learn] (void* n, const DeviceMechanics& m) {
+            const tactus_plugin_mechanics shown { sizeof shown, m.mass, m.damping };
+            learn (n, &shown);
+        };
+    if (! g->hooks.bind) return;
+    t.announce = [g] (void* n, const DeviceState& state) {
+        const ShownDevice device { state };
+        g->ask ("announce", [&] (auto* r) { return g->hooks.announce (n, device.get(), r); });
+    };
+    t.bind = [bind = g->hooks.bind] (void* n, const DeviceState&) { bind (n); };
+    if (g->hooks.missing)
+        t.missing = [g] (const void* n, const DeviceLayout& l) {
+            const ShownLayout layout { l };
+            return g->ask ("missing", [&] (auto* r) { return g->hooks.missing (n, layout.get(), r); });
+        };
+    if (g->hooks.effort)
+        t.effort = [ask = g->hooks.effort] (const void* n) {
+            tactus_plugin_effort e;   // not zeroed: the node fills the channels in use
+            e.size = sizeof e;
+            e.axis_count = e.signal_count = 0;
+            std::fill_n (e.force, 3, 0.0);
+            std::fill_n (e.torque, 3, 0.0);
+            ask (n, &e);
+            return readEffort (e);
+        };
+}
+}   // namespace
+
+Result<NodeType> readNode (const tactus_plugin_node* given, const std::string& file, std::shared_ptr<const void> library, std::string state_layout)
+{
+    if (auto fault = faultOf (given); ! fault.empty())
+    {
+        const std::string id = isWhole (given) && given->id != nullptr ? quote (given->id) : "a node without a name";
+        return Message::error ("plugin/bad_node", file, id + " is refused: " + fault,
+                               "ask the author of the plugin; <tactus/plugin/node_plugin.hpp> gets this right");
+    }
+    const auto guest = std::make_shared<Guest> (Guest { std::move (library), file, std::move (state_layout) });
+    copyKnown (guest->hooks, given);
+    const auto& c = guest->hooks;
+
+    NodeType t {};
+    t.origin = file;
+    t.owner = guest;
+    readSheet (t, *guest);
+    t.make = MakeNode { guest };
+    t.paramsOf = c.params;
+    t.initialiseOutputs = c.initialise_outputs;
+    t.tick = c.tick;
+    t.tickStored = c.tick_stored;
+    t.peek = c.peek;
+    t.delay = c.delay;
+    t.update = c.update;
+    t.adopt = c.adopt;
+    addQuestions (t, guest.get());
+    addDevice (t, guest.get());
+    return t;
+}
+
+bool sharesState (const NodeType& now, const NodeType& then)
+{
+    const auto *a = now.make.target<MakeNode>(), *b = then.make.target<MakeNode>();
+    if (a == nullptr || b == nullptr || now.info.id != then.info.id) return false;
+    return ! a->guest->state_layout.empty() && a->guest->state_layout == b->guest->state_layout;
+}
+
+}   // namespace tactus::plugin

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "shared_object.hpp"
+
+#include <tactus/text/quote.hpp>
+
+#if defined(_WIN32)
+#include <windows.h>
+#else
+#include <dlfcn.h>
+#endif
+
+namespace tactus
+{
+
+Result<std::unique_ptr<SharedObject>> SharedObject::load (const std::filesystem::path& file)
+{
+#if defined(_WIN32)
+    void* handle = LoadLibraryW (file.c_str());
+    const std::string why = handle == nullptr ? "Windows error " + std::to_string (GetLastError()) : "";
+#else
+    // Resolves all symbols now, so that no tick has to, and hides them from other plugins.
+    void* handle = ::dlopen (file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    const char* said = handle == nullptr ? ::dlerror() : nullptr;
+    const std::string why = said != nullptr ? said : "";
+#endif
+    if (handle == nullptr)
+        return Message::error ("plugin/cannot_load", file.string(), "the system cannot load the plugin: " + why, "build it for this system, or remove it");
+    return std::unique_ptr<SharedObject> (new SharedObject (handle));
+}
+
+SharedObject::~SharedObject()
+{
+#if defined(_WIN32)
+    FreeLibrary (static_cast<HMODULE> (handle));
+#else
+    ::dlclose (handle);
+#endif
+}
+
+const void* SharedObject::find (const char* symbol) const noexcept
+{
+#if defined(_WIN32)
+    return reinterpret_cast<const void*> (GetProcAddress (static_cast<HMODULE> (handle), symbol));
+#else
+    return ::dlsym (handle, symbol);
+#endif
+}
+
+}   // namespace tactus

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "live_nodes.hpp"
+
+#include <cstdio>
+
+namespace tactus::host
+{
+
+namespace
+{
+/// Puts file and line into the text of each message, because the list of problems shows only locations in the graph.
+Messages withPlaces (Messages messages)
+{
+    for (auto& m : messages)
+    {
+        const auto line = m.line > 0 ? ":" + std::to_string (m.line) : std::string();
+        const std::filesystem::path file (m.file.empty() ? m.where : m.file);
+        m.text = file.filename().string() + line + ": " + m.text;
+    }
+    return messages;
+}
+}   // namespace
+
+LiveNodes::LiveNodes (std::vector<LiveSource> sources) : plugins (std::move (sources))
+{
+    if (const auto prepared = plugins.prepare(); ! prepared) said = withPlaces ({ prepared.error() });
+}
+
+bool LiveNodes::attend()
+{
+    const auto now = std::chrono::steady_clock::now();
+    if (now - looked < std::chrono::milliseconds (100)) return false;
+    looked = now;
+    auto news = plugins.look();
+    if (! news) return false;
+    said = withPlaces (std::move (news->messages));
+    if (news->types.empty()) return false;
+    shown.push_back (catalogue());
+    extendCatalogue (std::move (news->types));
+    file = news->file;
+    took_s = news->secondsSinceSaved();
+    return true;
+}
+
+std::string LiveNodes::latest() const
+{
+    char took[32];
+    std::snprintf (took, sizeof took, "%.1f", took_s);
+    return file.filename().string() + ": in use " + took + " s after it was saved";
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tactus/text/message.hpp>
+
+#include <string>
+
+namespace tactus::host
+{
+
+/// The errors in the output of g++ or clang++, each with its file and line. If the output contains no error, its last lines become one,
+/// about `name`, which is what was compiled. Id: live/compile.
+Messages errorsOf (const std::string& output, const std::string& name);
+
+}   // namespace tactus::host

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tactus/node/catalogue.hpp>
+#include <tactus/plugin/plugin_library.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tactus::host
+{
+
+inline constexpr const char* plugin_suffix = ".tactus";
+
+/// The folders in which plugins are looked for, in this order: `more` (from --plugins), the folders in TACTUS_PLUGINS, `plugins` in
+/// homeFolder(), and lib/tactus/plugins of the installation. Some may not exist. [main thread]
+std::vector<std::filesystem::path> pluginFolders (const std::vector<std::string>& more);
+
+/// Loads all plugins of these folders, within each folder sorted by name. Errors: those of loadPlugins, plugin/quarantined. `marks` is
+/// the folder of the Quarantine. [main thread]
+LoadedPlugins loadFolders (const std::vector<std::filesystem::path>& folders, const std::filesystem::path& marks);
+
+/// Loads the installed plugins, and adds their nodes to catalogue(). Returns what went wrong: errors of loadFolders, plugin/no_folder.
+/// Call it when the program starts, before anything uses the catalogue. [main thread]
+Messages usePlugins (const std::vector<std::string>& more);
+
+/// What was refused, as text for a terminal: the file, the reason, the remedy. Empty if nothing was.
+std::string textOf (const Messages&);
+
+/// The folders that --plugins names on a command line: `--plugins DIR` or `--plugins=DIR`, any number of times. The nodes must be known
+/// before the rest of the command line is read.
+std::vector<std::string> pluginFoldersIn (int argc, const char* const* argv);
+
+}   // namespace tactus::host

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "live_compiler.hpp"
+#include "compiler_output.hpp"
+
+#include <host/platform/device_file.hpp>
+#include <tactus/file/text_file.hpp>
+#include <tactus/text/quote.hpp>
+
+#include <cstdlib>
+#include <random>
+#include <sstream>
+
+namespace tactus::host
+{
+
+namespace
+{
+namespace fs = std::filesystem;
+
+/// Everything that <tactus/plugin/node_plugin.hpp> includes, without that header itself: its content depends on macros of a plugin.
+constexpr const char* common_headers = R"(#include <tactus/node/node.hpp>
+#include <tactus/plugin/described.hpp>
+#include <tactus/plugin/device_link.hpp>
+#include <tactus/plugin/lent_services.hpp>
+)";
+
+fs::path firstOf (const std::vector<fs::path>& candidates)
+{
+    std::error_code unseen;
+    for (const auto& candidate : candidates)
+        if (fs::exists (candidate, unseen)) return candidate.lexically_normal();
+    return {};
+}
+
+/// The development files beside this program, in an installation or in a build tree.
+fs::path includeFolder() { return firstOf ({ programFolder() / "../include/tactus/plugin/node_plugin.hpp" }).parent_path().parent_path().parent_path(); }
+
+fs::path frameworkLibrary()
+{
+    const auto prefix = programFolder() / "..";
+    std::vector<fs::path> folders { prefix / "framework", prefix / "lib", prefix / "lib64" };
+    std::error_code unseen;
+    for (const auto& entry : fs::directory_iterator (prefix / "lib", unseen))   // such as lib/x86_64-linux-gnu
+        if (entry.is_directory (unseen)) folders.push_back (entry.path());
+    for (auto& folder : folders)
+        folder /= "libtactus_framework.a";
+    return firstOf (folders);
+}
+
+std::string compilerOf (const LiveSource& source)
+{
+    if (! source.compiler.empty()) return source.compiler;
+    const char* chosen = std::getenv ("CXX");
+    return chosen != nullptr && *chosen != 0 ? chosen : source.isC() ? "cc"
+                                                                     : "c++";
+}
+
+/// The files that a rule of a makefile lists after its target. A backslash precedes each space in a name, and joins lines.
+std::vector<fs::path> wordsOfRule (const std::string& text)
+{
+    std::vector<fs::path> all;
+    std::string word;
+    const auto end = [&] {
+        if (! word.empty()) all.emplace_back (word);
+        word.clear();
+    };
+    for (auto i = std::min (text.find (": "), text.size()); i < text.size(); ++i)
+    {
+        if (text[i] == '\\' && i + 1 < text.size() && text[i + 1] == ' ')
+            word += text[++i];
+        else if (text[i] == ' ' || text[i] == '\n' || (text[i] == '\\' && i + 1 < text.size() && text[i + 1] == '\n'))
+            end();
+        else if (text[i] != ':' || ! word.empty())
+            word += text[i];
+    }
+    end();
+    return all;
+}
+}   // namespace
+
+LiveCompiler::LiveCompiler()
+{
+    std::error_code failed;
+    folder = fs::temp_directory_path (failed) / ("tactus-live-" + std::to_string (std::random_device {}()));
+    fs::create_directories (folder, failed);
+    fs::permissions (folder, fs::perms::owner_all, failed);   // so that no other user can put a plugin there
+}
+
+LiveCompiler::~LiveCompiler()
+{
+    program.reset();
+    std::error_code ignored;
+    fs::remove_all (folder, ignored);
+}
+
+Result<> LiveCompiler::prepareFor (const LiveSource& s)
+{
+    const auto compiler = compilerOf (s);
+    if (s.isC() || precompiled_by == compiler) return {};
+    precompiled_by = compiler;
+    precompiles = true;
+    compiles_next = false;
+    source = s;
+    const auto header = folder / "common.hpp";
+    if (auto written = writeTextFile (header, common_headers); ! written) return written;
+    auto command = commonFlags (s);
+    command.insert (command.end(), { "-x", "c++-header", header.string(), "-o", header.string() + ".gch" });
+    return run (command);
+}
+
+Result<> LiveCompiler::start (const LiveSource& s)
+{
+    const bool is_prepared = s.isC() || precompiled_by == compilerOf (s);
+    if (! precompiles || ! is_prepared) program.reset();
+    if (! is_prepared)
+        if (auto refused = prepareFor (s); ! refused) return refused;
+    source = s;
+    if (! program) return compile();
+    compiles_next = true;
+    return {};
+}
+
+Result<> LiveCompiler::compile()
+{
+    precompiles = false;
+    ++count;
+    auto command = commandFor (source);
+    return command ? run (*command) : Result<> { std::move (command).error() };
+}
+
+Result<> LiveCompiler::run (const std::vector<std::string>& command)
+{
+    program = BackgroundProgram::start (command, folder / "says");
+    if (program) return {};
+    return Message::error ("live/no_compiler", source.file.string(),
+                           "the compiler " + quote (command.front()) + " cannot be started, so edits of the C++ code have no effect",
+                           "install a C++20 compiler (Debian: apt install g++), or set CXX to one");
+}
+
+std::vector<std::string> LiveCompiler::commonFlags (const LiveSource& s) const
+{
+    std::vector<std::string> flags { compilerOf (s), "-O2", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math" };
+    if (! s.isC()) flags.insert (flags.end(), { "-std=c++20", "-fvisibility-inlines-hidden" });
+#if defined(__linux__)
+    if (flags.front().find ("clang") == std::string::npos) flags.emplace_back ("-fno-gnu-unique");   // unique symbols would keep the plugin loaded for ever
+#endif
+    if (const auto include = includeFolder(); ! include.empty()) flags.push_back ("-I" + include.string());
+    if (const auto eigen = firstOf ({ "/usr/include/eigen3", "/usr/local/include/eigen3", "/opt/homebrew/include/eigen3" }); ! eigen.empty())
+        flags.insert (flags.end(), { "-isystem", eigen.string() });
+    return flags;
+}
+
+Result<std::vector<std::string>> LiveCompiler::commandFor (const LiveSource& s)
+{
+    if (includeFolder().empty() || frameworkLibrary().empty())
+        return Message::error ("live/no_headers", s.file.string(), "the headers and libtactus_framework.a of Tactus are not beside this program",
+                               "install the development files of Tactus (Debian: apt install libtactus-dev), or use the program of a build tree");
+    auto command = commonFlags (s);
+    for (const auto& include : s.includes)
+        command.push_back ("-I" + include.string());
+    if (! s.isC()) command.insert (command.end(), { "-include", (folder / "common.hpp").string() });
+    for (const auto& macro : s.definitions)
+        command.push_back ("-D" + macro);
+    const auto plugin = folder / (std::to_string (count) + ".tactus");
+    command.insert (command.end(), { "-shared", "-MMD", "-MF", (folder / "read").string(), "-o", plugin.string() });
+    if (s.sources.empty())
+    {
+        auto text = sourceFor (s.file);
+        if (! text) return std::move (text).error();
+        const auto file = folder / "plugin.cpp";
+        if (auto written = writeTextFile (file, *text); ! written) return std::move (written).error();
+        command.push_back (file.string());
+    }
+    for (const auto& file : s.sources)
+        command.push_back (file.string());
+    command.push_back (frameworkLibrary().string());
+#if defined(__linux__)
+    const auto exports = folder / "exports.map";   // the same as framework/plugin/plugin.map
+    if (auto written = writeTextFile (exports, "{ global: tactus_plugin_entry; local: *; };\n"); ! written) return std::move (written).error();
+    command.insert (command.end(), { "-Wl,--version-script=" + exports.string(), "-Wl,-z,now" });
+#endif
+    return command;
+}
+
+std::optional<LiveCompiler::Output> LiveCompiler::finished()
+{
+    if (! program) return std::nullopt;
+    const auto status = program->status();
+    if (! status) return std::nullopt;
+    program.reset();
+    if (precompiles)   // if this failed, the compilation of the source reports why, or only takes longer
+    {
+        precompiles = false;
+        if (! compiles_next) return std::nullopt;
+        const auto started = compile();
+        return started ? std::nullopt : std::optional<Output> ({ {}, {}, { started.error() } });
+    }
+    Output output { folder / (std::to_string (count) + ".tactus"), filesRead(), {} };
+    if (*status != 0) output.messages = errorsOf (readTextFile (folder / "says").value_or (""), source.file.string());
+    return output;
+}
+
+std::vector<fs::path> LiveCompiler::filesRead() const
+{
+    auto all = wordsOfRule (readTextFile (folder / "read").value_or (""));
+    std::erase_if (all, [this] (const fs::path& file) { return file.parent_path() == folder; });
+    return all;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "quarantine.hpp"
+
+#include <tactus/file/text_file.hpp>
+
+#include <fstream>
+#include <functional>
+
+namespace tactus::host
+{
+
+namespace
+{
+namespace fs = std::filesystem;
+
+/// Size and time of a file: another build of a plugin differs in these.
+std::string stampOf (const fs::path& file)
+{
+    std::error_code unseen;
+    const auto size = fs::file_size (file, unseen);
+    const auto time = fs::last_write_time (file, unseen).time_since_epoch().count();
+    return std::to_string (size) + " bytes, " + std::to_string (time);
+}
+}   // namespace
+
+fs::path Quarantine::markOf (const fs::path& file) const
+{
+    if (folder.empty()) return {};
+    std::error_code unseen;
+    const auto whole = fs::weakly_canonical (file, unseen).string();
+    return folder / (file.stem().string() + "-" + std::to_string (std::hash<std::string> {}(whole)) + ".loading");
+}
+
+bool Quarantine::holds (const fs::path& file) const
+{
+    const auto mark = markOf (file);
+    if (mark.empty() || readTextFile (mark) != stampOf (file)) return false;
+    return FileLock::takeExisting (mark).has_value();
+}
+
+Quarantine::Loading::Loading (const Quarantine& quarantine, const fs::path& file) : mark (quarantine.markOf (file))
+{
+    if (mark.empty()) return;
+    std::error_code unseen;
+    fs::create_directories (mark.parent_path(), unseen);
+    lock = FileLock::take (mark);
+    if (lock) std::ofstream (mark) << stampOf (file);
+}
+
+Quarantine::Loading::~Loading()
+{
+    if (! lock) return;   // another program is loading the same plugin, and will remove the mark
+    std::error_code unseen;
+    fs::remove (mark, unseen);
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tactus/file/file_lock.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace tactus::host
+{
+
+/// Remembers which plugins ended the program while they were loaded. A mark is written before loading and removed afterwards, so a
+/// mark that no program has locked was left by a crash. A plugin that has changed since then is tried again. [main thread]
+class Quarantine
+{
+public:
+    /// The marks are files in this folder. Without a folder, nothing is remembered.
+    explicit Quarantine (std::filesystem::path folder_) : folder (std::move (folder_)) {}
+
+    /// True if the program ended when it last loaded this file, and the file is still the same.
+    bool holds (const std::filesystem::path& file) const;
+
+    /// The path of the mark of a plugin. After the mark is removed, the plugin is loaded again.
+    std::filesystem::path markOf (const std::filesystem::path& file) const;
+
+    /// Marks a file until this object is destroyed.
+    class Loading
+    {
+    public:
+        Loading (const Quarantine&, const std::filesystem::path& file);
+        Loading (const Loading&) = delete;
+        Loading& operator= (const Loading&) = delete;
+        ~Loading();
+
+    private:
+        std::filesystem::path mark;
+        std::optional<FileLock> lock;   // while a program holds it, the mark does not mean a crash
+    };
+
+private:
+    std::filesystem::path folder;
+};
+
+}   // namespace tactus::host
