@@ -165,7 +165,7 @@ void Interpreter::add (const graph::Node& n, const std::string& path, const Role
     {
         auto& state = roles[i.role];
         if (! state) state = std::make_unique<DeviceState>();
-        i.type->bind (i.node.get(), *state);
+        bindFirst (*i.type, i.node.get(), *state);
     }
 }
 

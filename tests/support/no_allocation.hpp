@@ -1,26 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>   // defines __GLIBC__, even if this header is included first
+#include <tactus/examine/no_allocation.hpp>
 
-/// Counts operations that the tick thread must avoid. While an instance exists, it counts, on this thread, every call of malloc
-/// and its family and every lock of a mutex, shared or not. Under ASan and TSan, which have their own allocator, it counts
-/// nothing.
-class NoAllocation
-{
-public:
-    static constexpr bool watches =
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || ! defined(__GLIBC__)
-        false;
-#else
-        true;
-#endif
-
-    NoAllocation() noexcept;
-    ~NoAllocation();
-    NoAllocation (const NoAllocation&) = delete;
-    NoAllocation& operator= (const NoAllocation&) = delete;
-
-    int allocations() const noexcept;
-    int locks() const noexcept;
-};
+using tactus::examine::NoAllocation;

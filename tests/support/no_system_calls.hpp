@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/examine/forbid_system_calls.hpp>
+
 #include <functional>
 
 namespace tactus::test
 {
 
-/// True where forbidSystemCalls works: Linux on x86-64 and aarch64, without a sanitizer (sanitizers make their own
-/// system calls).
-bool canForbidSystemCalls() noexcept;
-
-enum class Allow
-{
-    nothing,
-    waking_threads   ///< futex with FUTEX_WAKE
-};
+using examine::Allow;
+using examine::canForbidSystemCalls;
 
 /// From now on, any system call of this thread except write, exit and the allowed ones kills the process with SIGSYS. Use
 /// it in a child process only: it cannot be undone.
-void forbidSystemCalls (Allow = Allow::nothing) noexcept;
+inline void forbidSystemCalls (Allow allowed = Allow::writing) noexcept { examine::forbidSystemCalls (allowed); }
 
 /// How a child process ended.
 struct ChildEnd

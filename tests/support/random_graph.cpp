@@ -8,6 +8,7 @@
 #include <tactus/text/units.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 namespace tactus::test
@@ -51,7 +52,7 @@ public:
         }
         else
         {
-            const auto& type = *(catalogue().begin() + below (static_cast<int> (std::distance (catalogue().begin(), catalogue().end()))));
+            const auto& type = *std::next (catalogue().begin(), below (static_cast<int> (std::distance (catalogue().begin(), catalogue().end()))));
             n.type = type.info.id;
             if (type.bind) n.role = oneIn (2) ? "left" : "right";
             for (const auto& s : type.settings)

@@ -21,6 +21,8 @@ thread_local int locks_seen = 0;
 }
 }   // namespace
 
+namespace tactus::examine
+{
 NoAllocation::NoAllocation() noexcept
 {
     allocations_seen = locks_seen = 0;
@@ -29,6 +31,7 @@ NoAllocation::NoAllocation() noexcept
 NoAllocation::~NoAllocation() { watching = false; }
 int NoAllocation::allocations() const noexcept { return allocations_seen; }
 int NoAllocation::locks() const noexcept { return locks_seen; }
+}   // namespace tactus::examine
 
 #if ! defined(__SANITIZE_ADDRESS__) && ! defined(__SANITIZE_THREAD__) && defined(__GLIBC__)
 

@@ -1,41 +1,47 @@
 // SPDX-License-Identifier: MIT
 #include "rig.hpp"
 
-#include <catch2/catch.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
+#include <stdexcept>
 
-using namespace tactus;
+namespace tactus::examine
+{
 
 namespace
 {
+constexpr std::size_t guard = 64;   // bytes behind the outputs, which the node must not write
+constexpr std::byte untouched { 0xa5 };
+
+[[noreturn]] void missing (const std::string& owner, std::string_view id) { throw std::invalid_argument (owner + " has no " + quote (id)); }
+
 template <typename Sheets>
 auto& named (std::string_view id, Sheets& sheets)
 {
     const auto at = std::ranges::find (sheets, id, [] (const auto& s) { return s.id; });
-    INFO ("the node has no '" << id << "'");
-    REQUIRE (at != sheets.end());
+    if (at == sheets.end()) missing ("the node", id);
     return *at;
 }
 
 const NodeType& typeNamed (std::string_view id)
 {
     const auto* type = catalogue().find (id);
-    INFO ("there is no node type '" << id << "'");
-    REQUIRE (type != nullptr);
+    if (type == nullptr) missing ("the catalogue", id);
     return *type;
 }
 
 std::size_t firstOf (std::string_view id, const std::vector<Rig::Component>& components, int index)
 {
     const auto at = std::ranges::find_if (components, [&] (const auto& c) { return c.port->id == id && c.index == index; });
-    if (at == components.end()) FAIL ("the node has no '" << id << "[" << index << "]'");   // INFO would format its text on every call
+    if (at == components.end()) missing ("the node", std::string (id) + "[" + std::to_string (index) + "]");
     return static_cast<std::size_t> (at - components.begin());
 }
 }   // namespace
 
-Rig::Rig (const NodeType& type, double rate_hz) : sheet (type), setup { rate_hz }, node (type.make()), results (new std::byte[type.outputs_size])
+Rig::Rig (const NodeType& type, double rate_hz) : sheet (type), setup { rate_hz }, node (type.make()), results (new std::byte[type.outputs_size + guard])
 {
+    std::fill_n (results.get() + type.outputs_size, guard, untouched);
     type.initialiseOutputs (results.get());
     for (const auto& s : type.settings)
         if (s.id == "inputs") list_size = static_cast<int> (std::get<double> (s.initial));
@@ -53,7 +59,7 @@ Rig& Rig::set (std::string_view id, const SettingValue& value)
 Rig& Rig::param (std::string_view id, double value, int index)
 {
     const auto& port = named (id, sheet.params);
-    REQUIRE (port.choices.empty());
+    if (! port.choices.empty()) missing ("the choice " + quote (id), "number");
     paramAt (port, index) = value;
     moved();
     return *this;
@@ -63,8 +69,7 @@ Rig& Rig::choose (std::string_view id, std::string_view alternative)
 {
     const auto& port = named (id, sheet.params);
     const auto at = std::ranges::find (port.choices, alternative);
-    INFO ("'" << id << "' has no alternative '" << alternative << "'");
-    REQUIRE (at != port.choices.end());
+    if (at == port.choices.end()) missing ("the choice " + quote (id), alternative);
     const int value = static_cast<int> (at - port.choices.begin());
     std::copy_n (reinterpret_cast<const std::byte*> (&value), sizeof value, static_cast<std::byte*> (sheet.paramsOf (node.get())) + port.offset);
     moved();
@@ -75,8 +80,16 @@ std::string Rig::problem() const { return sheet.problem ? sheet.problem (node.ge
 
 void Rig::prepare()
 {
-    if (sheet.bind) sheet.bind (node.get(), *device);
-    if (sheet.prepare) sheet.prepare (node.get(), setup);
+    if (sheet.bind)
+    {
+        Stage::enter ("bind");
+        bindFirst (sheet, node.get(), *device);
+    }
+    if (sheet.prepare)
+    {
+        Stage::enter ("prepare");
+        sheet.prepare (node.get(), setup);
+    }
     moved();
 
     const auto list = [this] (const std::vector<PortSheet>& ports) {
@@ -99,7 +112,9 @@ void Rig::prepare()
 
 void Rig::adopt (const Rig& old)
 {
-    if (sheet.adopt) sheet.adopt (node.get(), old.node.get());
+    if (! sheet.adopt) return;
+    Stage::enter ("adopt");
+    sheet.adopt (node.get(), old.node.get());
 }
 
 Rig& Rig::input (std::string_view id, double value, int index)
@@ -117,9 +132,18 @@ Rig& Rig::input (std::string_view id, const Vec3& value)
 
 void Rig::tick() noexcept
 {
-    if (params_moved && sheet.update) sheet.update (node.get());
+    if (params_moved && sheet.update)
+    {
+        Stage::enter ("update");
+        sheet.update (node.get());
+    }
     params_moved = false;
-    if (sheet.peek) sheet.peek (node.get(), sources.data(), results.get());
+    if (sheet.peek)
+    {
+        Stage::enter ("peek");
+        sheet.peek (node.get(), sources.data(), results.get());
+    }
+    Stage::enter ("tick");
     sheet.tick (node.get(), sources.data(), results.get());
 }
 
@@ -137,6 +161,11 @@ double Rig::out (std::size_t output) const noexcept
     return reinterpret_cast<const double*> (results.get() + c.port->offset)[c.index];
 }
 
+bool Rig::wroteTooFar() const noexcept
+{
+    return std::any_of (results.get() + sheet.outputs_size, results.get() + sheet.outputs_size + guard, [] (std::byte b) { return b != untouched; });
+}
+
 std::vector<double> Rig::outs() const
 {
     std::vector<double> all;
@@ -149,3 +178,5 @@ double& Rig::paramAt (const PortSheet& port, int index) noexcept
 {
     return reinterpret_cast<double*> (static_cast<std::byte*> (sheet.paramsOf (node.get())) + port.offset)[index];
 }
+
+}   // namespace tactus::examine

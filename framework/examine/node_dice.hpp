@@ -7,8 +7,8 @@
 #include <iterator>
 #include <random>
 
-/// Random params, settings and inputs for a node that a test knows only by its datasheet.
-namespace tactus::test
+/// Random params, settings and inputs for a node that is known only by its datasheet.
+namespace tactus::examine
 {
 
 /// Generates random numbers for nodes. The seed determines the whole run.
@@ -99,4 +99,4 @@ inline void randomTameInputs (Rig& rig, NodeDice& dice)
         v = dice.uniform (-1.0, 1.0) * std::pow (10.0, dice.below (4) - 3);
 }
 
-}   // namespace tactus::test
+}   // namespace tactus::examine

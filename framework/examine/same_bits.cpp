@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "examination.hpp"
+#include "parts.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <latch>
+#include <thread>
+
+namespace tactus::examine
+{
+
+namespace
+{
+/// A run of one instance that depends on nothing but the seed.
+class RandomRun
+{
+public:
+    RandomRun (const NodeType& type, unsigned seed) : dice (seed), rig (type)
+    {
+        randomSettings (rig, dice);
+        randomParams (rig, dice, Span::usual);
+        rig.prepare();
+    }
+
+    void tick()
+    {
+        if (dice.once_in (20)) randomParams (rig, dice, Span::usual);
+        randomTameInputs (rig, dice);
+        rig.tick();
+        for (std::size_t i = 0; i < rig.outputs.size(); ++i)
+            all.push_back (rig.out (i));
+        const auto effort = rig.effort();
+        all.insert (all.end(), effort.force.data(), effort.force.data() + 3);
+    }
+
+    const std::vector<double>& outputs() const noexcept { return all; }
+
+private:
+    NodeDice dice;
+    Rig rig;
+    std::vector<double> all;
+};
+
+std::vector<double> run (const NodeType& type, unsigned seed, int ticks)
+{
+    RandomRun one { type, seed };
+    for (int k = 0; k < ticks; ++k)
+        one.tick();
+    return one.outputs();
+}
+
+constexpr unsigned other = 0x9e3779b9u;   // gives the second instance a seed of its own
+}   // namespace
+
+bool sameBits (const std::vector<double>& a, const std::vector<double>& b)
+{
+    const auto bits = [] (double v) { return std::bit_cast<std::uint64_t> (v); };
+    return std::ranges::equal (a, b, {}, bits, bits);
+}
+
+std::string repeatFault (const NodeType& type, unsigned seed)
+{
+    return sameBits (run (type, seed, 50), run (type, seed, 50)) ? "" : "two fresh instances give different bits for the same inputs";
+}
+
+std::string instanceFault (const NodeType& type, unsigned seed)
+{
+    const auto first_alone = run (type, seed, 50), second_alone = run (type, seed ^ other, 50);
+    RandomRun first { type, seed }, second { type, seed ^ other };
+    for (int k = 0; k < 50; ++k)
+    {
+        first.tick();
+        second.tick();
+    }
+    const bool same = sameBits (first.outputs(), first_alone) && sameBits (second.outputs(), second_alone);
+    return same ? "" : "two instances that tick in turn give other bits than each alone: they share a state";
+}
+
+std::string threadFault (const NodeType& type, unsigned seed)
+{
+    constexpr int ticks = 500;
+    const auto first_alone = run (type, seed, ticks), second_alone = run (type, seed ^ other, ticks);
+    RandomRun first { type, seed }, second { type, seed ^ other };
+    std::latch ready { 2 };
+    const auto play = [&ready] (RandomRun& one) {
+        ready.arrive_and_wait();
+        for (int k = 0; k < ticks; ++k)
+            one.tick();
+    };
+    std::thread there ([&] { play (second); });
+    play (first);
+    there.join();
+    const bool same = sameBits (first.outputs(), first_alone) && sameBits (second.outputs(), second_alone);
+    return same ? "" : "two instances that tick in two threads give other bits than each alone: they share a state";
+}
+
+std::string noAdopt (const NodeType& type) { return type.adopt ? "" : "it has no `adopt`"; }
+
+std::string adoptFault (const NodeType& type, unsigned seed)
+{
+    NodeDice dice { seed };
+    Rig old = prepared (type), young = prepared (type);
+    for (int k = 0; k < 50; ++k)
+    {
+        randomTameInputs (old, dice);
+        old.tick();
+    }
+    young.adopt (old);
+    for (int k = 0; k < 50; ++k)
+    {
+        randomTameInputs (old, dice);
+        young.in = old.in;
+        old.tick();
+        young.tick();
+        if (! sameBits (old.outs(), young.outs())) return say ("tick ", k + 1, " after `adopt` gives other bits than the old instance");
+    }
+    return {};
+}
+
+std::uint64_t fingerprint (const NodeType& type, unsigned seed)
+{
+    std::uint64_t sum = 0xcbf29ce484222325u;   // FNV-1a, over words instead of bytes
+    for (const double v : run (type, seed, 200))
+        sum = (sum ^ std::bit_cast<std::uint64_t> (v)) * 0x100000001b3u;
+    return sum;
+}
+
+}   // namespace tactus::examine

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apart.hpp"
+
+#include <tactus/examine/stage.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <new>
+
+#include <csignal>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace tactus::check_plugin
+{
+
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr int most_idle_seconds = 60;
+constexpr rlim_t most_memory = rlim_t { 8 } << 30;   // bytes of address space: beyond it, allocations fail
+
+/// What a child tells its parent, in memory that they share: the parent can read it however the child ends.
+struct Slate
+{
+    std::atomic<const char*> hook;
+    std::atomic<int> length;   // of the answer; -1: there is no answer yet
+    char answer[1 << 20];
+};
+
+class SharedSlate
+{
+public:
+    SharedSlate() : memory (::mmap (nullptr, sizeof (Slate), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))
+    {
+        if (memory == MAP_FAILED) throw std::bad_alloc();
+        slate().length = -1;
+    }
+    ~SharedSlate() { ::munmap (memory, sizeof (Slate)); }
+    SharedSlate (const SharedSlate&) = delete;
+    SharedSlate& operator= (const SharedSlate&) = delete;
+
+    Slate& slate() const noexcept { return *static_cast<Slate*> (memory); }
+
+private:
+    void* memory;
+};
+
+/// The CPU time that a process has used so far, in clock ticks, and whether one of its threads runs or waits for its turn.
+struct Activity
+{
+    unsigned long long used = 0;
+    bool runs = false;
+};
+
+/// Reads the state and the CPU time from a `stat` file of the proc file system: proc(5).
+Activity activityOf (const fs::path& stat)
+{
+    std::ifstream file (stat);
+    std::string text;
+    std::getline (file, text);
+    const auto end_of_name = text.rfind (')');
+    if (end_of_name == std::string::npos) return {};
+    char state = 0;
+    unsigned long long user = 0, system = 0;
+    const int read = std::sscanf (text.c_str() + end_of_name + 1, " %c %*d %*d %*d %*d %*d %*u %*u %*u %*u %*u %llu %llu", &state, &user, &system);
+    return { read == 3 ? user + system : 0, state == 'R' || state == 'D' };
+}
+
+Activity activityOf (pid_t process)
+{
+    const fs::path folder = "/proc/" + std::to_string (process);
+    auto all = activityOf (folder / "stat");
+    std::error_code gone;
+    for (const auto& thread : fs::directory_iterator (folder / "task", gone))
+        all.runs = all.runs || activityOf (thread.path() / "stat").runs;
+    return all;
+}
+
+[[noreturn]] void workInChild (int cpu_seconds, const std::function<std::string()>& work, Slate& slate)
+{
+    ::prctl (PR_SET_PDEATHSIG, SIGKILL);
+    ::setpgid (0, 0);
+    const rlimit budget { static_cast<rlim_t> (cpu_seconds), static_cast<rlim_t> (cpu_seconds) + 1 }, none { 0, 0 }, memory { most_memory, most_memory };
+    ::setrlimit (RLIMIT_CPU, &budget);
+    ::setrlimit (RLIMIT_CORE, &none);
+    ::setrlimit (RLIMIT_AS, &memory);
+    ::dup2 (STDERR_FILENO, STDOUT_FILENO);
+    examine::Stage::keepIn (&slate.hook);
+    std::string answer;
+    try
+    {
+        answer = work();
+    }
+    catch (const std::exception& e)
+    {
+        std::fprintf (stderr, "%s\n", e.what());
+        std::abort();
+    }
+    const auto length = std::min (answer.size(), sizeof slate.answer);
+    std::memcpy (slate.answer, answer.data(), length);
+    slate.length = static_cast<int> (length);
+    ::_exit (0);
+}
+
+/// Waits until the child has ended; then the pipe closes. If the child waits for ever, ends it and returns true.
+bool waitFor (pid_t child, int pipe)
+{
+    pollfd closing { pipe, POLLIN, 0 };
+    Activity before;
+    for (int idle = 0; ::poll (&closing, 1, 1000) <= 0;)
+    {
+        const auto now = activityOf (child);
+        idle = now.runs || now.used != before.used ? 0 : idle + 1;
+        before = now;
+        if (idle < most_idle_seconds) continue;
+        ::kill (-child, SIGKILL);
+        return true;
+    }
+    return false;
+}
+
+std::string endOf (int status)
+{
+    if (WIFEXITED (status)) return "the program was ended with exit status " + std::to_string (WEXITSTATUS (status));
+    const int signal = WTERMSIG (status);
+    return "the program was ended by signal " + std::to_string (signal) + " (" + ::strsignal (signal) + ")";
+}
+
+Ending endingOf (const Slate& slate, int status, const rusage& used, bool waited, int cpu_seconds)
+{
+    if (const int length = slate.length; WIFEXITED (status) && WEXITSTATUS (status) == 0 && length >= 0)
+        return { .done = true, .answer = std::string (slate.answer, static_cast<std::size_t> (length)) };
+    const bool spent = WIFSIGNALED (status) && used.ru_utime.tv_sec + used.ru_stime.tv_sec + 1 >= cpu_seconds
+                       && (WTERMSIG (status) == SIGXCPU || WTERMSIG (status) == SIGKILL);
+    std::string why = endOf (status);
+    if (waited)
+        why = "waits without an end";
+    else if (spent)
+        why = "does not end: it took " + std::to_string (cpu_seconds) + " s of CPU time";
+    const char* hook = slate.hook;
+    const std::string place = hook != nullptr ? std::string ("`") + hook + "`: " : "";
+    return { .why = place + why, .endless = waited || spent };
+}
+}   // namespace
+
+Ending runApart (int cpu_seconds, const std::function<std::string()>& work)
+{
+    const SharedSlate shared;
+    int ends[2];
+    if (::pipe (ends) != 0) return { .why = "a pipe could not be made" };
+    std::fflush (nullptr);   // otherwise buffered output would be written twice
+    const auto child = ::fork();
+    if (child == 0)
+    {
+        ::close (ends[0]);
+        workInChild (cpu_seconds, work, shared.slate());
+    }
+    ::close (ends[1]);
+    if (child < 0)
+    {
+        ::close (ends[0]);
+        return { .why = "a process could not be started" };
+    }
+    const bool waited = waitFor (child, ends[0]);
+    int status = 0;
+    rusage used {};
+    ::wait4 (child, &status, 0, &used);
+    ::close (ends[0]);
+    ::kill (-child, SIGKILL);   // processes that the child may have started
+    return endingOf (shared.slate(), status, used, waited, cpu_seconds);
+}
+
+}   // namespace tactus::check_plugin

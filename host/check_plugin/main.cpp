@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// tactus-check-plugin, the program that `tactus check-plugin` starts.
+#include "check_plugin.hpp"
+
+#include <host/command_line/command.hpp>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <system_error>
+
+namespace
+{
+constexpr int fine = 0, failed = 1, wrong_usage = 2;   // as in host/cli/report.hpp
+
+constexpr const char* footer =
+    "A higher level means more examinations (2 adds memory and adopt, 3 threads and passivity) and more random trials. Trial k uses the\n"
+    "seed S + k; a failure names its seed, so `--seed` repeats it at once.\n"
+    "The time per tick is printed, and not judged. Exit status 1 if anything failed.\n\n"
+    "Examples:\n"
+    "  tactus check-plugin rough_wood/build/rough_wood.tactus\n"
+    "  tactus check-plugin rough_wood.tactus --strict 10 --seed 7\n"
+    "  tactus check-plugin rough_wood.tactus --json > report.json";
+}   // namespace
+
+int main (int argc, char** argv)
+{
+    using namespace tactus;
+
+    check_plugin::Options options;
+    std::string file;
+    int seed = static_cast<int> (options.seed);
+    bool json = false;
+    const host::Command app { "Load a node plugin in processes of its own, and hold its nodes to what every node promises", "tactus check-plugin" };
+    app.addOption ("plugin", file, "The file of the plugin").required();
+    app.addOption ("--strict", options.level, "How thoroughly, from 1 to 10; default: 5").check (host::within (1, 10));
+    app.addOption ("--seed", seed, "The seed of the first random trial; default: 1").check (host::within (0, std::numeric_limits<int>::max()));
+    app.addOption ("--cpu-seconds", options.cpu_seconds, "The CPU time that loading and the hooks of a node may take; default: 10")
+        .check (host::within (1, 3600));
+    app.addFlag ("--json", json, "Print JSON, for use by programs");
+    app.footer (footer);
+    try
+    {
+        if (const auto status = app.parse (argc, argv)) return *status == 0 ? fine : wrong_usage;
+        options.seed = static_cast<unsigned> (seed);
+        std::error_code unseen;
+        options.file = std::filesystem::absolute (file, unseen);   // the system's loader looks for a name without a slash in other folders
+        const auto report = check_plugin::checkPlugin (options);
+        std::cout << (json ? jsonOf (report).dump (2) + "\n" : textOf (report)) << std::flush;
+        return report.failures() == 0 ? fine : failed;
+    }
+    catch (const std::exception& e)
+    {
+        std::fprintf (stderr, "tactus check-plugin: error: %s\n", e.what());
+        return failed;
+    }
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+#include "report.hpp"
+
+#include <host/platform/start_program.hpp>
+
+namespace tactus::host
+{
+
+void addCheckPlugin (const Command& app)
+{
+    const auto command = app.add ("check-plugin", "Hold the nodes of a plugin to what every node promises");
+    command.passOn ([] (const std::vector<std::string>& arguments) {
+        const auto program = besideThisProgram ("tactus-check-plugin");
+        const auto why = becomeProgram (program, arguments);
+        fail (Message::error ("check_plugin/not_built", program.string(), "cannot be started: " + why, "build the target tactus-check-plugin (Linux)"));
+    });
+}
+
+}   // namespace tactus::host
