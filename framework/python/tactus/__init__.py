@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+"""Tactus from Python: load, edit and render graphs of physical models for haptics, or run them step by step.
+
+    import tactus
+
+    graph = tactus.Graph("graphs/dry_wood.json")
+    run = graph.render(duration=1.0, record=["drag.force", "drag.state"])
+    run["t"]            # shape (n,), s
+    run["drag.force"]   # shape (n, 3), N
+
+All values are in SI units. Axes are right-handed: x right, y away from the person, z up. The results are the same, bit for bit, as
+those of `tactus render`. Problems raise tactus.Error; warnings are Python warnings of the class tactus.TactusWarning.
+"""
+
+from . import _tactus
+from ._engine import Effort, Engine, PushedDevice, Status
+from ._graph import Graph
+from ._messages import Error, Message, TactusWarning
+from ._nodes import nodes
+from ._own import Node, choice, scalar, vector
+from ._plot import plot
+from ._records import Records
+from ._sweep import Point, sweep
+
+__version__ = _tactus.version()
+
+__all__ = ["Effort", "Engine", "Error", "Graph", "Message", "Node", "Point", "PushedDevice", "Records", "Status", "TactusWarning",
+           "choice", "nodes", "plot", "scalar", "sweep", "vector"]

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: MIT
+"""Graphs: load, edit, save, render."""
+
+from __future__ import annotations
+
+import math
+import os
+from typing import Any, Dict, Mapping, Optional, Sequence, Tuple, Type, Union
+
+from . import _tactus
+from ._messages import fail
+from ._own import Node
+from ._records import Records, to_json, to_optional_json
+
+_MOST_TICKS = 10**10
+
+
+class Graph:
+    """A graph with its undo history.
+
+    Graph(path) reads a file, Graph.parse(text) reads text, and Graph() makes an empty graph. Each edit is checked, is one undo step, and
+    changes nothing if it fails. Values are written as in a graph file: 0.4 (SI), "20 um", [0, 0, 1]. `patch` is the name of a subgraph, or
+    "" for the graph itself. Several threads may use one graph; their calls never overlap."""
+
+    def __init__(self, path: Union[str, os.PathLike, None] = None, *, name: str = "", rate: float = 4000.0):
+        """path: a graph file; without it, the graph is empty, has this name, and is ticked at `rate` in Hz."""
+        self._graph = _tactus.Graph.create(name, float(rate)) if path is None else _tactus.Graph.load(os.fspath(path))
+
+    @classmethod
+    def _of(cls, graph: "_tactus.Graph") -> "Graph":
+        made = cls.__new__(cls)
+        made._graph = graph
+        return made
+
+    @classmethod
+    def parse(cls, text: str, folder: Union[str, os.PathLike] = "") -> "Graph":
+        """Reads the text of a graph file. Files that it names are relative to `folder`; subgraphs in files of their own are not read."""
+        return cls._of(_tactus.Graph.parse(text, os.fspath(folder)))
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return _restored, (self.text, self._graph.folder(), {path: Graph._of(file) for path, file in self._graph.files().items()})
+
+    def __repr__(self) -> str:
+        return f"<tactus.Graph {self.name!r}>"
+
+    @property
+    def name(self) -> str:
+        """The name of the graph."""
+        return self._graph.name()
+
+    @property
+    def rate(self) -> float:
+        """The tick rate in Hz."""
+        return self._graph.rate()
+
+    @property
+    def text(self) -> str:
+        """The graph as the text of a graph file."""
+        return self._graph.text()
+
+    def save(self, path: Union[str, os.PathLike]) -> None:
+        """Writes the graph file. After a crash, either the old file or the new one is there."""
+        self._graph.save(os.fspath(path))
+
+    def add_node(self, name: str, type: str, params: Optional[Mapping[str, Any]] = None, settings: Optional[Mapping[str, Any]] = None,
+                 role: str = "", patch: str = "") -> None:
+        """Adds a node. type: an id of tactus.nodes(), "graph:NAME", or the id of a node in Python. role: for device nodes."""
+        self._graph.add_node(patch, name, type, to_json(dict(params or {})), to_json(dict(settings or {})), role)
+
+    def remove_node(self, name: str, patch: str = "") -> None:
+        """Removes a node, and everything that refers to it."""
+        self._graph.remove_node(patch, name)
+
+    def rename_node(self, name: str, to: str, patch: str = "") -> None:
+        """Renames a node, and everything that refers to it."""
+        self._graph.rename_node(patch, name, to)
+
+    def connect(self, start: str, end: Optional[str] = None, gain: Any = None, delay: int = 0, add: bool = False, patch: str = "") -> None:
+        """Adds a wire: connect("drag.force", "motor.force"), or as in a graph file connect("drag.force -> motor.force").
+
+        gain: a number, or text with a unit. delay: in ticks. add: the wire adds to the value of a parameter instead of replacing it."""
+        self._graph.add_wire(patch, _wire(start, end, delay, add), to_optional_json(gain))
+
+    def disconnect(self, start: str, end: Optional[str] = None, delay: int = 0, add: bool = False, patch: str = "") -> None:
+        """Removes a wire that was added with the same arguments."""
+        self._graph.remove_wire(patch, _wire(start, end, delay, add))
+
+    def set_param(self, node: str, param: str, value: Any, patch: str = "") -> None:
+        """Sets a parameter; None means its default."""
+        self._graph.set_param(patch, node, param, to_optional_json(value))
+
+    def set_setting(self, node: str, setting: str, value: Any, patch: str = "") -> None:
+        """Sets a setting; None means its default."""
+        self._graph.set_setting(patch, node, setting, to_optional_json(value))
+
+    def set_key(self, node: str, key: str, value: Any, patch: str = "") -> None:
+        """Sets any other key of a node, such as "role" or "count"; None removes it."""
+        self._graph.set_key(patch, node, key, to_optional_json(value))
+
+    def set_device(self, role: str, description: Optional[Mapping[str, Any]]) -> None:
+        """Describes the device of a role, as in a graph file: {"driver": "sim", "mass": "50 g"}; None removes it."""
+        self._graph.set_device(role, to_optional_json(None if description is None else dict(description)))
+
+    def undo(self) -> bool:
+        """False if there is nothing to undo."""
+        return self._graph.undo()
+
+    def redo(self) -> bool:
+        """False if there is nothing to redo."""
+        return self._graph.redo()
+
+    def render(self, feed: Optional[Mapping[str, Any]] = None, record: Sequence[str] = (), rate: Optional[float] = None,
+               duration: Optional[float] = None, set: Optional[Mapping[str, Any]] = None, devices: Optional[Mapping[str, Any]] = None,
+               nodes: Sequence[Type[Node]] = ()) -> Records:
+        """Runs the graph offline, as `tactus render` does, with the same bits.
+
+        feed: arrays by port, shape (n,) for a scalar and (n, 3) for a vector, in SI units; a single number holds for all ticks. "t", shape
+            (n,), in s, is optional: without `rate`, the rate is 1/median dt, and with `rate`, rows are held to the tick grid.
+        record: ports; without any, the inputs of all sinks.
+        rate: in Hz; without it, that of the feed or of the graph.
+        duration: in s; without it, the run ends with the feed, or with a trace or gesture of a device.
+        set: values of parameters, by name: {"drag.mu": 0.3, "drag.d_max": "20 um"}.
+        devices: by role, as for tactus.Engine.
+        nodes: classes derived from tactus.Node that the graph uses.
+
+        Returns a dict of arrays with one row per tick: "t" (n,), scalars (n,), vectors (n, 3). A port inside a `times` section gives the
+        last sample of each tick. Ctrl-C ends the run. Other threads can run meanwhile."""
+        from ._engine import Engine
+
+        with Engine._offline(self, feed, record, rate, set, devices, nodes) as engine:
+            return engine.step(n=_ticks(engine, duration, feed is not None))
+
+
+def _restored(text: str, folder: str, files: Dict[str, Graph]) -> Graph:
+    graph = Graph.parse(text, folder)
+    return Graph._of(_tactus.Graph.with_files(graph._graph, {path: file._graph for path, file in files.items()})) if files else graph
+
+
+def _wire(start: str, end: Optional[str], delay: int, add: bool) -> str:
+    if end is None:
+        return start
+    return f"{start} -> {f'[{delay}] -> ' if delay else ''}{'(+) ' if add else ''}{end}"
+
+
+def _ticks(engine: Any, duration: Optional[float], is_fed: bool) -> int:
+    """The length of a render, by the rules of `tactus render`."""
+    by_feed = engine._run.feed_ticks()
+    seconds = duration if duration is not None else engine._run.duration()
+    if is_fed and duration is None:
+        return by_feed
+    if not seconds > 0.0:
+        fail("run/no_length", "", "the length of the run is unknown: there is no feed, trace or gesture",
+             "give duration in s, a feed, or devices={'ROLE': 'gesture:NAME'}")
+    wanted = math.ceil(seconds * engine.rate - 1e-6) if seconds * engine.rate <= _MOST_TICKS else _MOST_TICKS + 1
+    if wanted > _MOST_TICKS:
+        fail("run/too_long", "", "a run of more than 10^10 ticks would take too long", "give a shorter duration or a lower rate")
+    return min(by_feed, wanted) if is_fed else wanted

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: MIT
+"""Nodes written in Python, to try out a model. Offline only: Python can stop a tick for milliseconds."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Type
+
+import numpy as np
+
+from ._messages import fail
+
+_QUANTITIES = {"m": "length", "rad": "angle", "m/s": "speed", "N": "force", "N*m": "torque", "J": "energy", "kg": "mass", "N/m": "stiffness",
+               "N*s/m": "damping", "Hz": "frequency", "1/s": "rate", "1/m": "spatial_frequency"}
+
+
+class Port(NamedTuple):
+    """A row of a datasheet. Make it with scalar, vector or choice."""
+
+    width: int
+    unit: str
+    about: str
+    default: Tuple[float, ...]
+    hard: Tuple[float, float]
+    usual: Tuple[float, float]
+    quantity: str
+    choices: Tuple[str, ...]
+
+
+def _range(limits: Optional[Tuple[Optional[float], Optional[float]]], otherwise: Tuple[float, float]) -> Tuple[float, float]:
+    if limits is None:
+        return otherwise
+    low, high = limits
+    return (-math.inf if low is None else float(low), math.inf if high is None else float(high))
+
+
+def scalar(unit: str = "1", about: str = "", default: float = 0.0, hard: Optional[Tuple] = None, usual: Optional[Tuple] = None,
+           quantity: str = "") -> Port:
+    """A number. unit: SI without a prefix ("N/m"; "1" for a ratio). default: only for a parameter; an unwired input is 0.
+
+    hard: (low, high), None for no limit; outside it the model has no meaning, so files are refused and wires are clamped. usual: what a
+    slider shows. quantity: where the unit does not say it: "hit", "gain", "state"."""
+    limits = _range(hard, (-math.inf, math.inf))
+    return Port(1, unit, about, (float(default),), limits, _range(usual, limits), quantity or _QUANTITIES.get(unit, "any"), ())
+
+
+def vector(unit: str = "1", about: str = "", default: Sequence[float] = (0.0, 0.0, 0.0), quantity: str = "") -> Port:
+    """A vector (x, y, z); tick gets an array of shape (3,)."""
+    if len(default) != 3:
+        fail("node/default", "", f"the default {default!r} is not a vector", "give x, y and z")
+    anything = (-math.inf, math.inf)
+    return Port(3, unit, about, tuple(float(v) for v in default), anything, anything, quantity or _QUANTITIES.get(unit, "any"), ())
+
+
+def choice(names: Sequence[str], about: str = "", default: Optional[str] = None) -> Port:
+    """A parameter with named alternatives; tick gets the name of the chosen one."""
+    at = list(names).index(default) if default is not None else 0
+    anything = (-math.inf, math.inf)
+    return Port(1, "1", about, (float(at),), anything, anything, "any", tuple(names))
+
+
+class Node:
+    """Derive a class from this, and pass it to Graph.render (nodes=[…]) or Engine (nodes=[…]). Offline only.
+
+        class Wall (tactus.Node):
+            id = "own.wall"
+            inputs = {"position": tactus.vector("m", "tool position")}
+            params = {"stiffness": tactus.scalar("N/m", "slope of the force", default=500, hard=(0, None))}
+            outputs = {"force": tactus.vector("N", "force on the tool")}
+
+            def tick(self, inputs, params):
+                return {"force": (0, 0, params.stiffness * max(0.0, -inputs.position[2]))}
+
+    inputs and params have one attribute per port: a float, an array (3,), or the name of a choice. All outputs must be returned. Keep
+    state in attributes that __init__ or prepare sets. The same inputs must give the same outputs in every run: use no clock, and no random
+    generator without a fixed seed.
+
+    Non-finite numbers: if an input, a parameter or an output is not finite, all outputs of this tick are 0 (-1 for the quantity "state"), and
+    the node starts again with a new object. An exception in tick ends the run and is raised."""
+
+    id: str = ""
+    name: str = ""
+    summary: str = ""
+    source: str = "a node in Python"
+    inputs: Mapping[str, Port] = {}
+    params: Mapping[str, Port] = {}
+    outputs: Mapping[str, Port] = {}
+
+    def prepare(self, rate_hz: float) -> None:
+        """Called before the first tick, with the tick rate."""
+
+    def tick(self, inputs: Any, params: Any) -> Mapping[str, Any]:
+        """One sample: returns the value of each output by its name."""
+        raise NotImplementedError(f"{type(self).__name__} has no tick")
+
+
+class _Running:
+    """The Python side of one node: turns numbers into what tick expects, and back, and handles non-finite numbers."""
+
+    def __init__(self, kind: Type[Node]):
+        self.kind = kind
+        self.rate_hz = 0.0
+        self.node = kind()
+        self.fault = [-1.0 if _quantity(name, port) == "state" else 0.0 for name, port in kind.outputs.items() for _ in range(port.width)]
+
+    def prepare(self, rate_hz: float) -> None:
+        self.rate_hz = rate_hz
+        self.node.prepare(rate_hz)
+
+    def tick(self, numbers: Tuple[float, ...]) -> List[float]:
+        if not all(map(math.isfinite, numbers)):
+            return self.start_again()
+        inputs, next_one = _namespace(self.kind.inputs, numbers, 0)
+        params, _ = _namespace(self.kind.params, numbers, next_one)
+        results = self.flat(self.node.tick(inputs, params))
+        return results if all(map(math.isfinite, results)) else self.start_again()
+
+    def start_again(self) -> List[float]:
+        self.node = self.kind()
+        self.node.prepare(self.rate_hz)
+        return self.fault
+
+    def flat(self, given: Mapping[str, Any]) -> List[float]:
+        if not isinstance(given, Mapping) or set(given) != set(self.kind.outputs):
+            raise TypeError(f"tick of {self.kind.id} must return a dict with {', '.join(self.kind.outputs)}, not {given!r}")
+        numbers: List[float] = []
+        for name, port in self.kind.outputs.items():
+            values = [float(given[name])] if port.width == 1 else [float(v) for v in given[name]]
+            if len(values) != port.width:
+                raise TypeError(f"the output {name} of {self.kind.id} must have {port.width} components, not {len(values)}")
+            numbers += values
+        return numbers
+
+
+def _namespace(ports: Mapping[str, Port], numbers: Tuple[float, ...], at: int) -> Tuple[SimpleNamespace, int]:
+    values: Dict[str, Any] = {}
+    for name, port in ports.items():
+        if port.choices:
+            values[name] = port.choices[int(numbers[at])]
+        else:
+            values[name] = numbers[at] if port.width == 1 else np.array(numbers[at:at + 3])
+        at += port.width
+    return SimpleNamespace(**values), at
+
+
+def _quantity(name: str, port: Port) -> str:
+    return "state" if name == "state" and port.quantity == "any" else port.quantity
+
+
+def describe(kinds: Sequence[Type[Node]]) -> List[Dict[str, Any]]:
+    """What the C++ side needs to know of node classes."""
+    ids = [kind.id for kind in kinds]
+    if twice := [id for id in ids if ids.count(id) > 1]:
+        fail("node/id_taken", twice[0], f"two nodes have the id '{twice[0]}'", "give each class an id of its own")
+    return [_describe(kind) for kind in kinds]
+
+
+def _describe(kind: Type[Node]) -> Dict[str, Any]:
+    if not (isinstance(kind, type) and issubclass(kind, Node)):
+        fail("node/kind", "", f"{kind!r} is not a class derived from tactus.Node", "give the class, not an object of it")
+    if not kind.id:
+        fail("node/id", kind.__name__, "the node has no id", 'give it one: id = "own.wall"')
+    if choices := [name for ports in (kind.inputs, kind.outputs) for name, port in ports.items() if port.choices]:
+        fail("node/choice", f"{kind.id}.{choices[0]}", "only a parameter can be a choice", "move it to params")
+
+    def rows(ports: Mapping[str, Port]) -> List[Dict[str, Any]]:
+        return [{**port._asdict(), "id": name, "quantity": _quantity(name, port), "choices": list(port.choices), "default": list(port.default)}
+                for name, port in ports.items()]
+
+    return {"id": kind.id, "name": kind.name or kind.__name__, "summary": kind.summary or (kind.__doc__ or kind.__name__).split("\n")[0],
+            "source": kind.source, "inputs": rows(kind.inputs), "params": rows(kind.params), "outputs": rows(kind.outputs),
+            "factory": lambda: _Running(kind)}

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: MIT
+"""From columns of numbers to arrays by port, and back."""
+
+from __future__ import annotations
+
+import json
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+
+import numpy as np
+
+from ._messages import fail
+
+
+class Records(Dict[str, np.ndarray]):
+    """What a run has recorded: arrays by port, with one row per tick.
+
+    "t" has shape (n,) and is in s. A scalar port has shape (n,), a vector port (n, 3) with the columns x, y, z. `units` has the SI unit of
+    each port, "" if it is unknown; `rate_hz` is the tick rate."""
+
+    def __init__(self, *args: Any, units: Optional[Mapping[str, str]] = None, rate_hz: float = 0.0):
+        super().__init__(*args)
+        self.units: Dict[str, str] = dict(units or {})
+        self.rate_hz = rate_hz
+
+    def __reduce__(self):
+        return _restored, (dict(self), self.units, self.rate_hz)
+
+
+def _restored(arrays, units, rate_hz):
+    return Records(arrays, units=units, rate_hz=rate_hz)
+
+
+class Layout:
+    """How the recorded columns of a run become arrays."""
+
+    def __init__(self, columns: Sequence[str], units: Sequence[str], asked: Sequence[str], rate_hz: float):
+        self.rate_hz = rate_hz
+        self.ports: List[Tuple[str, Any]] = []
+        self.units = {"t": "s"}
+        at = 0
+        while at < len(columns):
+            port = columns[at][:-2]
+            is_vector = list(columns[at:at + 3]) == [port + end for end in (".x", ".y", ".z")] and columns[at] not in asked
+            name, width = (port, 3) if is_vector else (columns[at], 1)
+            self.ports.append((name, slice(at, at + 3) if is_vector else at))
+            self.units[name] = units[at]
+            at += width
+
+    def records(self, rows: np.ndarray, first_tick: int = 0) -> Records:
+        """The records as arrays, which are views of `rows`."""
+        t = np.arange(first_tick, first_tick + len(rows)) / self.rate_hz
+        return Records({"t": t, **{name: rows[:, where] for name, where in self.ports}}, units=self.units, rate_hz=self.rate_hz)
+
+
+def names_of(port: str, width: int) -> List[str]:
+    """The columns of a port."""
+    return [port] if width == 1 else [f"{port}.{axis}" for axis in "xyz"]
+
+
+def table_of(feed: Mapping[str, Any]) -> Tuple[List[str], np.ndarray]:
+    """The columns of a feed, and an array of shape (n, columns)."""
+    arrays = {port: np.asarray(values, dtype=float) for port, values in feed.items()}
+    lengths = {len(a) for a in arrays.values() if a.ndim > 0}
+    if len(lengths) != 1:
+        fail("feed/shape", "", "the arrays of the feed are not equally long" if lengths else "the feed has no array",
+             "give each port an array with one row per tick; only a single number may be given for all ticks")
+    count = lengths.pop()
+    columns: List[str] = []
+    parts: List[np.ndarray] = []
+    for port, a in arrays.items():
+        if a.ndim == 0:
+            a = np.full(count, float(a))
+        if a.ndim > 2 or (a.ndim == 2 and a.shape[1] != 3):
+            fail("feed/shape", port, f"the array has the shape {a.shape}", "give (n,) for a scalar and (n, 3) for a vector")
+        width = 1 if a.ndim == 1 else 3
+        columns += names_of(port, width)
+        parts.append(a.reshape(count, width))
+    return columns, np.ascontiguousarray(np.hstack(parts))
+
+
+def to_json(value: Any) -> str:
+    """A value as JSON, as in a graph file. numpy arrays become lists, and numpy numbers become plain numbers."""
+    def plain(v: Any) -> Any:
+        if isinstance(v, (np.generic, np.ndarray)):
+            return v.tolist()
+        raise TypeError(f"{v!r} is not a number, text, list or dict")
+
+    try:
+        return json.dumps(value, allow_nan=False, default=plain)
+    except (TypeError, ValueError) as why:
+        fail("api/value", "", f"the value {value!r} cannot be in a graph: {why}", "give a finite number, text, a list or a dict")
+        raise AssertionError from why
+
+
+def to_optional_json(value: Any) -> Optional[str]:
+    return None if value is None else to_json(value)

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: MIT
+"""What the tests of the Python package share."""
+
+import csv
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+
+try:
+    import numpy as np
+except ImportError:
+    print("skipped: numpy is not installed")
+    sys.exit(77)
+
+import tactus
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+GRAPHS = ROOT / "graphs"
+PROGRAM = os.environ.get("TACTUS_PROGRAM", "")
+
+
+def quiet(function, *args, **kwargs):
+    """Calls a function whose warnings do not matter here."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", tactus.TactusWarning)
+        return function(*args, **kwargs)
+
+
+def by_program(graph, *options):
+    """The columns that `tactus render` writes."""
+    with tempfile.TemporaryDirectory() as folder:
+        out = pathlib.Path(folder) / "out.csv"
+        done = subprocess.run([PROGRAM, "render", str(graph), "--out", str(out), *options], capture_output=True, text=True)
+        if done.returncode != 0:
+            raise AssertionError(done.stderr)
+        with open(out, encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+    return rows[0], np.array([[float(v) for v in row] for row in rows[1:]])
+
+
+def columns(records):
+    """The columns of records, as `tactus render` writes them."""
+    names, arrays = [], []
+    for port, values in records.items():
+        names += [port] if values.ndim == 1 else [f"{port}.{axis}" for axis in "xyz"]
+        arrays.append(values.reshape(len(values), -1))
+    return names, np.hstack(arrays)
+
+
+class TestCase(unittest.TestCase):
+    def same_bits(self, a, b):
+        a, b = np.ascontiguousarray(a, dtype=float), np.ascontiguousarray(b, dtype=float)
+        self.assertEqual(a.shape, b.shape)
+        self.assertTrue(a.tobytes() == b.tobytes(), "the bits differ")
+
+    def fails(self, id, function, *args, **kwargs):
+        """Checks that a call raises an Error with this id, and returns the Error."""
+        with self.assertRaises(tactus.Error) as caught:
+            quiet(function, *args, **kwargs)
+        self.assertEqual(caught.exception.id, id, str(caught.exception))
+        return caught.exception
+
+
+def drag(**params):
+    """A contact that is dragged by a feed of positions."""
+    graph = tactus.Graph(name="drag", rate=1000)
+    graph.add_node("drag", "friction.elasto_plastic", params or {"mu": 0.4, "d_max": "0.4 mm"})
+    return graph
+
+
+def positions(n, seed=1):
+    """A random walk over a few mm, shape (n, 3)."""
+    return np.cumsum(np.random.default_rng(seed).normal(0, 1e-4, (n, 3)), axis=0)
