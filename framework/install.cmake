@@ -5,8 +5,8 @@ include (CMakePackageConfigHelpers)
 
 set (package ${CMAKE_INSTALL_LIBDIR}/cmake/Tactus)
 install (DIRECTORY framework/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COMPONENT development
-    FILES_MATCHING PATTERN "*.hpp" PATTERN capi EXCLUDE)
-install (FILES framework/capi/tactus.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COMPONENT development)
+    FILES_MATCHING PATTERN "*.hpp" PATTERN capi EXCLUDE PATTERN examine EXCLUDE PATTERN python EXCLUDE)
+install (FILES framework/capi/tactus.h framework/plugin/tactus_plugin.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COMPONENT development)
 install (DIRECTORY nodes/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus/nodes COMPONENT development FILES_MATCHING PATTERN "*.hpp")
 
 foreach (part framework nodes run c)
@@ -27,5 +27,5 @@ write_basic_package_version_file (${PROJECT_BINARY_DIR}/TactusConfigVersion.cmak
 file (RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)   # so that an installed tree can be moved
 configure_file (framework/tactus.pc.in ${PROJECT_BINARY_DIR}/tactus.pc @ONLY)
 install (FILES ${PROJECT_BINARY_DIR}/TactusConfig.cmake ${PROJECT_BINARY_DIR}/TactusConfigVersion.cmake framework/node/catalogue.cmake
-    DESTINATION ${package} COMPONENT development)
+    framework/plugin/plugin.cmake framework/plugin/plugin.map DESTINATION ${package} COMPONENT development)
 install (FILES ${PROJECT_BINARY_DIR}/tactus.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)

@@ -8,7 +8,7 @@ set_target_properties (tactus_shared PROPERTIES
 target_compile_features (tactus_shared INTERFACE cxx_std_20)
 target_compile_options (tactus_shared INTERFACE "$<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:${TACTUS_SAME_BITS}>")
 target_include_directories (tactus_shared INTERFACE $<INSTALL_INTERFACE:include>)
-target_link_libraries (tactus_shared PUBLIC Eigen3::Eigen Threads::Threads)
+target_link_libraries (tactus_shared PUBLIC Eigen3::Eigen Threads::Threads ${CMAKE_DL_LIBS})
 if (CMAKE_SYSTEM_NAME STREQUAL Linux)
     # Exports what is ours, and neither nlohmann's library nor instances of std templates: they would replace the program's.
     set (exports ${CMAKE_CURRENT_SOURCE_DIR}/framework/exports.map)

@@ -40,17 +40,31 @@ cmp "$work/static.txt" "$work/embed_c.txt"
 if ldd "$work/static/embed_c" | grep libtactus; then exit 1; fi
 echo "the static libraries give the same bits"
 
+# A plugin from the example, and one that `tactus new-node` writes, builds and tests.
+cmake -S "$examples/node_plugin" -B "$work/node_plugin" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" >/dev/null
+cmake --build "$work/node_plugin" >/dev/null
+nm -D --defined-only "$work/node_plugin/ice.tactus" | awk '{ print $3 }' | diff - <(echo tactus_plugin_entry)
+"$build/bin/tactus" nodes my.ice --plugins "$work/node_plugin" | grep "Plugin: .*ice.tactus" >/dev/null
+CMAKE_PREFIX_PATH=$work/prefix "$build/bin/tactus" new-node mylab rough_wood "$work/rough_wood" >"$work/new_node.txt"
+"$build/bin/tactus" nodes --plugins "$work/rough_wood/build" | grep "mylab.rough_wood" >/dev/null
+for plugin in "$work/node_plugin/ice.tactus" "$work/rough_wood/build/rough_wood.tactus"; do
+    "$build/bin/tactus" check-plugin "$plugin" --strict 3 >"$work/checked.txt" || { cat "$work/checked.txt"; exit 1; }
+done
+echo "docs/examples/node_plugin and a new node: built as plugins, loaded and checked"
+
 # The same bits as the program, except for the spelling of numbers.
 "$build/bin/tactus" render graphs/dry_wood.json --duration 1 --out "$work/render.csv" 2>/dev/null
-python3 - "$work/render.csv" "$work/embed_c.txt" <<'PYTHON'
-import csv, sys
-a, b = ([row for row in csv.reader(open(name))] for name in sys.argv[1:])
-assert a[0] == b[0], (a[0], b[0])
-assert len(a) == len(b) == 4001, (len(a), len(b))
-for x, y in zip(a[1:], b[1:]):
-    assert [float(v) for v in x[1:]] == [float(v) for v in y[1:]], (x, y)
-print("4000 ticks from C equal `tactus render`, bit for bit")
-PYTHON
+python3 tests/install/same_bits.py "$work/render.csv" "$work/embed_c.txt"
+
+# The Python package, from its installed files alone.
+if cmake --install "$build" --component python --prefix "$work/prefix" >/dev/null && [ -d "$work/prefix/lib/python3/dist-packages/tactus" ]; then
+    for example in own_node own_device; do
+        (cd graphs && PYTHONPATH=$work/prefix/lib/python3/dist-packages /usr/bin/python3 -B "$examples/python/$example.py") >"$work/python.txt"
+        echo "docs/examples/python/$example.py: $(wc -l <"$work/python.txt") lines printed"
+    done
+else
+    echo "docs/examples/python: skipped, because the Python package is not built"
+fi
 
 flags=$(PKG_CONFIG_PATH=$libs/pkgconfig pkg-config --cflags --libs tactus)
 # shellcheck disable=SC2086

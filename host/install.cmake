@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What `cmake --install` installs of the programs: the component `program` is the command line with presets, profiles, man pages and
+# completions, the component `host` the window with what a desktop needs to know about it.
+find_package (Python3 COMPONENTS Interpreter)
+if (NOT Python3_FOUND)
+    message (STATUS "There is no Python, so man pages cannot be written, and only the libraries are installed")
+    return ()
+endif ()
+
+# Man pages and AppStream data state the date of the newest entry of the changelog, not that of the build, so that two builds give the
+# same bytes.
+file (STRINGS CHANGELOG.md entries REGEX "^## ")
+if (NOT entries MATCHES "^## ([0-9.]+) \\(([0-9]+-[0-9]+-[0-9]+)\\)" OR NOT CMAKE_MATCH_1 STREQUAL PROJECT_VERSION)
+    message (FATAL_ERROR "The newest entry of CHANGELOG.md is not \"## ${PROJECT_VERSION} (YEAR-MONTH-DAY)\"")
+endif ()
+set (TACTUS_RELEASE_DATE ${CMAKE_MATCH_2})
+
+set (packaging ${PROJECT_SOURCE_DIR}/host/packaging)
+set (made ${PROJECT_BINARY_DIR}/packaging)
+file (GLOB profiles CONFIGURE_DEPENDS host/profiles/*.json)
+set (TACTUS_MAINTAINER "The Tactus developers <tactus@example.org>" CACHE STRING "Who to ask about packages, as NAME <ADDRESS>")
+set (python ${Python3_EXECUTABLE} -B)
+
+set (check_plugin)   # empty where tactus-check-plugin cannot be built
+if (TARGET tactus-check-plugin)
+    set (check_plugin tactus-check-plugin)
+endif ()
+
+# Man pages and completions are written from --help, so this runs the programs after they are built.
+add_custom_command (OUTPUT ${made}/written
+    COMMAND ${CMAKE_COMMAND} -E rm -rf ${made}/man ${made}/completions
+    COMMAND ${python} ${packaging}/man_pages.py $<TARGET_FILE:tactus> tactus ${PROJECT_VERSION} ${TACTUS_RELEASE_DATE} ${made}/man
+    COMMAND ${python} ${packaging}/man_pages.py $<TARGET_FILE:tactus-host> tactus-host ${PROJECT_VERSION} ${TACTUS_RELEASE_DATE} ${made}/man
+    COMMAND ${python} ${packaging}/completions.py $<TARGET_FILE:tactus> $<TARGET_FILE:tactus-host> ${made}/completions
+    COMMAND ${python} ${packaging}/udev_rules.py ${PROJECT_SOURCE_DIR}/host/profiles ${made}/70-tactus.rules
+    COMMAND ${python} ${packaging}/changelogs.py ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${TACTUS_MAINTAINER} ${made}
+    COMMAND ${CMAKE_COMMAND} -E touch ${made}/written
+    DEPENDS tactus tactus-bench tactus-host ${check_plugin} ${profiles} CHANGELOG.md
+        ${packaging}/program_help.py ${packaging}/man_pages.py ${packaging}/completions.py ${packaging}/udev_rules.py ${packaging}/changelogs.py
+    COMMENT "Writing man pages, completions and udev rules" VERBATIM)
+add_custom_target (installed_texts ALL DEPENDS ${made}/written)
+
+install (TARGETS tactus tactus-bench ${check_plugin} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+install (DIRECTORY graphs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/tactus/graphs COMPONENT program
+    FILES_MATCHING PATTERN "*.json" PATTERN "assets/*.png" PATTERN "assets/*.obj" PATTERN "assets/*.csv")
+install (FILES ${profiles} DESTINATION ${CMAKE_INSTALL_DATADIR}/tactus/profiles COMPONENT program)
+install (FILES ${packaging}/names_in_graph.py DESTINATION ${CMAKE_INSTALL_DATADIR}/tactus COMPONENT program)
+install (FILES ${made}/70-tactus.rules DESTINATION lib/udev/rules.d COMPONENT program)
+install (FILES ${packaging}/tactus.mime.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages RENAME tactus.xml COMPONENT program)
+install (DIRECTORY ${made}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program PATTERN "tactus-host*" EXCLUDE)
+install (DIRECTORY ${made}/completions/bash/ DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+install (DIRECTORY ${made}/completions/zsh/ DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
+install (DIRECTORY ${made}/completions/fish/ DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
+install (DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tactus COMPONENT program FILES_MATCHING PATTERN "*.md" PATTERN examples EXCLUDE
+    PATTERN figures EXCLUDE PATTERN host EXCLUDE)
+install (DIRECTORY docs/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libtactus-dev COMPONENT development)
+
+install (TARGETS tactus-host RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT host)
+install (FILES ${made}/man/tactus-host.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT host)
+install (FILES ${packaging}/tactus-host.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT host)
+install (FILES ${packaging}/tactus-host.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps COMPONENT host)
+configure_file (${packaging}/org.tactus_haptics.Tactus.metainfo.xml.in ${made}/org.tactus_haptics.Tactus.metainfo.xml @ONLY)
+install (FILES ${made}/org.tactus_haptics.Tactus.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo COMPONENT host)
+
+include (host/packaging/packages.cmake)
