@@ -4,6 +4,8 @@
 #include <host/osc/osc_options.hpp>
 #include <host/platform/home_folder.hpp>
 #include <host/platform/signals.hpp>
+#include <host/plugins/installed_plugins.hpp>
+#include <tactus/tactus.h>
 
 #include <cstdio>
 
@@ -53,6 +55,8 @@ public:
         juce::LookAndFeel::setDefaultLookAndFeel (look.get());
         MainView::Start how { .home = homeFolder(), .stops_directly = true };
         if (! readArguments (how)) return quit();
+        std::fputs (textOf (usePlugins (plugin_folders)).c_str(), stderr);
+        how.live = liveBuilds (catalogue());
         window = std::make_unique<Window> (*look, how);
         watchForStop();
         startTimerHz (10);
@@ -87,8 +91,9 @@ private:
                                                   "or ADDRESS:PORT to also accept other machines");
         osc_given.check (oscCheck());
         options.addOption ("--osc-answer", osc_answer, "Address of the one other machine that gets answers, such as 192.168.1.7").check (addressCheck());
+        options.addOption ("--plugins", plugin_folders, "A folder of node plugins, beside those that are installed (docs/plugins.md)").oneValueEach();
         options.addOption ("--places", places_file, "JSON file to keep updated with the screen positions of all nodes, ports, wires and buttons, for scripts");
-        options.version (TACTUS_VERSION);
+        options.version ("tactus-host " TACTUS_VERSION " (C API " + std::to_string (TACTUS_API_VERSION) + ")");
         std::vector<std::string> arguments;
         for (const auto& a : getCommandLineParameterArray())
             arguments.push_back (a.unquoted().toStdString());
@@ -124,6 +129,7 @@ private:
         if (! file.replaceWithText (places)) places.clear();
     }
 
+    std::vector<std::string> plugin_folders;
     std::string places_file, places;
     std::unique_ptr<Look> look;
     std::unique_ptr<Window> window;

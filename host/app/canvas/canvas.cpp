@@ -4,6 +4,7 @@
 #include "drags.hpp"
 
 #include <host/app/look/focus.hpp>
+#include <host/app/look/text.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/model/wire_rules.hpp>
 
@@ -228,6 +229,18 @@ void Canvas::showLive (Live live)
     if (live == highlights.live) return;
     highlights.live = std::move (live);
     repaint();
+}
+
+juce::String Canvas::getTooltip() { return drag ? juce::String() : tooltipAt (getMouseXYRelative().toFloat()); }
+
+juce::String Canvas::tooltipAt (juce::Point<float> pixel) const
+{
+    constexpr float reach = 4.0f;   // pixels
+    const auto at = window.toCanvas (pixel);
+    for (const auto& [id, limit] : highlights.live.limits)
+        if (const auto* node = shown->find (id); node != nullptr && limitLightOf (*node, window.zoom).expanded (reach / window.zoom).contains (at))
+            return fromUtf8 (limit.text);
+    return {};
 }
 
 void Canvas::paint (juce::Graphics& g)

@@ -35,7 +35,7 @@ struct NodeRequest
 /// Dragging on empty canvas selects. The middle or right button pans; a right-click opens the menu. The wheel zooms at the
 /// pointer; a trackpad pans. Dragging from a port draws a wire: ports that the wire fits are highlighted, the others show why
 /// it does not fit. Keyboard commands: commands.hpp.
-class Canvas final : public juce::Component, private Document::Listener
+class Canvas final : public juce::Component, public juce::TooltipClient, private Document::Listener
 {
 public:
     Canvas (Document&, const Catalogue&);
@@ -106,6 +106,9 @@ public:
     graph::Graph placedGraph() const;   ///< the graph with the positions of all nodes of the patch stored
 
     void showLive (Live);   ///< call many times a second
+
+    juce::String getTooltip() override;                        ///< tooltipAt the pointer
+    juce::String tooltipAt (juce::Point<float> pixel) const;   ///< the text of the limit light at this pixel of the canvas; empty if there is none
 
     std::function<void()> onSelection, onBreadcrumbs;
     std::function<void (const juce::String&)> onHint;   ///< receives a description of what is under the pointer, or ""

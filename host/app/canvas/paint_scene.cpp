@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "paint_scene.hpp"
 
+#include <host/app/limits/limit_light.hpp>
 #include <host/app/look/glyph.hpp>
 
 #include <algorithm>
@@ -40,6 +41,8 @@ public:
         if (node.face->kind == Face::Kind::placeholder) frame (bounds, theme.warning);
         if (highlights.live.problems.contains (node.id)) frame (bounds, theme.stop);
         cost (node);
+        if (const auto limit = highlights.live.limits.find (node.id); limit != highlights.live.limits.end())
+            drawLimitLight (g, limitLightOf (node, zoom), limit->second.is_broken, theme);
     }
 
 private:
@@ -243,6 +246,13 @@ void paintHit (juce::Graphics& g, const SceneWire& w, double along, const Theme&
     g.fillEllipse (juce::Rectangle<float> (9.0f, 9.0f).withCentre (at));
 }
 }   // namespace
+
+juce::Rectangle<float> limitLightOf (const SceneNode& node, float zoom)
+{
+    constexpr float size = 10.0f, least_pixels = 6.0f, inset = 3.0f;
+    const float side = std::max (size, least_pixels / zoom);
+    return juce::Rectangle<float> (side, side).withCentre (node.bounds().getTopRight().translated (-inset, inset));
+}
 
 void paintGrid (juce::Graphics& g, const View& view, juce::Rectangle<int> area, const Theme& theme)
 {

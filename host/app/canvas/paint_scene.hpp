@@ -19,6 +19,16 @@ struct Live
     std::map<graph::Id, double> hits;            ///< position of a hit along its wire, 0…1
     std::map<graph::Id, std::string> problems;   ///< messages about nodes and wires
 
+    /// The limits of devices that a node breaks or nearly breaks.
+    struct Limit
+    {
+        bool is_broken = false;
+        std::string text;
+
+        bool operator== (const Limit&) const = default;
+    };
+    std::map<graph::Id, Limit> limits;
+
     bool operator== (const Live&) const = default;
 };
 
@@ -36,6 +46,9 @@ void paintGrid (juce::Graphics&, const View&, juce::Rectangle<int> area, const T
 
 /// Paints the notes, wires and nodes of a scene, in the graphics context of the component.
 void paintScene (juce::Graphics&, const Scene&, const View&, const Look&, const Highlights&);
+
+/// The bounds of the limit light of a node, in canvas units: at its top right corner, and never too small to see.
+juce::Rectangle<float> limitLightOf (const SceneNode&, float zoom);
 
 /// Paints one wire.
 void paintWire (juce::Graphics&, const SceneWire&, const Theme&, bool selected, bool hovered);

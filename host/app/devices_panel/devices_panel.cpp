@@ -3,11 +3,9 @@
 #include "sound_text.hpp"
 
 #include <host/app/inspector/fields.hpp>
+#include <host/app/look/text.hpp>
 #include <host/app/model/message_text.hpp>
-#include <host/audio/audio_rig.hpp>
-
-#include <tactus/run/device/gestures.hpp>
-#include <tactus/run/device/make_device.hpp>
+#include <host/audio/audio_settings.hpp>
 
 #include <algorithm>
 
@@ -17,8 +15,6 @@ namespace tactus::host
 namespace
 {
 constexpr int card_width = 280, widest_card = 480, refreshes_apart = 6;   // every sixth refresh updates the panel: five times a second
-
-constexpr const char* sound_card = "sound card";
 
 /// Clocks other than a role: the value in the session, and the label.
 constexpr std::pair<const char*, const char*> clocks[] { { "", "automatic" }, { "timer", "timer" }, { "audio", sound_card } };
@@ -72,9 +68,7 @@ std::span<const Part> partsOf (const std::string& driver)
     return parts;
 }
 
-juce::String asText (const std::string& s) { return juce::String::fromUTF8 (s.c_str()); }
-
-juce::String written (const Json& v) { return asText (v.is_string() ? v.get<std::string>() : v.dump()); }
+juce::String written (const Json& v) { return fromUtf8 (v.is_string() ? v.get<std::string>() : v.dump()); }
 
 Json readText (const juce::String& t)
 {
@@ -83,14 +77,6 @@ Json readText (const juce::String& t)
 }
 
 bool isListOfChannels (const std::string& pointer) { return pointer == "/outputs" || pointer == "/inputs"; }
-
-/// The device of a binding, without its workspace, guard and channels.
-Json deviceOf (Json binding)
-{
-    for (const auto* key : { "workspace", "guard", "outputs", "inputs" })
-        binding.erase (key);
-    return binding;
-}
 
 /// Removes a setting, and the object around it if that becomes empty.
 void remove (Json& binding, const std::string& pointer)
@@ -102,31 +88,6 @@ void remove (Json& binding, const std::string& pointer)
     if (around.empty() && ! at.parent().parts().empty()) binding.erase (at.parent().parts().back());
 }
 }   // namespace
-
-std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles)
-{
-    std::vector<BindingChoice> all { { "as in the graph", Json() }, { "simulated tool", defaultDevice() }, { sound_card, { { "driver", "audio" } } } };
-    for (const auto& d : connected)
-    {
-        const auto fitting = hid::matching (profiles.profiles, d);
-        if (fitting.empty()) continue;
-        Json description { { "driver", "hid" }, { "profile", fitting.front()->id } };
-        const auto alike = std::ranges::count_if (connected, [&] (const auto& other) { return hid::fit (*fitting.front(), other) > 0; });
-        const bool needs_serial = alike > 1 && ! d.serial.empty();
-        if (needs_serial) description["serial"] = d.serial;
-        BindingChoice choice { fitting.front()->name + (needs_serial ? ", serial " + d.serial : ""), std::move (description) };
-        if (std::ranges::count (all, choice) == 0) all.push_back (std::move (choice));
-    }
-    for (const auto& g : gestures())
-        all.push_back ({ "gesture " + std::string (g.id), { { "driver", "gesture" }, { "path", g.id } } });
-    if (bound_now != nullptr)
-    {
-        const auto now = deviceOf (*bound_now);
-        if (std::ranges::none_of (all, [&] (const auto& c) { return c.description == now; }))
-            all.push_back ({ nameOf (now), now });
-    }
-    return all;
-}
 
 DevicesPanel::DevicesPanel (Document& d, LiveRun& r, DeviceSetup& s) : document (d), run (r), setup (s)
 {
@@ -154,22 +115,42 @@ bool DevicesPanel::complain (const Messages& messages) const
 {
     const auto error = std::ranges::find (messages, Message::Severity::error, &Message::severity);
     if (error == messages.end()) return false;
-    if (onHint) onHint (asText (messageText (*error)));
+    if (onHint) onHint (fromUtf8 (messageText (*error)));
     return true;
+}
+
+const BindingChoice* DevicesPanel::choiceOf (const std::string& role, const std::string& label) const
+{
+    const auto at = std::ranges::find (shape.roles, role);
+    if (at == shape.roles.end()) return nullptr;
+    const auto& choices = shape.choices[static_cast<std::size_t> (at - shape.roles.begin())];
+    const auto choice = std::ranges::find (choices, label, &BindingChoice::label);
+    return choice == choices.end() ? nullptr : &*choice;
+}
+
+/// The choice that a role is bound to now; null if there is none.
+const BindingChoice* DevicesPanel::choiceNow (const std::string& role) const
+{
+    const auto at = std::ranges::find (shape.roles, role);
+    if (at == shape.roles.end()) return nullptr;
+    const auto* bound = bindingOf (role);
+    const auto now = bound != nullptr ? deviceOfBinding (*bound) : Json();
+    const auto& choices = shape.choices[static_cast<std::size_t> (at - shape.roles.begin())];
+    const auto choice = std::ranges::find (choices, now, &BindingChoice::description);
+    return choice == choices.end() ? nullptr : &*choice;
 }
 
 void DevicesPanel::bind (const std::string& role, const std::string& label)
 {
-    const auto at = std::ranges::find (shape.roles, role);
-    if (at == shape.roles.end()) return;
-    const auto& choices = shape.choices[static_cast<std::size_t> (at - shape.roles.begin())];
-    const auto choice = std::ranges::find (choices, label, &BindingChoice::label);
-    if (choice == choices.end()) return;
-    edit ([role, to = choice->description] (DeviceSession& s) {
+    const auto* choice = choiceOf (role, label);
+    if (choice == nullptr) return;
+    const auto profile = choice->numbers.empty() ? nullptr : hid::profileNamed (setup.profiles(), choice->numbers);
+    edit ([role, to = choice->description, profile] (DeviceSession& s) {
+        const auto* before = s.binding (role);
         if (to.is_null())
             s.unbind (role);
         else
-            s.bind (role, rebound (s.binding (role), to));
+            s.bind (role, rebound (before, profile ? simulationOf (*profile, before) : to));
     });
 }
 
@@ -251,7 +232,7 @@ std::unique_ptr<Column> DevicesPanel::clockCard()
         [this] (const std::string& to) { edit ([&] (DeviceSession& s) { s.setClock (clockLabelled (to)); }); },
         "What ticks the run: the reports of a role's device, the blocks of the sound card, or a timer at the rate of the graph"));
     card->add (remark ([this] { return clockRemark(); }));
-    card->add ("Saved in " + asText (setup.session().file.string()) + ", not in the graph.", TextBlock::Kind::small);
+    card->add ("Saved in " + fromUtf8 (setup.session().file.string()) + ", not in the graph.", TextBlock::Kind::small);
     return card;
 }
 
@@ -259,16 +240,14 @@ std::unique_ptr<Column> DevicesPanel::roleCard (std::size_t i)
 {
     const auto role = shape.roles[i];
     auto card = std::make_unique<Column>();
-    card->add (asText (role), TextBlock::Kind::title);
+    card->add (fromUtf8 (role), TextBlock::Kind::title);
     std::vector<std::string> labels;
     for (const auto& c : shape.choices[i])
         labels.push_back (c.label);
     card->add (choiceRow (
-        "device", labels, [this, role, choices = shape.choices[i]] {
-        const auto* now = bindingOf (role);
-        const auto at = std::ranges::find_if (choices, [&] (const auto& c)
-                                              { return now == nullptr ? c.description.is_null() : c.description == deviceOf (*now); });
-        return at == choices.end() ? std::string() : at->label; },
+        "device", labels, [this, role] {
+        const auto* choice = choiceNow (role);
+        return choice != nullptr ? choice->label : std::string(); },
         [this, role] (const std::string& to) { bind (role, to); },
         "The device for this role, in every graph"));
     card->add (remark ([this, role] { return fitRemark (role); }));
@@ -279,7 +258,7 @@ std::unique_ptr<Column> DevicesPanel::roleCard (std::size_t i)
             part.label, [this, role, at = JsonPointer (part.pointer), is_list = isListOfChannels (part.pointer)] {
             const auto* now = bindingOf (role);
             if (now == nullptr || ! now->contains (at)) return juce::String();
-            return is_list ? asText (textOfChannels (now->at (at))) : written (now->at (at)); },
+            return is_list ? fromUtf8 (textOfChannels (now->at (at))) : written (now->at (at)); },
             [this, role, pointer = std::string (part.pointer)] (const juce::String& text) { setPart (role, pointer, text); },
             part.about));
     return card;
@@ -345,7 +324,7 @@ std::unique_ptr<Column> DevicesPanel::soundCard()
         card->add (textRow (
             i < shape.routes || i == 0 ? "route" : "add route", [this, i] {
             const auto all = routes();
-            return i < all.size() ? asText (textOfRoute (all[i])) : juce::String(); },
+            return i < all.size() ? fromUtf8 (textOfRoute (all[i])) : juce::String(); },
             [this, i] (const juce::String& text) { setRoute (i, text); },
             "PORT=CHANNEL@FULLSCALE, such as mix.out=3@4 N: a port of the graph, a channel of the card, and the value at full scale"));
     card->add (remark ([this] { return soundRemark(); }));
@@ -357,84 +336,6 @@ std::unique_ptr<Column> DevicesPanel::soundCard()
             [this, pointer = std::string (part.pointer)] (const juce::String& text) { setCard (pointer, text); },
             part.about));
     return card;
-}
-
-Remark DevicesPanel::soundRemark() const
-{
-    const auto now = run.isRunning() ? run.audioStatus() : std::nullopt;
-    if (! now) return { routes().empty() ? "No routes. Add one, such as mix.out=1@4 N." : "Not running.", false };
-    if (now->card.type.empty()) return { now->trouble.empty() ? "No sound card." : asText (now->trouble), true };
-    const auto sound = asText (audio::statusOf (*now)).trim();
-    if (! now->is_open) return { sound + (now->trouble.empty() ? juce::String() : ": " + asText (now->trouble)), true };
-    const auto& card = now->card;
-    const auto format = juce::String (card.rate_hz) + " Hz, blocks of " + juce::String (card.block);
-    return { asText (card.type + ": " + card.name + ", ") + format + "\n" + sound, now->clipped > 0 };
-}
-
-/// What the role needs, and what its device lacks.
-Remark DevicesPanel::fitRemark (const std::string& role) const
-{
-    const auto* fit = fitOf (role);
-    if (fit == nullptr) return {};
-    Remark r { asText ("Needs " + describe (fit->needs) + "."), false };
-    const auto addProblem = [&] (const std::string& what) {
-        r.text << "\n"
-               << asText (what);
-        r.is_problem = true;
-    };
-    for (const auto& m : fit->messages)
-        addProblem (m.text);
-    if (! fit->lacking.empty()) addProblem ("The device does not fit:");
-    for (const auto& l : fit->lacking)
-        addProblem (l);
-    if (fit->from == RoleFit::From::graph) r.text << asText ("\nThe device described in the graph is used: " + nameOf (fit->description) + ".");
-    if (fit->from == RoleFit::From::none) r.text << "\nNo device is set. A simulated tool at rest is used.";
-    return r;
-}
-
-/// Says whether the device of a role is connected and works, and whether its guard has stopped it.
-Remark DevicesPanel::statusRemark (const std::string& role) const
-{
-    Remark r;
-    const auto* fit = fitOf (role);
-    const auto health = std::ranges::find (run.health(), role, &DeviceHealth::role);
-    if (health != run.health().end())
-    {
-        r.text = asText (describe (*health));
-        r.is_problem = ! health->connected;
-    }
-    else if (fit != nullptr && fit->connected && ! run.isRunning())
-        r = *fit->connected ? Remark { "Connected.", false } : Remark { "Not connected. A run waits for the device and applies no force until then.", true };
-    const auto status = run.status();
-    if (! status || ! run.isRunning()) return r;
-    for (const auto& now : status->shown())
-        if (now.name == role && now.stop != Guard::Stop::none)
-        {
-            r.text << (r.text.isEmpty() ? "" : "\n") << "Stopped by its guard: " << asText (describe (now.latestEvent())) << ".";
-            r.is_problem = true;
-        }
-    return r;
-}
-
-Remark DevicesPanel::clockRemark() const
-{
-    const auto status = run.status();
-    if (! status || ! run.isRunning()) return { "Not running.", false };
-    const auto wanted = setup.session().session.clock();
-    const auto& role = run.clockRole();
-    const bool by_card = wanted == "audio" && run.audioStatus();
-    if (status->clock_replaced && (by_card || ! role.empty()))
-    {
-        const auto why = by_card ? juce::String ("The sound card has stalled") : asText (role) + " is disconnected";
-        return { why + ": a timer ticks instead, and all forces are held at zero.", true };
-    }
-    const auto rate = ", at " + juce::String (run.rate()) + " Hz";
-    if (by_card) return { "Ticked by the sound card" + rate + ".", false };
-    if (! role.empty()) return { "Ticked by " + asText (role) + rate + ".", false };
-    if (wanted.empty() || wanted == "timer") return { "Ticked by a timer" + rate + ".", false };
-    const auto why = fitOf (wanted) == nullptr ? "this graph has no role " + asText (wanted)
-                                               : "the device of " + asText (wanted) + " cannot tick the run at the moment";
-    return { "Ticked by a timer" + rate + ": " + why + ".", false };
 }
 
 void DevicesPanel::paint (juce::Graphics& g) { g.fillAll (lookOf (*this).theme().panel); }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "binding_choice.hpp"
+
 #include <host/app/inspector/describe.hpp>
 #include <host/app/run/device_setup.hpp>
 #include <host/app/run/live_run.hpp>
@@ -8,19 +10,6 @@
 
 namespace tactus::host
 {
-
-/// A device that a role can be bound to.
-struct BindingChoice
-{
-    std::string label;
-    Json description;   ///< null: as in the graph
-
-    bool operator== (const BindingChoice&) const = default;
-};
-
-/// The choices for a role: as in the graph, a simulated tool, the sound card, each connected device that has a profile, the gestures,
-/// and what the role is bound to now if that is none of these.
-std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice>, const hid::LoadedProfiles&);
 
 /// The devices for the roles of the graph. For each role: what it needs, what it is bound to and whether that fits, its status, its
 /// workspace, and the limits of its guard. Also the clock of the run, and what the sound card plays. Edits change the session, not the
@@ -61,6 +50,8 @@ private:
     };
 
     const RoleFit* fitOf (const std::string& role) const;
+    const BindingChoice* choiceOf (const std::string& role, const std::string& label) const;
+    const BindingChoice* choiceNow (const std::string& role) const;
     const Json* bindingOf (const std::string& role) const { return setup.session().session.binding (role); }
     void edit (const std::function<void (DeviceSession&)>&);
     void update();
@@ -71,6 +62,7 @@ private:
     std::unique_ptr<Column> soundCard();
     Json routes() const;
     void setSound (const std::function<void (Json&)>&);
+    // In remarks.cpp
     Remark fitRemark (const std::string& role) const;
     Remark statusRemark (const std::string& role) const;
     Remark clockRemark() const;

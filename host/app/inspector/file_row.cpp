@@ -133,7 +133,8 @@ private:
     {
         const auto folder = context.folder();
         const auto start = folder.empty() ? juce::File() : juce::File::getCurrentWorkingDirectory().getChildFile (folder);
-        chooser = std::make_unique<juce::FileChooser> ("Choose a file", start, patternsOf (kind));
+        // false: no dialog of the desktop, which would keep Esc from this program, see MainView::askForFile
+        chooser = std::make_unique<juce::FileChooser> ("Choose a file", start, patternsOf (kind), false);
         const auto chosen = [safe = juce::Component::SafePointer (this)] (const juce::FileChooser& c) {
             if (safe != nullptr && c.getResult() != juce::File()) safe->setFile (c.getResult().getFullPathName());
         };

@@ -51,6 +51,9 @@ public:
     /// Replaces the graph as one undo step of that name.
     void open (graph::Graph, Source, const std::string& step);
 
+    /// Tells the listeners that the graph must be read again, because the node types of the catalogue have changed.
+    void renew() { notifyChanged(); }
+
     /// True if the graph differs from its file.
     bool isChanged() const;
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <sstream>
 
 namespace tactus::host
@@ -39,6 +40,13 @@ bool fitsSomewhere (const Face& face, const WireEnd& end)
     });
 }
 
+/// The summary of a type, followed by the name of the plugin if the type comes from one.
+std::string summaryOf (const NodeType& type)
+{
+    const std::string summary (type.info.summary);
+    return type.origin.empty() ? summary : summary + " Plugin " + std::filesystem::path (type.origin).stem().string() + ".";
+}
+
 /// 0 if the id or name starts with the query, 1 if it contains it, else 2.
 int rank (const PaletteEntry& e, const std::string& query)
 {
@@ -67,7 +75,7 @@ std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::
         return faceOf (g, g.root, node, catalogue);
     };
     for (const auto& type : catalogue)
-        consider ({ std::string (type.info.id), std::string (type.info.name), std::string (type.info.summary) }, face (std::string (type.info.id)));
+        consider ({ std::string (type.info.id), std::string (type.info.name), summaryOf (type) }, face (std::string (type.info.id)));
     for (const auto& [id, patch] : g.graphs)
     {
         const auto count = std::to_string (patch.nodes.size()) + (patch.nodes.size() == 1 ? " node." : " nodes.");

@@ -29,8 +29,8 @@ public:
 private:
     void run() override;
 
-    const Catalogue& catalogue;
-    std::mutex lock;   // guards `pictures` and `wanted`
+    const Catalogue catalogue;   // a copy: live C++ changes the original while the thread draws
+    std::mutex lock;             // guards `pictures` and `wanted`
     std::map<std::filesystem::path, std::shared_ptr<const ForcePicture>> pictures;
     std::deque<std::filesystem::path> wanted;
     std::atomic<bool> cancelled { false };

@@ -61,16 +61,6 @@ std::vector<Preset> presetsIn (const fs::path& folder, const Catalogue& catalogu
     return presets;
 }
 
-fs::path presetFolder()
-{
-    const auto given = juce::SystemStats::getEnvironmentVariable ("TACTUS_PRESETS", {});
-    if (given.isNotEmpty()) return given.toStdString();
-    const fs::path program = juce::File::getSpecialLocation (juce::File::currentExecutableFile).getFullPathName().toStdString();
-    for (const auto* place : { "graphs", "../share/tactus/graphs", "../../../graphs", "../graphs" })
-        if (const auto folder = (program.parent_path() / place).lexically_normal(); fs::is_directory (folder)) return folder;
-    return {};
-}
-
 fs::path ownFolder()
 {
     const auto given = juce::SystemStats::getEnvironmentVariable ("TACTUS_GRAPHS", {});

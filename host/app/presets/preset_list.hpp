@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <host/platform/preset_folder.hpp>
 #include <tactus/node/catalogue.hpp>
 
 #include <filesystem>
@@ -28,10 +29,6 @@ Preset presetOf (const std::filesystem::path& file, const Catalogue&);
 
 /// Lists the presets of a folder by name. Skips files that are not graphs; damaged graphs are listed with their problem. [main thread]
 std::vector<Preset> presetsIn (const std::filesystem::path& folder, const Catalogue&);
-
-/// The folder of the presets that come with Tactus: TACTUS_PRESETS in the environment, or next to the program, built or
-/// installed. Empty if there is none.
-std::filesystem::path presetFolder();
 
 /// The folder of the user's own graphs: TACTUS_GRAPHS in the environment, or Documents/Tactus. It may not exist yet.
 std::filesystem::path ownFolder();

@@ -8,17 +8,18 @@ namespace tactus::host
 
 namespace
 {
-constexpr int row_height = 48, button_width = 144;
+constexpr int problem_height = 48, button_width = 144;
 
 bool isSame (const Message& a, const Message& b) { return a.id == b.id && a.where == b.where && a.text == b.text && a.severity == b.severity; }
 }   // namespace
 
-class ProblemList::Row final : public juce::Component
+class ProblemList::Row final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
     Row (ProblemList& l, Message m) : list (l), message (std::move (m))
     {
         setMouseCursor (juce::MouseCursor::PointingHandCursor);
+        setTooltip (fromUtf8 (message.text + (message.remedy.empty() ? "" : "\n" + message.remedy)));   // a row may be too short for its text
         const auto fix = fixOf (list.document.graph(), message);
         if (! fix) return;
         button = std::make_unique<juce::TextButton> (fromUtf8 (fix->label));
@@ -96,15 +97,16 @@ void ProblemList::paint (juce::Graphics& g)
     if (! rows.empty()) return;
     g.setFont (look.font (13.0f));
     g.setColour (look.theme().dim);
-    g.drawFittedText ("No problems. Errors and warnings are listed here with their remedies.", getLocalBounds().reduced (24), juce::Justification::centred, 2);
+    g.drawFittedText ("No problems. Errors, warnings and broken limits of the devices are listed here with their remedies.",
+                      getLocalBounds().reduced (24), juce::Justification::centred, 2);
 }
 
 void ProblemList::resized()
 {
     scroll.setBounds (getLocalBounds());
-    column.setSize (scroll.getMaximumVisibleWidth(), row_height * static_cast<int> (rows.size()));
+    column.setSize (scroll.getMaximumVisibleWidth(), problem_height * static_cast<int> (rows.size()));
     for (std::size_t i = 0; i < rows.size(); ++i)
-        rows[i]->setBounds (0, row_height * static_cast<int> (i), column.getWidth(), row_height);
+        rows[i]->setBounds (0, problem_height * static_cast<int> (i), column.getWidth(), problem_height);
 }
 
 }   // namespace tactus::host

@@ -13,8 +13,8 @@
 namespace tactus::host
 {
 
-/// The errors and warnings of the graph, each with its remedy and, if there is an obvious fix, a button that applies it. A click
-/// on a message shows its location.
+/// The errors and warnings of the graph, and the limits of the devices that it breaks, each with its remedy and, if there is an
+/// obvious fix, a button that applies it. A click on a message shows its location.
 class ProblemList final : public juce::Component
 {
 public:
@@ -22,7 +22,6 @@ public:
     ~ProblemList() override;
 
     void show (const Messages&);
-    std::size_t count() const noexcept { return shown.size(); }
 
     std::function<void (const Culprit&)> onShow;
 

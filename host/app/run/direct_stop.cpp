@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "direct_stop.hpp"
 
+#include <array>
+
 namespace tactus::host
 {
 
@@ -23,12 +25,24 @@ std::optional<Message> DirectStop::follow (juce::Component& component, juce::Rec
         }
     }
     if (! watch) return why;
+    watchOthers();
     auto& top = peer->getComponent();
     const double scale = top.getDesktopScaleFactor() * peer->getPlatformScaleFactor();
     const auto pixels = (top.getLocalArea (&component, part).toDouble() * scale).toNearestInt();
     watch->setArea ({ static_cast<std::int16_t> (pixels.getX()), static_cast<std::int16_t> (pixels.getY()),
                       static_cast<std::uint16_t> (pixels.getWidth()), static_cast<std::uint16_t> (pixels.getHeight()) });
     return why;
+}
+
+/// Watches the other windows of the program, such as a file dialog, or the question whether to replace a file.
+void DirectStop::watchOthers()
+{
+    std::array<std::uintptr_t, WindowStop::most_others> windows {};
+    std::size_t count = 0;
+    for (int i = 0; i < juce::ComponentPeer::getNumPeers() && count < windows.size(); ++i)
+        if (const auto window = reinterpret_cast<std::uintptr_t> (juce::ComponentPeer::getPeer (i)->getNativeHandle()); window != watched)
+            windows[count++] = window;
+    watch->setOthers (windows);
 }
 
 }   // namespace tactus::host

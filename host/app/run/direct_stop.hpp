@@ -13,8 +13,8 @@
 namespace tactus::host
 {
 
-/// Connects the stop keys and the STOP button of a window directly to a StopSwitch, so that a stop does not wait for the message
-/// thread, where the system allows this: see WindowStop. [message thread]
+/// Connects the stop keys of all windows of the program, and the STOP button of one of them, directly to a StopSwitch, so that a stop
+/// does not wait for the message thread, where the system allows this: see WindowStop. [message thread]
 class DirectStop
 {
 public:
@@ -27,6 +27,8 @@ public:
 
 private:
     StopSwitch& pressed;
+    void watchOthers();
+
     std::uintptr_t watched = 0;   // the window; 0: none yet
     std::unique_ptr<WindowStop> watch;
 };

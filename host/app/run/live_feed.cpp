@@ -15,6 +15,7 @@ void LiveFeed::refresh()
     showStates (live);
     if (shows_costs) showCosts (live);
     showProblems (live);
+    if (limits != nullptr) showLimits (live);
     canvas.showLive (std::move (live));
 }
 
@@ -47,21 +48,25 @@ void LiveFeed::showStates (Live& live)
     probes.want (std::move (ports));
 }
 
+/// The node on the canvas that a path of the graph leads to or through; null if there is none.
+const SceneNode* LiveFeed::nodeOf (const std::string& path) const
+{
+    const auto inside = canvas.address ({});
+    if (! path.starts_with (inside)) return nullptr;
+    const auto name = path.substr (inside.size());
+    for (const auto& n : canvas.scene().nodes())
+        if (name == n.name || name.starts_with (n.name + '/') || name.starts_with (n.name + '[')) return &n;
+    return nullptr;
+}
+
 void LiveFeed::showCosts (Live& live)
 {
     if (++since_costs >= refreshes_per_cost)
     {
         since_costs = 0;
         latest_costs.clear();
-        const auto inside = canvas.address ({});
         for (const auto& cost : live_run.costs())
-        {
-            if (! cost.node.starts_with (inside)) continue;
-            const auto name = cost.node.substr (inside.size());
-            for (const auto& n : canvas.scene().nodes())
-                if (name == n.name || name.starts_with (n.name + '/') || name.starts_with (n.name + '['))
-                    latest_costs[n.id] += cost.mean_s * live_run.rate();
-        }
+            if (const auto* node = nodeOf (cost.node)) latest_costs[node->id] += cost.mean_s * live_run.rate();
     }
     live.costs = latest_costs;
 }
@@ -74,6 +79,20 @@ void LiveFeed::showProblems (Live& live) const
         const auto culprit = culpritOf (canvas.edited().graph(), m);
         if (culprit.id != 0 && culprit.patch == canvas.patch()) live.problems[culprit.id] = messageText (m);
     }
+}
+
+/// Broken limits come first in the list, so they also come first in the text of a light.
+void LiveFeed::showLimits (Live& live) const
+{
+    for (const auto& l : limits->list().limits)
+        for (const auto& path : l.nodes)
+            if (const auto* node = nodeOf (path))
+            {
+                auto& light = live.limits[node->id];
+                light.is_broken = light.is_broken || l.is_broken;
+                const auto text = l.text + (l.remedy.empty() ? "." : ".\nWould help: " + l.remedy + ".");
+                if (light.text.find (text) == std::string::npos) light.text += (light.text.empty() ? "" : "\n\n") + text;
+            }
 }
 
 }   // namespace tactus::host

@@ -111,6 +111,7 @@ SafetyStrip::SafetyStrip (Playback& p) : playback (p), button (std::make_unique<
     };
     button->setTooltip ("Ramps all forces to zero immediately. Esc does the same. With Shift+Esc, the graph keeps running without forces.");
     addAndMakeVisible (*button);
+    addChildComponent (limits);
 }
 
 SafetyStrip::~SafetyStrip() = default;
@@ -182,6 +183,7 @@ void SafetyStrip::resized()
 {
     auto area = getLocalBounds();
     button->setBounds (area.removeFromRight (button_width).reduced (8, 7));
+    limits.setBounds (area.removeFromRight (LimitLight::width));
     rearm->setBounds (area.removeFromRight (button_width).reduced (8, 7));   // away from STOP, so that a click meant for STOP cannot rearm
 }
 
@@ -194,7 +196,7 @@ void SafetyStrip::paint (juce::Graphics& g)
     g.drawHorizontalLine (getHeight() - 1, 0.0f, static_cast<float> (getWidth()));
 
     const auto colourFor = [&] (juce::Colour unless_alarmed) { return shown.alarmed ? theme.stop : unless_alarmed; };
-    auto area = getLocalBounds().withTrimmedRight (shown.stopped_for_good ? 2 * button_width : button_width).reduced (16, 0).toFloat();
+    auto area = getLocalBounds().withRight (shown.stopped_for_good ? rearm->getX() : limits.getX()).reduced (16, 0).toFloat();
     const auto calm = shown.running ? theme.of (Quantity::energy) : theme.dim;
     g.setColour (colourFor (shown.warned ? theme.warning : calm));
     g.fillEllipse (juce::Rectangle<float> (10.0f, 10.0f).withCentre ({ area.getX() + 5.0f, area.getCentreY() }));

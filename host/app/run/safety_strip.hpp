@@ -3,13 +3,14 @@
 
 #include "playback.hpp"
 
+#include <host/app/limits/limit_light.hpp>
 #include <host/app/look/look.hpp>
 
 namespace tactus::host
 {
 
 /// The strip at the top of the window, which is always visible: the state of the run and its guards, the current and peak force, missed
-/// ticks, the delay with the stiffness that it allows, and the STOP button.
+/// ticks, the delay with the stiffness that it allows, the light of the limits, and the STOP button.
 class SafetyStrip final : public juce::Component
 {
 public:
@@ -22,6 +23,8 @@ public:
 
     /// The part of the strip where a click is a stop. Empty while there is nothing to stop.
     juce::Rectangle<int> stopPlace() const;
+
+    LimitLight& limitLight() noexcept { return limits; }
 
     void paint (juce::Graphics&) override;
     void resized() override;
@@ -43,6 +46,7 @@ private:
     Playback& playback;
     Shown shown;
     std::unique_ptr<StopButton> button, rearm;
+    LimitLight limits;
 };
 
 }   // namespace tactus::host

@@ -19,6 +19,7 @@ constexpr int least_canvas = 240;   // smallest width and height of the canvas, 
 MainView::MainView (const Catalogue& c)
     : catalogue (c), pictures (c), files (edited, question, settings, fileCallbacks()),
       playback (edited, c, sound, device_setup, [this] { files.beforeRun(); }),
+      limits (edited, device_setup, playback.run(), c),
       patching (edited, c), inspector (edited, c), live (patching, playback.run()),
       presets (left.add<PresetBrowser> ("Presets", c, settings, pictures)),
       scopes (bottom.add<ScopePanel> ("Scopes", edited, playback.run().traces(), c)),
@@ -79,6 +80,7 @@ void MainView::begin (const Start& how)
     files.setSafe (how.safe);
     if (how.stops_directly) direct_stop.emplace (playback.stopSwitch());
     if (how.osc) openOscPort (*how.osc);
+    if (! how.live.empty()) live_nodes.emplace (how.live);
     files.beginSession (home);
     for (const auto& file : how.files)
         open (file);
@@ -144,9 +146,9 @@ void MainView::timerCallback()
             status.notify ("While the window is busy, Esc and STOP have to wait: " + juce::String (messageText (*why)));
     hand.refresh();
     live.refresh();
-    problems.show (run().messages());
-    const auto count = problems.count();
-    bottom.rename (problems, count == 0 ? juce::String ("Problems") : "Problems " + juce::String (count), hasErrors (run().messages()));
+    limits.attend();
+    attendLiveNodes();
+    showProblems();
     files.attend();
     presets.refresh();
     if (welcome.isVisible()) welcome.refresh();
@@ -155,6 +157,25 @@ void MainView::timerCallback()
     if (scopes.isVisible()) scopes.refresh();
     layers.refresh();
     devices.refresh();
+}
+
+void MainView::attendLiveNodes()
+{
+    if (! live_nodes || ! live_nodes->attend()) return;
+    edited.renew();
+    status.notify (juce::String (live_nodes->latest()));
+}
+
+void MainView::showProblems()
+{
+    auto all = run().messages();
+    if (live_nodes) all.insert (all.begin(), live_nodes->messages().begin(), live_nodes->messages().end());
+    const bool is_error = hasErrors (all);
+    const auto count = all.size();   // without the limits, which the strip counts
+    std::ranges::copy (limits.messages(), std::back_inserter (all));
+    problems.show (all);
+    bottom.rename (problems, count == 0 ? juce::String ("Problems") : "Problems " + juce::String (count), is_error);
+    strip.limitLight().show (limits.list());
 }
 
 void MainView::documentChanged()

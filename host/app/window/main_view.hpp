@@ -17,7 +17,9 @@
 #include <host/app/problems/problem_list.hpp>
 #include <host/app/run/direct_stop.hpp>
 #include <host/app/run/hand_panel.hpp>
+#include <host/app/run/limit_watch.hpp>
 #include <host/app/run/live_feed.hpp>
+#include <host/app/run/live_nodes.hpp>
 #include <host/app/run/osc_server.hpp>
 #include <host/app/run/safety_strip.hpp>
 #include <host/app/scopes/scope_panel.hpp>
@@ -41,6 +43,7 @@ public:
         bool safe = false;            ///< safe mode: nothing runs until START
         bool light = false;           ///< light theme, whatever the settings say
         std::vector<std::filesystem::path> files {};
+        std::vector<LiveSource> live {};   ///< plugins whose code to watch; only if the view was made with catalogue()
         std::optional<OscListen> osc {};   ///< where to listen for OSC
         bool stops_directly = false;       ///< the view is in a native window, which DirectStop can watch
     };
@@ -90,6 +93,8 @@ private:
     void connectWelcome();
     void addPanels();
     void openOscPort (const OscListen&);
+    void attendLiveNodes();
+    void showProblems();
     bool hasBoundRole() const;   ///< true if the session binds a role of the graph
     void escape (const juce::KeyPress&);
     void stopBy (const juce::KeyPress&);
@@ -115,7 +120,9 @@ private:
     DeviceSetup device_setup;
     Files files;         // declared before the run, so that an edit is autosaved before it runs
     Playback playback;   // declared before the panels that show it
+    LimitWatch limits;
     std::unique_ptr<OscServer> osc_server;
+    std::optional<LiveNodes> live_nodes;
     SafetyStrip strip { playback };
     std::optional<DirectStop> direct_stop;
     HandPanel hand { playback, sound };

@@ -193,7 +193,9 @@ void MainView::openMenu (juce::Component& at)
 
 void MainView::askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)> chosen)
 {
-    chooser = std::make_unique<juce::FileChooser> (saves ? "Save graph" : "Open graph", juce::File (begin.string()), "*.json");
+    // Never a dialog of the desktop: that is another program, so its window would keep Esc from stopping the forces.
+    constexpr bool of_the_desktop = false;
+    chooser = std::make_unique<juce::FileChooser> (saves ? "Save graph" : "Open graph", juce::File (begin.string()), "*.json", of_the_desktop);
     using Choice = juce::FileBrowserComponent;
     const int how = saves ? Choice::saveMode | Choice::canSelectFiles | Choice::warnAboutOverwriting : Choice::openMode | Choice::canSelectFiles;
     chooser->launchAsync (how, [this, chosen = std::move (chosen)] (const juce::FileChooser& c) {

@@ -54,6 +54,8 @@ void MainView::connectCanvas()
     };
     inspector.messagesNow = [this] { return run().messages(); };
     layers.onSelect = [this] (const std::string& patch, graph::Id node) { patching.show (patch, node); };
+    live.limits = &limits;
+    strip.limitLight().onClick = [this] { bottom.show (problems); };
     problems.onShow = [this] (const Culprit& c) { patching.show (c.patch, c.id); };
 }
 

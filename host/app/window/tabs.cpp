@@ -15,7 +15,7 @@ void Tabs::insert (const juce::String& name, std::unique_ptr<juce::Component> pa
 void Tabs::rename (const juce::Component& panel, const juce::String& name, bool alarms)
 {
     for (auto& t : tabs)
-        if (t.panel.get() == &panel && t.name != name)
+        if (t.panel.get() == &panel && (t.name != name || t.alarms != alarms))
         {
             t.name = name;
             t.alarms = alarms;

@@ -183,3 +183,31 @@ TEST_CASE ("the choices for a role include connected devices, with serial number
     const Json here { { "driver", "hid" }, { "profile", "board" }, { "serial", "S2" }, { "workspace", { { "scale", 2 } } } };
     CHECK (bindingChoices (&here, there, profiles).size() == labels.size());
 }
+
+TEST_CASE ("a device that is known only by its numbers can be simulated, keeps the limits of the binding, and is named as simulated", "[app][sessions]")
+{
+    const auto labels = labelsOf (bindingChoices (nullptr, {}, deviceProfiles()));
+    CHECK (std::ranges::count (labels, "simulated PHANTOM 1.0") == 1);
+    CHECK (std::ranges::count (labels, "simulated Pantograph Mk-II") == 1);
+    CHECK (std::ranges::count (labels, "PHANTOM 1.0") == 0);
+
+    Rig r;
+    r.profiles.profiles.push_back (hid::profileNamed (deviceProfiles(), "phantom_1_0"));
+    r.panel.visibilityChanged();
+    r.panel.bind ("stylus", "simulated tool");
+    r.panel.setPart ("stylus", "/guard/max_force", "1 N");
+    r.panel.setPart ("stylus", "/guard/max_speed", "1 m/s");
+    r.panel.bind ("stylus", "simulated PHANTOM 1.0");
+    CHECK (r.bound()["driver"] == "sim");
+    CHECK (r.bound()["mass"].get<double>() == Approx (0.075));
+    CHECK (r.bound()["guard"] == Json { { "max_force", "1 N" }, { "max_speed", "1 m/s" } });   // stricter than the device's own 8.5 N
+
+    r.panel.setPart ("stylus", "/guard/max_force", "");
+    r.panel.bind ("stylus", "simulated tool");
+    r.panel.bind ("stylus", "simulated PHANTOM 1.0");
+    CHECK (r.bound()["guard"]["max_force"].get<double>() == Approx (8.5));
+    CHECK (bindingChoices (r.setup.session().session.binding ("stylus"), {}, r.profiles).size() == bindingChoices (nullptr, {}, r.profiles).size());
+    r.run.start ({});
+    CHECK (r.until ([&] { return r.run.isRunning() && r.run.mostForce() == 6.0; }));   // the graph allows no more
+    r.run.letGo();
+}

@@ -271,6 +271,29 @@ TEST_CASE ("on a screen: a covered STOP", "[.screen]")
     CHECK (Window::untilStuck ([&] { return ! w.run().isRunning(); }));
 }
 
+TEST_CASE ("Esc stops the forces while a file dialog has the keyboard and the message thread is stuck", "[app][run][safety]")
+{
+    onScreen ("on a screen: Esc in a dialog");
+}
+
+TEST_CASE ("on a screen: Esc in a dialog", "[.screen]")
+{
+    Window w;
+    w.start();
+    juce::FileChooser dialog ("Save graph", juce::File::getCurrentWorkingDirectory(), "*.json", false);
+    dialog.launchAsync (juce::FileBrowserComponent::saveMode | juce::FileBrowserComponent::canSelectFiles, [] (const juce::FileChooser&) {});
+    const auto isInText = [] { return dynamic_cast<juce::TextEditor*> (juce::Component::getCurrentlyFocusedComponent()) != nullptr; };
+    const auto opened = std::chrono::steady_clock::now() + 500ms;
+    REQUIRE (w.until ([&] { return std::chrono::steady_clock::now() > opened && ! w.hasKeyboardFocus (true); }));
+    w.until ([&] { return isInText() || std::chrono::steady_clock::now() > opened + 1s; });
+
+    xdo ("key a space");   // these keys are text
+    std::this_thread::sleep_for (100ms);
+    REQUIRE (w.force() == 2.0);
+    xdo ("key Escape");
+    CHECK (Window::untilStuck ([&] { return ! w.run().isRunning(); }));
+}
+
 TEST_CASE ("a press of the stop switch before a run begins is not lost", "[app][run][safety]")
 {
     CanvasRig rig { Window::graph() };

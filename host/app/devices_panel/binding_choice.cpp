@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "binding_choice.hpp"
+
+#include <host/audio/audio_settings.hpp>
+#include <host/hid/physics.hpp>
+#include <host/sessions/numbers_device.hpp>
+#include <host/sessions/role_fits.hpp>
+
+#include <tactus/run/device/gestures.hpp>
+#include <tactus/run/device/make_device.hpp>
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+Json deviceOfBinding (Json binding)
+{
+    for (const auto* key : { "workspace", "guard", "outputs", "inputs" })
+        binding.erase (key);
+    return binding;
+}
+
+Json simulationOf (const hid::Profile& profile, const Json* before)
+{
+    auto sim = defaultDevice();
+    if (before != nullptr && before->contains ("guard") && ! audio::isAudio (*before)) sim["guard"] = before->at ("guard");
+    return withNumbers (std::move (sim), hid::numbersOf (profile));
+}
+
+std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles)
+{
+    std::vector<BindingChoice> all { { "as in the graph", Json() }, { "simulated tool", defaultDevice() }, { sound_card, { { "driver", "audio" } } } };
+    for (const auto& d : connected)
+    {
+        const auto fitting = hid::matching (profiles.profiles, d);
+        if (fitting.empty()) continue;
+        Json description { { "driver", "hid" }, { "profile", fitting.front()->id } };
+        const auto alike = std::ranges::count_if (connected, [&] (const auto& other) { return hid::fit (*fitting.front(), other) > 0; });
+        const bool needs_serial = alike > 1 && ! d.serial.empty();
+        if (needs_serial) description["serial"] = d.serial;
+        BindingChoice choice { fitting.front()->name + (needs_serial ? ", serial " + d.serial : ""), std::move (description) };
+        if (std::ranges::count (all, choice) == 0) all.push_back (std::move (choice));
+    }
+    for (const auto& p : profiles.profiles)
+        if (hid::isNumbersOnly (*p)) all.push_back ({ "simulated " + p->name, deviceOfBinding (simulationOf (*p, nullptr)), p->id });
+    for (const auto& g : gestures())
+        all.push_back ({ "gesture " + std::string (g.id), { { "driver", "gesture" }, { "path", g.id } } });
+    if (bound_now != nullptr)
+    {
+        const auto now = deviceOfBinding (*bound_now);
+        if (std::ranges::none_of (all, [&] (const auto& c) { return c.description == now; }))
+            all.push_back ({ nameOf (now), now });
+    }
+    return all;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <host/hid/profile_reader.hpp>
+#include <host/hid_link/transport.hpp>
+#include <tactus/text/json.hpp>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tactus::host
+{
+
+inline constexpr const char* sound_card = "sound card";   // as shown to people
+
+/// A device that a role can be bound to.
+struct BindingChoice
+{
+    std::string label;
+    Json description;         ///< without a guard; null: as in the graph
+    std::string numbers {};   ///< id of the profile whose numbers the simulated device gets; empty for other choices
+
+    bool operator== (const BindingChoice&) const = default;
+};
+
+/// The choices for a role: as in the graph, a simulated tool, the sound card, each connected device that has a profile, a simulation of
+/// each device that is known only by its numbers, the gestures, and what the role is bound to now if that is none of these.
+std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice>, const hid::LoadedProfiles&);
+
+/// The device of a binding, without its workspace, guard and channels.
+Json deviceOfBinding (Json binding);
+
+/// A simulated device with the numbers of a profile. It keeps the guard of the previous binding, so that no limit is lost, unless that
+/// was a sound card.
+Json simulationOf (const hid::Profile& profile, const Json* before);
+
+}   // namespace tactus::host

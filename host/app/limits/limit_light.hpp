@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "limit_list.hpp"
+
+#include <host/app/look/look.hpp>
+
+namespace tactus::host
+{
+
+/// A light with the number of limits that the graph breaks (red) or nearly breaks (amber). Without those, it is grey if some limits are
+/// unknown, else green. It is a button: the tooltip says which limits these are. Invisible until the graph has been checked.
+class LimitLight final : public juce::Button
+{
+public:
+    static constexpr int width = 136;
+
+    LimitLight() : Button ("limits")
+    {
+        setVisible (false);
+        setWantsKeyboardFocus (false);   // the keys stay with the canvas
+        setMouseClickGrabsKeyboardFocus (false);
+    }
+
+    void show (const LimitList&);
+
+    void paintButton (juce::Graphics&, bool over, bool down) override;
+
+private:
+    LimitList shown;
+};
+
+/// Draws a light for a limit: a red disc if it is broken, an amber ring if it is near.
+void drawLimitLight (juce::Graphics&, juce::Rectangle<float>, bool is_broken, const Theme&);
+
+}   // namespace tactus::host

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "limit_list.hpp"
+
+#include <host/app/model/with_prefix.hpp>
+#include <host/assets/nearest_by_embree.hpp>
+#include <host/hid/physics.hpp>
+#include <host/hid_link/open_device.hpp>
+#include <host/sessions/binding.hpp>
+#include <host/sessions/choose_clock.hpp>
+#include <host/sessions/role_fits.hpp>
+#include <tactus/text/quote.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr double longest_s = 3.0;   // a check should take no longer than this
+
+DeviceNumbers inWorkspace (DeviceNumbers n, const Workspace& w)
+{
+    const auto scale = [] (DeviceNumbers::Number& number, double by) {
+        if (number) number->value *= by;
+    };
+    for (auto* number : { &n.mass, &n.damping, &n.end_mass })
+        scale (*number, 1.0 / w.scale);
+    scale (n.quantum, w.scale);
+    if (n.workspace)
+    {
+        n.workspace->min = w.toGraph (n.workspace->min);
+        n.workspace->max = w.toGraph (n.workspace->max);
+    }
+    return n;
+}
+
+void describe (LimitRole& r, const Json& description, const std::filesystem::path& folder, const hid::LoadedProfiles& profiles)
+{
+    r.device = description.value ("driver", std::string()) == "sim" ? "simulated" : nameOf (description);
+    if (const auto numbers = check::numbersOf (description, folder)) r.numbers = *numbers;
+    if (! hid::isHid (description)) return;
+    const auto name = description.find ("profile");
+    if (name == description.end() || ! name->is_string()) return;
+    if (const auto profile = hid::profileNamed (profiles, name->asString()))
+    {
+        r.device = profile->name;
+        r.numbers = hid::numbersOf (*profile);
+    }
+}
+
+/// True if the device moves by itself, or is simulated together with the hand that moves it.
+bool hasHand (const Json& description)
+{
+    const auto driver = description.value ("driver", std::string());
+    return driver == "gesture" || driver == "trace" || (driver == "sim" && description.contains ("hand"));
+}
+
+std::string number (double v, std::string_view unit)
+{
+    if (unit == "m" || unit == "N" || unit == "s") return withPrefix (v, std::string (unit));
+    char buffer[32];
+    std::snprintf (buffer, sizeof buffer, "%.3g", v);
+    return unit == "1" ? std::string (buffer) : std::string (buffer) + ' ' + std::string (unit);
+}
+
+std::string textOf (const check::Condition& c, const std::string& device, bool is_broken)
+{
+    const auto who = (c.node.empty() ? "" : printableName (c.node) + " on ") + printableName (c.role) + " (" + printableName (device) + ")";
+    auto text = std::string (c.id) + " of " + who + ": " + number (c.value, c.unit) + ", limit " + number (c.limit, c.unit);
+    if (! is_broken) text += ", " + number (100.0 * (c.margin() - 1.0), "%") + " left";
+    return text + " (" + c.text + "; " + std::string (c.law) + ")";
+}
+
+/// The paths of the nodes that push the device of a role.
+std::vector<std::string> sinksOf (const Plan& plan, const std::string& role)
+{
+    std::vector<std::string> all;
+    if (const auto* use = plan.findRole (role))
+        for (const auto& sink : use->sinks)
+            all.push_back (plan.flat().nodes[sink.instance].path);
+    return all;
+}
+
+/// The path of the node whose own force is steepest where the role's force is steepest; empty if there is none.
+std::string steepestOf (const check::Demand& demand, const std::string& role)
+{
+    const auto r = std::ranges::find (demand.roles, role, &check::RoleDemand::role);
+    if (r == demand.roles.end() || r->slopes.empty()) return {};
+    const auto& by_node = std::ranges::max_element (r->slopes, {}, &check::Slope::stiffness)->by_node;
+    const auto most = std::ranges::max_element (by_node);
+    return most == by_node.end() || ! (*most > 0.0) ? std::string() : demand.nodes[static_cast<std::size_t> (most - by_node.begin())].path;
+}
+
+/// The nodes that a condition is about. For a condition on a whole role: first the steepest node, if the condition is about the slope of
+/// the force; then the nodes that push the device.
+std::vector<std::string> nodesOf (const check::Condition& c, const check::Demand& demand, const Plan& plan)
+{
+    if (! c.node.empty()) return { c.node };
+    auto nodes = sinksOf (plan, c.role);
+    const bool is_slope = c.id == "stiffness" || c.id == "quantum";
+    if (auto steepest = is_slope ? steepestOf (demand, c.role) : std::string(); ! steepest.empty()) nodes.insert (nodes.begin(), std::move (steepest));
+    return nodes;
+}
+
+/// The JSON pointer of a node, from its path. For a path into an included file, that of the node that includes the file.
+std::string pointerOf (const graph::Graph& g, std::string path)
+{
+    const auto* patch = &g.root;
+    std::string pointer, inside;
+    while (patch != nullptr && ! path.empty())
+    {
+        const auto slash = path.find ('/');
+        const auto name = path.substr (0, std::min (slash, path.find ('[')));
+        const auto* node = patch->find (name);
+        if (node == nullptr) break;
+        pointer = inside + "/nodes/" + name;
+        if (slash == path.npos || ! node->type.starts_with ("graph:")) break;
+        path.erase (0, slash + 1);
+        inside = "/graphs/" + node->type.substr (6);
+        patch = g.find (node->type.substr (6));
+    }
+    return pointer;
+}
+
+/// A graph whose ticks are slow is measured at fewer points of the motion, because the window cannot close before the check is over.
+check::Thoroughness thoroughness (double recorded_for_s, std::size_t ticks, std::size_t roles)
+{
+    constexpr double ticks_per_role = 300'000.0;
+    check::Thoroughness t;
+    const double expected_s = recorded_for_s / static_cast<double> (std::max<std::size_t> (ticks, 1)) * ticks_per_role * static_cast<double> (roles);
+    if (expected_s > longest_s) t.places = std::max<std::size_t> (8, static_cast<std::size_t> (static_cast<double> (t.places) * longest_s / expected_s));
+    return t;
+}
+
+LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevice>& devices, const Plan& plan)
+{
+    LimitList list;
+    for (const auto& c : check::judge (demand, devices))
+    {
+        const bool is_broken = c.verdict == check::Verdict::broken;
+        if (c.verdict == check::Verdict::unknown)
+            ++list.unknown;
+        else if (! is_broken && c.margin() >= LimitList::near)
+            ++list.held;
+        else
+        {
+            const auto device = std::ranges::find (devices, c.role, &check::RoleDevice::role);
+            auto text = textOf (c, device != devices.end() ? device->name : "unknown device", is_broken);
+            list.limits.push_back ({ is_broken, std::string (c.id), nodesOf (c, demand, plan), std::move (text), c.remedy });
+        }
+    }
+    list.is_checked = ! list.limits.empty() || list.held > 0 || list.unknown > 0;
+    std::ranges::stable_partition (list.limits, &Limit::is_broken);
+    return list;
+}
+}   // namespace
+
+std::vector<LimitRole> limitRolesOf (const graph::Graph& g, const LoadedSession& session, const hid::LoadedProfiles& profiles)
+{
+    std::vector<LimitRole> roles;
+    for (const auto& role : rolesNamed (g))
+    {
+        auto& r = roles.emplace_back (LimitRole { .role = role, .device = "simulated" });
+        if (const auto bound = bindingOf (session, role))
+        {
+            describe (r, bound->description, bound->folder, profiles);
+            r.numbers = inWorkspace (std::move (r.numbers), bound->workspace);
+            if (hasHand (bound->description))
+            {
+                r.hand = bound->description;
+                r.hand_folder = bound->folder;
+            }
+        }
+        else if (const auto* described = g.device (role))
+            describe (r, *described, g.folder, profiles);
+    }
+    return roles;
+}
+
+std::size_t LimitList::broken() const noexcept { return static_cast<std::size_t> (std::ranges::count_if (limits, &Limit::is_broken)); }
+
+Messages LimitList::messages (const graph::Graph& g) const
+{
+    Messages all;
+    for (const auto& l : limits)
+    {
+        const auto where = l.nodes.empty() ? std::string() : pointerOf (g, l.nodes.front());
+        const auto remedy = l.remedy.empty() ? std::string() : "would help: " + l.remedy;
+        all.push_back (l.is_broken ? Message::error ("limit/" + l.id, where, l.text, remedy) : Message::warning ("limit/" + l.id, where, l.text, remedy));
+    }
+    return all;
+}
+
+LimitList limitsOf (const LimitJob& job, const Catalogue& catalogue, FileAssets& assets)
+{
+    const check::Subject subject { job.graph,
+                                   catalogue,
+                                   { .rate_hz = job.rate_hz, .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } } };
+    const auto compiled = compile (subject.graph, subject.catalogue, subject.options);
+    if (hasErrors (compiled.messages) || ! compiled.plan) return {};
+
+    std::vector<check::HandChoice> hands;
+    std::vector<check::RoleDevice> devices;
+    for (const auto& r : job.roles)
+    {
+        if (r.hand) hands.push_back ({ r.role, *r.hand, r.hand_folder });
+        devices.push_back ({ r.role, r.numbers, r.device });
+    }
+    const auto begun = std::chrono::steady_clock::now();
+    const auto recorded = check::recordMotion (subject, hands, job.graph.folder);
+    if (hasErrors (recorded.messages)) return {};
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
+    const auto demand = check::measure (subject, recorded.motion, thoroughness (took.count(), recorded.motion.ticks, job.roles.size()));
+    return listOf (demand, devices, *compiled.plan);
+}
+
+}   // namespace tactus::host

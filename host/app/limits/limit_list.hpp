@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <host/assets/file_assets.hpp>
+#include <host/hid/profile_reader.hpp>
+#include <host/sessions/session_file.hpp>
+#include <tactus/check/hands.hpp>
+#include <tactus/check/judge.hpp>
+#include <tactus/graph/graph.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// The device of a role, and the hand that moves it while the graph is measured.
+struct LimitRole
+{
+    std::string role;
+    std::string device;   ///< its name, for people
+    DeviceNumbers numbers {};
+    std::optional<Json> hand {};            ///< description of the device that moves the hand; empty: as the graph describes
+    std::filesystem::path hand_folder {};   ///< base of the relative paths in `hand`
+
+    bool operator== (const LimitRole&) const = default;
+};
+
+/// The roles that a session binds or a graph describes, with the numbers of their devices in the workspace of the graph: a scale of 2
+/// halves mass and damping, and doubles the position quantum. [main thread]
+std::vector<LimitRole> limitRolesOf (const graph::Graph&, const LoadedSession&, const hid::LoadedProfiles&);
+
+/// A graph to check, and the devices of its roles.
+struct LimitJob
+{
+    graph::Graph graph;
+    double rate_hz = 0.0;   ///< 0: the rate of the graph
+    std::vector<LimitRole> roles {};
+};
+
+/// A condition that a graph breaks or nearly breaks.
+struct Limit
+{
+    bool is_broken = false;
+    std::string id;                   ///< id of the condition, such as "stiffness"
+    std::vector<std::string> nodes;   ///< paths of the nodes concerned; for a whole role: the steepest node, and those that push the device
+    std::string text, remedy;         ///< value and limit, and what would help
+
+    bool operator== (const Limit&) const = default;
+};
+
+/// The result of a check. Conditions that are not in `limits` hold with some margin, or cannot be judged.
+struct LimitList
+{
+    static constexpr double near = 1.2;   ///< a condition with a margin below this (Condition::margin) is near its limit
+
+    std::vector<Limit> limits {};        ///< broken ones first
+    std::size_t held = 0, unknown = 0;   ///< how many other conditions hold, and how many cannot be judged
+    bool is_checked = false;             ///< false if the graph has not been checked, has errors, or drives no device
+
+    std::size_t broken() const noexcept;
+    Messages messages (const graph::Graph&) const;   ///< one for each limit: an error if broken, else a warning. Ids: limit/ID
+
+    bool operator== (const LimitList&) const = default;
+};
+
+/// Measures the graph and judges its conditions. Takes a tenth of a second to some seconds. [any thread that owns the assets]
+LimitList limitsOf (const LimitJob&, const Catalogue&, FileAssets&);
+
+}   // namespace tactus::host

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "live_run.hpp"
+
+#include <host/app/limits/limit_list.hpp>
+
+#include <juce_core/juce_core.h>
+
+#include <chrono>
+#include <mutex>
+#include <optional>
+
+namespace tactus::host
+{
+
+class DeviceSetup;
+
+/// Checks the graph of a document on its devices after each edit, on a thread of its own with a low priority. A series of edits, such
+/// as the drag of a knob, is checked when it pauses, and about once a second until then. [message thread]
+class LimitWatch final : private Document::Listener, private juce::Thread
+{
+public:
+    /// All of them must outlive this object.
+    LimitWatch (Document&, const DeviceSetup&, const LiveRun&, const Catalogue&);
+    ~LimitWatch() override;
+
+    void attend();   ///< call many times a second
+
+    /// The result of the latest check. While the next one runs, this is that of an earlier state of the same graph.
+    const LimitList& list() const noexcept { return shown; }
+
+    /// The same list as messages, for the Problems tab.
+    const Messages& messages() const noexcept { return said; }
+
+    /// False from an edit until its check is done. attend() notices a change of the devices at most a fifth of a second late.
+    bool isUpToDate() const noexcept { return ! changed_at && ! is_busy; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    struct Order
+    {
+        const void* document = nullptr;   // identity of the document
+        LimitJob job;
+        Catalogue types;   // a copy, because live C++ may replace types meanwhile
+    };
+    struct Done
+    {
+        const void* document = nullptr;
+        LimitList list;
+    };
+
+    void documentChanged() override;
+    void changed();
+    void lookAtDevices();
+    void take();
+    void begin();
+    void show (LimitList);
+    void run() override;
+
+    Document& document;
+    const DeviceSetup& setup;
+    const LiveRun& live;
+    const Catalogue& catalogue;
+
+    LimitList shown;
+    Messages said;
+    const void* seen = nullptr;   // identity of the document at the latest edit
+    std::vector<LimitRole> roles;
+    double rate_hz = 0.0;
+    std::optional<Clock::time_point> changed_at, last_changed_at;   // the first change that no check includes; the latest change
+    bool is_busy = false;
+    int attended = 0;
+
+    std::mutex lock;   // guards the members below
+    std::optional<Order> ordered;
+    std::optional<Done> done;
+};
+
+}   // namespace tactus::host

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/canvas_rig.hpp"
+
+#include <host/app/limits/limit_light.hpp>
+#include <host/app/problems/fixes.hpp>
+#include <host/app/run/device_setup.hpp>
+#include <host/app/run/limit_watch.hpp>
+#include <host/app/run/live_feed.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <thread>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::CanvasRig;
+
+namespace
+{
+/// A wall of 1 N/mm at 1 kHz: it needs a damping of sigma T/2 = 0.5 N s/m. The friction stretches by 1 um.
+graph::Graph wall (const std::string& device_numbers)
+{
+    auto read = readGraph (R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000,
+      "devices": { "tip": { "driver": "sim", "mass": "100 g", "hand": { "stiffness": 100, "damping": 2, "path": "stroke" }, )"
+                           + device_numbers + R"( } },
+      "nodes": { "hand": { "type": "device.position", "role": "tip" }, "motor": { "type": "device.force", "role": "tip" },
+        "wall": { "type": "deform.plane", "params": { "stiffness": "1 N/mm", "damping": 0 } } },
+      "wires": [ "hand.position -> wall.position", "wall.force -> motor.force" ] })");
+    for (const auto& m : read.messages)
+        FAIL_CHECK (m.text);
+    return std::move (read.graph);
+}
+
+LimitList checked (const graph::Graph& g)
+{
+    FileAssets assets;
+    return limitsOf ({ g, 0.0, limitRolesOf (g, {}, {}) }, catalogue(), assets);
+}
+
+std::string idsOf (const LimitList& list)
+{
+    std::string all;
+    for (const auto& l : list.limits)
+        all += (all.empty() ? "" : " ") + l.id + (l.is_broken ? "!" : "");
+    return all;
+}
+
+const LimitRole& only (const std::vector<LimitRole>& roles)
+{
+    REQUIRE (roles.size() == 1);
+    return roles.front();
+}
+}   // namespace
+
+TEST_CASE ("a limit is broken beyond the limit, near within 20 % of it, and not listed below that", "[app][limits]")
+{
+    const auto [damping, ids] = GENERATE (table<std::string, std::string> ({ { "0.4", "stiffness!" }, { "0.55", "stiffness" }, { "0.7", "" } }));
+    const auto list = checked (wall ("\"damping\": " + damping));
+    CHECK (list.is_checked);
+    CHECK (idsOf (list) == ids);
+    CHECK (list.held > 0);
+    if (list.limits.empty()) return;
+    const auto& limit = list.limits.front();
+    CHECK (limit.nodes == std::vector<std::string> { "wall", "motor" });   // the steepest node, and the one that pushes the device
+    CHECK (limit.text.find ("limit " + damping) != std::string::npos);
+    CHECK (limit.text.find ("0.5") != std::string::npos);
+    CHECK (limit.remedy.empty() != limit.is_broken);
+}
+
+TEST_CASE ("a limit names its node, also inside a subgraph, and its message leads there", "[app][limits]")
+{
+    const auto read = readGraph (R"({ "format": "tactus-graph", "version": 2, "rate_hz": 1000,
+      "devices": { "tip": { "driver": "sim", "quantum": "30 um", "coulomb": "9 N", "damping": 9,
+                             "hand": { "stiffness": 100, "damping": 2, "path": "stroke" } } },
+      "nodes": { "hand": { "type": "device.position", "role": "tip" }, "wood": { "type": "graph:wood" }, "motor": { "type": "device.force", "role": "tip" } },
+      "wires": [ "hand.position -> wood.position", "wood.force -> motor.force" ],
+      "graphs": { "wood": { "nodes": { "load": { "type": "signal.constant", "params": { "value": 1 } },
+            "drag": { "type": "friction.elasto_plastic", "params": { "d_max": "20 um" } } },
+          "wires": [ "load.out -> drag.normal_force" ],
+          "expose": { "inputs": { "position": "drag.position" }, "outputs": { "force": "drag.force" } } } } })");
+    REQUIRE (read.messages.empty());
+    const auto list = checked (read.graph);
+    const auto stretch = std::ranges::find (list.limits, "d_max", &Limit::id);
+    REQUIRE (stretch != list.limits.end());
+    CHECK (stretch->is_broken);
+    CHECK (stretch->nodes == std::vector<std::string> { "wood/drag" });
+    CHECK (stretch->text.find ("30.0 µm") != std::string::npos);
+
+    const auto messages = list.messages (read.graph);
+    const auto told = std::ranges::find (messages, "limit/d_max", &Message::id);
+    REQUIRE (told != messages.end());
+    CHECK (told->severity == Message::Severity::error);
+    CHECK (told->where == "/graphs/wood/nodes/drag");
+    CHECK (culpritOf (read.graph, *told).node == "drag");
+    CHECK_FALSE (fixOf (read.graph, *told));
+}
+
+TEST_CASE ("a graph that does not compile is not checked", "[app][limits]")
+{
+    auto g = wall ("\"damping\": 1");
+    g.root.nodes.front().type = "no.such_node";
+    CHECK_FALSE (checked (g).is_checked);
+    CHECK (checked (g).limits.empty());
+}
+
+TEST_CASE ("limits are those of the device that the session binds, in the workspace of the graph", "[app][limits]")
+{
+    const auto g = wall ("\"damping\": 1");
+    CHECK (only (limitRolesOf (g, {}, {})).numbers.damping->value == 1.0);
+
+    LoadedSession session;
+    session.session.bind ("tip", { { "driver", "sim" }, { "damping", 3.0 }, { "quantum", 1e-5 }, { "coulomb", 2.0 }, { "workspace", { { "scale", 2 } } } });
+    const auto role = only (limitRolesOf (g, session, {}));
+    CHECK (role.numbers.damping->value == 1.5);
+    CHECK (role.numbers.quantum->value == 2e-5);
+    CHECK (role.numbers.coulomb->value == 2.0);
+    CHECK_FALSE (role.hand);   // the hand of the graph, because this device has none
+
+    session.session.bind ("tip", { { "driver", "gesture" }, { "path", "tap" } });
+    const auto tapped = only (limitRolesOf (g, session, {}));
+    CHECK (tapped.hand);
+    CHECK_FALSE (tapped.numbers.damping);
+
+    FileAssets assets;
+    const auto list = limitsOf ({ g, 0.0, { tapped } }, catalogue(), assets);
+    CHECK (list.is_checked);
+    CHECK (list.limits.empty());
+    CHECK (list.unknown > 0);
+}
+
+TEST_CASE ("the lights follow edits, devices and the graph that is open", "[app][limits]")
+{
+    CanvasRig rig { wall ("\"damping\": 1") };
+    DeviceSetup setup;
+    LiveRun run { rig.document, catalogue() };
+    LimitWatch watch { rig.document, setup, run, catalogue() };
+    LiveFeed feed { *rig.canvas, run };
+    feed.limits = &watch;
+    LimitLight light;
+    const auto settled = [&] {
+        for (int i = 0; i < 4000; ++i)
+        {
+            watch.attend();
+            feed.refresh();
+            light.show (watch.list());
+            if (i > 10 && watch.isUpToDate()) return true;
+            std::this_thread::sleep_for (std::chrono::milliseconds (5));
+        }
+        return false;
+    };
+    const auto tooltip = [&] (const char* node) { return rig.canvas->tooltipAt (rig.canvas->view().toPixels (limitLightOf (rig.node (node),
+                                                                                                                           1.0f)
+                                                                                                                 .getCentre())); };
+    CHECK_FALSE (light.isVisible());
+    REQUIRE (settled());
+    CHECK (light.isVisible());
+    CHECK (watch.messages().empty());
+    CHECK (tooltip ("motor").isEmpty());
+
+    REQUIRE (rig.document.perform (graph::SetParam { "", "wall", "stiffness", 4000.0 }));   // sigma T/2 = 2 N s/m
+    REQUIRE (settled());
+    CHECK (idsOf (watch.list()) == "stiffness!");
+    CHECK (watch.messages().size() == 1);
+    CHECK (tooltip ("motor").contains ("stiffness"));
+    CHECK (tooltip ("motor").contains ("Would help: "));
+    CHECK (tooltip ("wall") == tooltip ("motor"));
+    CHECK (tooltip ("hand").isEmpty());
+    CHECK (light.getTooltip().contains ("stiffness"));
+
+    REQUIRE (setup.edit ([] (DeviceSession& s) { s.bind ("tip", { { "driver", "sim" }, { "damping", 9.0 } }); }));   // not saved: the setup has no home
+    REQUIRE (settled());
+    CHECK (idsOf (watch.list()).empty());
+    REQUIRE (setup.edit ([] (DeviceSession& s) { s.unbind ("tip"); }));
+    REQUIRE (settled());
+    CHECK (watch.list().broken() == 1);
+
+    rig.document.open (wall ("\"damping\": 1"), {}, "open");
+    CHECK_FALSE (watch.list().is_checked);   // what was found in the other graph is gone at once
+    CHECK (watch.messages().empty());
+}
+
+TEST_CASE ("closing waits for a check that runs, and a run of edits ends with the check of the last one", "[app][limits]")
+{
+    CanvasRig rig { wall ("\"damping\": 1") };
+    DeviceSetup setup;
+    LiveRun run { rig.document, catalogue() };
+    LimitWatch watch { rig.document, setup, run, catalogue() };
+    for (int k = 0; k < 40; ++k)
+    {
+        rig.document.perform (graph::SetParam { "", "wall", "stiffness", 4000.0 - 50.0 * k });
+        watch.attend();
+        std::this_thread::sleep_for (std::chrono::milliseconds (5));
+        CHECK_FALSE (watch.isUpToDate());
+    }
+    rig.document.perform (graph::SetParam { "", "wall", "stiffness", 100.0 });
+    for (int i = 0; i < 4000 && ! watch.isUpToDate(); ++i)
+    {
+        watch.attend();
+        std::this_thread::sleep_for (std::chrono::milliseconds (5));
+    }
+    CHECK (watch.list().is_checked);
+    CHECK (watch.list().limits.empty());
+    rig.document.perform (graph::SetParam { "", "wall", "stiffness", 4000.0 });
+}
