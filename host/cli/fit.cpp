@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "fit_curve.hpp"
 #include "overwriting.hpp"
 #include "report.hpp"
+#include "surface_preset.hpp"
 
 #include <host/io/plot.hpp>
 #include <tactus/file/csv.hpp>
@@ -9,14 +11,11 @@
 #include <tactus/kit/shock_fit.hpp>
 #include <tactus/text/json.hpp>
 #include <tactus/text/quote.hpp>
-#include <tactus/text/units.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
-#include <sstream>
 
 namespace tactus::host
 {
@@ -27,17 +26,6 @@ struct Options
 {
     std::string recording, preset, plot, mass;
 };
-
-/// Reads "50 g", "0.05 kg" or "0.05" as a mass in kg. 0 if the text is empty.
-double readMass (const std::string& text)
-{
-    if (text.empty()) return 0.0;
-    const auto mass = parseMeasure (text);
-    const bool fits = mass && (mass->dimension == unit::kilogram.dimension || mass->dimension == Dimension {});
-    if (! fits || ! (mass->value > 0.0) || ! std::isfinite (mass->value))
-        throw UsageError ("--mass", quote (text) + " is not a mass above 0; write one such as \"50 g\" or 0.05 (kg)");
-    return mass->value;
-}
 
 RecordedLoop readLoop (const std::string& file)
 {
@@ -53,19 +41,6 @@ RecordedLoop readLoop (const std::string& file)
         return values;
     };
     return { .depth = column ("depth", true), .force = column ("force", true), .time = column ("t", false) };
-}
-
-Json toJson (const Law& law)
-{
-    if (law.kind == Law::Kind::dissipation) return { { "dissipation", law.a } };
-    return { { "power", { law.a, law.b } } };
-}
-
-std::string rounded (double value, int digits = 3)
-{
-    std::ostringstream out;
-    out << std::setprecision (digits) << value;
-    return out.str();
 }
 
 /// The graph of a tap on a soft wall. The force of the wall hands over to a shock.
@@ -144,7 +119,7 @@ void draw (const ShockFit& fit, const std::string& name, const std::string& file
 
 void fitShock (const Options& options)
 {
-    const double mass = readMass (options.mass);
+    const double mass = options.mass.empty() ? 0.0 : readAmount ("--mass", options.mass, "kg", "50 g");
     std::vector<std::string> outputs { options.preset };
     if (! options.plot.empty()) outputs.push_back (options.plot);
     refuseOverwriting (outputs, { options.recording });
@@ -180,6 +155,7 @@ void addFit (const Command& app)
                   "  tactus fit shock tap_on_steel.csv -o tap_on_steel.json\n"
                   "  tactus fit shock loop.csv --mass \"30 g\" -o rubber.json --plot rubber.png");
     shock.callback ([options] { fitShock (*options); });
+    addFitCurve (command);
 }
 
 }   // namespace tactus::host

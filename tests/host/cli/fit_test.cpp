@@ -12,6 +12,7 @@
 #include <string>
 
 using namespace tactus;
+using test::checkRefused;
 using test::runTactus;
 using test::Scratch;
 
@@ -78,13 +79,7 @@ TEST_CASE ("fit shock: a recording or a command that cannot be used is refused, 
 {
     const Scratch scratch;
     const auto csv = scratch.write ("tap.csv", recording (false)), preset = scratch.path ("tap.json");
-    const auto refused = [&] (const std::vector<std::string>& arguments, int status, const char* id) {
-        const auto ran = runTactus (arguments);
-        INFO (ran.err);
-        CHECK (ran.status == status);
-        CHECK (ran.err.find (id) != std::string::npos);
-        CHECK_FALSE (std::filesystem::exists (preset));
-    };
+    const auto refused = [&] (const std::vector<std::string>& arguments, int status, const char* id) { checkRefused (arguments, status, id, preset); };
     refused ({ "fit", "shock", csv, "-o", preset }, 1, "[fit/mass]");
     refused ({ "fit", "shock", scratch.path ("none.csv"), "-o", preset }, 1, "[csv/unreadable]");
     refused ({ "fit", "shock", scratch.write ("other.csv", "a,b\n1,2\n"), "-o", preset }, 1, "[fit/column]");

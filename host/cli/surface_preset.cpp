@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface_preset.hpp"
+
+#include <host/command_line/command.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/kit/half_space.hpp>
+#include <tactus/text/quote.hpp>
+#include <tactus/text/units.hpp>
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr const char* pressed = R"({
+  "format": "tactus-graph", "version": 2, "name": "", "tags": ["deformation", "press"], "rate_hz": 4000,
+  "devices": {
+    "finger": {
+      "driver": "sim", "mass": "50 g", "damping": "1 N*s/m",
+      "hand": { "stiffness": "400 N/m", "damping": "4 N*s/m", "path": "circle" },
+      "guard": {
+        "max_force": "6 N", "max_speed": "2 m/s", "max_impulse": "30 N*s", "impulse_window": "10 s", "max_energy": "120 mJ", "energy_window": "1 s"
+      }
+    }
+  },
+  "nodes": {
+    "hand": { "type": "device.position", "role": "finger" },
+    "body": {
+      "type": "deform.surface",
+      "settings": {
+        "surface": {
+          "nodes": [[-0.1, -0.1, 0], [0.1, -0.1, 0], [0.1, 0.1, 0], [-0.1, 0.1, 0]], "triangles": [[0, 1, 2], [0, 2, 3]]
+        }
+      }
+    },
+    "motor": { "type": "device.force", "role": "finger" }
+  },
+  "wires": ["hand.position -> body.position", "body.force -> motor.force"]
+})";
+}   // namespace
+
+Json toJson (const Law& law)
+{
+    switch (law.kind)
+    {
+    case Law::Kind::power:
+        return { { "power", { law.a, law.b } } };
+    case Law::Kind::exponential:
+        return { { "exponential", { law.a, law.b } } };
+    case Law::Kind::table:
+        return { { "table", { law.table.x, law.table.y } } };
+    case Law::Kind::dissipation:
+        return { { "dissipation", law.a } };
+    case Law::Kind::none:
+        break;
+    }
+    return nullptr;
+}
+
+Json curvesOf (const EvenBody& body)
+{
+    // Without friction, the sideways curve is not felt, but the contact point needs one to follow the tool.
+    const double drag = body.mu > 0.0 ? body.mu : 1.0;
+    const Json across = toJson (acrossOf (body.along, drag, body.ratio)), along = toJson (body.along);
+    Json curves = Json::array();
+    curves.push_back (Json::array ({ across, across, along }));
+    return { { "curves", curves }, { "mu", body.mu > 0.0 ? body.ratio : 0.0 } };
+}
+
+graph::Graph surfacePreset (const EvenBody& body, const std::string& name, const std::string& about, const std::string& source)
+{
+    auto graph = readGraph (pressed).graph;
+    graph.name = name;
+    graph.about = about;
+    for (auto& node : graph.root.nodes)
+        if (node.name == "body") node.settings["surface"].update (curvesOf (body));
+    graph.extra["ui"]["sources"] = { { "body.curves.z", source },
+                                     { "body.curves.x", "the z curve, scaled so that drag over push is " + rounded (body.mu) + " at every depth: guess" } };
+    return graph;
+}
+
+double readAmount (const std::string& option, const std::string& text, const char* si_unit, const char* example)
+{
+    const auto amount = parseMeasure (text), unit = parseMeasure (std::string ("1 ") + si_unit);
+    const bool fits = amount && (amount->dimension == unit->dimension || amount->dimension == Dimension {});
+    if (! fits || ! (amount->value > 0.0) || ! std::isfinite (amount->value))
+        throw UsageError (option, quote (text) + " does not fit; write a number above 0 with its unit, such as " + quote (example));
+    return amount->value;
+}
+
+std::string rounded (double value, int digits)
+{
+    std::ostringstream out;
+    out << std::setprecision (digits) << value;
+    return out.str();
+}
+
+}   // namespace tactus::host

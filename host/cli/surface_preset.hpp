@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tactus/graph/graph.hpp>
+#include <tactus/kit/law.hpp>
+#include <tactus/text/json.hpp>
+
+#include <string>
+
+namespace tactus::host
+{
+
+/// A body with one curve along its normal, the same everywhere.
+struct EvenBody
+{
+    Law along;             ///< force against depth
+    double mu = 0.3;       ///< drag over push while the tool slides; 0: no friction
+    double ratio = 0.45;   ///< the sideways deflection at which the tool slides, over its depth; above 0
+};
+
+/// A law as a graph file contains it.
+Json toJson (const Law&);
+
+/// The members "curves" and "mu" of a setting of kind `surface`.
+Json curvesOf (const EvenBody&);
+
+/// A graph in which a finger presses and strokes a square pad of this body. `source` says where its curve comes from. [main thread]
+graph::Graph surfacePreset (const EvenBody&, const std::string& name, const std::string& about, const std::string& source);
+
+/// Reads an amount with its unit, such as "10 kPa", "5 mm" or 0.005, as a number above 0 in the SI unit. A bare number is in the SI unit.
+/// Throws UsageError, with the name of the option.
+double readAmount (const std::string& option, const std::string& text, const char* si_unit, const char* example);
+
+/// The number with this many significant digits.
+std::string rounded (double value, int digits = 3);
+
+}   // namespace tactus::host
