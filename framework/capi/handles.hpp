@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What the handles of the C API point to. Only the files in this folder include this.
+/// What the handles of the C API point to. Only this folder and framework/python/ include this.
 
 #include "pushed_device.hpp"
 #include "tactus.h"
@@ -113,6 +113,9 @@ R guarded (tactus_messages* messages, R on_failure, F&& f) noexcept
     }
     return on_failure;
 }
+
+/// Compiles a graph. The catalogue must outlive the run. Null, with the reasons in `messages`, if the graph does not compile.
+tactus_run* makeRun (graph::Graph, CompileOptions, const Catalogue&, tactus_messages*);
 
 /// A copy that C code frees with tactus_text_free.
 inline char* copied (const std::string& text)

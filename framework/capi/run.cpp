@@ -66,12 +66,28 @@ tactus_run* create (const tactus_graph& g, const tactus_run_options& given, tact
         }
         options.overrides.push_back (std::move (*read));
     }
+    return makeRun (g.history.graph(), std::move (options), tactus::catalogue(), messages);
+}
+
+bool knowsRole (const tactus_run& r, const char* role, tactus_messages* messages)
+{
+    if (std::ranges::find (r.roles, text (role)) != r.roles.end()) return true;
+    failed (messages,
+            Message::error ("api/unknown_role", "/devices", "the graph has no role '" + text (role) + "'", "use a name that tactus_run_role returns"));
+    return false;
+}
+
+bool isTickedByCaller (const tactus_run* r) noexcept { return r != nullptr && r->is_open && ! r->run->isLive(); }
+}   // namespace
+
+tactus_run* tactus::capi::makeRun (graph::Graph g, CompileOptions options, const Catalogue& types, tactus_messages* messages)
+{
     auto made = std::make_unique<tactus_run> (options);
-    made->graph = g.history.graph();
+    made->graph = std::move (g);
     const auto opener = [r = made.get()] (const std::string& role, const tactus::graph::Graph& graph, const tactus::Plan&, Messages& out) {
         return open (*r, role, graph, out);
     };
-    made->run = std::make_unique<Run> (tactus::catalogue(), std::move (options), opener, Run::Queries::within_tick);
+    made->run = std::make_unique<Run> (types, std::move (options), opener, Run::Queries::within_tick);
     made->run->add (made->recorder);
     auto loaded = made->run->load (made->graph);
     const bool is_broken = tactus::hasErrors (loaded);
@@ -88,17 +104,6 @@ tactus_run* create (const tactus_graph& g, const tactus_run_options& given, tact
     }
     return made.release();
 }
-
-bool knowsRole (const tactus_run& r, const char* role, tactus_messages* messages)
-{
-    if (std::ranges::find (r.roles, text (role)) != r.roles.end()) return true;
-    failed (messages,
-            Message::error ("api/unknown_role", "/devices", "the graph has no role '" + text (role) + "'", "use a name that tactus_run_role returns"));
-    return false;
-}
-
-bool isTickedByCaller (const tactus_run* r) noexcept { return r != nullptr && r->is_open && ! r->run->isLive(); }
-}   // namespace
 
 tactus_run* tactus_run_create (const tactus_graph* g, const tactus_run_options* given, tactus_messages* messages)
 {

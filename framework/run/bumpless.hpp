@@ -36,6 +36,8 @@ public:
                 now = length;
                 return last = wanted;
             }
+            ++now;
+            return last;   // no step at all: wanted + (last - wanted) would round
         }
         const double w = 0.5 + 0.5 * std::cos (pi * now / length);
         ++now;

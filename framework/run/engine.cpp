@@ -83,7 +83,7 @@ std::unique_ptr<Engine::Running> Engine::makeRunning (std::shared_ptr<Plan> p)
         if ((! node.type->bind && ! node.type->learn) || ! node.runs()) continue;
         const auto role = std::ranges::find (plan->roles(), node.role, &Plan::RoleUse::name);
         if (role == plan->roles().end()) continue;
-        made->bound.push_back ({ node.type->bind, node.type->learn, plan->instances()[i].node.get(), role->state.get(),
+        made->bound.push_back ({ node.type, plan->instances()[i].node.get(), role->state.get(),
                                  used[static_cast<std::size_t> (role - plan->roles().begin())] });
     }
     return made;
@@ -102,11 +102,18 @@ void Engine::equip (Channel& channel, Device& device, const GuardLimits& limits,
     device.prepare (dt_s);
 }
 
-/// Binds nodes to new devices, and tells the nodes that learn about a device what it is.
+/// Tells nodes about the layouts of new devices. introduce() then binds the nodes to these layouts.
+void Engine::announce (const Running& plan)
+{
+    for (const auto& node : plan.bound)
+        if (node.channel->is_news && node.type->announce) node.type->announce (node.node, *node.state);
+}
+
+/// Binds nodes to the layouts of new devices, and tells the nodes that learn about a device what it is.
 void Engine::introduce (Running& plan) noexcept
 {
     for (const auto& node : plan.bound)
-        if (node.channel->is_news) node.bind ? node.bind (node.node, *node.state) : node.learn (node.node, node.state->layout);
+        if (node.channel->is_news) node.type->bind ? node.type->bind (node.node, *node.state) : node.type->learn (node.node, node.state->layout.mechanics);
     for (auto* channel : plan.channels)
         channel->is_news = false;
 }
@@ -116,6 +123,7 @@ void Engine::attach (std::string_view role, Device& device, const GuardLimits& l
     const auto& roles = newest().roles();
     if (std::ranges::find (roles, role, &Plan::RoleUse::name) == roles.end()) throw std::out_of_range ("the plan has no role '" + std::string (role) + "'");
     equip (channelOf (std::string (role)), device, limits, newest(), 1.0 / rate_hz);
+    announce (plans.newest());
     introduce (plans.newest());
 }
 
@@ -152,7 +160,9 @@ void Engine::submit (std::shared_ptr<Plan> next, std::span<const Joining> joinin
         for (const auto& j : joining)
             join (j, *next);
         plans.takeBack();
-        plans.give (makeRunning (std::move (next)));
+        auto made = makeRunning (std::move (next));
+        announce (*made);
+        plans.give (std::move (made));
     }
     clear();
 }

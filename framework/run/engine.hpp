@@ -164,11 +164,10 @@ private:
         bool is_news = false;           // the nodes are not bound to its device yet
     };
 
-    /// A node that belongs to a role, and the hook that it has: bind or learn.
+    /// A node that belongs to a role; its type has one of the hooks bind and learn.
     struct BoundNode
     {
-        void (*bind) (void* node, const DeviceState&);
-        void (*learn) (void* node, const DeviceLayout&) noexcept;
+        const NodeType* type;
         void* node;
         const DeviceState* state;
         Channel* channel;
@@ -200,6 +199,7 @@ private:
     Channel& makeChannel (const std::string& role);
     void join (const Joining&, const Plan&);
     static void equip (Channel&, Device&, const GuardLimits&, const Plan&, double dt_s);
+    static void announce (const Running&);
     static void introduce (Running&) noexcept;
     void applyStops() noexcept;
     std::unique_ptr<Running> makeRunning (std::shared_ptr<Plan>);

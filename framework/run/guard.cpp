@@ -209,11 +209,7 @@ void Guard::latch (Stop why, double value, Event::Part part, int channel) noexce
 /// is starved again and again gets no force in between.
 void Guard::loseTime (double lost_s) noexcept
 {
-    if (lost_s > 0.0)
-    {
-        lost += lost_s;
-        if (is_watching) countImpulse (lost_s);
-    }
+    if (lost_s > 0.0) lost += lost_s;
     if (limits.watchdog == GuardLimits::none) return;
     behind = std::clamp (behind + lost_s - dt, 0.0, most_behind * limits.watchdog);
     is_starved = behind > (is_starved ? 0.5 : 1.0) * limits.watchdog;
@@ -268,16 +264,20 @@ bool Guard::hasBrokenAxes (const Reading& reading) const noexcept { return watch
     return work;
 }
 
-/// Adds the impulse of the last effort, which was on the device for s seconds.
-void Guard::countImpulse (double s) noexcept
+/// Adds the impulse of the last effort, as the motors rendered it. It was on the device for s seconds.
+void Guard::countImpulse (double s, const Reading& reading) noexcept
 {
+    // If the driver does not know what the motors rendered, the effort counts in full.
+    const auto rendered = [] (const Vec3& written, const Vec3& unrendered) {
+        return isFinite (unrendered) ? Vec3 (written - unrendered).stableNorm() : written.stableNorm();
+    };
     const auto for_ticks = static_cast<std::uint64_t> (std::clamp (s / dt, 1.0, 1e9));
     const auto add = [&] (ImpulseWatch& watch, double limit, double effort, Event::Part part) {
         if (limit == GuardLimits::none) return;
         if (const double pushed = watch (effort * s, for_ticks); ! (pushed <= limit)) latch (Stop::impulse, pushed, part);
     };
-    add (impulse, limits.max_impulse, last.force.stableNorm(), Event::Part::none);
-    add (angular_impulse, limits.max_angular_impulse, last.torque.stableNorm(), Event::Part::torque);
+    add (impulse, limits.max_impulse, rendered (last.force, reading.unrendered_force), Event::Part::none);
+    add (angular_impulse, limits.max_angular_impulse, rendered (last.torque, reading.unrendered_torque), Event::Part::torque);
     if (limits.max_axis_impulse == GuardLimits::none) return;
     double sum = 0.0;
     for (const double effort : last.axes)
@@ -381,7 +381,12 @@ Effort Guard::operator() (const Effort& wanted, const Reading& reading, double l
 {
     const double elapsed = dt + (lost_s > 0.0 && isFinite (lost_s) ? lost_s : 0.0);
     loseTime (elapsed - dt);
-    if (is_watching) watch (reading, elapsed);
+    if (is_watching)
+    {
+        if (elapsed > dt) countImpulse (elapsed - dt, reading);
+        countImpulse (dt, reading);
+        watch (reading, elapsed);
+    }
     const auto cause = causeOf (wanted, reading);
     // A stop that has begun continues during lost time. A stop that begins now, and everything that rises, advances by one tick.
     const double step_s = reason != Stop::none && cause != Stop::none ? elapsed : dt;
@@ -408,7 +413,6 @@ Effort Guard::operator() (const Effort& wanted, const Reading& reading, double l
     reason = cause;
 
     approach (crossfade (wanted, step_s), step_s);
-    if (is_watching) countImpulse (dt);
     return last;
 }
 

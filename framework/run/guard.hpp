@@ -95,7 +95,8 @@ GuardLimits tightest (const GuardLimits&, const GuardLimits&) noexcept;
 ///  - Energy and speed include the axes that efforts push: for each effort the axis of the same name, or axisN for effortN. An
 ///    effort without such an axis is limited in size, slew and impulse only.
 ///  - Speed, impulse and energy are measured from the last effort on the device and its motion, so an excess is
-///    detected one tick late: the limit is exceeded during that tick and the fade.
+///    detected one tick late: the limit is exceeded during that tick and the fade. Impulse and energy count force and torque as
+///    the motors rendered them (Reading::unrendered_force).
 class Guard
 {
 public:
@@ -184,7 +185,7 @@ private:
     double watchAxes (const Reading&, double elapsed_s) noexcept;
     bool hasBrokenAxes (const Reading&) const noexcept;
     bool isFrozen() const noexcept { return still.time() > limits.max_still; }
-    void countImpulse (double s) noexcept;
+    void countImpulse (double s, const Reading&) noexcept;
     void latch (Stop, double value, Event::Part = Event::Part::none, int channel = 0) noexcept;
     Stop causeOf (const Effort& wanted, const Reading&) const noexcept;
     Event describeNow (Stop, const Effort& wanted, const Reading&) const noexcept;

@@ -31,7 +31,7 @@ struct RunStatus
         overrun,   ///< the graph takes longer than a tick period
     };
 
-    /// The effort on the device of a role.
+    /// The effort on the device of a role since the last tick, as the limits of the guard and of the motors let it through.
     struct Role
     {
         std::string_view name;                  ///< lives as long as the engine
@@ -48,7 +48,7 @@ struct RunStatus
     static constexpr std::size_t most_roles = 16;
 
     std::uint64_t ticks = 0, misses = 0;   ///< misses: ticks that began at least one period late
-    double force = 0.0, peak = 0.0;        ///< largest force of all roles in N: now, and since the run began
+    double force = 0.0, peak = 0.0;        ///< largest force of all roles in N: since the last tick, and since the run began
     Phase phase = Phase::running;
     End end = End::none;
     bool clock_replaced = false;             ///< this tick does not come from the chosen clock, so forces are held at zero

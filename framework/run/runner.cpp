@@ -9,6 +9,26 @@
 namespace tactus
 {
 
+namespace
+{
+/// Notes what was on the devices since the last tick, after the limits of the guards and of the motors. Call before the nodes tick.
+void noteEfforts (const Plan& plan, RunStatus& now) noexcept
+{
+    now.force = 0.0;
+    const auto& roles = plan.roles();
+    for (std::size_t i = 0; i < roles.size(); ++i)
+    {
+        const auto& applied = roles[i].state->applied;
+        const double force = applied.force.norm();
+        now.force = std::max (now.force, force);
+        if (i >= RunStatus::most_roles) continue;
+        now.roles[i].force = force;
+        now.roles[i].torque = applied.torque.norm();
+    }
+    now.peak = std::max (now.peak, now.force);
+}
+}   // namespace
+
 Runner::Runner (Engine& e, TickClock& c, double rate_hz, Options o)
     : engine (e), clock (c), options (o), longest_halt (static_cast<std::uint64_t> (longest_halt_s * rate_hz)), ticks_so_far (1.0 / rate_hz),
       lost_time (1.0 / rate_hz),
@@ -49,7 +69,10 @@ bool Runner::tick (double late_s) noexcept
     engine.invalidateReadings (now.clock_replaced);
     if (clock.isRealTime()) engine.loseTime (lost_time (begin, clock.block_s()));
     if (options.hooks) options.hooks->before (k);
-    engine.tick ([this] (Plan& plan) noexcept { node_costs.tick (plan); });
+    engine.tick ([this] (Plan& plan) noexcept {
+        noteEfforts (plan, now);
+        node_costs.tick (plan);
+    });
     if (options.hooks) options.hooks->after (k, now.phase == RunStatus::Phase::halting);
     const double took = clock.now() - begin;
 
@@ -89,24 +112,20 @@ void Runner::publish() noexcept
 {
     now.ticks = ticks_so_far.ticks();
     now.misses = ticks_so_far.misses();
-    now.force = 0.0;
     now.role_count = engine.roleCount();
-    for (std::size_t i = 0; i < now.role_count; ++i)
+    const bool is_released = now.phase == RunStatus::Phase::over && engine.isAtRest();
+    if (is_released) now.force = 0.0;
+    for (std::size_t i = 0; i < now.role_count && i < RunStatus::most_roles; ++i)
     {
         const auto [name, applied, guard] = engine.role (i);
-        const double force = applied.force.norm();
-        now.force = std::max (now.force, force);
-        if (i >= RunStatus::most_roles) continue;
         auto& role = now.roles[i];
         role.name = name;
-        role.force = force;
-        role.torque = applied.torque.norm();
+        if (is_released) role.force = role.torque = 0.0;
         role.stop = guard.stop();
         role.is_latched = guard.isLatched();
         role.event = guard.latest();
         role.latest = role.event.why;
     }
-    now.peak = std::max (now.peak, now.force);
     published.store (now, sizeof now - sizeof now.roles + now.shown().size_bytes());
 }
 

@@ -36,8 +36,7 @@ DeviceLayout layoutOf (const HidModel& model)
              .efforts = model.ownEffortNames(),
              .buttons = model.buttonNames(),
              .signal_outputs = static_cast<int> (signals),
-             .mass = known (numbers.mass),
-             .damping = known (numbers.damping) };
+             .mechanics = { known (numbers.mass), known (numbers.damping) } };
 }
 
 namespace

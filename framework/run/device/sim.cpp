@@ -78,7 +78,7 @@ void SimulatedDevice::write (const Effort& guarded) noexcept
 
 DeviceLayout SimulatedDevice::layout() const
 {
-    DeviceLayout has { .signal_outputs = what.signal_outputs, .mass = what.mass, .damping = what.damping };
+    DeviceLayout has { .signal_outputs = what.signal_outputs, .mechanics = { what.mass, what.damping } };
     for (const auto& axis : what.axes)
         has.axes.push_back (axis.name);
     has.efforts = has.axes;

@@ -65,8 +65,8 @@ Json toJson (const std::map<std::string, DeviceLayout>& devices)
                            { "buttons", has.buttons },
                            { "signal_inputs", has.signal_inputs },
                            { "signal_outputs", has.signal_outputs },
-                           { "mass", toLog (has.mass) },
-                           { "damping", toLog (has.damping) } };
+                           { "mass", toLog (has.mechanics.mass) },
+                           { "damping", toLog (has.mechanics.damping) } };
     return json;
 }
 

@@ -100,8 +100,8 @@ public:
                 { "buttons", JsonKind::list, names (device.buttons) },
                 { "signal_inputs", JsonKind::any, count (device.signal_inputs) },
                 { "signal_outputs", JsonKind::any, count (device.signal_outputs) },
-                { "mass", JsonKind::any, [this, &device] (Json& v, const std::string& place) { number (v, place, device.mass); } },
-                { "damping", JsonKind::any, [this, &device] (Json& v, const std::string& place) { number (v, place, device.damping); } },
+                { "mass", JsonKind::any, [this, &device] (Json& v, const std::string& place) { number (v, place, device.mechanics.mass); } },
+                { "damping", JsonKind::any, [this, &device] (Json& v, const std::string& place) { number (v, place, device.mechanics.damping); } },
             };
             if (const auto place = where + "/" + pointerPart (role); fields.isKind (has, JsonKind::object, place)) read (has, place, keys);
         }

@@ -107,6 +107,26 @@ TEST_CASE ("guard: energy counts only the force and the torque that the motors r
     CHECK (stopped (all, all) == 0);
 }
 
+TEST_CASE ("guard: impulse counts only the force and the torque that the motors rendered", "[framework][guard]")
+{
+    const auto stopped = [] (const GuardLimits& limits, const Vec3& lost) {
+        auto guard = guardWith (limits);
+        return stopsAt (guard, 1000, [&] (int) {
+            Reading reading;
+            reading.unrendered_force = reading.unrendered_torque = lost;
+            guard ({ .force = { 1.0, 0.0, 0.0 }, .torque = { 1.0, 0.0, 0.0 } }, reading);
+        });
+    };
+    const Vec3 none = Vec3::Zero(), half { 0.5, 0.0, 0.0 }, unknown = Vec3::Constant (std::nan (""));
+    for (const GuardLimits& limits : { GuardLimits { .max_impulse = 0.1, .impulse_window = 2.0 }, { .max_angular_impulse = 0.1, .impulse_window = 2.0 } })
+    {
+        CHECK (stopped (limits, none) == Approx (0.1 / dt).margin (3.0));
+        CHECK (stopped (limits, half) == Approx (0.2 / dt).margin (3.0));
+        CHECK (stopped (limits, 2.0 * half) == 0);
+        CHECK (stopped (limits, unknown) == stopped (limits, none));
+    }
+}
+
 TEST_CASE ("guard: an effort that drives an axis counts as energy, if the guard knows which axis it pushes", "[framework][guard]")
 {
     const auto stopped = [] (const DeviceLayout& layout, int axis, double effort) {

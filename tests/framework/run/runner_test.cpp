@@ -163,6 +163,50 @@ TEST_CASE ("a run ends even if a slew limit keeps force on a device: the device 
     CHECK (end.force == Approx (1.0 - 0.02 * Runner::longest_halt_s).epsilon (0.01));
 }
 
+TEST_CASE ("the status shows the force and the torque that the motors render, not what the guard lets through", "[runtime]")
+{
+    struct Weak final : Device   // its motors render a quarter of each effort
+    {
+        Effort last;
+        void prepare (double) override {}
+        Reading read() noexcept override
+        {
+            Reading reading;
+            reading.unrendered_force = 0.75 * last.force;
+            reading.unrendered_torque = 0.75 * last.torque;
+            return reading;
+        }
+        void write (const Effort& e) noexcept override { last = e; }
+    } device;
+    test::Sketch s;
+    s.node ("push", "signal.constant", { { "value", 2.0 } }).node ("turn", "signal.constant", { { "value", 2.0 } });
+    s.node ("motor", "device.force").wire ("push.out -> motor.force.x").wire ("turn.out -> motor.torque.y");
+    const auto compiled = s.compile ({ .rate_hz = rate_hz });
+    REQUIRE (compiled.plan);
+    Engine engine { compiled.plan };
+    engine.attach ("stylus", device, {});
+    FreeRun clock;
+
+    struct LastTick final : TickHooks
+    {
+        RunStatus seen;
+        const Runner* runner = nullptr;
+        void before (std::uint64_t) noexcept override { seen = runner->status(); }
+        void after (std::uint64_t, bool) noexcept override {}
+    } hooks;
+    Runner runner { engine, clock, rate_hz, { .length = 100, .hooks = &hooks } };
+    hooks.runner = &runner;
+    const auto end = play (runner);
+    CHECK (end.peak == 0.5);
+    CHECK (hooks.seen.peak == 0.5);
+    CHECK (hooks.seen.roles[0].force > 0.0);   // it fades
+    CHECK (hooks.seen.roles[0].force < 0.5);
+    CHECK (hooks.seen.roles[0].torque == hooks.seen.roles[0].force);
+    CHECK (end.force == 0.0);
+    CHECK (end.roles[0].force == 0.0);
+    CHECK (end.roles[0].torque == 0.0);
+}
+
 TEST_CASE ("a run whose graph takes longer than a tick period is halted with the reason overrun", "[runtime]")
 {
     struct Slow final : TickClock

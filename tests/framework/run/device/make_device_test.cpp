@@ -204,7 +204,7 @@ TEST_CASE ("device description: a simulated device may have axes in addition to 
     const auto m = made (R"({"driver": "sim", "axes": {"trigger": {"mass": "20 g", "damping": 0.5, "stiffness": "0.2 N/mm", "position": "1 mm",
         "hand_force": "1 N"}, "wheel": {}}, "signal_outputs": 2})");
     REQUIRE (m.messages.empty());
-    const DeviceLayout parts { .axes = { "trigger", "wheel" }, .efforts = { "trigger", "wheel" }, .signal_outputs = 2, .mass = 0.1, .damping = 1.0 };
+    const DeviceLayout parts { .axes = { "trigger", "wheel" }, .efforts = { "trigger", "wheel" }, .signal_outputs = 2, .mechanics = { 0.1, 1.0 } };
     CHECK (m.device->layout() == parts);
     const auto& trigger = simulationOf (m).axes.at (0);
     CHECK (trigger.mass == Approx (0.02));

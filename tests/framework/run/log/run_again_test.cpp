@@ -46,8 +46,7 @@ const DeviceLayout odd_layout { .axes = { "a", "b", "c" },
                                 .buttons = { "", "grip" },
                                 .signal_inputs = 2,
                                 .signal_outputs = 1,
-                                .mass = 0.07,
-                                .damping = 0.3 };
+                                .mechanics = { 0.07, 0.3 } };
 
 /// A hand that exercises every field of a reading, including values that are not numbers.
 class OddHand final : public Device
