@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Ticks every node of the catalogue with inputs that a hand might produce, so that callgrind can count (instructions.py).
 //
+// With arguments, it ticks the nodes of these plugins instead (tests/plugins/cost.py).
+//
 // Callgrind counts inside `ticked` and dumps after each `counted`, so its n-th dump belongs to the n-th line printed
 // here. The first dump is for a tick that does nothing: the cost of the call itself.
 
 #include <tactus/node/catalogue.hpp>
+#include <tactus/plugin/plugin_library.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -33,7 +36,7 @@ extern "C"
 
 namespace
 {
-constexpr Setup setup { 4000.0 };
+const Setup setup { 4000.0 };
 constexpr int ticks = 4000;   // one second
 
 double swing (double t, double hertz, double phase = 0.0) { return std::sin (2.0 * std::numbers::pi * (hertz * t + phase)); }
@@ -92,7 +95,7 @@ void run (const NodeType& type)
     }
 
     DeviceState device;
-    if (type.bind) type.bind (node.get(), device);
+    if (type.bind) bindFirst (type, node.get(), device);
     if (type.prepare) type.prepare (node.get(), setup);
     if (type.update) type.update (node.get());
 
@@ -133,9 +136,12 @@ NodeType nothing()
 }
 }   // namespace
 
-int main()
+int main (int argc, char** argv)
 {
     run (nothing());
-    for (const auto& type : catalogue())
+    if (argc == 1)
+        for (const auto& type : catalogue())
+            run (type);
+    for (const auto& type : Catalogue { loadPlugins ({ argv + 1, argv + argc }, Catalogue {}).types })
         run (type);
 }

@@ -16,11 +16,12 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
-def count(program):
+def count(program, *arguments):
     """Returns [(id, instructions per tick or None, problem)]. The first entry is a tick that does nothing."""
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "out"
-        ran = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=ticked", "--dump-after=counted", f"--callgrind-out-file={out}", program],
+        ran = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=ticked", "--dump-after=counted", f"--callgrind-out-file={out}",
+                              program, *arguments],
                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
         if ran.returncode != 0:
             sys.exit(ran.stderr)
@@ -65,4 +66,5 @@ def main():
     print(f"docs/instructions.md: {len(nodes)} nodes")
 
 
-main()
+if __name__ == "__main__":
+    main()

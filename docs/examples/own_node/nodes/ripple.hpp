@@ -39,7 +39,7 @@ struct Ripple
         const double r = std::hypot (in.position.x(), in.position.y());
         if (! std::isfinite (r) || r == 0.0) return {};
         const double f = params.amplitude * std::sin (2.0 * std::numbers::pi * params.spatial_frequency * r);
-        return { .force = { f * in.position.x() / r, f * in.position.y() / r, 0.0 } };
+        return { .force = tactus::finiteOrZero (tactus::Vec3 (f * in.position.x() / r, f * in.position.y() / r, 0.0)) };
     }
 
     Params params;
