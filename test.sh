@@ -15,19 +15,22 @@
 #   ./test.sh --sound   plays a ring on a virtual sound card, strokes a board in the host with the mouse, and listens to both
 #   ./test.sh --devices drives the virtual HID devices
 #   ./test.sh --figures redraws docs/figures/ and recounts docs/instructions.md
+#   ./test.sh --packages makes the Debian packages, and installs, uses and removes them in a clean Debian (needs root); before that,
+#                       it builds all nodes as plugins and examines them
 . "$(dirname "$0")/.ci/setup.sh"
 
 mode=${1:-}
 case $mode in
-    ''|--quick|--long|--screens|--sound|--devices|--figures) ;;
-    *) echo "usage: ./test.sh [--quick|--long|--screens [--update]|--sound|--devices|--figures]" >&2; exit 2 ;;
+    ''|--quick|--long|--screens|--sound|--devices|--figures|--packages) ;;
+    *) echo "usage: ./test.sh [--quick|--long|--screens [--update]|--sound|--devices|--figures|--packages]" >&2; exit 2 ;;
 esac
 
-packages+=(python3 python3-jsonschema xvfb xdotool)
+packages+=(python3-jsonschema xvfb xdotool)
 [ "$mode" = --long ] && packages+=(clang-14 libclang-rt-14-dev)
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
 [ "$mode" = --screens ] && packages+=(xauth imagemagick)
 [ "$mode" = --sound ] && packages+=(xauth imagemagick jackd2 jack-capture python3-numpy)
+[ "$mode" = --packages ] && packages+=(dpkg-dev lintian mmdebstrap valgrind)
 install_packages
 
 # Without these packages the guest is skipped, with a message.
@@ -86,6 +89,18 @@ if [ "$mode" = --figures ]; then
     /usr/bin/python3 tests/figures/draw.py   # Debian's Python, which has matplotlib
     say "Instructions per tick"
     /usr/bin/python3 tests/bench/instructions.py build/release
+    exit
+fi
+
+if [ "$mode" = --packages ]; then
+    build release
+    build release all_node_plugins
+    say "All nodes as plugins"
+    tests/plugins/all_nodes.sh build/release
+    say "Packages"
+    root=()
+    [ "$(id -u)" -eq 0 ] || root=(sudo)
+    "${root[@]}" tests/install/packages.sh build/release
     exit
 fi
 

@@ -9,7 +9,7 @@ namespace tactus::bench
 
 namespace
 {
-constexpr Setup setup { .rate_hz = 4000.0 };
+const Setup setup { .rate_hz = 4000.0 };
 constexpr double degree = std::numbers::pi / 180.0;
 
 /// A cushion of 8 by 8 points, 10 mm apart, firmer towards its seams.
@@ -61,7 +61,7 @@ Kernels::Kernels (const DeviceState& device)
     hand.bind (device);
     foam.settings.surface = cushion();
     motion.settings.window = 0.01;
-    drag.params = { .mu = 0.3, .d_max = 3e-4, .static_ratio = 1.3, .reference_load = 0.4 };
+    drag.params = { .mu = 0.3, .d_max = 6e-4, .static_ratio = 1.3, .reference_load = 0.4 };
     ribs.params = { .amplitude = 0.06, .spatial_frequency = 400.0 };
     warp.params = { .amplitude = 0.04, .spatial_frequency = 900.0, .angle = 30.0 * degree };
     weft.params = { .amplitude = 0.04, .spatial_frequency = 900.0, .angle = 120.0 * degree };
@@ -73,14 +73,14 @@ Kernels::Kernels (const DeviceState& device)
     thud.settings.stiffness = { .kind = Law::Kind::power, .a = 1e5, .b = 1.5 };
     thud.settings.damping.a = 0.5;
     wood.settings.modes = {
-        { 220.0, 40.0, 6.0 },
-        { 350.0, 48.0, 4.5 },
-        { 520.0, 60.0, 3.5 },
-        { 610.0, 70.0, 2.5 },
-        { 840.0, 85.0, 2.0 },
-        { 1020.0, 100.0, 1.5 },
-        { 1310.0, 120.0, 1.0 },
-        { 1660.0, 150.0, 0.75 },
+        { 110.0, 40.0, 6.0 },
+        { 175.0, 48.0, 4.5 },
+        { 260.0, 60.0, 3.5 },
+        { 305.0, 70.0, 2.5 },
+        { 420.0, 85.0, 2.0 },
+        { 510.0, 100.0, 1.5 },
+        { 655.0, 120.0, 1.0 },
+        { 830.0, 150.0, 0.75 },
     };
     bump.settings.inputs = 3;
     all.settings.inputs = 4;

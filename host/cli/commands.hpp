@@ -19,5 +19,8 @@ void addDevices (const Command&);
 void addSession (const Command&);
 void addBench (const Command&);
 void addFit (const Command&);
+void addNewNode (const Command&);
+void addCurve (const Command&);
+void addCheckPlugin (const Command&);
 
 }   // namespace tactus::host

@@ -2,9 +2,14 @@
 #include "commands.hpp"
 #include "report.hpp"
 
+#include <host/plugins/installed_plugins.hpp>
+#include <tactus/tactus.h>
+
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <string>
+#include <string_view>
 
 int main (int argc, char** argv)
 {
@@ -24,9 +29,11 @@ int main (int argc, char** argv)
                 "  tactus devices                                 connected devices and their profiles\n"
                 "  tactus session graphs/dry_wood.json            the devices bound to its roles\n"
                 "  tactus fit shock tap.csv -o tap.json           a preset from a recording\n"
+                "  tactus fit curve liver.csv -o liver.json       a body from an indentation\n"
+                "  tactus curve hertz --young \"10 kPa\" --radius \"5 mm\"   the curve of a sphere\n"
                 "  tactus render --replay run.jsonl               repeat a run logged by `play --log run.jsonl`\n"
                 "\n`tactus COMMAND --help` shows the options and more examples.");
-    app.version (TACTUS_VERSION);
+    app.version (TACTUS_VERSION " (C API " + std::to_string (TACTUS_API_VERSION) + ")");
     app.requireCommand();
     addNodes (app);
     addValidate (app);
@@ -40,9 +47,15 @@ int main (int argc, char** argv)
     addSession (app);
     addBench (app);
     addFit (app);
+    addNewNode (app);
+    addCurve (app);
+    addCheckPlugin (app);
 
     try
     {
+        // The plugin to check may be installed, and may crash: only the program that examines it loads it.
+        const bool checks_plugin = argc > 1 && std::string_view (argv[1]) == "check-plugin";
+        if (! checks_plugin) std::cerr << textOf (usePlugins (pluginFoldersIn (argc, argv)));
         if (const auto status = app.parse (argc, argv)) return *status == 0 ? fine : wrong_usage;
     }
     catch (const Stop&)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
 #include "report.hpp"
+#include "run_options.hpp"
 
 #include <tactus/node/catalogue.hpp>
 #include <tactus/node/datasheet_json.hpp>
@@ -10,6 +11,7 @@
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -64,6 +66,7 @@ void printDatasheet (const NodeType& t)
 {
     std::cout << t.info.id << ": " << t.info.name << "\n"
               << t.info.summary << "\nSource: " << t.info.source << "\n";
+    if (! t.origin.empty()) std::cout << "Plugin: " << printableName (t.origin) << "\n";
 
     const auto section = [] (const char* title, const std::vector<PortSheet>& ports, bool with_default) {
         if (ports.empty()) return;
@@ -132,7 +135,8 @@ void listAll()
             flush();
             family = its_family;
         }
-        rows.push_back ({ id, std::string (t.info.summary) });
+        const auto from = t.origin.empty() ? "" : " (plugin " + printableName (std::filesystem::path (t.origin).filename().string()) + ")";
+        rows.push_back ({ id, std::string (t.info.summary) + from });
     }
     flush();
 }
@@ -174,6 +178,7 @@ void addNodes (const Command& app)
     const auto command = app.add ("nodes", "List the node types, or show the datasheet of one");
     command.addOption ("type", options->type, "The id of a node type, such as friction.elasto_plastic");
     command.addFlag ("--json", options->json, "Print JSON, for use by programs");
+    addPlugins (command);
     command.footer ("Examples:\n"
                     "  tactus nodes\n"
                     "  tactus nodes deform.plane\n"

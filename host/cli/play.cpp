@@ -11,11 +11,14 @@
 #include <host/osc/osc_options.hpp>
 #include <host/platform/signals.hpp>
 #include <host/platform/terminal.hpp>
+#include <host/plugins/live_plugins.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -28,6 +31,7 @@ namespace
 struct Options : RunOptions
 {
     bool watch = false, costs = false;
+    std::vector<std::string> live;   ///< headers of nodes
     std::string osc = std::to_string (OscPort::usual), osc_answer;
     bool osc_asked_for = false;
     std::optional<int> core;
@@ -79,11 +83,31 @@ void warnOfCapture (const std::string& file, const Message& error)
                   printableName (file).c_str(), inOneLine (error.text).c_str(), error.id.c_str());
 }
 
+/// The code of nodes to watch: the headers that --live names and, with --watch, the plugins that were built here. The headers are
+/// compiled before the graph is read.
+std::unique_ptr<LivePlugins> openLive (const Options& options)
+{
+    std::vector<LiveSource> sources;
+    for (const auto& header : options.live)
+        sources.push_back (orFail (liveHeader (header)));
+    if (options.watch) std::ranges::move (liveBuilds (catalogue()), std::back_inserter (sources));
+    auto live = std::make_unique<LivePlugins> (std::move (sources));
+    for (const auto& header : options.live)
+        std::fprintf (stderr, "compiling %s\n", printableName (header).c_str());
+    for (auto& news : live->buildHeaders())
+    {
+        if (report (news.messages, {}, news.file.string()) > 0) throw Stop {};
+        extendCatalogue (std::move (news.types));
+    }
+    if (const auto prepared = live->prepare(); ! prepared) warn (options.graph, prepared.error());
+    return live;
+}
+
 /// A play command, from its first tick to its last.
 class Playing
 {
 public:
-    explicit Playing (const Options& o) : options (o)
+    Playing (const Options& o, LivePlugins& l) : options (o), live (l)
     {
         watchForStop();   // before this there is nothing to shut down
         command.run().add (emergency);
@@ -128,6 +152,7 @@ private:
         if (port) more += ", OSC on " + port->listensTo().address + ":" + std::to_string (port->number());
         if (port && port->listensTo().isLoopback()) more += " (token to rearm: " + token + ")";
         if (options.watch) more += ", reloading the graph file when it is edited";
+        if (live.count() > 0) more += ", compiling nodes when their code is edited";
         const auto* keys = emergency.hasKeys() ? "Ctrl-C ends the run, the space bar is the emergency stop, R rearms" : "Ctrl-C stops";
         std::fprintf (stderr, "%s at %g Hz%s; %s\n", printableName (name).c_str(), command.rate(), more.c_str(), keys);
     }
@@ -145,6 +170,8 @@ private:
         command.attend();
         if (const auto attended = command.audio().attend(); ! attended) warnOfCapture (options.capture, attended.error());
         if (options.watch && i % 10 == 0 && file_watch.look()) reload();
+        if (i % 5 == 0)
+            if (auto news = live.look()) takeOver (*news);
         if (control)
         {
             command.probes().drain ([&] (std::uint64_t tick, std::span<const double> values) { control->values (tick, values); });
@@ -164,6 +191,22 @@ private:
         if (taken_over && control) control->graphChanged();
         std::fprintf (stderr, taken_over ? "%s: reloaded\n" : "%s: not reloaded; the previous graph keeps running\n", printableName (options.graph).c_str());
         file_watch.watch (command.files());
+    }
+
+    /// Uses a new version of the code of a node.
+    void takeOver (LivePlugins::News& news)
+    {
+        if (terminal) std::fprintf (stderr, "\r\033[K");
+        report (news.messages, {}, news.file.string());
+        const bool is_built = ! news.types.empty();
+        if (is_built) extendCatalogue (std::move (news.types));
+        const bool taken_over = is_built && command.reload();
+        if (taken_over && control) control->graphChanged();
+        const auto name = printableName (news.file.string());
+        if (taken_over)
+            std::fprintf (stderr, "%s: in use %.1f s after it was saved\n", name.c_str(), news.secondsSinceSaved());
+        else
+            std::fprintf (stderr, "%s: not in use; the previous version keeps running\n", name.c_str());
     }
 
     void finish()
@@ -190,6 +233,7 @@ private:
     }
 
     const Options& options;
+    LivePlugins& live;
     FileWatch file_watch { { options.graph } };   // before the file is read, so that no edit is missed
     CommandRun command { options, CommandRun::Pace::live };
     std::optional<LiveRecording> recording;
@@ -209,7 +253,8 @@ void run (const Options& options)
     if (! options.records.empty() && options.outputs.empty())
         throw UsageError ("--record names what to record but not where: --out FILE is required");
     holdEmergencySignals();   // so that only the thread of the emergency stop handles them
-    Playing { options }.play();
+    const auto live = openLive (options);
+    Playing { options, *live }.play();
 }
 }   // namespace
 
@@ -218,7 +263,11 @@ void addPlay (const Command& app)
     const auto options = std::make_shared<Options>();
     const auto command = app.add ("play", "Run a graph in real time until its gesture or trace ends, --duration is over, or you press Ctrl-C");
     options->addTo (command);
-    command.addFlag ("--watch", options->watch, "Reload the graph file whenever it is edited; unchanged parts keep running");
+    command.addFlag ("--watch", options->watch,
+                     "Reload the graph file whenever it is edited, and compile plugins whose code is edited; unchanged parts keep running");
+    command.addOption ("--live", options->live,
+                       "The header of a node: compile it, and again whenever it is edited (docs/plugins.md); may be given more than once")
+        .oneValueEach();
     command.addFlag ("--costs", options->costs, "At the end, list the most expensive nodes");
     command.addOption ("--log", options->log, "Log all inputs, for `tactus render --replay`: see docs/replay.md");
     command.addOption ("--core", options->core, "Pin the tick thread to this CPU core").check (within (0, 1023));
@@ -247,6 +296,7 @@ void addPlay (const Command& app)
                     "  tactus play graphs/dry_wood.json --device stylus=gesture:circle --duration 10\n"
                     "  tactus play graphs/dry_wood.json --device stylus=hid:auto\n"
                     "  tactus play graphs/dry_wood.json --watch\n"
+                    "  tactus play my_graph.json --live rough_wood/rough_wood.hpp\n"
                     "  tactus play graphs/dry_wood.json --record drag.force,drag.state --out wood.csv\n"
                     "  tactus play graphs/steel_bar.json --route bar.value=1@\"2 N\" --audio JACK\n"
                     "  tactus play graphs/dry_wood.json --log wood.jsonl");

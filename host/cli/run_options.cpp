@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run_options.hpp"
 
+#include <host/platform/preset_folder.hpp>
 #include <tactus/run/turn.hpp>
 #include <tactus/text/budget.hpp>
 
@@ -38,9 +39,20 @@ void addLimits (const Command& app)
         .type ("BUDGET=AMOUNT,…");
 }
 
+void addPlugins (const Command& app)
+{
+    app.addOption (
+           "--plugins", [] (const std::string&) {}, "A folder of node plugins, beside those that are installed (docs/plugins.md)")
+        .type ("DIR")
+        .oneValueEach();
+}
+
 void RunOptions::addTo (const Command& app)
 {
-    app.addOption ("graph", graph, "A graph file, such as graphs/dry_wood.json").required();
+    app.addOption (
+           "graph", [this] (const std::string& given) { graph = graphFile (given); },
+           "A graph file, such as graphs/dry_wood.json, or the name of a preset, such as dry_wood")
+        .required();
     app.addOption ("--feed", feed, "A CSV file with a column for each port that it drives, named node.port or node.port.x; a column t gives the time in s");
     app.addOption ("--record", records, "Ports to record, separated by commas; default: the inputs of every sink").separatedBy (',').oneValueEach();
     app.addOption ("--out", outputs, "Output file, .csv or .wav; may be given more than once").oneValueEach();
@@ -52,6 +64,7 @@ void RunOptions::addTo (const Command& app)
                    "ROLE=audio:CARD, or ROLE=ID to simulate the device of a profile that holds only numbers; may be given more than once")
         .oneValueEach();
     addLimits (app);
+    addPlugins (app);
 }
 
 }   // namespace tactus::host

@@ -30,6 +30,9 @@ struct RunOptions
 /// Adds --limits. Parsing it sets the budgets of files (framework/text/budget.hpp).
 void addLimits (const Command&);
 
+/// Adds --plugins. main() has read it already, because the nodes must be known first.
+void addPlugins (const Command&);
+
 /// Parses NODE.PARAM=VALUE, as in --set.
 plan::Override readSet (const std::string&);
 

@@ -7,6 +7,7 @@
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/hid_link/profile_library.hpp>
+#include <host/platform/preset_folder.hpp>
 #include <host/sessions/role_fits.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/compile.hpp>
@@ -78,8 +79,9 @@ void addValidate (const Command& app)
 {
     const auto files = std::make_shared<std::vector<std::string>>();
     const auto command = app.add ("validate", "Check graph files and report all problems in all of them");
-    command.addOption ("graphs", *files, "Graph files").required();
+    command.addOption ("graphs", *files, "Graph files, or names of presets").required();
     addLimits (command);
+    addPlugins (command);
     command.footer ("For each file without errors, the delay of every path from a device through the graph and back is printed:\n"
                     "each tick of delay lowers the highest stiffness that the hand can feel.\n\n"
                     "Examples:\n"
@@ -89,7 +91,7 @@ void addValidate (const Command& app)
     command.callback ([files] {
         bool all_fine = true;
         for (const auto& file : *files)
-            all_fine = check (file) && all_fine;
+            all_fine = check (graphFile (file)) && all_fine;
         if (! all_fine) throw Stop {};
     });
 }

@@ -81,10 +81,20 @@ struct WindowStop::Server
         xcb_flush (connection);
     }
 
+    /// If the window no longer exists, the X server answers with an error, which listen() ignores.
+    void watchKeys (std::size_t i, std::uintptr_t window) noexcept
+    {
+        if (std::exchange (watched[i], window) == window || window == 0 || window > largest_id) return;
+        const std::uint32_t keys = XCB_EVENT_MASK_KEY_PRESS;
+        xcb_change_window_attributes (connection, static_cast<xcb_window_t> (window), XCB_CW_EVENT_MASK, &keys);
+        xcb_flush (connection);
+    }
+
     xcb_connection_t* connection = nullptr;
     xcb_window_t glass = 0;       // the invisible window over the area that receives the clicks
     std::bitset<256> escape {};   // the key codes of Esc
     Area placed {};
+    std::array<std::uintptr_t, most_others> watched {};
 };
 
 Result<std::unique_ptr<WindowStop>> WindowStop::open (std::uintptr_t window, Actions actions)
@@ -111,6 +121,8 @@ void WindowStop::listen (const std::stop_token& stop)
     while (! stop.stop_requested() && server->isThere())
     {
         server->place (wanted);
+        for (std::size_t i = 0; i < others.size(); ++i)
+            server->watchKeys (i, others[i]);
         pollfd waiting { xcb_get_file_descriptor (server->connection), POLLIN, 0 };
         poll (&waiting, 1, patience_ms);
         while (const auto event = owned (xcb_poll_for_event (server->connection)))

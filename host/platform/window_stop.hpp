@@ -3,10 +3,12 @@
 
 #include <tactus/text/result.hpp>
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <stop_token>
 #include <thread>
 
@@ -16,7 +18,8 @@ namespace tactus::host
 /// Receives the stop keys and clicks on a part of a window directly from the X server, on a connection and a thread of its own, so
 /// a stop does not wait for the thread that draws the window.
 ///
-/// Keys: a second client may select the key presses of a window. Both clients then receive each of them.
+/// Keys: a second client may select the key presses of a window. Both clients then receive each of them. A key press goes to the
+/// window with the keyboard focus, so all windows of the program that can get the focus must be watched.
 ///
 /// Clicks: only one client may select the button presses of a window. So this object lays an invisible window (InputOnly) over the
 /// part. The X server delivers clicks there to this object alone, and only where no other window covers the part.
@@ -49,17 +52,27 @@ public:
     /// At most 20 ms after this call, clicks on the area begin to count as stops. In an empty area there are none. [main thread]
     void setArea (const Area& a) noexcept { wanted = a; }
 
+    /// Other windows of the program, such as a file dialog: at most 20 ms after this call, their stop keys count too. At most
+    /// `most_others`; an id that is no window has no effect. [main thread]
+    static constexpr std::size_t most_others = 8;
+    void setOthers (std::span<const std::uintptr_t> windows) noexcept
+    {
+        for (std::size_t i = 0; i < others.size(); ++i)
+            others[i] = i < windows.size() ? windows[i] : 0;
+    }
+
 private:
     struct Server;
 
     explicit WindowStop (std::unique_ptr<Server>, Actions);
     void listen (const std::stop_token&);
 
-    static_assert (std::atomic<Area>::is_always_lock_free, "the main thread must not delay a stop");
+    static_assert (std::atomic<Area>::is_always_lock_free && std::atomic<std::uintptr_t>::is_always_lock_free, "the main thread must not delay a stop");
 
     std::unique_ptr<Server> server;
     Actions actions;
     std::atomic<Area> wanted { Area {} };
+    std::array<std::atomic<std::uintptr_t>, most_others> others {};
     std::jthread listening;   // declared last, because this thread uses the other members
 };
 

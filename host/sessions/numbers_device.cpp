@@ -8,9 +8,6 @@
 
 namespace tactus::host
 {
-namespace
-{
-/// The ids of the guessed numbers, as in "mass, damping"; empty if none is a guess.
 std::string guessesOf (const DeviceNumbers& numbers)
 {
     std::string all;
@@ -18,7 +15,6 @@ std::string guessesOf (const DeviceNumbers& numbers)
         if (const auto& number = numbers.*row.member; number && number->guess) all += (all.empty() ? "" : ", ") + std::string (row.id);
     return all;
 }
-}   // namespace
 
 Json withNumbers (Json sim, const DeviceNumbers& numbers)
 {

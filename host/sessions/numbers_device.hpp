@@ -14,6 +14,9 @@ namespace tactus::host
 /// guard's max_force.
 Json withNumbers (Json sim, const DeviceNumbers&);
 
+/// The ids of the guessed numbers, as in "mass, damping"; empty if none is a guess.
+std::string guessesOf (const DeviceNumbers&);
+
 /// Like tactus::parseDeviceOption, but `ROLE=ID` may also name a profile that holds only numbers, whose device Tactus cannot open. The
 /// role then gets a simulated device with these numbers, and `notes` says so (device/numbers_only, a warning). `profiles` is
 /// called only if the option has no other form. Ids: those of tactus::parseDeviceOption. [main thread]

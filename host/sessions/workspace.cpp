@@ -39,8 +39,8 @@ GuardLimits inWorkspace (GuardLimits limits, const Workspace& w) noexcept
 DeviceLayout WorkspaceDevice::layout() const
 {
     auto has = device->layout();
-    has.mass /= workspace.scale;
-    has.damping /= workspace.scale;
+    has.mechanics.mass /= workspace.scale;
+    has.mechanics.damping /= workspace.scale;
     return has;
 }
 

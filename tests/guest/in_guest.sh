@@ -10,7 +10,8 @@ device=${GUEST_DEVICE:-build/release/bin/guest_device}
 export HOME=$work
 # Without hardware acceleration, reports arrive in bunches: the host then sees the tool move many times faster than it does.
 mkdir -p $work/profiles
-sed -e 's/"max_speed": "2 m\/s"/"max_speed": "100 m\/s"/' -e 's/"id": "tactus_board",/&\n  "replaces": "tactus_board",/' host/profiles/tactus_board.json >$work/profiles/tactus_board.json
+sed -e 's/"max_speed": "2 m\/s"/"max_speed": "100 m\/s"/' \
+    -e 's/"id": "tactus_board",/&\n  "replaces": "tactus_board",/' host/profiles/tactus_board.json >$work/profiles/tactus_board.json
 export TACTUS_PROFILES=$work/profiles
 sed 's/"max_speed": "2 m\/s"/"max_speed": "100 m\/s"/' graphs/dry_wood.json >$work/dry_wood.json   # limits only tighten, so the graph's counts too
 failures=0

@@ -53,6 +53,15 @@ Ran runProgram (const std::string& program, const std::vector<std::string>& argu
 
 Ran runTactus (const std::vector<std::string>& arguments) { return runProgram (TACTUS_PROGRAM, arguments); }
 
+void checkRefused (const std::vector<std::string>& arguments, int status, const std::string& words, const std::string& unwritten)
+{
+    const auto ran = runTactus (arguments);
+    INFO (ran.err);
+    CHECK (ran.status == status);
+    CHECK (ran.err.find (words) != std::string::npos);
+    CHECK_FALSE (fs::exists (unwritten));
+}
+
 std::string sharedData (const std::string& name)
 {
     const auto path = fs::path (TACTUS_SHARED_DATA) / name;

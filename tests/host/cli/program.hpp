@@ -31,6 +31,9 @@ struct Ran
 Ran runTactus (const std::vector<std::string>& arguments);
 Ran runProgram (const std::string& program, const std::vector<std::string>& arguments);
 
+/// Checks that `tactus` ends with this status and says `words`, and that it does not write this file.
+void checkRefused (const std::vector<std::string>& arguments, int status, const std::string& words, const std::string& unwritten);
+
 std::string textOf (const std::string& path);
 
 /// The folder ../shared/data; "" if it does not exist, with a warning that the test is skipped.

@@ -27,7 +27,7 @@ struct Put final : Device
     Reading read() noexcept override { return reading; }
     void write (const Effort& e) noexcept override { asked = e; }
     void limitSignals (double max, double max_slew) override { signal_limits = { max, max_slew }; }
-    DeviceLayout layout() const override { return { .axes = { "trigger" }, .mass = 0.06, .damping = 1.5 }; }
+    DeviceLayout layout() const override { return { .axes = { "trigger" }, .mechanics = { 0.06, 1.5 } }; }
     double duration() const noexcept override { return 3.0; }
 
     Reading reading;
@@ -81,7 +81,7 @@ TEST_CASE ("positions are scaled and shifted, and everything else is unchanged",
     });
 
     Placed placed { { 3.0, { 0.0, 0.0, 0.01 } } };
-    CHECK (placed.device->layout() == DeviceLayout { .axes = { "trigger" }, .mass = 0.02, .damping = 0.5 });   // a third, because motion is scaled by 3
+    CHECK (placed.device->layout() == DeviceLayout { .axes = { "trigger" }, .mechanics = { 0.02, 0.5 } });   // a third, because motion is scaled by 3
     CHECK (placed.device->duration() == 3.0);
     NoAllocation none;
     placed.device->read();

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "program.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace tactus::test;
+
+TEST_CASE ("every command that takes a graph file takes the name of a preset", "[cli]")
+{
+    const std::string file = TACTUS_SOURCE_DIR "/graphs/dry_wood.json";
+    const auto validated = runTactus ({ "validate", "dry_wood", "steel_bar" });
+    CHECK (validated.status == 0);
+    CHECK (validated.out.find ("graphs/steel_bar.json: ok") != std::string::npos);
+
+    const auto by_file = runTactus ({ "render", file, "--duration", "0.01" }), by_name = runTactus ({ "render", "dry_wood", "--duration", "0.01" });
+    CHECK (by_file.out.size() > 100);
+    CHECK (by_name.out == by_file.out);
+
+    CHECK (runTactus ({ "session", "dry_wood", "--file", "/dev/null/none.json" }).out == runTactus ({ "session", file, "--file", "/dev/null/none.json" }).out);
+}
+
+TEST_CASE ("what looks like a file is never taken for a preset", "[cli]")
+{
+    for (const auto* name : { "dry_wood.json", "./dry_wood", "no_such_preset" })
+    {
+        const auto ran = runTactus ({ "validate", name });
+        CHECK (ran.status == 1);
+        CHECK (ran.err.starts_with (name));
+        CHECK (ran.err.find ("[file/unreadable]") != std::string::npos);
+    }
+}
+
+TEST_CASE ("the version names the program and the C API", "[cli]")
+{
+    const auto version = runTactus ({ "--version" }).out;
+    CHECK (version.starts_with ("tactus "));
+    CHECK (version.ends_with (" (C API 1)\n"));
+}
