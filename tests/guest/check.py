@@ -214,9 +214,10 @@ if os.path.exists(os.path.join(folder, "joystick.board.csv")):
         if found is None:
             break
         k, compared = found, compared + 1
-    fade = [abs(f) for f in pushed[max(0, compared - 1):]]   # after the end of the run, which is not recorded
+    # A row holds the force of the tick before it, so the force of the last tick is not recorded. The fade starts from that force.
+    fade = [abs(f) for f in pushed[compared:]]
     check(compared > 50 and len(fade) < 20 and fade == sorted(fade, reverse=True),
-          f"joystick: {compared} of {len(pushed)} forces match the guard's output in order; the rest is the fade")
+          f"joystick: {compared} of {len(pushed)} forces match the guard's output in order; the rest is the fade: {fade}")
     check(max(abs(f) for f in stick.forces) > 500, f"joystick: the force on it reaches {max(abs(f) for f in stick.forces) / 32767 * 4:.2f} N")
     check(stick.told[0] == b"\x0c\x08" and stick.told[1][:2] == b"\x11\x01", "joystick: its effects are cleared and a constant force is created")
     check(stick.blocks == {3}, "joystick: all reports use the block that it assigned")
