@@ -302,21 +302,54 @@ Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading) const 
     return is_held ? Stop::none : Stop::released;
 }
 
+namespace
+{
+void nameValue (Guard::Event& e, Guard::Event::Part part, const Vec3& v) noexcept
+{
+    e.part = part;
+    e.wanted = { v.x(), v.y(), v.z() };
+}
+
+void nameChannel (Guard::Event& e, Guard::Event::Part part, const Channels& all) noexcept
+{
+    e.part = part;
+    e.channel = firstNotFinite (all);
+    e.wanted = { all[e.channel], 0.0, 0.0 };
+}
+
+void nameNotFinite (Guard::Event& e, const Effort& wanted) noexcept
+{
+    using Part = Guard::Event::Part;
+    if (! isFinite (wanted.force))
+        nameValue (e, Part::force, wanted.force);
+    else if (! isFinite (wanted.torque))
+        nameValue (e, Part::torque, wanted.torque);
+    else if (! isFinite (wanted.axes))
+        nameChannel (e, Part::axis, wanted.axes);
+    else
+        nameChannel (e, Part::signal, wanted.signals);
+}
+}   // namespace
+
+void Guard::describeStale (Event& e, const Reading& reading) const noexcept
+{
+    using Part = Event::Part;
+    if (! isFinite (reading.position, reading.rotation)) nameValue (e, Part::reading, isFinite (reading.position) ? reading.rotation : reading.position);
+    if (hasBrokenAxes (reading)) nameChannel (e, Part::reading, reading.axes);
+    e.fault = reading.fault;
+    e.value = reading.age;
+    e.limit = limits.watchdog;
+    if (! reading.valid || e.part != Part::none || ! (reading.age <= limits.watchdog)) return;
+    nameValue (e, Part::none, last.force);
+    e.fault = ReadingFault::frozen;
+    e.value = still.time();
+    e.limit = limits.max_still;
+}
+
 Guard::Event Guard::describeNow (Stop why, const Effort& wanted, const Reading& reading) const noexcept
 {
     using Part = Event::Part;
     Event e { .why = why, .valid = reading.valid };
-    const auto of = [&] (Part part, double x, double y = 0.0, double z = 0.0, int channel = 0) {
-        e.part = part;
-        e.wanted = { x, y, z };
-        e.channel = channel;
-    };
-    const auto ofVector = [&] (Part part, const Vec3& v) { of (part, v.x(), v.y(), v.z()); };
-    const auto ofChannel = [&] (Part part, const Channels& all) {
-        const int i = firstNotFinite (all);
-        of (part, all[i], 0.0, 0.0, i);
-    };
-
     const auto limitOf = [&] (double of_tool, double of_rotation, double of_axis) {
         if (seen_part == Part::axis) return of_axis;
         return seen_part == Part::torque ? of_rotation : of_tool;
@@ -325,24 +358,10 @@ Guard::Event Guard::describeNow (Stop why, const Effort& wanted, const Reading& 
     switch (why)
     {
     case Stop::not_finite:
-        if (! isFinite (wanted.force))
-            ofVector (Part::force, wanted.force);
-        else if (! isFinite (wanted.torque))
-            ofVector (Part::torque, wanted.torque);
-        else
-            isFinite (wanted.axes) ? ofChannel (Part::signal, wanted.signals) : ofChannel (Part::axis, wanted.axes);
+        nameNotFinite (e, wanted);
         break;
     case Stop::stale:
-        if (! isFinite (reading.position, reading.rotation)) ofVector (Part::reading, isFinite (reading.position) ? reading.rotation : reading.position);
-        if (hasBrokenAxes (reading)) ofChannel (Part::reading, reading.axes);
-        e.fault = reading.fault;
-        e.value = reading.age;
-        e.limit = limits.watchdog;
-        if (! reading.valid || e.part != Part::none || ! (reading.age <= limits.watchdog)) break;
-        ofVector (Part::none, last.force);
-        e.fault = ReadingFault::frozen;
-        e.value = still.time();
-        e.limit = limits.max_still;
+        describeStale (e, reading);
         break;
     case Stop::starved:
         e.value = behind;

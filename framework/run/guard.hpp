@@ -189,6 +189,7 @@ private:
     void latch (Stop, double value, Event::Part = Event::Part::none, int channel = 0) noexcept;
     Stop causeOf (const Effort& wanted, const Reading&) const noexcept;
     Event describeNow (Stop, const Effort& wanted, const Reading&) const noexcept;
+    void describeStale (Event&, const Reading&) const noexcept;
     Effort crossfade (const Effort& wanted, double fade_by_s) noexcept;
     void approach (const Effort& to, double step_s) noexcept;
 

@@ -11,28 +11,34 @@
 #include <string>
 #include <string_view>
 
+namespace
+{
+constexpr auto examples =
+    "Examples:\n"
+    "  tactus nodes                                   all node types\n"
+    "  tactus nodes friction.elasto_plastic           one datasheet\n"
+    "  tactus validate graphs/*.json                  all problems in all files\n"
+    "  tactus check graphs/dry_wood.json              can its devices render the graph?\n"
+    "  tactus render graphs/dry_wood.json --out wood.csv --plot wood.png\n"
+    "  tactus play graphs/dry_wood.json --duration 4  in real time\n"
+    "  tactus set roughness=0.7                       while it plays\n"
+    "  tactus hit ring.hit=0.4                        while it plays\n"
+    "  tactus probe drag.force                        while it plays\n"
+    "  tactus devices                                 connected devices and their profiles\n"
+    "  tactus session graphs/dry_wood.json            the devices bound to its roles\n"
+    "  tactus fit shock tap.csv -o tap.json           a preset from a recording\n"
+    "  tactus fit curve liver.csv -o liver.json       a body from an indentation\n"
+    "  tactus curve hertz --young \"10 kPa\" --radius \"5 mm\"   the curve of a sphere\n"
+    "  tactus render --replay run.jsonl               repeat a run logged by `play --log run.jsonl`\n"
+    "\n`tactus COMMAND --help` shows the options and more examples.";
+}   // namespace
+
 int main (int argc, char** argv)
 {
     using namespace tactus::host;
 
     const Command app { "Tactus: haptic effects, patched like a modular synthesiser.", "tactus" };
-    app.footer ("Examples:\n"
-                "  tactus nodes                                   all node types\n"
-                "  tactus nodes friction.elasto_plastic           one datasheet\n"
-                "  tactus validate graphs/*.json                  all problems in all files\n"
-                "  tactus check graphs/dry_wood.json              can its devices render the graph?\n"
-                "  tactus render graphs/dry_wood.json --out wood.csv --plot wood.png\n"
-                "  tactus play graphs/dry_wood.json --duration 4  in real time\n"
-                "  tactus set roughness=0.7                       while it plays\n"
-                "  tactus hit ring.hit=0.4                        while it plays\n"
-                "  tactus probe drag.force                        while it plays\n"
-                "  tactus devices                                 connected devices and their profiles\n"
-                "  tactus session graphs/dry_wood.json            the devices bound to its roles\n"
-                "  tactus fit shock tap.csv -o tap.json           a preset from a recording\n"
-                "  tactus fit curve liver.csv -o liver.json       a body from an indentation\n"
-                "  tactus curve hertz --young \"10 kPa\" --radius \"5 mm\"   the curve of a sphere\n"
-                "  tactus render --replay run.jsonl               repeat a run logged by `play --log run.jsonl`\n"
-                "\n`tactus COMMAND --help` shows the options and more examples.");
+    app.footer (examples);
     app.version (TACTUS_VERSION " (C API " + std::to_string (TACTUS_API_VERSION) + ")");
     app.requireCommand();
     addNodes (app);
