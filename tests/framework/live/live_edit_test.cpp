@@ -6,6 +6,7 @@
 #include "support/no_allocation.hpp"
 #include "support/random_edit.hpp"
 #include "support/random_graph.hpp"
+#include "support/rounds.hpp"
 #include "support/sketch.hpp"
 
 #include "support/live.hpp"
@@ -188,7 +189,7 @@ TEST_CASE ("ten seconds of edits on one side do not affect the other side, and c
         const auto both = test::sideBySide (steady, wild);
         const auto records = everyOutput (steady);
         const bool is_long = seed == 1;
-        const auto ticks = is_long ? ten_seconds : ten_seconds / 32;
+        const auto ticks = is_long ? test::rounds (ten_seconds) : ten_seconds / 32;
 
         std::mt19937 random { seed };
         BumplessRule rule;
@@ -207,7 +208,7 @@ TEST_CASE ("ten seconds of edits on one side do not affect the other side, and c
         const auto quiet = play (both, records, seed, ticks, nullptr, [] (test::Live&, Felt&) {});
 
         INFO ("seed " << seed << ", " << edited.taken << " plans taken, " << edited.refused << " refused");
-        CHECK (edited.taken > (is_long ? 300 : 50));
+        CHECK (edited.taken > (is_long ? test::rounds (300) : 50));
         CHECK (differing (edited.left, quiet.left) == 0);
         CHECK (edited.recorded == quiet.recorded);
         CHECK (differing (edited.right, quiet.right) > ticks / 10);
@@ -217,7 +218,7 @@ TEST_CASE ("ten seconds of edits on one side do not affect the other side, and c
 
 TEST_CASE ("renaming, collapsing and expanding while a graph runs leaves all sinks and all nodes bit-identical", "[live]")
 {
-    for (unsigned seed = 1; seed <= 10; ++seed)
+    for (unsigned seed = 1; seed <= test::rounds (10u); ++seed)
     {
         const auto g = test::sideBySide (test::prefixed (touchable (seed, 30), "s_", "left"), test::prefixed (touchable (seed + 100, 30), "e_", "right"));
         constexpr std::size_t ticks = 1000;

@@ -4,6 +4,7 @@
 #include "support/chance_hand.hpp"
 #include "support/no_allocation.hpp"
 #include "support/random_edit.hpp"
+#include "support/rounds.hpp"
 #include "support/sketch.hpp"
 
 #include "support/live.hpp"
@@ -48,7 +49,7 @@ test::Sketch wood()
 TEST_CASE ("a million ticks with edits of other nodes leave the model bit-identical, and memory does not grow", "[live][soak]")
 {
     const auto* wanted = std::getenv ("TACTUS_SOAK_TICKS");
-    const auto ticks = wanted ? std::strtoull (wanted, nullptr, 10) : 1'000'000ull;
+    const auto ticks = wanted ? std::strtoull (wanted, nullptr, 10) : test::rounds (1'000'000ull);
     constexpr std::uint64_t step = 500;   // ticks between edits
 
     const auto sketch = wood();

@@ -3,6 +3,8 @@
 #include "bodies.hpp"
 #include "surface_rig.hpp"
 
+#include "support/rounds.hpp"
+
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
 
@@ -69,7 +71,7 @@ TEST_CASE ("surface: on any body, the force changes by little more than the stif
             if (body.name == "box") continue;              // a contact that has caught at a right angle may end while it is stretched
             const bool may_catch = body.name == "bumps";   // so may one between coarse bumps
             double most = 0.0, usual = 0.0;
-            for (unsigned seed = 0; seed < 4; ++seed)
+            for (unsigned seed = 0; seed < test::rounds (4u); ++seed)
             {
                 Strokes strokes (body, seed);
                 auto node = made (body.surface);

@@ -3,6 +3,8 @@
 #include "bodies.hpp"
 #include "surface_rig.hpp"
 
+#include "support/rounds.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -143,7 +145,7 @@ void neverGives (int loops, int steps)
 
 TEST_CASE ("surface: dissipated plus stored energy equals the work, to rounding, and dissipated energy never falls", "[nodes][deform][energy]")
 {
-    neverGives (200, 60);   // 5 frictions, so 1000 loops on each body
+    neverGives (test::rounds (200), 60);   // 5 frictions, so 1000 loops on each body
 }
 
 TEST_CASE ("surface: dissipated plus stored energy equals the work, on long loops too", "[.][long][nodes][deform][energy]")
@@ -160,7 +162,7 @@ TEST_CASE ("surface: the work by the trapezoid rule agrees as the path gets fine
             const auto node = made (body.surface, mu > 0.0 ? Frictions::bound : Frictions::frictionless);
             const auto placed = placedAt0 (body);
             double given = 0.0, moved = 0.0;
-            for (unsigned i = 0; i < 4; ++i)
+            for (unsigned i = 0; i < test::rounds (4u); ++i)
             {
                 const auto balance = handled (node, placed, Loop { body, i }, 8000);
                 given = std::max (given, -balance.held);
