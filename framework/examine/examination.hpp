@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-/// What every node promises, each promise with a function that tries to refute it. every_node_test.cpp holds the nodes of Tactus to
-/// this list, and `tactus check-plugin` those of a plugin.
+/// What every node promises, each promise with a function that tries to refute it. every_node_test.cpp checks the nodes of Tactus
+/// against this list, and `tactus check-plugin` those of a plugin.
 namespace tactus::examine
 {
 

@@ -90,7 +90,7 @@ double windowOf (double limit, double window) noexcept
 /// The inverse of windowOf.
 double asSet (double window) noexcept { return window == GuardLimits::none ? 0.0 : window; }
 
-/// A number that is `none` only if no impulse is limited.
+/// The smallest of the three limits; `none` only if no impulse is limited.
 double smallestImpulse (const GuardLimits& l) noexcept { return std::min ({ l.max_impulse, l.max_angular_impulse, l.max_axis_impulse }); }
 
 /// For each effort, the number of the axis that it pushes, or -1: the axis of the same name, or axisN for effortN.

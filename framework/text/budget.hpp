@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What the files of a graph may cost, so that a file from a stranger can neither hang the program nor fill the memory. Costs
+/// How much the files of a graph may cost, so that a file from a stranger can neither hang the program nor fill the memory. Costs
 /// are counted, not measured: the same files are accepted or refused on every computer. The defaults keep the loading of any
 /// file to about 5 s and 500 MB. `tactus validate`, `render` and `play` change them with --limits.
 ///

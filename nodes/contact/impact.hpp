@@ -24,10 +24,10 @@ namespace tactus::nodes
 /// beyond `window`. So a slow approach in steps of an encoder's quantum is averaged, and a braking approach is not. A steady approach
 /// with exact positions gives the exact speed.
 ///
-/// An approach begins where the tool last turned back towards the object. A retreat by less than 1.5 times the noise is no turn.
+/// An approach begins where the tool last turned back towards the object. A retreat by less than 1.5 times the noise does not count.
 ///
-/// The noise is `release` or the quantum of the encoder, whichever is larger. The node takes as the quantum the largest length of
-/// which all steps so far are multiples, if that length is at most 0.1 mm. For exact positions the length soon becomes 0.
+/// The noise is `release` or the quantum of the encoder, whichever is larger. The node takes as the quantum the largest length that
+/// divides all steps so far, if that length is at most 0.1 mm. For exact positions the length soon becomes 0.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 6 (where "initial value of d^z" means its rate);
 /// the line of variable length is from Janabi-Sharifi, Hayward & Chen 2000.

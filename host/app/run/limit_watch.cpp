@@ -41,7 +41,7 @@ void LimitWatch::changed()
     if (! changed_at) changed_at = last_changed_at;
 }
 
-/// Notices other devices, and another rate: a device with its own clock may tick the run at another rate than that of the graph.
+/// Notices a change of the devices or of the rate: a device with its own clock may tick the run at a different rate from that of the graph.
 void LimitWatch::lookAtDevices()
 {
     auto roles_now = limitRolesOf (document.graph(), setup.session(), setup.profiles());

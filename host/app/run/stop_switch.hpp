@@ -31,7 +31,7 @@ public:
     const Presses& noticed() const noexcept { return known; }
     bool isAhead() const noexcept { return presses() != known; }   ///< true if there is a press to notice   [message thread]
 
-    /// Marks all presses as noticed, and returns those that noticed() gave before. [message thread]
+    /// Marks all presses as noticed, and returns what noticed() returned before. [message thread]
     Presses notice() noexcept { return std::exchange (known, presses()); }
 
 private:

@@ -70,7 +70,7 @@ TEST_CASE ("lost time is the wall time minus the ticks, and a clock that keeps u
     }
 }
 
-TEST_CASE ("guard: a stop takes its time in seconds, however few ticks come", "[framework][guard]")
+TEST_CASE ("guard: a stop takes the same time in seconds, however few ticks there are", "[framework][guard]")
 {
     rc::prop ("any pauses", [] {
         const double slew = *rc::gen::element (GuardLimits::none, 100.0, 400.0);

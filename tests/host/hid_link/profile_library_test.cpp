@@ -170,18 +170,18 @@ TEST_CASE ("own profiles: one that drives the device of a shipped profile differ
         { "instead of force x", [] (Profile& p) { std::swap (p.force[0], p.force[1]); } },
         { "instead of torque z", [] (Profile& p) { p.torque[2].clear(); } },
         { "instead of the effort 'effort1'", [] (Profile& p) { fieldOf (p, "effort1").name = "effort9"; } },   // the guard would not count its energy
-        { "another scale", [] (Profile& p) { fieldOf (p, "fx").encoding.scale = 1e-9; } },
-        { "another scale", [] (Profile& p) { fieldOf (p, "fx").encoding.offset = 1.0; } },
-        { "another scale", [] (Profile& p) { fieldOf (p, "effort1").unit = "A"; } },
-        { "another scale",
+        { "a different scale", [] (Profile& p) { fieldOf (p, "fx").encoding.scale = 1e-9; } },
+        { "a different scale", [] (Profile& p) { fieldOf (p, "fx").encoding.offset = 1.0; } },
+        { "a different scale", [] (Profile& p) { fieldOf (p, "effort1").unit = "A"; } },
+        { "a different scale",
           [] (Profile& p) {
               auto& e = fieldOf (p, "fx").encoding;
               e.law = Encoding::Law::table;
               e.x = { 0.0, 1.0 };
               e.y = { 0.0, 1000.0 };
           } },
-        { "other bits", [] (Profile& p) { fieldOf (p, "fx").bits.big_endian = true; } },
-        { "other bits", [] (Profile& p) { p.outputs[0].fields[0].bits.at = 8 * 11; } },   // the enable bit within a force
+        { "different bits", [] (Profile& p) { fieldOf (p, "fx").bits.big_endian = true; } },
+        { "different bits", [] (Profile& p) { p.outputs[0].fields[0].bits.at = 8 * 11; } },   // the enable bit within a force
         { "constants", [] (Profile& p) { p.outputs[0].body[8] = 1; } },
         { "constants", [] (Profile& p) { p.outputs[0].id = 0x54; } },
         { "stream", [] (Profile& p) { p.outputs[0].stream = Stream { .at = 48, .frames = 4, .rate = 1000.0, .channels = { "l" } }; } },
@@ -213,7 +213,7 @@ TEST_CASE ("own profiles: one that drives the device of a shipped profile differ
     CHECK_FALSE (arm ([] (Profile& p) { std::get<SerialArm> (p.kinematics).drives[1].torque_constant = 0.001; }).empty());
 }
 
-TEST_CASE ("own profiles: one that drives the device of a shipped profile just as that does, or less, is used", "[hid]")
+TEST_CASE ("own profiles: one that drives the same device exactly as the shipped profile does, or drives less of it, is used", "[hid]")
 {
     const Change fine[] = {
         [] (Profile&) {},

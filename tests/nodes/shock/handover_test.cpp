@@ -131,7 +131,7 @@ TEST_CASE ("handover: while the shock is played, the measured position has no ef
     }
 }
 
-TEST_CASE ("handover: handing back to the contact gives at most the energy that the contact stores at the deepest place", "[nodes][shock][energy]")
+TEST_CASE ("handover: handing back to the contact gives at most the energy that the contact stores at the deepest point", "[nodes][shock][energy]")
 {
     rc::prop ("any spring and way", [] (unsigned seed) {
         std::mt19937 random { seed };
