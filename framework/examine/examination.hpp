@@ -20,7 +20,7 @@ struct Examination
     int level;                  ///< 1 (always) to 10 (only in the longest checks)
     bool random;                ///< true: each seed is another trial; false: one trial is enough
 
-    /// Why the promise does not concern this node, or cannot be checked in this program; empty if it can be checked.
+    /// Why the promise does not apply to this node, or cannot be checked in this program; empty if it can be checked.
     std::string (*skipped) (const NodeType&);
 
     /// How the node breaks the promise; empty if it does not. The same seed gives the same answer. Passes on what a hook throws.

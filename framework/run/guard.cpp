@@ -394,7 +394,7 @@ Effort Guard::operator() (const Effort& wanted, const Reading& reading, double l
     if (cause != reason && cause != Stop::none)
     {
         const bool begins = reason == Stop::none;
-        const bool ends_a_run = cause == Stop::halted && event.why != Stop::none;   // then latest() keeps the stop before it
+        const bool ends_a_run = cause == Stop::halted && event.why != Stop::none;   // latest() then still reports the stop before the halt
         if ((begins && ! ends_a_run) || (latches (cause) && is_news))
         {
             event = describeNow (cause, wanted, reading);

@@ -275,7 +275,7 @@ struct Alarm
     std::string field;
     std::optional<std::uint32_t> is;             ///< the raw value that means the alarm; empty: any but 0
     ReadingFault means = ReadingFault::failed;   ///< one that isAlarm
-    double while_driven = 0.0;                   ///< counts only after the motors have been driven for so long, in s
+    double while_driven = 0.0;                   ///< counts only after the motors have been driven for this long, in s
 };
 
 /// Limits and properties of the device; infinity or 0 if unknown.

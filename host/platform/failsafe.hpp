@@ -28,8 +28,9 @@ namespace tactus::host
 ///  - After a stack overflow the handler has no stack, so only the guardian writes.
 ///  - The guardian is forked when the first failsafe is armed, and ends with this process. It ignores Ctrl-C. If it is killed, a
 ///    thread of this process forks another one at once.
-///  - The guardian counts its own looks at the beats and reads no clock, so it takes no device when the whole computer pauses.
-///    While program and guardian are frozen together, nothing is sent. Afterwards, beat() detects a pause of more than a second.
+///  - The guardian reads no clock: it counts how often it has checked the beats. So it does not take a device when the whole
+///    computer pauses. While program and guardian are frozen together, nothing is sent. Afterwards, beat() detects a pause of more
+///    than a second.
 class Failsafe
 {
 public:

@@ -119,7 +119,7 @@ TEST_CASE ("impact: an encoder that flickers by one quantum at each step changes
                     }
 }
 
-TEST_CASE ("impact: a tool that waits and waggles before it touches hits with the speed of its last stroke", "[nodes][contact]")
+TEST_CASE ("impact: if a tool waits and waggles before the touch, the hit has the speed of its last stroke", "[nodes][contact]")
 {
     const double quantum = 5e-6;
     for (const double rate : { 1000.0, 20'000.0 })
