@@ -197,7 +197,7 @@ struct OutputReport
     std::string name;
     std::optional<std::uint8_t> id;
     bool is_feature = false;   ///< true if sent as a feature report
-    Bytes body;                ///< the whole report with its constants, for while the device is driven
+    Bytes body;                ///< the whole report with its constants, as sent while the device is driven
     Bytes neutral;             ///< the whole report that makes the device do nothing
     std::vector<OutputField> fields;
     std::vector<SequenceNibble> sequences;   ///< each one counts the reports sent

@@ -224,7 +224,7 @@ TEST_CASE ("impact: a contact ends only `release` below the surface", "[nodes][c
     CHECK (node.tick ({ .depth = 1e-3 }).hit == Approx (2.1));
 }
 
-TEST_CASE ("impact: within the refractory time there is no second hit, and none is made up later", "[nodes][contact]")
+TEST_CASE ("impact: within the refractory time there is no second hit, and it is not triggered later either", "[nodes][contact]")
 {
     const auto hits = [] (double refractory) {
         // Taps every 20 ms.
