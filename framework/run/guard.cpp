@@ -377,6 +377,7 @@ Guard::Event Guard::describeNow (Stop why, const Effort& wanted, const Reading& 
     return e;
 }
 
+/// Here the force is limited: first a reason to stop is looked for, then the effort is faded, shortened and slowed down.
 Effort Guard::operator() (const Effort& wanted, const Reading& reading, double lost_s) noexcept
 {
     const double elapsed = dt + (lost_s > 0.0 && isFinite (lost_s) ? lost_s : 0.0);

@@ -130,8 +130,8 @@ A node for Tactus, as a plugin.
     tactus nodes @FAMILY@.@NAME@ --plugins build
     tactus play my_graph.json --plugins build
 
-To have it in every graph, copy `build/@NAME@.tactus` into a folder that `tactus nodes --help` or docs/plugins.md names. The model is
-in `@NAME@.hpp`; the same header also works compiled into a program (`tactus_add_nodes`).
+The model is in `@NAME@.hpp`; the same header also works compiled into a program (`tactus_add_nodes`). To have the node in every graph, copy
+`build/@NAME@.tactus` into a folder in which Tactus looks for plugins, such as `~/.config/Tactus/plugins` (docs/plugins.md lists them).
 )";
 
 bool isName (const std::string& s)
