@@ -22,7 +22,7 @@ struct Budgets
     double file = 64e6;       ///< a measurement of a minute at 48 kHz as text takes 30 MB
     double reading = 256e6;   ///< four of the largest files
     double values = 1e6;      ///< a graph of a thousand nodes has 20 000
-    double files = 1000;      ///< each costs a few calls of the system
+    double files = 1000;      ///< each costs a few system calls
     double numbers = 1e7;     ///< ten minutes of a trace at 4 kHz
     double points = 5e5;      ///< a hand cannot feel the details of a finer mesh
     double triangles = 1e6;   ///< a closed mesh has two triangles for each point

@@ -58,7 +58,7 @@ public:
     /// open the device again before sending any effort. [one thread at a time]
     bool beat (bool driven) noexcept;
 
-    /// The number of alarms so far. One atomic read. [any thread, also the tick thread]
+    /// The number of alarms so far. One atomic read. [any thread, including the tick thread]
     static std::uint32_t alarms() noexcept;
 
     /// What the latest alarm was about. Ids: run/frozen, run/unguarded, run/slept. [any thread but the tick thread]

@@ -20,7 +20,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr int looks_apart = 3;   // every third call of attend() checks the devices: ten times a second
+constexpr int looks_apart = 3;   // every third call to attend() checks the devices: ten times a second
 
 Message stopped() { return Message::error ("run/stopped", {}, "nothing is running in the window", "press START in the window"); }
 }   // namespace

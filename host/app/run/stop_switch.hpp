@@ -21,7 +21,7 @@ public:
         bool operator== (const Presses&) const = default;
     };
 
-    // [any thread, also in a signal handler]
+    // [any thread, even in a signal handler]
     void stop() noexcept { stops.fetch_add (1, std::memory_order_relaxed); }
     void emergencyStop() noexcept { emergencies.fetch_add (1, std::memory_order_relaxed); }
     Presses presses() const noexcept { return { stops.load (std::memory_order_relaxed), emergencies.load (std::memory_order_relaxed) }; }
