@@ -108,7 +108,7 @@ TEST_CASE ("guard: a force does not rise faster, and does not step, after a paus
 
 TEST_CASE ("guard: impulse and energy count the time without ticks, during which the last effort was on the device", "[framework][guard]")
 {
-    rc::prop ("the same stop at the same time, at any share of the ticks", [] {
+    rc::prop ("the same stop at the same time, whatever share of the ticks is run", [] {
         const int every = *rc::gen::inRange (1, 30);   // a tick comes every so many periods
         const bool by_energy = *rc::gen::arbitrary<bool>();
         auto guard = pushed (by_energy ? GuardLimits { .max_energy = 0.05, .energy_window = 1.0 } : GuardLimits { .max_impulse = 0.3, .impulse_window = 1.0 });
