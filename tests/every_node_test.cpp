@@ -14,7 +14,7 @@ using namespace tactus;
 
 namespace
 {
-/// Holds all nodes to one promise.
+/// Checks that all nodes keep one promise.
 void hold (std::string_view id)
 {
     const auto& promise = examine::examination (id);
@@ -36,17 +36,17 @@ void hold (std::string_view id)
 
 TEST_CASE ("every node gives finite outputs for finite inputs", "[nodes][contract]") { hold ("finite"); }
 
-TEST_CASE ("every node answers a non-finite input with 0 and goes on", "[nodes][contract]") { hold ("nan"); }
+TEST_CASE ("every node outputs 0 on a non-finite input, and then continues", "[nodes][contract]") { hold ("nan"); }
 
 TEST_CASE ("every node works again after a fault", "[nodes][contract]") { hold ("revival"); }
 
 TEST_CASE ("a node without a memory does not remember a fault", "[nodes][contract]") { hold ("memory"); }
 
-TEST_CASE ("every node repeats itself to the bit", "[nodes][contract]") { hold ("bits"); }
+TEST_CASE ("every node repeats itself bit for bit", "[nodes][contract]") { hold ("bits"); }
 
-TEST_CASE ("every node that can adopt goes on exactly where the old instance was", "[nodes][contract]") { hold ("adopt"); }
+TEST_CASE ("every node that can adopt continues exactly where the old instance stopped", "[nodes][contract]") { hold ("adopt"); }
 
-TEST_CASE ("every node answers in all hooks, and has no problem with its defaults", "[nodes][contract]") { hold ("hooks"); }
+TEST_CASE ("every node returns from all hooks, and accepts its own defaults", "[nodes][contract]") { hold ("hooks"); }
 
 TEST_CASE ("every node has its defaults in their ranges, and no name twice", "[nodes][contract]") { hold ("datasheet"); }
 

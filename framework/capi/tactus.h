@@ -173,7 +173,7 @@ TACTUS_API const char* tactus_run_record_unit (const tactus_run*, size_t index);
 
 /* ---------------------------------------------------------------------------- Devices, before tactus_run_open */
 
-/** The device of a role in the words of the command line's --device: "sim", "trace:FILE.csv", "gesture:NAME", "FILE.json".
+/** The device of a role, written as for the option --device of the command line: "sim", "trace:FILE.csv", "gesture:NAME", "FILE.json".
  *  Without this, it is the device that the graph describes. Real devices belong to the host. [main thread] */
 TACTUS_API tactus_result tactus_run_device (tactus_run*, const char* role, const char* device, tactus_messages*);
 
@@ -272,7 +272,7 @@ typedef struct tactus_start_options
  *  refuses are warnings. Call it once. [main thread] */
 TACTUS_API tactus_result tactus_run_start (tactus_run*, const tactus_start_options*, tactus_messages*);
 
-/** Frees what the tick thread has let go. Call it several times a second while the run plays. [main thread] */
+/** Frees memory that the tick thread no longer uses. Call it several times a second while the run plays. [main thread] */
 TACTUS_API tactus_result tactus_run_attend (tactus_run*, tactus_messages*);
 
 /** Moves recorded ticks, the oldest first, into `rows` (up to `most` rows of record count values). Returns how many. [main thread] */

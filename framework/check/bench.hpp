@@ -23,7 +23,7 @@ public:
     /// of two ticks.
     void follow (const HandMotion&, double tick) noexcept;
 
-    /// Moves the tool of a role away from its position in the motion, in m, until the next call of follow or shift.
+    /// Moves the tool of a role away from its position in the motion, in m, until the next call to follow or shift.
     void shift (std::size_t role, const Vec3& by) noexcept;
 
     /// From now on, the outputs of these nodes are 0, their value at the start. [main thread]

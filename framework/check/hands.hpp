@@ -29,7 +29,7 @@ struct HandChoice
     std::filesystem::path folder {};   ///< base of the relative paths in the description
 };
 
-/// How long a graph is measured if no hand has a path with an end, and how long at most, in s.
+/// How long a graph is measured if no path of a hand ends, and the longest time that it is measured, in s.
 inline constexpr double default_length_s = 2.0, longest_s = 6.0;
 
 struct RecordedMotion

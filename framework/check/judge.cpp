@@ -252,7 +252,7 @@ private:
             c.unit = delay() > 0.0 ? "1" : "kg";
             c.limit = delay() > 0.0 ? 0.0 : tolerance * mass;
             c.remedy = delay() > 0.0 ? "a device without delay, or a softer deform.plane"
-                                     : "mass 0, which takes the mass of the device, or the mass of this device";
+                                     : "a mass of 0, which means the mass of the device, or the mass of this device itself";
             return;
         }
         if (! numbers.quantum) return unknown (c, 0.0, "quantum");

@@ -69,8 +69,8 @@ std::optional<Pair::Response> Pair::respond (std::size_t role, const Vec3& direc
     std::size_t found = 0;
     for (std::size_t i = 0; i < phases; ++i)
     {
-        // Depending on the tick of the shift, a response is late by 0 to period - 1 ticks. The chosen delays lie symmetrically, so their mean
-        // is that of all delays.
+        // Depending on the tick of the shift, a response is late by 0 to period - 1 ticks. The delays are chosen symmetrically, so
+        // their mean is that of all delays.
         const auto other = phases - 1 - i, earlier = phases > 1 ? std::min (i, other) * (period - 1) / (phases - 1) : 0;
         const auto late = i <= other ? earlier : period - 1 - earlier, phase = (period - late) % period;
         if (period > 1) wait ((phase + period - still.plan().nextTick() % period) % period);
@@ -169,7 +169,7 @@ VectorXd Pair::difference() const
     return all;
 }
 
-/// Notes for each force of each node the difference between the two copies.
+/// Notes the difference between the two copies for each force of each node.
 void Pair::note (std::vector<double>& all) const noexcept
 {
     std::size_t i = 0;

@@ -27,7 +27,7 @@ public:
         auto of (std::size_t role) const { return settled.segment<3> (static_cast<Eigen::Index> (3 * role)); }
     };
 
-    /// Nodes in `without` are silent. `hold_ticks`: how long a response is watched at least.
+    /// Nodes in `without` are silent. `hold_ticks`: the shortest time for which a response is watched.
     Pair (const Subject&, const HandMotion&, const std::vector<std::size_t>& without, std::size_t hold_ticks);
 
     /// Advances both copies to a time of the motion, in ticks, and waits there.

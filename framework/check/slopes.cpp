@@ -92,8 +92,8 @@ private:
         return steepest;
     }
 
-    /// Shifts the tool of a role along each axis, to both sides, and fills in the columns of the role in the matrices. Of the
-    /// responses to the two sides, the larger one is kept.
+    /// Shifts the tool of a role along each axis, in both directions, and fills in the columns of the role in the matrices. The
+    /// larger of the two responses is kept.
     Slope slopeOf (std::size_t role, Linked& all)
     {
         Slope slope { .t_s = pair.time(), .position = pair.position (role), .by_node = std::vector<double> (pair.nodes(), 0.0) };

@@ -30,7 +30,7 @@ struct Slopes
 /// Measures the slopes of all roles.
 ///
 /// Two copies of the graph run side by side (Pair). At each spot, the motion halts in both, and the tool of each role in one copy is
-/// shifted by a nanometre along each axis, to both sides. Nodes that play when they are hit are silent, because they respond to
+/// shifted by a nanometre along each axis, in both directions. Nodes that play when they are hit are silent, because they respond to
 /// events and not to the position.
 ///
 /// If the forces change by more along the spot than the slope in its middle explains, the place of the change is narrowed down to

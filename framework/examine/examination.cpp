@@ -16,8 +16,8 @@ namespace
 std::string always (const NodeType&) { return {}; }
 
 constexpr auto list = std::to_array<Examination> ({
-    { "hooks", "every hook answers, and the defaults are no problem", 1, false, &always, &hookFault },
-    { "datasheet", "every default is in its range, and every name is there once", 1, false, &always, &sheetFault },
+    { "hooks", "every hook returns, and the node accepts its own defaults", 1, false, &always, &hookFault },
+    { "datasheet", "every default is in its range, and no name occurs twice", 1, false, &always, &sheetFault },
     { "sizes", "it writes nothing behind its outputs", 1, false, &always, &sizeFault },
     { "finite", "finite inputs give finite outputs, with any params in their range", 1, true, &always, &rangeFault },
     { "nan", "an input that is not finite gives 0, and the next tick is as before", 1, true, &noInputs, &nanFault },
@@ -29,7 +29,7 @@ constexpr auto list = std::to_array<Examination> ({
     { "amplitude", "no output exceeds the claimed amplitude", 1, true, &noClaims, &amplitudeFault },
     { "revival", "every output works again after an input was not finite", 2, false, &noInputs, &revivalFault },
     { "memory", "a node without a memory does not remember that an input was not finite", 2, false, &peeks, &memoryFault },
-    { "adopt", "a new instance goes on exactly where the old one was", 2, true, &noAdopt, &adoptFault },
+    { "adopt", "a new instance continues exactly where the old one stopped", 2, true, &noAdopt, &adoptFault },
     { "passive", "a node that claims to be passive generates no energy on a closed path", 3, true, &notMechanical, &passiveFault },
     { "threads", "two instances that tick in two threads do not affect each other", 3, true, &always, &threadFault },
 });

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-/// What every node promises, each promise with a function that tries to refute it. every_node_test.cpp holds the nodes of Tactus to
-/// this list, and `tactus check-plugin` those of a plugin.
+/// What every node promises, each promise with a function that tries to refute it. every_node_test.cpp checks the nodes of Tactus
+/// against this list, and `tactus check-plugin` those of a plugin.
 namespace tactus::examine
 {
 
@@ -20,7 +20,7 @@ struct Examination
     int level;                  ///< 1 (always) to 10 (only in the longest checks)
     bool random;                ///< true: each seed is another trial; false: one trial is enough
 
-    /// Why the promise does not concern this node, or cannot be checked in this program; empty if it can be checked.
+    /// Why the promise does not apply to this node, or cannot be checked in this program; empty if it can be checked.
     std::string (*skipped) (const NodeType&);
 
     /// How the node breaks the promise; empty if it does not. The same seed gives the same answer. Passes on what a hook throws.

@@ -6,10 +6,9 @@
 namespace tactus::examine
 {
 
-/// Counts operations that the tick thread must avoid. While an instance exists, it counts, on this thread, every call of malloc
-/// and its family and every lock of a mutex or a shared mutex. Under ASan and TSan, which have their own allocator, it counts
-/// nothing. A program counts only if it links this class: malloc and the locks of the C library are then replaced by functions
-/// that count.
+/// Counts operations that the tick thread must avoid. While an instance exists, it counts, on this thread, every call to malloc and
+/// its family and every lock of a mutex or a shared mutex. Under ASan and TSan, which have their own allocator, it counts nothing.
+/// A program counts only if it links this class: malloc and the locks of the C library are then replaced by functions that count.
 class NoAllocation
 {
 public:

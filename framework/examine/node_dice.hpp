@@ -61,7 +61,7 @@ inline void randomParams (Rig& rig, NodeDice& dice, Span span)
     rig.moved();
 }
 
-/// Sets numbers, also in records, within their usual ranges. Everything else keeps its default.
+/// Sets numbers, including those in records, within their usual ranges. Everything else keeps its default.
 inline void randomSettings (Rig& rig, NodeDice& dice)
 {
     for (const auto& s : rig.type().settings)

@@ -31,7 +31,7 @@ inline Rig prepared (const NodeType& type, double rate_hz = 4000.0)
     return rig;
 }
 
-/// True if all bits are the same, also the sign of a zero and the bits of a nan.
+/// True if all bits are the same, including the sign of a zero and the bits of a nan.
 bool sameBits (const std::vector<double>& a, const std::vector<double>& b);
 
 /// Text for a message: all parts one after another.

@@ -74,7 +74,7 @@ std::string instanceFault (const NodeType& type, unsigned seed)
         second.tick();
     }
     const bool same = sameBits (first.outputs(), first_alone) && sameBits (second.outputs(), second_alone);
-    return same ? "" : "two instances that tick in turn give other bits than each alone: they share a state";
+    return same ? "" : "two instances that tick in turn give different bits than each alone: they share state";
 }
 
 std::string threadFault (const NodeType& type, unsigned seed)
@@ -92,7 +92,7 @@ std::string threadFault (const NodeType& type, unsigned seed)
     play (first);
     there.join();
     const bool same = sameBits (first.outputs(), first_alone) && sameBits (second.outputs(), second_alone);
-    return same ? "" : "two instances that tick in two threads give other bits than each alone: they share a state";
+    return same ? "" : "two instances that tick in two threads give different bits than each alone: they share state";
 }
 
 std::string noAdopt (const NodeType& type) { return type.adopt ? "" : "it has no `adopt`"; }
@@ -113,7 +113,7 @@ std::string adoptFault (const NodeType& type, unsigned seed)
         young.in = old.in;
         old.tick();
         young.tick();
-        if (! sameBits (old.outs(), young.outs())) return say ("tick ", k + 1, " after `adopt` gives other bits than the old instance");
+        if (! sameBits (old.outs(), young.outs())) return say ("tick ", k + 1, " after `adopt` gives different bits than the old instance");
     }
     return {};
 }

@@ -19,7 +19,7 @@ std::string choiceFault (const PortSheet& p)
 {
     if (p.choices.empty()) return {};
     const std::set<std::string_view> different (p.choices.begin(), p.choices.end());
-    if (! (p.initial[0] >= 0.0 && p.initial[0] < static_cast<double> (p.choices.size()))) return "its default is none of its alternatives";
+    if (! (p.initial[0] >= 0.0 && p.initial[0] < static_cast<double> (p.choices.size()))) return "its default is not one of its alternatives";
     if (different.contains ("")) return "one of its alternatives has no name";
     if (p.choices.size() < 2) return "it has only one alternative";
     return different.size() == p.choices.size() ? "" : "two of its alternatives have the same name";

@@ -295,7 +295,8 @@ Result<Table> readTable (const std::filesystem::path& path)
     {
         auto table = readTable (*text, path.string());
         constexpr double bytes_per_number = 16.0;
-        static_cast<void> (chargeReading (table ? bytes_per_number * static_cast<double> (table->values.size()) : 0.0));   // the next file is refused
+        // If this exceeds the budget, the next file is refused.
+        static_cast<void> (chargeReading (table ? bytes_per_number * static_cast<double> (table->values.size()) : 0.0));
         return table;
     }
     auto why = std::move (text).error();

@@ -416,7 +416,7 @@ private:
         return C { c.patch, c.node, c.*key, std::move (old.value), old.place };
     }
 
-    /// Carries out an edit that touches much of the graph, completely or not at all.
+    /// Carries out an edit that touches a large part of the graph, completely or not at all.
     template <typename Edit>
     Inverse regrouped (Edit edit)
     {

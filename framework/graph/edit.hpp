@@ -199,7 +199,7 @@ struct Batch
     std::vector<Command> commands;
 };
 
-/// Any of these commands. It is not itself a variant, because a call of `apply` would then find std::apply.
+/// Any of these commands. It is not itself a variant, because a call to `apply` would then find std::apply.
 struct Command
 {
     using Edit = std::variant<AddNode, RemoveNode, RenameNode, SetParam, SetSetting, SetOverride, SetNodeKey,                       //

@@ -54,8 +54,8 @@ struct Bristle
     Step stretch (const Vec3& d, const Vec3& dp) const noexcept;
 
     /// If d_max or d_stick has become too small for the stretch, shortens the stretch to the length at which the contact slides.
-    /// Only the exponential form needs this: with eq. (3) and (4), the next call of `stretch` does it. Returns true if the stretch has
-    /// changed.
+    /// Only the exponential form needs this: with eq. (3) and (4), the next call to `stretch` does it. Returns true if the stretch
+    /// has changed.
     bool letGo (Vec3& d) const noexcept;
 
 private:

@@ -26,8 +26,8 @@ public:
     /// false if the contact point did not move. Takes the response at the spot, and updates it. [any thread]
     bool along (const Vec3& step, Spot&, PlacedSurface::Felt&, Reach = Reach::whole) const noexcept;
 
-    /// Moves a contact point down to a local minimum of U. A way longer than `longest` (m) ends after this length. At the minimum, dU/dc
-    /// is 0, or the minimum is on an edge, where the slopes on both sides rise. [any thread]
+    /// Moves a contact point down to a local minimum of U. A path longer than `longest` (m) ends after this length. At the minimum,
+    /// dU/dc is 0, or the minimum is on an edge, where the slopes on both sides rise. [any thread]
     void settle (Spot&, PlacedSurface::Felt&, double longest) const noexcept;
 
 private:

@@ -75,8 +75,8 @@ public:
             step.lost = -gain;
             return;
         }
-        // With the tool there, the move would gain energy, as in a slide without friction, which loses none. So find the smallest share
-        // without a gain; the loss grows almost linearly with the share.
+        // Computed with the tool there, the move would gain energy. This happens in slides without friction, because they lose
+        // none. So find the smallest share without a gain; the loss grows almost linearly with the share.
         constexpr int most = 3;
         for (int i = 0; i < most && step.lost > 0.0; ++i)
         {

@@ -7,7 +7,7 @@
 namespace tactus
 {
 
-/// A straight move of the tool, and how its contact point may move meanwhile.
+/// A straight move of the tool, and how its contact point may move during it.
 struct SurfacePath
 {
     Vec3 from, to;

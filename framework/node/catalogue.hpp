@@ -34,7 +34,7 @@ struct PortSheet
 /// A node type. The functions take the node and its outputs as void*. `sources` holds one pointer per input component, in the
 /// order of the datasheet, with the entries of a list one after another. Hooks that the node does not have are null.
 ///
-/// The tick thread calls the plain function pointers directly, also those of a plugin. The other functions are std::function, because
+/// The tick thread calls the plain function pointers directly, even those of a plugin. The other functions are std::function, because
 /// those of a plugin translate between C++ and the C interface of plugins. Most of them run only when a graph is read or compiled.
 struct NodeType
 {

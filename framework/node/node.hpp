@@ -87,7 +87,7 @@ struct Claims
     double amplitude = inf;           ///< its outputs never exceed this, in their own unit
 };
 
-/// What a node takes at most to be checked and prepared, estimated from its settings. See the budgets of these names
+/// The most that checking and preparing a node can cost, estimated from its settings. See the budgets of these names
 /// (framework/text/budget.hpp).
 struct Cost
 {

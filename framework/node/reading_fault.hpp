@@ -55,7 +55,7 @@ inline constexpr std::array<ReadingFaultInfo, 16> reading_faults { {
     { "unplugged", "the device is unplugged" },
     { "malformed", "the latest report of the device is malformed" },
     { "repeated", "the device repeats the same report" },
-    { "clock_stopped", "the clock of the device stands still" },
+    { "clock_stopped", "the clock of the device has stopped" },
     { "restarted", "the report number or the clock of the device went back, as after a restart" },
     { "lost", "more than half of the device's reports are missing" },
     { "impossible_pose", "the device reports a pose that its arm cannot have" },

@@ -357,6 +357,7 @@ private:
         return ! all.empty() && all.back().kind == Driver::Kind::feed ? all.back().term.from : nullptr;
     }
 
+    /// Here a wire becomes a pointer: each input of a node gets the address of what drives it.
     void connectInputs (int i)
     {
         const auto& n = flat.node (i);

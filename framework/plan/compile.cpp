@@ -114,7 +114,7 @@ void askNodes (Flat& flat, const Setup& setup, const graph::Graph& graph)
     }
 }
 
-/// What compiling has taken with this flat graph.
+/// The cost of compiling so far, including this flat graph.
 Spent spentOn (const Flat& flat)
 {
     auto spent = flat.spent;

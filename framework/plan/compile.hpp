@@ -6,7 +6,7 @@
 ///   flatten      expands subgraphs, resolves names, reads values             flatten.hpp, directory.hpp, values.hpp
 ///   unit_check   checks units of wires and values, types generic nodes       unit_check.hpp
 ///   order        finds the running order, loops and delays                   order.hpp
-///   sections     handles subgraphs that run at another rate                  sections.hpp, aliasing.hpp, rate_conversions.hpp
+///   sections     handles subgraphs that run at a different rate                  sections.hpp, aliasing.hpp, rate_conversions.hpp
 ///   build        makes nodes, lays out storage, writes records               build.hpp
 ///   lateness     warns of delays on the way back to the hand                 lateness.hpp
 ///   plan diff    decides what continues from the previous plan                 plan_diff.hpp, matching.hpp, takeover.hpp

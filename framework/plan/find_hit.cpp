@@ -71,7 +71,7 @@ Result<std::vector<HitRef>> findHits (const Plan& plan, std::string_view name)
     if (node == nullptr && ! exists) return unknownNode (plan, e.node);
     if (exists)
         return Message::error ("hit/not_running", {}, quote (e.node) + " does not run, so a hit has no effect",
-                               "end its bypass, or the bypass of the subgraph that contains it");
+                               "turn off its bypass, or that of the subgraph that contains it");
     const auto inputs = hitsOf (*node->type);
     return Message::error ("hit/unknown", {},
                            quote (e.node) + " (" + std::string (node->type->info.id) + ") has no hit input " + quote (e.port) + didYouMean (e.port, inputs),

@@ -52,7 +52,7 @@ struct Identity
     bool operator== (const Identity&) const = default;
 };
 
-/// What compiling has taken so far; see the budgets of the same names (framework/text/budget.hpp).
+/// The cost of compiling so far; see the budgets of the same names (framework/text/budget.hpp).
 struct Spent
 {
     double nodes = 0.0, wires = 0.0;   ///< in the flat graphs before this one; each unused subgraph is flattened on its own, after the graph
@@ -60,7 +60,7 @@ struct Spent
     bool is_over = false;   ///< a budget is exceeded, which has been reported
 };
 
-/// What a value of a graph takes when it is compiled, measured, in units of work (work_unit_s).
+/// The measured cost of compiling one value of a graph, in units of work (work_unit_s).
 inline constexpr double work_per_value = 50.0;
 
 /// A port of a flat node, or an entry or a component of it.

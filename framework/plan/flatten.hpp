@@ -27,7 +27,7 @@ struct Flattened
 /// Expands subgraphs, resolves names and reads values. Unknown node types become placeholders, with the message node/unknown_type.
 Flattened flatten (const graph::Graph&, const Catalogue&, std::span<const Override>, Assets*);
 
-/// Does the same for a subgraph that no node uses, as if it were a graph on its own. `spent` is what compiling has taken before.
+/// Does the same for a subgraph that no node uses, as if it were a graph on its own. `spent` is the cost of compiling so far.
 Flattened flattenUnused (const graph::Graph&, const std::string& subgraph, const graph::Patch&, const Catalogue&, Assets*, const Spent&);
 
 }   // namespace tactus::plan

@@ -40,7 +40,7 @@ struct Line
     std::size_t now = 0;
     double out = 0.0;   ///< the value that arrives on this tick
 
-    /// Continues a line of another length. Keeps the newest samples; if this line is longer, repeats the oldest. [tick thread]
+    /// Continues a line of a different length. Keeps the newest samples; if this line is longer, repeats the oldest. [tick thread]
     void adopt (const Line& old) noexcept
     {
         const auto had = old.samples.size(), size = samples.size();
@@ -78,7 +78,7 @@ struct RateConverter
     double before = 0.0, newest = 0.0;   ///< the ends of the straight line (Conversion::Kind::line)
     bool begun = false;                  ///< `newest` is set
 
-    /// Takes over the state of a conversion of another kind, but not its serial number: the main thread may be reading the serial
+    /// Takes over the state of a conversion of a different kind, but not its serial number: the main thread may be reading the serial
     /// number of this converter to build the next plan. [tick thread]
     void adopt (const RateConverter& old) noexcept
     {

@@ -23,7 +23,7 @@ public:
     /// instance.
     virtual void turned (std::size_t instance, std::size_t knob, double target) noexcept = 0;
 
-    /// The plan has another value for this knob, but the knob was turned after the edit, so the turned value takes precedence.
+    /// The plan has a different value for this knob, but the knob was turned after the edit, so the turned value takes precedence.
     virtual void outdone (std::size_t instance, std::size_t knob) noexcept = 0;
 
     /// A hit is added to an input. The numbers are the instance in the plan and the input among the hit inputs. It arrives on

@@ -51,7 +51,7 @@ public:
         return *d * factorOf (v);
     }
 
-    /// Sets the dimension of v. Returns false if v is known to have another one.
+    /// Sets the dimension of v. Returns false if v is known to have a different one.
     bool state (int v, Dimension d)
     {
         auto& k = known[at (root (v))];

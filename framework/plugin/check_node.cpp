@@ -32,7 +32,7 @@ bool isQuantity (std::string_view text) noexcept
 
 std::string faultOf (const tactus_plugin_unit* u, const std::set<std::string_view>& ports)
 {
-    if (! isWhole (u)) return "a unit is missing or has a wrong size";
+    if (! isWhole (u)) return "a unit is missing or has the wrong size";
     if (u->rule < TACTUS_PLUGIN_UNIT_FIXED || u->rule > TACTUS_PLUGIN_UNIT_PRODUCT) return "a unit has the unknown rule " + std::to_string (u->rule);
     if (u->quantity == nullptr || ! isQuantity (u->quantity)) return "a unit has an unknown quantity";
     if (u->symbol == nullptr || u->a == nullptr || u->b == nullptr) return "a unit lacks its symbol or the names of its ports";
@@ -46,20 +46,20 @@ std::string faultOf (const tactus_plugin_unit* u, const std::set<std::string_vie
 
 std::string faultOf (const tactus_plugin_limits* l)
 {
-    if (! isWhole (l)) return "its limits are missing or have a wrong size";
+    if (! isWhole (l)) return "its limits are missing or have the wrong size";
     return l->hard_min <= l->hard_max && l->usual_min <= l->usual_max ? "" : "the lower end of a range is above its upper end";
 }
 
 std::string faultOf (const tactus_plugin_value* v, int kind)
 {
-    if (! isWhole (v)) return "its default is missing or has a wrong size";
+    if (! isWhole (v)) return "its default is missing or has the wrong size";
     const bool fits = v->kind == kind || (v->kind == TACTUS_PLUGIN_NUMBER && kind == TACTUS_PLUGIN_INTEGER);
-    return fits ? "" : "its default is of another kind";
+    return fits ? "" : "its default is of a different kind";
 }
 
 std::string faultOf (const tactus_plugin_setting* s, const std::set<std::string_view>& ports)
 {
-    if (! isWhole (s)) return "a setting is missing or has a wrong size";
+    if (! isWhole (s)) return "a setting is missing or has the wrong size";
     if (s->kind < TACTUS_PLUGIN_NUMBER || s->kind > TACTUS_PLUGIN_SURFACE) return "it has the unknown kind " + std::to_string (s->kind);
     if (isEmpty (s->about)) return "it has no description";
     for (auto why : { faultOf (s->unit, ports), faultOf (s->x_unit, ports), faultOf (s->limits), faultOf (s->initial, s->kind) })
@@ -68,11 +68,11 @@ std::string faultOf (const tactus_plugin_setting* s, const std::set<std::string_
     for (std::size_t i = 0; i < s->field_count; ++i)
     {
         const auto* field = s->fields[i];
-        if (! isWhole (field) || field->id == nullptr || ! isName (field->id)) return "a field has a wrong size or name";
+        if (! isWhole (field) || field->id == nullptr || ! isName (field->id)) return "a field has the wrong size, or a name that is not valid";
         if (! names.insert (field->id).second) return "it has two fields " + quote (field->id);
         if (auto why = faultOf (field, ports); ! why.empty()) return "field " + quote (field->id) + ": " + why;
     }
-    if (s->kind == TACTUS_PLUGIN_RECORD && s->initial->count != s->field_count) return "its default has another number of fields";
+    if (s->kind == TACTUS_PLUGIN_RECORD && s->initial->count != s->field_count) return "its default has a different number of fields";
     return {};
 }
 
@@ -126,7 +126,7 @@ private:
         const std::string_view id = node.id != nullptr ? node.id : "";
         const auto dot = id.find ('.');
         if (dot == std::string_view::npos || ! isName (id.substr (0, dot)) || ! isName (id.substr (dot + 1)))
-            return "its id must be family.name, of small letters, digits and _";
+            return "its id must be family.name, with lower-case letters, digits and _";
         if (isEmpty (node.name) || isEmpty (node.summary) || isEmpty (node.source)) return "it lacks a name, a summary or a source";
         if (node.outputs_align == 0 || ! std::has_single_bit (node.outputs_align) || node.outputs_align > alignof (std::max_align_t))
             return "its outputs have the alignment " + std::to_string (node.outputs_align);
@@ -147,8 +147,8 @@ private:
         for (std::size_t i = 0; i < node.port_count; ++i)
         {
             const auto* p = node.ports[i];
-            if (! isWhole (p)) return "row " + std::to_string (i + 1) + " of its ports is missing or has a wrong size";
-            if (p->id == nullptr || ! isName (p->id)) return "row " + std::to_string (i + 1) + " of its ports has no proper name";
+            if (! isWhole (p)) return "row " + std::to_string (i + 1) + " of its ports is missing or has the wrong size";
+            if (p->id == nullptr || ! isName (p->id)) return "row " + std::to_string (i + 1) + " of its ports has no valid name";
             auto& names = p->role == TACTUS_PLUGIN_OUTPUT ? out_names : in_names;
             if (! names.insert (p->id).second) return "it has two ports " + quote (p->id);
             all_names.insert (p->id);
@@ -176,7 +176,8 @@ private:
         if (p.choice_count > 0 && p.role != TACTUS_PLUGIN_PARAM) return "only a param may be a choice";
         for (std::size_t c = 0; c < p.choice_count; ++c)
             if (isEmpty (p.choices[c])) return "an alternative has no name";
-        if (p.choice_count > 0 && ! (p.initial[0] >= 0.0 && p.initial[0] < static_cast<double> (p.choice_count))) return "its default is no alternative";
+        if (p.choice_count > 0 && ! (p.initial[0] >= 0.0 && p.initial[0] < static_cast<double> (p.choice_count)))
+            return "its default is not one of the alternatives";
         if (p.role == TACTUS_PLUGIN_PARAM) return params.take (p);
         return p.role == TACTUS_PLUGIN_OUTPUT ? outputs.take (p) : std::string {};
     }
@@ -187,7 +188,8 @@ private:
         for (std::size_t i = 0; i < node.setting_count; ++i)
         {
             const auto* s = node.settings[i];
-            if (! isWhole (s) || s->id == nullptr || ! isName (s->id)) return "row " + std::to_string (i + 1) + " of its settings has a wrong size or name";
+            if (! isWhole (s) || s->id == nullptr || ! isName (s->id))
+                return "row " + std::to_string (i + 1) + " of its settings has the wrong size, or a name that is not valid";
             if (! in_names.insert (s->id).second) return "it has two rows " + quote (s->id);
             if (auto why = faultOf (s, all_names); ! why.empty()) return quote (s->id) + ": " + why;
             const auto& range = *s->limits;
@@ -206,7 +208,7 @@ private:
 
 std::string faultOf (const tactus_plugin_node* given)
 {
-    if (! isWhole (given)) return "its description is missing or has a wrong size";
+    if (! isWhole (given)) return "its description is missing or has the wrong size";
     return NodeCheck { *given }.fault();
 }
 

@@ -41,7 +41,7 @@ inline constexpr std::size_t first_size<tactus_plugin_node> = offsetof (tactus_p
 template <>
 inline constexpr std::size_t first_size<tactus_plugin> = offsetof (tactus_plugin, extension) + sizeof (void (*)());
 
-/// True if the plugin gives this struct, with all members of the first version of the interface.
+/// True if the plugin provides this struct, with all members of the first version of the interface.
 template <typename T>
 bool isWhole (const T* given) noexcept
 {

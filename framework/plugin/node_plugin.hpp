@@ -188,7 +188,7 @@ struct Hooks
 template <Node... N>
 struct Exported
 {
-    static inline int users = 0;   // calls of init that no deinit has followed yet   [main thread]
+    static inline int users = 0;   // calls to init that no deinit has followed yet   [main thread]
 
     static std::vector<std::unique_ptr<Described>>& all() noexcept
     {

@@ -31,7 +31,7 @@ function (tactus_add_plugin name)
         target_compile_options (${name} PRIVATE -O2)   # without a build type, CMake would not optimise the nodes
     endif ()
     if (CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-        target_compile_options (${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-fno-gnu-unique>)   # unique symbols would keep the plugin loaded for ever
+        target_compile_options (${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-fno-gnu-unique>)   # unique symbols would keep the plugin loaded forever
     endif ()
     tactus_write_build_file (${name} ${ARGN})
     if (CMAKE_SYSTEM_NAME STREQUAL Linux)

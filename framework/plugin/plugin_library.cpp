@@ -37,7 +37,7 @@ Result<> PluginLibrary::begin()
     const auto refuse = [this] (const char* id, const std::string& why) { return Message::error (id, from.string(), why, rebuild()); };
     const auto* given = static_cast<const tactus_plugin*> (object->find ("tactus_plugin_entry"));
     if (given == nullptr) return refuse ("plugin/no_entry", "the file is not a Tactus plugin: it does not export `tactus_plugin_entry`");
-    if (given->size < offsetof (tactus_plugin, abi) + sizeof given->abi) return refuse ("plugin/wrong_size", "`tactus_plugin_entry` has a wrong size");
+    if (given->size < offsetof (tactus_plugin, abi) + sizeof given->abi) return refuse ("plugin/wrong_size", "`tactus_plugin_entry` has the wrong size");
     if (given->abi != TACTUS_PLUGIN_ABI)
         return refuse ("plugin/wrong_abi", "the plugin is for version " + std::to_string (given->abi) + " of the plugin interface, and this Tactus has version "
                                                + std::to_string (TACTUS_PLUGIN_ABI));

@@ -10,7 +10,7 @@
  *
  * Conventions
  *  - SI units. Text is UTF-8 and ends with a zero byte, unless a length is given with it.
- *  - Each struct begins with its size, which is set by whoever fills the struct. Later versions may add members at the end. A reader
+ *  - Each struct begins with its size, which the side that fills the struct sets. Later versions may add members at the end. A reader
  *    uses a member only if the size covers it. Arrays of structs are arrays of pointers, so that their elements can grow.
  *  - What the plugin describes (entry, nodes, datasheets) stays valid and unchanged from init to deinit. What the host passes to a
  *    hook is valid during the call, unless the comment says otherwise.
@@ -47,7 +47,7 @@ enum
     TACTUS_PLUGIN_FAILED = 1
 };
 
-/** Takes text from a hook: the answer that the hook gives, or why it failed. `text` needs no zero byte at its end. */
+/** Receives text from a hook: its answer, or why it failed. `text` needs no zero byte at its end. */
 typedef struct tactus_plugin_report
 {
     uint32_t size;
@@ -140,8 +140,8 @@ enum
     TACTUS_PLUGIN_LAW_DISSIPATION = 4  /**< only for damping: a times the stiffness law given with it */
 };
 
-/** The content of a file, or a surface. It never changes, and is shared: whoever keeps it, or a pointer into it, calls `retain`, and
- *  later `release`. As long as an asset is kept, the same content is the same asset. [any thread] */
+/** The content of a file, or a surface. It never changes, and is shared: code that keeps it, or a pointer into it, calls `retain`,
+ *  and later `release`. As long as an asset is kept, the same content gives the same asset. [any thread] */
 typedef struct tactus_plugin_asset
 {
     uint32_t size;
@@ -162,7 +162,7 @@ typedef struct tactus_plugin_value
     const double *x, *y;                             /**< VECTOR, NUMBERS: x. CURVE, LAW of a table: x and y */
     size_t count;                                    /**< length of text, x, y and values */
     const struct tactus_plugin_value* const* values; /**< RECORD: its fields. RECORDS: values of kind RECORD */
-    const tactus_plugin_asset* asset;                /**< SIGNAL, IMAGE, TABLE, SURFACE; NULL: none is given */
+    const tactus_plugin_asset* asset;                /**< SIGNAL, IMAGE, TABLE, SURFACE; NULL: not given */
 } tactus_plugin_value;
 
 typedef struct tactus_plugin_signal
@@ -200,7 +200,7 @@ typedef struct tactus_plugin_surface
     const size_t* tools; /**< number of curve triples, by shape of tool */
     size_t tool_count;
     const tactus_plugin_value* const* curves; /**< three laws per triple, shape after shape */
-    const tactus_plugin_value* const* mu;     /**< a NUMBER, a LAW or a CURVE each */
+    const tactus_plugin_value* const* mu;     /**< each is a NUMBER, a LAW or a CURVE */
     size_t mu_count;
     const double* weights;       /**< tool_count shares per entry, the entries of one tool after those of another; no entries: tool t is shape t */
     const size_t* weight_counts; /**< number of entries, by tool: one per node, or one for all nodes */
@@ -320,7 +320,7 @@ typedef struct tactus_plugin_effort
     double axes[TACTUS_PLUGIN_CHANNELS], signals[TACTUS_PLUGIN_CHANNELS];
 } tactus_plugin_effort;
 
-/** What checking and preparing take at most. */
+/** The most that checking and preparing a node can cost. */
 typedef struct tactus_plugin_cost
 {
     uint32_t size;
@@ -387,7 +387,7 @@ typedef struct tactus_plugin_node
     /** Optional. [main thread] */
     int32_t (*claims) (const void* node, tactus_plugin_claims*, const tactus_plugin_report*) TACTUS_PLUGIN_NOEXCEPT;
 
-    /** A device node has both of these, or neither. `announce` copies what `bind` will need; the node may be ticking meanwhile. `bind`
+    /** A device node has both of these, or neither. `announce` copies what `bind` will need; the node may be ticking at that time. `bind`
      *  makes the node use what was announced last, and allocates nothing. [announce: main thread; bind: main or tick thread] */
     int32_t (*announce) (void* node, const tactus_plugin_device*, const tactus_plugin_report*) TACTUS_PLUGIN_NOEXCEPT;
     void (*bind) (void* node) TACTUS_PLUGIN_NOEXCEPT;
@@ -421,7 +421,7 @@ typedef struct tactus_plugin
     const char *name, *version; /**< for people */
     /** Called first, once per loading. [main thread] */
     int32_t (*init) (const tactus_plugin_host*, const tactus_plugin_report*) TACTUS_PLUGIN_NOEXCEPT;
-    /** Called last, once per init, also if init failed. [main thread] */
+    /** Called last, once per init, even if init failed. [main thread] */
     void (*deinit) (void) TACTUS_PLUGIN_NOEXCEPT;
     size_t (*get_node_count) (void) TACTUS_PLUGIN_NOEXCEPT;                     /**< [main thread] */
     const tactus_plugin_node* (*get_node) (size_t index)TACTUS_PLUGIN_NOEXCEPT; /**< [main thread] */

@@ -26,7 +26,7 @@ Result<Feed> feedOf (const std::pair<std::vector<std::string>, PythonRun::Rows>&
 }
 }   // namespace
 
-/// While a Turn exists, calls of other threads wait, and this thread does not hold the GIL. The GIL is released before the lock is
+/// While a Turn exists, calls from other threads wait, and this thread does not hold the GIL. The GIL is released before the lock is
 /// taken, so that a thread which holds the lock can always get the GIL.
 class PythonRun::Turn
 {

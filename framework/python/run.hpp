@@ -20,8 +20,8 @@
 namespace tactus::python
 {
 
-/// A run of the C API for Python. Several Python threads may share it: a call waits, without the GIL, until the call of another thread is
-/// over. push, take, and functions marked [any thread] do not wait.
+/// A run of the C API for Python. Several Python threads may share it: a call waits, without the GIL, until calls from other
+/// threads are over. push, take, and functions marked [any thread] do not wait.
 class PythonRun
 {
 public:

@@ -41,7 +41,7 @@ public:
         if (! was_known) return Vec3::Zero();
         const double sine = step.vec().norm();
         if (sine == 0.0) return Vec3::Zero();
-        if (! isFinite (sine)) return Vec3::Constant (std::numeric_limits<double>::infinity());   // such an angle is no rotation of a tool
+        if (! isFinite (sine)) return Vec3::Constant (std::numeric_limits<double>::infinity());   // no tool rotates by such an angle
         return step.vec() * (2.0 * std::atan2 (std::copysign (sine, step.w()), std::abs (step.w())) / sine);
     }
 
@@ -125,7 +125,7 @@ private:
 class ImpulseWatch
 {
 public:
-    /// A window that is not finite lasts for ever. [main thread]
+    /// A window that is not finite lasts forever. [main thread]
     void prepare (double window_s, double dt_s) noexcept
     {
         *this = {};
@@ -175,7 +175,7 @@ private:
 class EnergyWatch
 {
 public:
-    /// A window that is not finite lasts for ever. [main thread]
+    /// A window that is not finite lasts forever. [main thread]
     void prepare (double most_j, double window_s) noexcept
     {
         delivered = 0.0;

@@ -90,7 +90,7 @@ double windowOf (double limit, double window) noexcept
 /// The inverse of windowOf.
 double asSet (double window) noexcept { return window == GuardLimits::none ? 0.0 : window; }
 
-/// A number that is `none` only if no impulse is limited.
+/// The smallest of the three limits; `none` only if no impulse is limited.
 double smallestImpulse (const GuardLimits& l) noexcept { return std::min ({ l.max_impulse, l.max_angular_impulse, l.max_axis_impulse }); }
 
 /// For each effort, the number of the axis that it pushes, or -1: the axis of the same name, or axisN for effortN.
@@ -396,6 +396,7 @@ Guard::Event Guard::describeNow (Stop why, const Effort& wanted, const Reading& 
     return e;
 }
 
+/// Here the force is limited: first a reason to stop is looked for, then the effort is faded, shortened and slowed down.
 Effort Guard::operator() (const Effort& wanted, const Reading& reading, double lost_s) noexcept
 {
     const double elapsed = dt + (lost_s > 0.0 && isFinite (lost_s) ? lost_s : 0.0);
@@ -413,7 +414,7 @@ Effort Guard::operator() (const Effort& wanted, const Reading& reading, double l
     if (cause != reason && cause != Stop::none)
     {
         const bool begins = reason == Stop::none;
-        const bool ends_a_run = cause == Stop::halted && event.why != Stop::none;   // then latest() keeps the stop before it
+        const bool ends_a_run = cause == Stop::halted && event.why != Stop::none;   // latest() then still reports the stop before the halt
         if ((begins && ! ends_a_run) || (latches (cause) && is_news))
         {
             event = describeNow (cause, wanted, reading);

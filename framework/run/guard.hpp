@@ -138,7 +138,7 @@ public:
         Stop why = Stop::none;
         Part part = Part::none;
         double value = 0.0;                ///< the measured age, lost time, pressure, speed, impulse or energy, or the time without a change of position
-        double limit = 0.0;                ///< the limit of this value
+        double limit = 0.0;                ///< the limit on this value
         double window = 0.0;               ///< window of the limit, in s; 0: the whole session
         std::array<double, 3> wanted {};   ///< force or torque that was not a number; for an axis or signal, only the first component is used
         std::int32_t channel = 0;          ///< number of the axis or signal, from 0
@@ -169,10 +169,10 @@ public:
     Stop stop() const noexcept { return reason; }
 
     /// The values on the first tick of the latest stop, even after the stop has ended. If a reading stays bad but the reason
-    /// changes to another known one, the values on the tick of that change. `why` is none if there was no stop since prepare().
+    /// changes to another known one, the values on the tick of that change. `why` is none if there has been no stop since prepare().
     const Event& latest() const noexcept { return event; }
 
-    /// How many stops there were since prepare.
+    /// How many stops there have been since prepare().
     std::uint64_t events() const noexcept { return count; }
 
     /// True while no effort is on the device, so that it can be released without a step.

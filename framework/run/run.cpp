@@ -236,7 +236,7 @@ Run::Edit::Edit (Run& r, const graph::Graph& g, std::vector<std::string> kept)
 {
     if (r.graph_rate_hz != 0.0 && g.rate_hz != r.graph_rate_hz)
         compiled.messages.push_back (Message::warning ("watch/rate", "/rate_hz",
-                                                       "the graph now asks for another rate, but the run continues at " + numberText (r.rate()) + " Hz",
+                                                       "the graph now asks for a different rate, but the run continues at " + numberText (r.rate()) + " Hz",
                                                        "restart the run to use " + numberText (g.rate_hz) + " Hz"));
 }
 

@@ -52,7 +52,7 @@ public:
         TickHooks* hooks = nullptr;
     };
 
-    /// With a slew limit, the force may take long to fall to zero. A device that still has force on it after this time is
+    /// With a slew limit, the force may take a long time to fall to zero. A device that still has force on it after this time is
     /// released anyway.
     static constexpr double longest_halt_s = 30.0;
 

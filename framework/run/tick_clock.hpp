@@ -32,10 +32,10 @@ class TickClock
 public:
     virtual ~TickClock() = default;
 
-    /// Ticks, the first time immediately, until tick() returns false, then returns. The clock may tick on this thread
-    /// or on a callback thread, but not on both at the same time; that thread is the tick thread, and it uses the default floating-point mode. A
-    /// clock that waits for an external event must not wait for ever: when a device falls silent, the clock keeps ticking with
-    /// a reading that ages, so that the guard removes the force and a stop request takes effect. [a thread of the run]
+    /// Ticks, the first time immediately, until tick() returns false, then returns. The clock may tick on this thread or on a
+    /// callback thread, but not on both at the same time; that thread is the tick thread, and it uses the default floating-point
+    /// mode. A clock that waits for an external event must not wait forever: when a device falls silent, the clock keeps ticking
+    /// with a reading that ages, so that the guard removes the force and a stop request takes effect. [a thread of the run]
     virtual void drive (Ticked&) noexcept = 0;
 
     /// False if the ticks have no deadlines: then they are never late, and no graph can take too long.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What the files of a graph may cost, so that a file from a stranger can neither hang the program nor fill the memory. Costs
+/// How much the files of a graph may cost, so that a file from a stranger can neither hang the program nor fill the memory. Costs
 /// are counted, not measured: the same files are accepted or refused on every computer. The defaults keep the loading of any
 /// file to about 5 s and 500 MB. `tactus validate`, `render` and `play` change them with --limits.
 ///
@@ -22,7 +22,7 @@ struct Budgets
     double file = 64e6;       ///< a measurement of a minute at 48 kHz as text takes 30 MB
     double reading = 256e6;   ///< four of the largest files
     double values = 1e6;      ///< a graph of a thousand nodes has 20 000
-    double files = 1000;      ///< each costs a few calls of the system
+    double files = 1000;      ///< each costs a few system calls
     double numbers = 1e7;     ///< ten minutes of a trace at 4 kHz
     double points = 5e5;      ///< a hand cannot feel the details of a finer mesh
     double triangles = 1e6;   ///< a closed mesh has two triangles for each point

@@ -19,7 +19,7 @@
 namespace tactus
 {
 
-/// Thrown if a value has another type than the one requested or lacks a member, or if text is not JSON.
+/// Thrown if a value does not have the requested type or lacks a member, or if text is not JSON.
 struct JsonError : std::runtime_error
 {
     using std::runtime_error::runtime_error;
@@ -77,7 +77,7 @@ concept Map = Range<R> && requires (std::ranges::range_reference_t<R> member)
 ///
 ///     Json { { "gain", 0.5 }, { "modes", { 1, 2, 3 } } }
 ///
-/// A function that needs another type throws JsonError, unless it says otherwise.
+/// A function that needs a different type throws JsonError, unless it says otherwise.
 ///
 /// This is a class of our own, because every file that uses values of a graph includes it: compilers read it in a tenth of the
 /// time that nlohmann's templates take. Nlohmann's library still reads and writes the text (json.cpp, json_text.cpp).
@@ -355,7 +355,7 @@ T Json::get() const
     else
     {
         T all {};   // an array of fixed size
-        if (asArray().size() != all.size()) isNot ("an array of another size");
+        if (asArray().size() != all.size()) isNot ("an array of a different size");
         for (std::size_t i = 0; i < all.size(); ++i)
             all[i] = at (i).template get<typename T::value_type>();
         return all;

@@ -70,7 +70,7 @@ Result<Signal> readSignal (const std::string& path)
     return signal;
 }
 
-// What the contents of a file add to the budget `reading`, in bytes.
+// How much the contents of a file add to the budget `reading`, in bytes.
 double costOf (const Signal& s) { return 8.0 * static_cast<double> (s.channels.size() * s.channels.front().size()); }
 double costOf (const Grid& g) { return 8.0 * static_cast<double> (g.values.size()); }
 double costOf (const Mesh& m) { return 200.0 * static_cast<double> (m.points.size()); }

@@ -58,7 +58,7 @@ void AudioClock::drive (Ticked& what) noexcept
         {
             timed.fetch_add (1, std::memory_order_relaxed);
             goes_on = what.tick (std::max (0.0, std::chrono::duration<double> (Clock::now() - due).count()));
-            due = std::max (due + period, Clock::now());   // missed ticks are not made up
+            due = std::max (due + period, Clock::now());   // missed ticks are skipped
             std::this_thread::sleep_until (due);
         }
         if (! goes_on) return;   // leaves `ticking` set: there are no further ticks

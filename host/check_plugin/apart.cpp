@@ -113,7 +113,7 @@ Activity activityOf (pid_t process)
     ::_exit (0);
 }
 
-/// Waits until the child has ended; then the pipe closes. If the child waits for ever, ends it and returns true.
+/// Waits until the child has ended; then the pipe closes. If the child waits forever, kills it and returns true.
 bool waitFor (pid_t child, int pipe)
 {
     pollfd closing { pipe, POLLIN, 0 };
@@ -145,9 +145,9 @@ Ending endingOf (const Slate& slate, int status, const rusage& used, bool waited
                        && (WTERMSIG (status) == SIGXCPU || WTERMSIG (status) == SIGKILL);
     std::string why = endOf (status);
     if (waited)
-        why = "waits without an end";
+        why = "never stops waiting";
     else if (spent)
-        why = "does not end: it took " + std::to_string (cpu_seconds) + " s of CPU time";
+        why = "did not finish within " + std::to_string (cpu_seconds) + " s of CPU time";
     const char* hook = slate.hook;
     const std::string place = hook != nullptr ? std::string ("`") + hook + "`: " : "";
     return { .why = place + why, .endless = waited || spent };
@@ -158,7 +158,7 @@ Ending runApart (int cpu_seconds, const std::function<std::string()>& work)
 {
     const SharedSlate shared;
     int ends[2];
-    if (::pipe (ends) != 0) return { .why = "a pipe could not be made" };
+    if (::pipe (ends) != 0) return { .why = "a pipe could not be created" };
     std::fflush (nullptr);   // otherwise buffered output would be written twice
     const auto child = ::fork();
     if (child == 0)

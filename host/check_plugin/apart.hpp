@@ -13,12 +13,12 @@ struct Ending
     bool done = false;       ///< the work returned
     std::string answer {};   ///< what the work returned, if done
     std::string why {};      ///< if not done: how the process ended, and in which hook
-    bool endless = false;    ///< the process had to be ended, because the work did not come to an end
+    bool endless = false;    ///< the process had to be killed, because the work never finished
 };
 
 /// Runs `work` in a process of its own, and waits until that process has ended. Its standard output goes to standard error. The
-/// process is ended after `cpu_seconds` of CPU time, however long that takes by the clock, or when all its threads have waited for
-/// something for a minute. So a busy machine does not change the result. [main thread, no other threads]
+/// process is killed after `cpu_seconds` of CPU time, however long that takes in real time, or once all its threads have been
+/// waiting for a minute. So a busy machine does not change the result. [main thread, no other threads]
 Ending runApart (int cpu_seconds, const std::function<std::string()>& work);
 
 }   // namespace tactus::check_plugin

@@ -41,8 +41,7 @@ std::string describe (const std::filesystem::path& file)
     return answer.dump();
 }
 
-/// Loads the plugin and gives the answer about one of its nodes. Runs in a process of its own, so each answer is that of a plugin that
-/// has just been loaded.
+/// Loads the plugin and examines one of its nodes. Runs in a process of its own, so each result is that of a freshly loaded plugin.
 template <typename Ask>
 std::string askNode (const std::filesystem::path& file, const std::string& id, Ask&& ask)
 {
@@ -99,7 +98,7 @@ Finding finding (std::string id, std::string promise, const Ending& ending)
     return f;
 }
 
-/// Runs the node in two processes with the same seed: its outputs must not depend on when the plugin was loaded, or on chance.
+/// Runs the node in two processes with the same seed: its outputs must depend neither on when the plugin was loaded nor on chance.
 Finding runsFinding (const Options& options, const std::string& id)
 {
     const auto print = [&] {
@@ -127,7 +126,7 @@ CheckedNode checkNode (const Options& options, const std::string& id)
                 return askNode (options.file, id, [&] (const NodeType& type) { return examineNode (type, examination, options); });
             });
             f = finding (f.id, f.promise, ending);
-            if (ending.endless) endless = "the node did not come to an end in `" + f.id + "`";
+            if (ending.endless) endless = "the node did not finish in `" + f.id + "`";
         }
         node.findings.push_back (std::move (f));
     }
@@ -154,7 +153,7 @@ Report checkPlugin (const Options& options)
 {
     Report report { .options = options };
     const auto ending = runApart (options.cpu_seconds, [&] { return describe (options.file); });
-    Finding load { "load", "it loads, and its datasheets are complete" };
+    Finding load { "load", "the plugin loads, and its datasheets are complete" };
     if (! ending.done)
     {
         load.verdict = Verdict::fail;

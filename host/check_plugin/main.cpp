@@ -17,8 +17,8 @@ constexpr int fine = 0, failed = 1, wrong_usage = 2;   // as in host/cli/report.
 
 constexpr const char* footer =
     "A higher level means more examinations (2 adds memory and adopt, 3 threads and passivity) and more random trials. Trial k uses the\n"
-    "seed S + k; a failure names its seed, so `--seed` repeats it at once.\n"
-    "The time per tick is printed, and not judged. Exit status 1 if anything failed.\n\n"
+    "seed S + k; a failure names its seed, so `--seed` repeats it immediately.\n"
+    "The time per tick is printed but not judged. Exit status 1 if anything failed.\n\n"
     "Examples:\n"
     "  tactus check-plugin rough_wood/build/rough_wood.tactus\n"
     "  tactus check-plugin rough_wood.tactus --strict 10 --seed 7\n"
@@ -33,7 +33,7 @@ int main (int argc, char** argv)
     std::string file;
     int seed = static_cast<int> (options.seed);
     bool json = false;
-    const host::Command app { "Load a node plugin in processes of its own, and hold its nodes to what every node promises", "tactus check-plugin" };
+    const host::Command app { "Load a node plugin in separate processes, and check that its nodes keep what every node promises", "tactus check-plugin" };
     app.addOption ("plugin", file, "The file of the plugin").required();
     app.addOption ("--strict", options.level, "How thoroughly, from 1 to 10; default: 5").check (host::within (1, 10));
     app.addOption ("--seed", seed, "The seed of the first random trial; default: 1").check (host::within (0, std::numeric_limits<int>::max()));

@@ -377,7 +377,7 @@ void CommandRun::reportRun() const
             std::cerr << printableName (role) << ": warning: the guard withheld the force: " << describe (event) << '\n';
     const auto late = running->lateTicks();
     if (late == 0) return;
-    std::cerr << "warning: an async query (the search of a large surface) was answered too late " << late << (late == 1 ? " time\n" : " times\n");
+    std::cerr << "warning: an async query (a search on a large surface) was answered too late " << late << (late == 1 ? " time\n" : " times\n");
     std::cerr << "    allow it more ticks in the settings of the node, such as search_ticks [run/late_answers]\n";
 }
 

@@ -37,7 +37,7 @@ Emergency::~Emergency() { watchForEmergency (nullptr, nullptr); }
 
 void Emergency::press() noexcept
 {
-    pressed_at.exchange (now());   // first: see rearm
+    pressed_at.exchange (now());   // before the stop itself: rearm() compares this time
     engine.emergencyStop();
 }
 

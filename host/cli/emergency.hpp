@@ -33,7 +33,7 @@ public:
 
     bool hasKeys() const noexcept { return keys.areThere(); }
 
-    /// Stops at once. [any thread, also in a signal handler]
+    /// Stops at once. [any thread, even in a signal handler]
     void press() noexcept;
 
     /// Lets forces rise again. Refuses if it was asked for before the latest stop, or within `pause_s` of a stop or a rearm. Id:

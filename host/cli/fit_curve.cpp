@@ -92,7 +92,7 @@ void fitCurve (const Options& options)
     const auto name = std::filesystem::path (options.recording).filename().string();
     const EvenBody body { .along = fit.law, .mu = options.mu, .ratio = options.ratio };
     std::string about = "An even body with the curve of a recorded indentation.";
-    if (! fit.out.empty()) about += " The recording lost " + rounded (1e3 * fit.area) + " mJ per push; this body loses nothing but by friction.";
+    if (! fit.out.empty()) about += " The recording lost " + rounded (1e3 * fit.area) + " mJ per push; this body loses energy only by friction.";
     const auto source = "`tactus fit curve` from " + name + ": residual " + rounded (100.0 * fit.residual / fit.peak, 2) + " % of the peak";
     orFail (saveGraph (surfacePreset (body, std::filesystem::path (options.preset).stem().string(), about, source), options.preset));
     if (! options.plot.empty()) draw (fit, name, options.plot);
@@ -117,7 +117,7 @@ void addFitCurve (const Command& fit)
     curve.addOption ("--ratio", options->ratio, "Sideways deflection at which the tool slides, over its depth; default 0.45, a guess")
         .check (finiteWithin (1e-6, 1e3));
     curve.addOption ("--plot", options->plot, "Draw both ways and the curve into this PNG file");
-    curve.footer ("The curve never falls and never pulls. It lies in the middle between the way in and the way out, so a node that plays it gives\n"
+    curve.footer ("The curve never falls and never pulls. It lies halfway between the way in and the way out, so a node that plays it gives\n"
                   "back what it takes; the energy that the recording lost is printed. Record slowly, and only along the normal.\n\n"
                   "Examples:\n"
                   "  tactus fit curve liver.csv -o liver.json --plot liver.png\n"

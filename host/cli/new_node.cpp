@@ -130,8 +130,8 @@ A node for Tactus, as a plugin.
     tactus nodes @FAMILY@.@NAME@ --plugins build
     tactus play my_graph.json --plugins build
 
-To have it in every graph, copy `build/@NAME@.tactus` into a folder that `tactus nodes --help` or docs/plugins.md names. The model is
-in `@NAME@.hpp`; the same header also works compiled into a program (`tactus_add_nodes`).
+The model is in `@NAME@.hpp`; the same header also works compiled into a program (`tactus_add_nodes`). To have the node in every graph, copy
+`build/@NAME@.tactus` into a folder in which Tactus looks for plugins, such as `~/.config/Tactus/plugins` (docs/plugins.md lists them).
 )";
 
 bool isName (const std::string& s)
@@ -174,7 +174,7 @@ std::string filled (std::string text, const Options& options)
 void check (const Options& options, const fs::path& folder)
 {
     for (const auto& word : { options.family, options.name })
-        if (! isName (word)) fail ("node/name", quote (word) + " is not a name for a node", "use small letters, digits and _, beginning with a letter");
+        if (! isName (word)) fail ("node/name", quote (word) + " is not a name for a node", "use lower-case letters, digits and _, beginning with a letter");
     if (const auto* there = catalogue().find (options.family + "." + options.name))
         fail ("node/exists", "there is a node " + quote (there->info.id) + " already", "choose another name; `tactus nodes` lists them all");
     std::error_code unseen;
@@ -198,7 +198,7 @@ void build (const fs::path& folder)
                          + " && cmake --build " + into + " && cd " + into + " && ctest";
     std::cout << std::flush;
     if (std::system (command.c_str()) != 0)
-        fail ("plugin/not_built", "the new node is written, but does not build: see above",
+        fail ("plugin/not_built", "the new node has been written, but does not build: see above",
               "install CMake, a C++20 compiler and the development files of Tactus (docs/library.md), or set CMAKE_PREFIX_PATH to where they are");
 }
 

@@ -54,7 +54,7 @@ public:
             if (! std::ranges::all_of (mine, isSent)) return "its \"init\" or \"exit\" sends a report that the shipped profile does not send";
             // A device that was not told its mode, or not told to rest, can respond to the same reports in a different way.
             if (! own.outputs.empty() && ! std::ranges::equal (mine, theirs, sendsTheSame))
-                return "its \"init\" or \"exit\" leaves out a report of the shipped profile, or sends the reports in another order";
+                return "its \"init\" or \"exit\" leaves out a report of the shipped profile, or sends the reports in a different order";
         }
         if (own.outputs.empty()) return {};
         if (auto difference = inReadings(); ! difference.empty()) return difference;
@@ -137,7 +137,7 @@ private:
         const auto same = std::ranges::find_if (other.outputs, [&] (const auto& r) { return haveSameFrame (report, r); });
         if (same == other.outputs.end()) return "its report " + quote (report.name) + " differs in its id, kind, constants, counter or checksum";
         if (report.stream && ! (same->stream && haveSameSamples (*report.stream, *same->stream)))
-            return "its report " + quote (report.name) + " has another stream";
+            return "its report " + quote (report.name) + " has a different stream";
         for (const auto& field : report.fields)
             if (auto difference = in (field, *same); ! difference.empty()) return difference;
         return {};
@@ -147,9 +147,9 @@ private:
     {
         const auto name = field.name.empty() ? "its enable field" : quote (field.name);
         const auto same = std::ranges::find_if (report.fields, [&] (const OutputField& f) { return f.source == field.source && f.bits == field.bits; });
-        if (same == report.fields.end()) return name + " has other bits";
+        if (same == report.fields.end()) return name + " uses different bits";
         if (field.source != OutputField::Source::effort) return {};
-        if (field.encoding != same->encoding || field.unit != same->unit) return name + " has another scale, offset, unit, log2 or table";
+        if (field.encoding != same->encoding || field.unit != same->unit) return name + " has a different scale, offset, unit, log2 or table";
         if (! (field.min >= same->min && field.max <= same->max)) return name + " has a lower min or a higher max";
         const auto mine = partOf (own, field.name), theirs = partOf (other, same->name);
         return mine == theirs ? std::string() : name + " is " + mine + " instead of " + theirs;

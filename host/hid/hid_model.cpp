@@ -54,6 +54,7 @@ const HidSample& HidModel::decode (std::span<const std::uint8_t> report) noexcep
     return last;
 }
 
+/// Here a report becomes a position: decoded numbers to the pose of the tool, in Tactus axes.
 void HidModel::place() noexcept
 {
     const auto values = [&] (const std::array<int, 3>& of) {

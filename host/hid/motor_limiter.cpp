@@ -42,7 +42,7 @@ MotorLimiter::MotorLimiter (const Profile& profile, const std::vector<std::strin
     }
 }
 
-/// A motor that cannot pull, for example on a string, does not take the others' force away: its own field is clamped later.
+/// A motor that cannot pull, for example on a string, does not reduce the others' force: its own field is clamped later.
 double MotorLimiter::shrink (EffortValues& values) const noexcept
 {
     double share = 1.0;

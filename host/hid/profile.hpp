@@ -197,7 +197,7 @@ struct OutputReport
     std::string name;
     std::optional<std::uint8_t> id;
     bool is_feature = false;   ///< true if sent as a feature report
-    Bytes body;                ///< the whole report with its constants, for while the device is driven
+    Bytes body;                ///< the whole report with its constants, as sent while the device is driven
     Bytes neutral;             ///< the whole report that makes the device do nothing
     std::vector<OutputField> fields;
     std::vector<SequenceNibble> sequences;   ///< each one counts the reports sent
@@ -275,7 +275,7 @@ struct Alarm
     std::string field;
     std::optional<std::uint32_t> is;             ///< the raw value that means the alarm; empty: any but 0
     ReadingFault means = ReadingFault::failed;   ///< one that isAlarm
-    double while_driven = 0.0;                   ///< counts only after the motors have been driven for so long, in s
+    double while_driven = 0.0;                   ///< counts only after the motors have been driven for this long, in s
 };
 
 /// Limits and properties of the device; infinity or 0 if unknown.

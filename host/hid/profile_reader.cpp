@@ -76,7 +76,7 @@ std::string motorUnit (const Profile& p)
     return {};
 }
 
-/// True if both texts name one unit, as "N/s" and "kg*m/s3" do. A unit that Tactus does not know, such as A, equals only itself.
+/// True if both texts name the same unit, as "N/s" and "kg*m/s3" do. A unit that Tactus does not know, such as A, equals only itself.
 bool isSameUnit (const std::string& a, const std::string& b)
 {
     if (a == b) return true;

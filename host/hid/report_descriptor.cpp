@@ -72,7 +72,7 @@ public:
             start = at;
             if (const auto item = next()) take (*item);
         }
-        if (good && ! open.empty()) fail ("descriptor/unbalanced", "a collection does not end", "End Collection (0xC0) is missing");
+        if (good && ! open.empty()) fail ("descriptor/unbalanced", "a collection is not closed", "End Collection (0xC0) is missing");
         return std::move (result);
     }
 

@@ -19,7 +19,7 @@ public:
     /// A report has arrived after `missing` others that have not.
     void arrived (std::uint64_t missing) noexcept { bits = missing < window - 1 ? bits << (missing + 1) | 1u : 1u; }
 
-    /// The device has started again, so what it sent before counts for nothing.
+    /// The device has restarted, so what it sent before no longer counts.
     void restart() noexcept { bits = 0; }
 
     /// At least half have arrived. A new record counts as complete.

@@ -30,7 +30,7 @@ void HidClock::drive (Ticked& ticked) noexcept
 
         const auto since = came ? now.time_since_epoch() - std::chrono::nanoseconds (port.lastArrival()) : now - due;
         if (! ticked.tick (std::max (0.0, std::chrono::duration<double> (since).count()))) break;
-        due = came ? now + silence : std::max (due + period, now);   // missed ticks are not made up
+        due = came ? now + silence : std::max (due + period, now);   // missed ticks are skipped
     }
 }
 

@@ -41,11 +41,11 @@ DeviceLayout layoutOf (const HidModel&);
 /// number of the very report that it answers. Neither step allocates or locks. At its end, write() wakes the port's writing
 /// thread, so every device gets its effort right away, whichever clock drives the run; this is the only call into the system.
 ///
-/// A reading is the newest report; its age is the time since the report arrived, counted in ticks. It is not valid before the first report,
-/// while the device is disconnected, and after a refused report until a good one arrives. (Reports whose ids the profile does not
-/// know are counted and ignored: many devices send some.) Nor is it valid while an alarm of the profile is on, while more than half
-/// of the last 32 reports are missing, and for 16 reports after one with an earlier number or time. A report with the same number or
-/// the same time as the last one is no new reading. `fault` says which of these it is.
+/// A reading is the newest report; its age is the time since the report arrived, counted in ticks. It is not valid before the first
+/// report, while the device is disconnected, and after a refused report until a good one arrives. (Reports whose ids the profile
+/// does not know are counted and ignored: many devices send some.) Nor is it valid while an alarm of the profile is on, while more
+/// than half of the last 32 reports are missing, and for 16 reports after one with an earlier number or time. A report with the
+/// same number or the same time as the last one does not count as a new reading. `fault` says which of these it is.
 ///
 /// An axis effort of 0 leaves the value of the neutral report: a frequency of 0, for example, would be meaningless.
 ///
@@ -113,7 +113,7 @@ private:
 
     ReportRecord record;
     bool restarted = false;         // a report's number or time went backwards; true until enough new reports have arrived to trust the record again
-    ReadingFault standing {};       // why the newest report is no new reading: repeated or clock_stopped
+    ReadingFault standing {};       // why the newest report is not a new reading: repeated or clock_stopped
     Nanoseconds arrived_last = 0;   // arrival of the report before; 0: none since the device was connected
     double driven_for = 0.0;        // how long the motors have been driven, in s
 

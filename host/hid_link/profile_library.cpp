@@ -52,7 +52,7 @@ std::optional<Message> otherDrive (const std::vector<std::shared_ptr<const Profi
         };
         if (! canFitOneDevice (own, *one) || std::ranges::any_of (shipped, allows)) continue;
         return Message::error ("profile/competes", "/match",
-                               "the profile fits the same devices as the shipped " + quote (one->id) + " but drives them otherwise ("
+                               "the profile fits the same devices as the shipped " + quote (one->id) + " but drives them differently ("
                                    + driveDifference (own, *one) + "), so it is not used",
                                "fit other devices; or, to use it instead of the shipped one and its limits, add \"replaces\": \"" + one->id + '"');
     }

@@ -86,7 +86,7 @@ std::optional<Chunks> findChunks (juce::InputStream& wav)
 /// The header for JUCE. It is that of an RF64 file, which can state the size of any data.
 std::string headerFor (const Chunks& chunks)
 {
-    constexpr auto unlimited = std::numeric_limits<juce::int64>::max() / 2;   // JUCE adds to the sizes
+    constexpr auto unlimited = std::numeric_limits<juce::int64>::max() / 2;   // half of the range, because JUCE adds to the sizes
     juce::MemoryOutputStream out;
     out.write ("RF64", 4);
     out.writeInt (-1);

@@ -88,7 +88,7 @@ private:
     juce::OSCSender sender;
     OscListen where;
     int bound = 0;
-    std::mutex looking;   // protects first_look; the main thread takes it only in onArrival, so no emergency stop waits for a thread
+    std::mutex looking;   // protects first_look; the main thread takes it only in onArrival, so no emergency stop waits for another thread
     std::function<void (const juce::OSCMessage&)> first_look;
     mutable std::mutex guard;   // protects the members below
     std::condition_variable arrived;

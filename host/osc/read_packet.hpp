@@ -13,7 +13,7 @@ namespace tactus::host
 /// int, float and string arguments, and skips blobs.
 ///
 /// We do not use juce::OSCReceiver, because anyone may send anything: it recurses for each nested bundle, so 3000 of
-/// them in one datagram take more than 1 MB of stack and some tenths of a second, and it adds up blob sizes without
+/// them in one datagram take more than 1 MB of stack and a few tenths of a second, and it adds up blob sizes without
 /// checking them.
 struct Packet
 {

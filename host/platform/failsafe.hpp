@@ -28,8 +28,9 @@ namespace tactus::host
 ///  - After a stack overflow the handler has no stack, so only the guardian writes.
 ///  - The guardian is forked when the first failsafe is armed, and ends with this process. It ignores Ctrl-C. If it is killed, a
 ///    thread of this process forks another one at once.
-///  - The guardian counts its own looks at the beats and reads no clock, so it takes no device when the whole computer pauses.
-///    While program and guardian are frozen together, nothing is sent. Afterwards, beat() detects a pause of more than a second.
+///  - The guardian reads no clock: it counts how often it has checked the beats. So it does not take a device when the whole
+///    computer pauses. While program and guardian are frozen together, nothing is sent. Afterwards, beat() detects a pause of more
+///    than a second.
 class Failsafe
 {
 public:
@@ -57,7 +58,7 @@ public:
     /// open the device again before sending any effort. [one thread at a time]
     bool beat (bool driven) noexcept;
 
-    /// The number of alarms so far. One atomic read. [any thread, also the tick thread]
+    /// The number of alarms so far. One atomic read. [any thread, including the tick thread]
     static std::uint32_t alarms() noexcept;
 
     /// What the latest alarm was about. Ids: run/frozen, run/unguarded, run/slept. [any thread but the tick thread]

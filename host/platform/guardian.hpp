@@ -58,7 +58,7 @@ static_assert (std::atomic<std::int64_t>::is_always_lock_free && std::atomic<Sha
 /// The signals that mean a fault of the program.
 inline constexpr std::array faults { SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL };
 
-/// Writes all reports to a device file. [also in a signal handler]
+/// Writes all reports to a device file. [even in a signal handler]
 void write (int file, const FinalReports&) noexcept;
 
 /// Sends the guardian a message that arms a slot, with its device file, or disarms it. False, with errno, if this failed.

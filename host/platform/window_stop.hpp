@@ -53,7 +53,7 @@ public:
     void setArea (const Area& a) noexcept { wanted = a; }
 
     /// Other windows of the program, such as a file dialog: at most 20 ms after this call, their stop keys count too. At most
-    /// `most_others`; an id that is no window has no effect. [main thread]
+    /// `most_others`; an id that is not a window has no effect. [main thread]
     static constexpr std::size_t most_others = 8;
     void setOthers (std::span<const std::uintptr_t> windows) noexcept
     {

@@ -36,7 +36,8 @@ std::vector<fs::path> pluginsIn (const fs::path& folder)
 
 Message quarantined (const fs::path& file, const fs::path& mark)
 {
-    return Message::error ("plugin/quarantined", file.string(), "the program ended when it last loaded this plugin, so it is not loaded again",
+    return Message::error ("plugin/quarantined", file.string(),
+                           "the program crashed or was killed the last time it loaded this plugin, so it is not loaded again",
                            "build or install it again, or remove " + quote (mark.string()));
 }
 }   // namespace

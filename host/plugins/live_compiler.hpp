@@ -40,7 +40,7 @@ public:
     /// Starts to compile; drops what is being compiled. Ids: live/no_compiler, live/no_headers, live/no_node, output/unwritable.
     Result<> start (const LiveSource&);
 
-    /// The result of the compilation, given once; empty while the compiler works, or if it has nothing to do. Ids: live/compile.
+    /// The result of the compilation, returned only once; empty while the compiler works, or if it has nothing to do. Ids: live/compile.
     std::optional<Output> finished();
 
 private:

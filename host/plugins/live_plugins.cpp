@@ -28,7 +28,7 @@ fs::file_time_type lastSaved (const std::vector<fs::path>& files)
     return last;
 }
 
-/// Text that differs if nodes made of these files may have another layout in memory; empty if that cannot be known.
+/// Text that differs if nodes made of these files may have a different layout in memory; empty if that cannot be known.
 std::string layoutOf (const LiveSource& source, const std::vector<fs::path>& files)
 {
     if (source.sources.size() > 1 || files.empty()) return {};   // the compiler lists the files that it has read for one source only
@@ -133,7 +133,7 @@ LivePlugins::News loadLive (const fs::path& plugin, const fs::path& code, const 
     {
         news.messages.push_back (std::move (library).error());
         news.messages.back().where = code.string();
-        news.messages.back().remedy = "correct the C++ code and save it; the previous version runs on";
+        news.messages.back().remedy = "correct the C++ code and save it; the previous version keeps running";
         return news;
     }
     news.types = (*library)->types (news.messages, layout);

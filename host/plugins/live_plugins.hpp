@@ -33,7 +33,7 @@ public:
         double secondsSinceSaved() const;
     };
 
-    /// What has happened since the last look; empty if nothing has. Call this some ten times a second.
+    /// What has happened since the last look; empty if nothing has. Call this about ten times a second.
     std::optional<News> look();
 
     /// Starts to make the precompiled header, in the background. Ids: those of LiveCompiler::prepareFor.

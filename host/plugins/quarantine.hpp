@@ -10,15 +10,16 @@
 namespace tactus::host
 {
 
-/// Remembers which plugins ended the program while they were loaded. A mark is written before loading and removed afterwards, so a
-/// mark that no program has locked was left by a crash. A plugin that has changed since then is tried again. [main thread]
+/// Remembers which plugins crashed the program while they were being loaded. A mark is written before loading and removed
+/// afterwards, so a mark that no program has locked was left by a crash. A plugin that has changed since then is tried again. [main
+/// thread]
 class Quarantine
 {
 public:
     /// The marks are files in this folder. Without a folder, nothing is remembered.
     explicit Quarantine (std::filesystem::path folder_) : folder (std::move (folder_)) {}
 
-    /// True if the program ended when it last loaded this file, and the file is still the same.
+    /// True if the program crashed or was killed the last time it loaded this file, and the file has not changed since.
     bool holds (const std::filesystem::path& file) const;
 
     /// The path of the mark of a plugin. After the mark is removed, the plugin is loaded again.

@@ -24,18 +24,18 @@ namespace tactus::nodes
 /// beyond `window`. So a slow approach in steps of an encoder's quantum is averaged, and a braking approach is not. A steady approach
 /// with exact positions gives the exact speed.
 ///
-/// An approach begins where the tool last turned back towards the object. A retreat by less than 1.5 times the noise is no turn.
+/// An approach begins where the tool last turned back towards the object. A retreat by less than 1.5 times the noise does not count.
 ///
-/// The noise is `release` or the quantum of the encoder, whichever is larger. The node takes as the quantum the largest length of
-/// which all steps so far are multiples, if that length is at most 0.1 mm. For exact positions the length soon becomes 0.
+/// The noise is `release` or the quantum of the encoder, whichever is larger. The node takes as the quantum the largest length that
+/// divides all steps so far, if that length is at most 0.1 mm. For exact positions the length soon becomes 0.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 6 (where "initial value of d^z" means its rate);
 /// the line of variable length is from Janabi-Sharifi, Hayward & Chen 2000.
 ///
 /// Good to know
 ///  - Noise and window are in metres and seconds, not in ticks, so the speed does not depend on the tick rate. For a steady
-///    approach at 5 mm/s or more in steps of 50 um, it is within 5 %, with a window of 40 ms and a rate of 1 kHz or more, also if the
-///    encoder flickers at each step because of a jitter of 0.02 quanta rms; within 7 % with 0.04 and 12 % with 0.1 quanta rms.
+///    approach at 5 mm/s or more in steps of 50 um, it is within 5 %, with a window of 40 ms and a rate of 1 kHz or more, even if
+///    the encoder flickers at each step because of a jitter of 0.02 quanta rms; within 7 % with 0.04 and 12 % with 0.1 quanta rms.
 ///  - A braking approach is averaged at most over the time in which it departs from a straight line by the noise. So a large
 ///    `release` makes the speed of a braking tool too high: by a few percent with 50 um, 0.3 m/s and 5 m/s2.
 ///  - If the position has noise other than encoder steps, or the object is tilted against the axes of the device, set `release` to

@@ -8,7 +8,7 @@
 namespace tactus::nodes
 {
 
-/// Fades a texture in over the first fraction of a millimetre, so that a touch does not step the force.
+/// Fades a texture in over the first fraction of a millimetre, so that the force does not jump at a touch.
 ///
 ///     gain = clamp (depth / window, 0, 1)
 ///

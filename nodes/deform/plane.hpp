@@ -24,9 +24,9 @@ namespace tactus::nodes
 /// divided by this time, even while apart: on the first sample inside it is the speed of the approach. While the depth changes in
 /// the other direction than over the window, `rate` is 0, so that the damping never drives the tool.
 ///
-/// Damping acts from the first touch and so steps the force. Dissipation (Hunt and Crossley's lambda, section 6) grows with K
-/// and does not step it. With dissipation alone, and any power law, a tool of any mass comes back with the fraction
-/// e = (1 + W (-(1 + x) exp (-(1 + x)))) / x of its impact speed v, with x = dissipation v and W Lambert's function.
+/// Damping acts from the first touch, so the force jumps there. Dissipation (Hunt and Crossley's lambda, section 6) grows with K
+/// and makes no jump. With dissipation alone, and any power law, a tool of any mass comes back with the fraction e = (1 + W (-(1 +
+/// x) exp (-(1 + x)))) / x of its impact speed v, with x = dissipation v and W Lambert's function.
 ///
 /// `dissipated_energy` is what damping and dissipation have taken so far: the integral of the damping part of N over depth, along
 /// straight lines between the samples. It never falls. The work of the hand on the wall is stored_energy plus dissipated_energy,

@@ -11,7 +11,7 @@ namespace tactus::nodes
 
 /// One axis of the device other than the tool: a trigger, a thumb stick, a joint of a glove, a wheel.
 ///
-/// Its unit is the device's: m, rad, or 1 for the whole travel. While the device gives no valid reading, the last valid one is
+/// Its unit is the device's: m, rad, or fractions of the whole travel. While the device gives no valid reading, the last valid one is
 /// kept, as in device.position. It gives 0 on a device without such an axis, with a warning when the run is set up, and on a
 /// reading that is not finite, which is not kept.
 struct DeviceAxis
@@ -38,7 +38,7 @@ struct DeviceAxis
 
     static constexpr std::tuple ports {
         setting (&Settings::axis, "axis", unit::count, "name of the axis on the device"),
-        output (&Outputs::axis, "axis", any_unit, "position of the axis in m, in rad, or with 1 for the whole travel"),
+        output (&Outputs::axis, "axis", any_unit, "position of the axis, in m, in rad, or as a fraction of the whole travel"),
     };
 
     Params params;

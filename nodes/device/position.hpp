@@ -10,8 +10,8 @@ namespace tactus::nodes
 ///
 /// The position is quantised by the device's encoders. While the device gives no valid reading, position and rotation stay at the
 /// last valid one, so that a dropped packet moves nothing; `valid` and `age` report this. Before the first valid reading they are
-/// 0. A reading that is not finite is ignored: a tool that jumped to the origin for one tick would seem to stroke through the
-/// world, and to hit something at the end.
+/// 0. A reading that is not finite is ignored: a tool that jumped to the origin for one tick would seem to fly across the world,
+/// and to hit something at the end.
 struct DevicePosition
 {
     using Inputs = Empty;

@@ -27,8 +27,8 @@ namespace tactus::nodes
 ///    buzzing wall it does nothing (see the test).
 ///  - Cap. Without one the damper itself is too much for the sampled mass, and the controller diverges: in 11 of 12 swept cases,
 ///    to 1e6 N. The bound is B + 2 M / T for a device of mass M and damping B, less with a wall behind it. alpha_max 0 means
-///    mass / (2 T). More than 1.8 mass / T is never applied, whatever alpha_max is: at 2 mass / T a wall of 8000 N/m is calm for
-///    some seconds, and then throws the hand back with kilonewtons.
+///    mass / (2 T). More than 1.8 mass / T is never applied, whatever alpha_max is: at 2 mass / T a wall of 8000 N/m is calm for a
+///    few seconds, and then throws the hand back with kilonewtons.
 ///
 /// What to expect: a buzz of millimetres shrinks to a tenth or less (K = 3000 N/m, B = 0.5 N s/m, M = 0.1 kg, T = 1 ms,
 /// a hand of 1.5 N: from 12 to 0.13 mm in 3 s), not to silence. With a cap, E dips below 0 for a while and then recovers.

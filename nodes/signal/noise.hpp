@@ -19,7 +19,7 @@ namespace tactus::nodes
 ///
 /// n is a function of time, not of ticks: its spectrum is flat up to 0.8 `bandwidth` and 60 dB down from `bandwidth` upwards, and
 /// its RMS is 1. So all graphs with a rate of at least 2 `bandwidth` get the same noise with the RMS `amplitude`. A slower graph
-/// cannot render the whole band: its noise has only the power that lies below half of its rate.
+/// cannot render the whole band: its noise has only the power below half of its rate.
 ///
 /// With a bandwidth of 0 the noise is white: a new random number each tick. This noise depends on the rate: a faster graph spreads
 /// the same power over a wider band, so less of it is felt.

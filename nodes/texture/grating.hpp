@@ -24,7 +24,7 @@ namespace tactus::nodes
 ///  - The steepest slope of the force is 2 pi A k, in N/m; the device must damp it like a spring of that stiffness.
 ///    (Table 1 gives A k, "proportional to the slope".)
 ///  - At speed v it sounds at k v Hz. Above the device's bandwidth it buzzes, and above half the sampling rate it aliases:
-///    multiply by texture.antialias. Multiply by contact.window too, so that a touch does not step the force.
+///    multiply by texture.antialias. Multiply by contact.window too, so that the force does not jump at a touch.
 ///  - Moving does no work over a closed path. Changing amplitude, frequency or angle in contact does work.
 struct Grating
 {

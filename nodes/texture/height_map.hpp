@@ -54,7 +54,7 @@ namespace tactus::nodes
 ///  - While the speed changes, so does h: a closed path may then generate or absorb energy. The node claims to be passive only if
 ///    the map is flat.
 ///  - For a force in N think of slopes: gain is the force on a slope of 1, 45 degrees. Real slopes are about 0.1.
-///  - Multiply by contact.window, so that a touch does not step the force.
+///  - Multiply by contact.window, so that the force does not jump at a touch.
 struct HeightMap
 {
     struct Map

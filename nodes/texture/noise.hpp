@@ -47,7 +47,7 @@ namespace tactus::nodes
 ///  - Outside the speeds and forces of the models the nearest one is used. Below the lowest speed above 0 the noise fades in
 ///    proportion to speed, to silence at rest. Force fades the same way, to silence out of contact. (If no model has a speed
 ///    above 0, the fade is below 1 mm/s; if none has a force above 0, below 10 mN.)
-///  - All models have the same rate. If the graph has another rate, the noise is made at its own rate and read between its
+///  - All models have the same rate. If the graph has a different rate, the noise is made at its own rate and read between its
 ///    samples by a windowed sinc: flat up to 0.4 of the lower of the two rates; -60 dB from half of it upwards. A graph slower than
 ///    the models loses what is above that. The noise is 18 samples of the slower rate late, but grows, fades and falls silent
 ///    immediately.
@@ -157,7 +157,7 @@ private:
         return { above - 1, above, (v - sorted[above - 1]) / (sorted[above] - sorted[above - 1]) };
     }
 
-    /// Moves the filter to another speed and force.
+    /// Moves the filter to a different speed and force.
     void move (double speed, double force) noexcept
     {
         const Between s = find (speeds, speed), f = find (forces, force);

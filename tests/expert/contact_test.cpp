@@ -119,7 +119,8 @@ TEST_CASE ("expert 6: sliding across an edge from a soft to a stiff triangle cau
         const auto surface = flesh (dice, mu, true);
         const double depth = dice.uniform (0.2e-3, 2e-3), turn = dice.uniform (0.0, 2.0 * M_PI), off = dice.uniform (-3e-3, 3e-3);
         const Vec3 way { std::cos (turn), std::sin (turn), 0 }, from { -off * way.y(), off * way.x(), -depth };
-        // Where the way is uphill, the contact holds on beyond its bound, like one that is caught on an edge. It lets go with a step.
+        // Where the path leads uphill, the contact holds on beyond its bound, like one that is caught on an edge. It lets go with a
+        // step.
         bool is_caught = false;
         const auto steepest = [&] (int n) {
             Rig rig = skin (surface, true);

@@ -115,7 +115,7 @@ const std::map<std::string, std::pair<std::string, std::string>> breaks {
     { "rubber_ball", { "stiffness", "the ball damps by up to 2.4 N s/m; with a device that damps as much, nothing would bounce" } },
 };
 
-/// What a preset asks of its devices, measured at a number of places of its gesture.
+/// What a preset asks of its devices, measured at several points of its gesture.
 check::Demand demandOf (const graph::Graph& g, check::Thoroughness thoroughness)
 {
     static host::FileAssets assets;

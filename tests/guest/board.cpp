@@ -194,7 +194,7 @@ int board (const std::vector<std::string>& args)
     while (now() < end && ended == 0)
     {
         device->serve (due, heard);
-        due = std::max (due + period, now() - 4.0 * period);   // larger delays are not made up
+        due = std::max (due + period, now() - 4.0 * period);   // the board does not catch up on larger delays
         if (device->isOpen() != was_open) log.mark (was_open ? "closed" : "opened");
         was_open = device->isOpen();
         if (! was_open || (waits && ! told)) continue;

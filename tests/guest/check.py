@@ -178,8 +178,8 @@ heard = Board("STOP").heard
 gap = next((i for i in range(len(heard) - 1) if heard[i + 1][3] - heard[i][3] > 2.0), 0)   # frozen from here to the next report
 check(gap > 10 and any(any(h[2]) for h in heard[:gap]) and heard[gap][0] == "neutral", "STOP: while the program is frozen, the board is at rest")
 later = [i for i in range(gap + 1, len(heard)) if heard[i][0] == "driven" and any(heard[i][2])]
-# A report that was on its way into the kernel when the program froze gets there when the program goes on. The next one is neutral.
-check(later in ([], [gap + 1]) and all(heard[i + 1][0] == "neutral" for i in later), "STOP: the program goes on without a force")
+# A report that was on its way into the kernel when the program froze gets there when the program continues. The next one is neutral.
+check(later in ([], [gap + 1]) and all(heard[i + 1][0] == "neutral" for i in later), "STOP: the program continues without a force")
 check("run/frozen" in text("STOP.play.err"), "STOP: the program says that it was frozen")
 
 heard = Board("guardian").heard

@@ -36,7 +36,7 @@ int loadElsewhere (const fs::path& folder, const fs::path& marks)
 }
 }   // namespace
 
-TEST_CASE ("a folder of plugins is loaded by name, without what is no plugin", "[plugins]")
+TEST_CASE ("the plugins of a folder are loaded in the order of their names, and other files are ignored", "[plugins]")
 {
     TemporaryFolder folder;
     install ("in_c", folder / "b.tactus");
@@ -95,7 +95,7 @@ TEST_CASE ("plugins are looked for in the folders of the command line, the envir
     CHECK (host::pluginFoldersIn (7, words) == std::vector<std::string> { "a", "b" });
 }
 
-TEST_CASE ("a program that has extended its catalogue by plugins ends properly", "[plugins]")
+TEST_CASE ("a program that has extended its catalogue with plugins exits cleanly", "[plugins]")
 {
     const auto child = ::fork();
     if (child == 0)

@@ -84,7 +84,7 @@ graph::Graph growing()
     return s.wire ("hand.position -> grow.position").wire ("grow.force -> motor.force").graph;
 }
 
-/// A copy of a plugin, loaded as live C++ loads a new version: a file of its own, which is removed at once.
+/// A copy of a plugin, loaded as live C++ loads a new version: a file of its own, which is removed immediately.
 std::vector<NodeType> version (const TemporaryFolder& folder, int number, const std::string& layout, const std::string& plugin = "live_node")
 {
     const auto file = folder / (std::to_string (number) + ".tactus");
@@ -118,7 +118,7 @@ host::LivePlugins::News next (host::LivePlugins& live)
         if (auto news = live.look()) return std::move (*news);
         std::this_thread::sleep_for (std::chrono::milliseconds (5));
     }
-    FAIL ("the compiler does not end");
+    FAIL ("the compiler does not finish");
     return {};
 }
 
@@ -162,7 +162,7 @@ TEST_CASE ("a thousand live versions take over without a step, and all but the l
     CHECK (residentPages() - pages < 1024);      // 4 MB: a version that stays loaded adds 30 pages or more
 }
 
-TEST_CASE ("a live version whose layout may differ begins afresh, and the force follows without a step", "[plugins][live]")
+TEST_CASE ("a live version whose layout may differ starts from scratch, and the force follows without a step", "[plugins][live]")
 {
     TemporaryFolder folder;
     LiveRun live (growing(), version (folder, 0, "a"));
@@ -254,7 +254,7 @@ TEST_CASE ("saved C code is compiled and loaded; with errors, or if it cannot be
     CHECK (next (live).types.size() == 1);
 }
 
-TEST_CASE ("a live version without a port that is wired is refused by the graph, and the old one runs on", "[plugins][live]")
+TEST_CASE ("a live version without a port that is wired is refused by the graph, and the old one keeps running", "[plugins][live]")
 {
     TemporaryFolder folder;
     const auto code = replaced (sourceOf ("written_in_c.c"), "\"any\", 0, 0, 0, \"1\"", "\"force\", 1, 1, -2, \"N\"");

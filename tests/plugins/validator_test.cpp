@@ -117,9 +117,9 @@ TEST_CASE ("check-plugin catches a false claim, and its seed repeats the failure
     CHECK (failuresOf (again.report) == first);
 }
 
-TEST_CASE ("check-plugin ends a prepare that has no end, and names the hook", "[plugins]")
+TEST_CASE ("check-plugin kills a prepare that never returns, and names the hook", "[plugins]")
 {
     const auto checked = check ("bad_endless", { "--strict", "1", "--cpu-seconds", "1" });
     CHECK (checked.status == 1);
-    CHECK (failuresOf (checked.report) == "hooks: `prepare`: does not end: it took 1 s of CPU time\n");
+    CHECK (failuresOf (checked.report) == "hooks: `prepare`: did not finish within 1 s of CPU time\n");
 }

@@ -61,8 +61,9 @@ class Engine:
         engine = tactus.Engine(graph, feed={"drag.position": (0, 0, 0)}, record=["drag.force"])
         engine.step({"drag.position": (1e-4, 0, 0)})["drag.force"]   # one tick: shape (1, 3), N
 
-    The graph may be edited afterwards; `edit` passes the edited graph on. Several threads may share an engine: a call waits until that of
-    another thread is over, except `push` and `take` (one thread per role), `emergency_stop` and `rearm`, which wait for nothing."""
+    The graph may be edited afterwards; `edit` passes the edited graph on. Several threads may share an engine: a call waits until calls
+    from other threads are over, except `push` and `take` (one thread per role), `emergency_stop` and `rearm`, which wait for
+    nothing."""
 
     def __init__(self, graph: Graph, feed: Optional[Mapping[str, Any]] = None, record: Sequence[str] = (), rate: Optional[float] = None,
                  set: Optional[Mapping[str, Any]] = None, devices: Optional[Mapping[str, Any]] = None, nodes: Sequence[Type[Node]] = ()):

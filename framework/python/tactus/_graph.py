@@ -124,7 +124,7 @@ class Graph:
         nodes: classes derived from tactus.Node that the graph uses.
 
         Returns a dict of arrays with one row per tick: "t" (n,), scalars (n,), vectors (n, 3). A port inside a `times` section gives the
-        last sample of each tick. Ctrl-C ends the run. Other threads can run meanwhile."""
+        last sample of each tick. Ctrl-C ends the run. Other threads can run at the same time."""
         from ._engine import Engine
 
         with Engine._offline(self, feed, record, rate, set, devices, nodes) as engine:

@@ -27,9 +27,9 @@ namespace tactus
 /// (for a tick of more than 1 s, to 2^-40 of the tick).
 ///
 /// Good to know
-///  - The work per tick and axis is bounded. Without dry friction it is one step, which is a product of a 4 x 5 matrix and a vector.
-///    With dry friction it is at most 256 + 64 * 40 steps, plus at most 80 for each search for the end of a phase. Usual are 16 steps
-///    per period of the structure, and 40 for each change between stick and slip.
+///  - The work per tick and axis is bounded. Without dry friction it is one step, which is a product of a 4 x 5 matrix and a
+///    vector. With dry friction it is at most 256 + 64 * 40 steps, plus at most 80 for each search for the end of a phase.
+///    Typically, it is 16 steps per period of the structure, and 40 for each change between stick and slip.
 ///  - After the 64th phase of a tick, the motor sticks until the tick ends. If a tick is longer than 16 periods of the two free
 ///    masses, a phase shorter than a period can be missed.
 class FlexibleTool
@@ -62,7 +62,7 @@ public:
     const Axis& axis (int i) const noexcept { return axes[static_cast<std::size_t> (i)]; }
     double energy() const noexcept;                                ///< kinetic and elastic energy of all axes, in J
     double stiffness() const noexcept { return k; }                ///< k, in N/m
-    int mostPhases() const noexcept { return most_phases_seen; }   ///< most phases of an axis in a tick since the start
+    int mostPhases() const noexcept { return most_phases_seen; }   ///< the largest number of phases that an axis has had in one tick since the start
 
 private:
     struct Held

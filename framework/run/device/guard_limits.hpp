@@ -34,7 +34,7 @@ inline constexpr double longest_stop_s = 0.5;
 /// What a slew limit means whose effort has no maximum in the same limits.
 enum class Unlimited
 {
-    is_refused,                ///< the limits are complete, and a stop could take for ever
+    is_refused,                ///< the limits are complete, and a stop could take forever
     may_be_limited_elsewhere   ///< the limits are those of a session or a graph; the device's profile may have the maximum
 };
 

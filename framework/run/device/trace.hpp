@@ -37,7 +37,7 @@ struct TraceData
     double step() const;
 
     /// The last row lasts as long as the other rows, so that n rows at the rate of a run drive n ticks. 0 for a single row,
-    /// which lasts for ever.
+    /// which lasts forever.
     double duration() const;
 };
 

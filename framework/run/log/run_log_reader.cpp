@@ -308,7 +308,7 @@ Result<RunTick> RunLogReader::readTick (const std::string& text)
     return tick;
 }
 
-/// Sets the number of a tick, which must be larger than the previous one, except that tick 0 may come again with another graph.
+/// Sets the number of a tick, which must be larger than the previous one, except that tick 0 may appear again with a different graph.
 Result<> RunLogReader::place (RunTick& tick, std::optional<std::uint64_t> k)
 {
     if (! k) return at ("log/missing", "the line has no \"tick\"", as_written);

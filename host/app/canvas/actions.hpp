@@ -22,7 +22,7 @@ graph::Command placeNodes (const graph::Graph&, const std::string& patch, const 
 /// destinations that it fits ("healed").
 graph::Command removeSelected (const graph::Graph&, const std::string& patch, const Scene&, const Selection&);
 
-/// Bypasses all selected nodes. If all of them are already bypassed, ends the bypass.
+/// Bypasses all selected nodes. If all of them are already bypassed, turns the bypass off.
 graph::Command toggleBypass (const graph::Graph&, const std::string& patch, const Selection&);
 
 /// Collapses the selected nodes into a subgraph with a free name.

@@ -16,7 +16,7 @@ const std::vector<std::string>& lawKinds();
 /// The kind of a stored law; "none" if it is not a law.
 std::string lawKindOf (const Json&);
 
-/// Converts a law to another kind with about the same stiffness at 1 N. Null for "none".
+/// Converts a law to a different kind with about the same stiffness at 1 N. Null for "none".
 Json lawOfKind (const std::string& kind, const Law& before);
 
 }   // namespace tactus::host

@@ -65,7 +65,7 @@ struct LimitList
     bool operator== (const LimitList&) const = default;
 };
 
-/// Measures the graph and judges its conditions. Takes a tenth of a second to some seconds. [any thread that owns the assets]
+/// Measures the graph and judges its conditions. Takes a tenth of a second to a few seconds. [any thread that owns the assets]
 LimitList limitsOf (const LimitJob&, const Catalogue&, FileAssets&);
 
 }   // namespace tactus::host

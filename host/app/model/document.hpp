@@ -70,7 +70,7 @@ private:
         std::string saved;   // the text of the graph in its file
     };
 
-    /// Notifies the listeners. A listener may remove itself or others meanwhile.
+    /// Notifies the listeners. A listener may remove itself or others while it is being notified.
     template <typename F>
     void notify (F&& f)
     {

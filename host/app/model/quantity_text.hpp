@@ -13,7 +13,7 @@ namespace tactus::host
 /// A number with the unit it was typed in, as the file keeps it: "0.4 mm" stays "0.4 mm".
 struct QuantityText
 {
-    double number = 0.0;   ///< the number that stands before the unit
+    double number = 0.0;   ///< the number before the unit
     std::string unit;      ///< "mm"; empty for plain SI
     double scale = 1.0;    ///< SI per unit
 

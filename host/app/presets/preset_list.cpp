@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/// Distinguishes a damaged graph from a file of another kind.
+/// Distinguishes a damaged graph from a file of a different kind.
 bool claimsToBeAGraph (const fs::path& file)
 {
     const auto messages = loadGraph (file).messages;

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 // A check begins this long after the latest change, or after the first unchecked one, whichever comes first.
 constexpr std::chrono::milliseconds pause = 300ms, patience = 1s;
-constexpr int ticks_per_look = 6;   // every sixth call of attend() looks at the devices: five times a second
+constexpr int ticks_per_look = 6;   // every sixth call to attend() checks the devices: five times a second
 }   // namespace
 
 LimitWatch::LimitWatch (Document& d, const DeviceSetup& s, const LiveRun& l, const Catalogue& c)
@@ -41,7 +41,7 @@ void LimitWatch::changed()
     if (! changed_at) changed_at = last_changed_at;
 }
 
-/// Notices other devices, and another rate: a device with its own clock may tick the run at another rate than that of the graph.
+/// Notices a change of the devices or of the rate: a device with its own clock may tick the run at a different rate from that of the graph.
 void LimitWatch::lookAtDevices()
 {
     auto roles_now = limitRolesOf (document.graph(), setup.session(), setup.profiles());

@@ -18,7 +18,7 @@ class LiveNodes
 public:
     explicit LiveNodes (std::vector<LiveSource>);
 
-    /// True if catalogue() has new types now: everything that shows or runs nodes must be renewed. Call this many times a second.
+    /// True if catalogue() has new types now: everything that shows or runs nodes must be refreshed. Call this many times a second.
     bool attend();
 
     /// What is wrong with the code that was saved last; each text begins with file and line.

@@ -20,7 +20,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr int looks_apart = 3;   // every third call of attend() checks the devices: ten times a second
+constexpr int looks_apart = 3;   // every third call to attend() checks the devices: ten times a second
 
 Message stopped() { return Message::error ("run/stopped", {}, "nothing is running in the window", "press START in the window"); }
 }   // namespace
@@ -159,7 +159,7 @@ void LiveRun::begin()
     probes.clear();
     run->openDevices (graph, said);
     if (stop_switch != nullptr) obeyed = stop_switch->noticed();
-    alarms_told = alarms_stopped = Failsafe::alarms();   // what happened before concerns no device of this run
+    alarms_told = alarms_stopped = Failsafe::alarms();   // earlier alarms have nothing to do with the devices of this run
     if (held) run->engine().emergencyStop();
     std::ranges::move (missingParts (run->engine().newest()), std::back_inserter (said));
     for (const auto& real : realDevices())

@@ -21,7 +21,7 @@ public:
         bool operator== (const Presses&) const = default;
     };
 
-    // [any thread, also in a signal handler]
+    // [any thread, even in a signal handler]
     void stop() noexcept { stops.fetch_add (1, std::memory_order_relaxed); }
     void emergencyStop() noexcept { emergencies.fetch_add (1, std::memory_order_relaxed); }
     Presses presses() const noexcept { return { stops.load (std::memory_order_relaxed), emergencies.load (std::memory_order_relaxed) }; }
@@ -31,7 +31,7 @@ public:
     const Presses& noticed() const noexcept { return known; }
     bool isAhead() const noexcept { return presses() != known; }   ///< true if there is a press to notice   [message thread]
 
-    /// Marks all presses as noticed, and returns those that noticed() gave before. [message thread]
+    /// Marks all presses as noticed, and returns what noticed() returned before. [message thread]
     Presses notice() noexcept { return std::exchange (known, presses()); }
 
 private:

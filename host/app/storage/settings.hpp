@@ -23,7 +23,7 @@ struct Settings
     std::map<std::string, int> panels;           ///< panel sizes by name, in pixels; 0: folded
     std::vector<std::filesystem::path> recent;   ///< the latest first
     std::vector<std::filesystem::path> favourites;
-    Json others = Json::object();   ///< keys written by another version of Tactus
+    Json others = Json::object();   ///< keys written by a different version of Tactus
 
     void noteRecent (const std::filesystem::path&);
     bool isFavourite (const std::filesystem::path&) const;

@@ -152,7 +152,7 @@ TEST_CASE ("C API: a graph that is built by edits is the same as its text, and e
     CHECK (steps == 9);
 }
 
-TEST_CASE ("C API: what is wrong is told by id, place and remedy", "[c_api]")
+TEST_CASE ("C API: a problem is reported with its id, place and remedy", "[c_api]")
 {
     const MessageList m { tactus_messages_create() };
     CHECK (tactus_graph_load ("/nowhere/graph.json", m.get()) == nullptr);

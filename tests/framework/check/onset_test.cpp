@@ -91,7 +91,7 @@ TEST_CASE ("a wall on a light damped tool starts to oscillate within 10 % of whe
     });
 }
 
-TEST_CASE ("on a heavily damped or compliant tool, a wall within the condition never oscillates", "[check]")
+TEST_CASE ("on a heavily damped or compliant tool, a wall that meets the condition never oscillates", "[check]")
 {
     rc::prop ("safe side", [] {
         const double rate_hz = *between (500.0, 10e3), mass = *between (0.02, 1.0), share = *between (0.02, 1.5);
@@ -102,7 +102,7 @@ TEST_CASE ("on a heavily damped or compliant tool, a wall within the condition n
     });
 }
 
-TEST_CASE ("a wall within the conditions for quanta and damping comes to rest", "[check]")
+TEST_CASE ("a wall that meets the conditions for quanta and damping comes to rest", "[check]")
 {
     rc::prop ("rest", [] {
         const double rate_hz = *between (500.0, 10e3), mass = *between (0.02, 0.5), share = *between (0.005, 0.5);

@@ -65,7 +65,7 @@ TEST_CASE ("a force that steps with the position counts as its step over the qua
 
     // The same step over the width that the remedy gives is within the condition.
     CHECK (find (table ("[-1, 0, 0.00016, 1]", "[0, 0, -0.3, -0.3]", { .mass = 0.1, .damping = 1.0, .quantum = 1e-5 }).conditions(), "jump") == nullptr);
-    CHECK (find (relay (0.3, { .mass = 0.1, .damping = 1.0, .quantum = 1e-5 }).conditions(), "jump") == nullptr);   // pushes the tool on
+    CHECK (find (relay (0.3, { .mass = 0.1, .damping = 1.0, .quantum = 1e-5 }).conditions(), "jump") == nullptr);   // pushes along the motion
 }
 
 TEST_CASE ("'d_max' is judged at the stretch at which the load lets the contact slide", "[check]")

@@ -149,7 +149,7 @@ TEST_CASE ("a graph is saved completely or not at all")
         CHECK (done.error().id == "output/unwritable");
         CHECK_THAT (done.error().text, Contains ("nowhere") && Contains ("there is no folder"));
     }
-    SECTION ("fails over a folder, and nothing is left behind")
+    SECTION ("fails if the target is a folder, and nothing is left behind")
     {
         fs::create_directory (folder / "folder");
         const auto done = saveGraph (g, folder / "folder");

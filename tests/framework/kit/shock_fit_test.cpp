@@ -110,7 +110,7 @@ TEST_CASE ("fit of a shock: without times it needs only the mass", "[kit][shock]
 
 TEST_CASE ("fit of a shock: the areas match, whatever law, noise and path the recording has", "[kit][shock][energy]")
 {
-    rc::prop ("a driven indentation of a loop that no k d^n describes", [] (unsigned seed) {
+    rc::prop ("an indentation driven by the hand, with a loop that no k d^n fits", [] (unsigned seed) {
         std::mt19937 random { seed };
         std::normal_distribution<double> noise;
         const double deepest = std::uniform_real_distribution { 1e-4, 5e-3 }(random), loss = std::uniform_real_distribution { 0.05, 0.8 }(random);

@@ -243,7 +243,7 @@ TEST_CASE ("guard: one factor scales force, torque and axes, so what they do tog
         CHECK (e.signals[1] == 0.3);
     }
 
-    SECTION ("a part that is limited to 0 does not take the others away")
+    SECTION ("a part that is limited to 0 does not remove the others")
     {
         auto none = limits;
         none.max_torque = 0.0;

@@ -70,7 +70,7 @@ TEST_CASE ("lost time is the wall time minus the ticks, and a clock that keeps u
     }
 }
 
-TEST_CASE ("guard: a stop takes its time in seconds, however few ticks come", "[framework][guard]")
+TEST_CASE ("guard: a stop takes the same time in seconds, however few ticks there are", "[framework][guard]")
 {
     rc::prop ("any pauses", [] {
         const double slew = *rc::gen::element (GuardLimits::none, 100.0, 400.0);
@@ -108,7 +108,7 @@ TEST_CASE ("guard: a force does not rise faster, and does not step, after a paus
 
 TEST_CASE ("guard: impulse and energy count the time without ticks, during which the last effort was on the device", "[framework][guard]")
 {
-    rc::prop ("the same stop at the same time, at any share of the ticks", [] {
+    rc::prop ("the same stop at the same time, whatever share of the ticks is run", [] {
         const int every = *rc::gen::inRange (1, 30);   // a tick comes every so many periods
         const bool by_energy = *rc::gen::arbitrary<bool>();
         auto guard = pushed (by_energy ? GuardLimits { .max_energy = 0.05, .energy_window = 1.0 } : GuardLimits { .max_impulse = 0.3, .impulse_window = 1.0 });

@@ -41,7 +41,7 @@ int ticksToZero (int most, Tick tick)
 }
 }   // namespace
 
-TEST_CASE ("a sensor that freezes while the hand is pushed takes the force away after max_still, until it moves again", "[framework][guard][safety]")
+TEST_CASE ("when a sensor freezes while the hand is pushed, the force is removed after max_still, until the sensor moves again", "[framework][guard][safety]")
 {
     auto guard = guardWith (still);
     for (int k = 0; k < 3000; ++k)

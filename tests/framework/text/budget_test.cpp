@@ -52,7 +52,7 @@ TEST_CASE ("a refusal names the budget, the figure and the option that raises it
     CHECK (time.remedy == "use less, or raise the budget: --limits time=50s");
 }
 
-TEST_CASE ("a text with too many values is refused where the first one too many stands", "[budget]")
+TEST_CASE ("a text with too many values is refused at the first value beyond the limit", "[budget]")
 {
     const WithLimits limits ("values=5");
     CHECK (readJson ("[1, 2, 3, 4]").messages.empty());

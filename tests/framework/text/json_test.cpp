@@ -153,7 +153,7 @@ TEST_CASE ("Json: what does not fit throws an error that names both types, or th
     CHECK (errorOf ([] { (void)Json (1).get<std::string>(); }) == "a JSON value is of type number, not a string");
     CHECK (errorOf ([] { (void)Json (1).asArray(); }) == "a JSON value is of type number, not an array");
     CHECK (errorOf ([] { (void)Json (nullptr).asObject(); }) == "a JSON value is of type null, not an object");
-    CHECK (errorOf ([] { (void)Json ({ 1, 2 }).get<std::array<double, 3>>(); }) == "a JSON value is of type array, not an array of another size");
+    CHECK (errorOf ([] { (void)Json ({ 1, 2 }).get<std::array<double, 3>>(); }) == "a JSON value is of type array, not an array of a different size");
     CHECK (errorOf ([] { (void)Json { { "a", 1 } }.at ("b"); }) == "there is no member 'b'");
     CHECK (errorOf ([] { (void)Json ({ 1 }).at (1); }) == "there is no element 1");
     CHECK (errorOf ([] { Json ({ 1 }).erase (std::size_t { 1 }); }) == "there is no element 1");

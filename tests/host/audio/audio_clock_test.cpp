@@ -52,7 +52,7 @@ bool soon (const std::function<bool()>& isSo)
 
 TEST_CASE ("blocks trigger as many ticks as fit into their length, at any rates", "[audio]")
 {
-    rc::prop ("no tick is lost or made up",
+    rc::prop ("no tick is lost or invented",
               [] {
                   const double tick_hz = *rc::gen::element (500.0, 1000.0, 4000.0, 44'100.0, 48'000.0), card_hz = *rc::gen::element (44'100.0, 48'000.0);
                   AudioClock clock { tick_hz };

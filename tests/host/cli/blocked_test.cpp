@@ -2,7 +2,7 @@
 // An emergency stop of `tactus play` takes effect while the main thread waits or works, as docs/safety.md claims.
 //
 // In each try the main thread is stuck from before the stop until after the last tick: the tick thread ends by itself after Ctrl-C,
-// and only then the main thread is let go. So if the log contains the stop, no step of the stop waited for the main thread.
+// and only then is the main thread released. So if the log contains the stop, no step of the stop waited for the main thread.
 
 #include "running.hpp"
 
@@ -252,7 +252,7 @@ bool waitForSilence (Written&& written, std::chrono::milliseconds patience = std
     });
 }
 
-/// Presses the stop, lets the ticks end while the main thread is stuck, and returns whether they did end.
+/// Presses the stop, lets the ticks end while the main thread is stuck, and returns whether they ended.
 bool stopAndEnd (Way way, OnTerminal& play)
 {
     const auto text = play.err();

@@ -101,7 +101,7 @@ TEST_CASE ("attack: many small devices cannot read one large trace again and aga
     CHECK_THAT (ran.err, Contains ("--limits reading="));
 }
 
-TEST_CASE ("limits that do not exist, or are no amounts, are wrong usage", "[cli][budget]")
+TEST_CASE ("limits that do not exist, or are not amounts, are wrong usage", "[cli][budget]")
 {
     const Scratch scratch;
     const auto file = scratch.write ("fine.json", graph (R"("a": { "type": "signal.add" })"));

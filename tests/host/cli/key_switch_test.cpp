@@ -356,7 +356,7 @@ TEST_CASE ("the law of a plane may fall with depth: it is still a potential, and
     });
 }
 
-TEST_CASE ("the preset key clicks, returns with less force than it was pressed, and releases no energy", "[graphs]")
+TEST_CASE ("the preset key clicks, returns with less force than was needed to press it, and releases no energy", "[graphs]")
 {
     const auto loaded = loadGraph (std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs" / "tactile_key.json");
     REQUIRE (loaded.messages.empty());

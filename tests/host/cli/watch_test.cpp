@@ -130,7 +130,7 @@ TEST_CASE ("a role that is new in the edited file gets its device, and is felt",
     CHECK (table->at (table->rows() - 1, 1) == static_cast<double> (table->rows()));
 }
 
-TEST_CASE ("edits that cannot be applied live are reported: another device, another rate", "[cli][watch]")
+TEST_CASE ("edits that cannot be applied live are reported: a different device, a different rate", "[cli][watch]")
 {
     const Scratch scratch;
     const auto file = scratch.write ("g.json", counter());

@@ -70,7 +70,7 @@ TEST_CASE ("a profile can use every alarm of a device, and none that only the ho
     }
 }
 
-TEST_CASE ("a report says whether it repeats the last one, stands still in time, or goes back", "[hid][safety]")
+TEST_CASE ("a report says whether it repeats the last one, has the same time, or goes back", "[hid][safety]")
 {
     HidModel board (test::profileOf ("tactus_board"));
     const auto follows = [&] (std::uint32_t sequence, std::uint32_t time_us) { return board.decode (report (3, sequence, time_us)).succession; };

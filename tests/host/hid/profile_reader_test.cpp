@@ -236,7 +236,7 @@ TEST_CASE ("a profile that drives signals, by samples or by their amplitude, say
     CHECK (readProfile (json).messages.empty());
 }
 
-TEST_CASE ("a profile with a slew limit whose effort has no maximum is refused, because a stop could take for ever")
+TEST_CASE ("a profile with a slew limit whose effort has no maximum is refused, because a stop could take forever")
 {
     const auto loaded = readProfile (with ("/limits/max_torque_slew", "1 N*m/s"));
     CHECK_FALSE (loaded.profile);
@@ -259,7 +259,7 @@ TEST_CASE ("a force with a table is refused unless its neutral report holds the 
     }
 }
 
-TEST_CASE ("an effort in N that is no force may rest within one count of zero")
+TEST_CASE ("an effort in N that is not a force may rest within one count of zero")
 {
     CHECK (readProfile (with ("/outputs/0/fields/1", Json::parse (R"({ "name": "lift", "at": 4, "type": "u8", "scale": "1 N", "offset": "-1 N" })"))).profile);
 }

@@ -190,7 +190,7 @@ TEST_CASE ("a report that is too short, too long, unknown, unmarked or not finit
     CHECK (floating.counts().taken == 1);
 }
 
-TEST_CASE ("a board that is not homed is not valid")
+TEST_CASE ("the reading of a board that is not homed is not valid")
 {
     HidModel board (test::profileOf ("tactus_board"));
     auto report = test::profileOf ("tactus_board")->samples[0].input[0];

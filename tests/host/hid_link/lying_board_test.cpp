@@ -121,7 +121,7 @@ TEST_CASE ("a board that sends each report twice keeps the force", "[hid][safety
     }
 }
 
-TEST_CASE ("a board whose clock stands still while its reports go on loses the force, and the stop names the reason", "[hid][safety]")
+TEST_CASE ("a board whose clock stops while its reports continue loses the force, and the stop names the reason", "[hid][safety]")
 {
     Pushed run { with_clock };
     run.push();
@@ -132,11 +132,11 @@ TEST_CASE ("a board whose clock stands still while its reports go on loses the f
         return report;
     };
     CHECK (run.ticksToZero (stopped) <= stale_ms + 1 + fade_ms);
-    CHECK (run.why().starts_with ("the clock of the device stands still: the last reading is 2"));
+    CHECK (run.why().starts_with ("the clock of the device has stopped: the last reading is 2"));
     run.push();
 }
 
-TEST_CASE ("a board that restarts loses the force at once, and gets it back along the ramp after 16 good reports", "[hid][safety]")
+TEST_CASE ("a board that restarts loses the force immediately, and gets it back along the ramp after 16 good reports", "[hid][safety]")
 {
     const bool by_clock = GENERATE (false, true);
     Pushed run { by_clock ? with_clock : test::BoardProfile {} };
@@ -161,7 +161,7 @@ TEST_CASE ("a board that restarts loses the force at once, and gets it back alon
     CHECK (before == 1.0);
 }
 
-TEST_CASE ("a board of which 14 of 15 reports are lost loses the force, although no reading is too old", "[hid][safety]")
+TEST_CASE ("a board that loses 14 of 15 reports loses the force, although no reading is too old", "[hid][safety]")
 {
     Pushed run;
     run.push();
@@ -186,7 +186,7 @@ TEST_CASE ("a board of which 14 of 15 reports are lost loses the force, although
     CHECK (run.device->counts().restarts == 0);
 }
 
-TEST_CASE ("a board with an alarm loses the force at once, and the stop says what the alarm means", "[hid][safety]")
+TEST_CASE ("a board with an alarm loses the force immediately, and the stop says what the alarm means", "[hid][safety]")
 {
     Pushed run { with_alarms };
     for (int k = 0; k < 100; ++k)

@@ -57,7 +57,7 @@ TEST_CASE ("a description opens the device that its profile fits, and can only t
     CHECK (loose.limits.max_force == 3.0);
 }
 
-TEST_CASE ("what there is to say about a user's profile is said when it opens a device", "[hid]")
+TEST_CASE ("the messages about a user's profile are reported when it opens a device", "[hid]")
 {
     Several one;
     one.devices = { board ("/dev/hidraw0", "A") };

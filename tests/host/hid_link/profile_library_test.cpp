@@ -76,7 +76,7 @@ InputField& inputOf (Profile& profile, const std::string& name)
 }
 }   // namespace
 
-TEST_CASE ("own profiles: one with the id of a shipped profile is refused, unless it says that it replaces it", "[hid]")
+TEST_CASE ("user's profiles: one with the id of a shipped profile is refused, unless it says that it replaces it", "[hid]")
 {
     const auto both = joined (having ("paddle", 50.0), having ("arm", 5.0));
     CHECK (both.profiles.size() == 2);
@@ -100,7 +100,7 @@ TEST_CASE ("own profiles: one with the id of a shipped profile is refused, unles
     CHECK (replaced.messages[0].severity == Message::Severity::warning);
 }
 
-TEST_CASE ("own profiles: one that fits the device of a shipped profile says so, and keeps to the limits of both", "[hid]")
+TEST_CASE ("user's profiles: one that fits the device of a shipped profile says so, and keeps to the limits of both", "[hid]")
 {
     auto arm = *having ("arm", 5.0, {}, Ids { 2, 3 }).profiles[0];
     arm.limits.guard.max_speed = 2.0;
@@ -135,7 +135,7 @@ TEST_CASE ("own profiles: one that fits the device of a shipped profile says so,
     CHECK (replaced.messages[0].id == "profile/replaces");
 }
 
-TEST_CASE ("own profiles: one that replaces a shipped profile keeps to the limits of the others that fit its device", "[hid]")
+TEST_CASE ("user's profiles: one that replaces a shipped profile keeps to the limits of the others that fit its device", "[hid]")
 {
     auto shipped = having ("arm", 5.0, {}, Ids { 2 });
     shipped.profiles.push_back (having ("leg", 7.0, {}, Ids { 3 }).profiles[0]);
@@ -152,7 +152,7 @@ TEST_CASE ("own profiles: one that replaces a shipped profile keeps to the limit
     CHECK (all.messages[2].id == "profile/shadows");
 }
 
-TEST_CASE ("own profiles: one that drives the device of a shipped profile differently is refused", "[hid]")
+TEST_CASE ("user's profiles: one that drives the device of a shipped profile differently is refused", "[hid]")
 {
     struct Case
     {
@@ -170,18 +170,18 @@ TEST_CASE ("own profiles: one that drives the device of a shipped profile differ
         { "instead of force x", [] (Profile& p) { std::swap (p.force[0], p.force[1]); } },
         { "instead of torque z", [] (Profile& p) { p.torque[2].clear(); } },
         { "instead of the effort 'effort1'", [] (Profile& p) { fieldOf (p, "effort1").name = "effort9"; } },   // the guard would not count its energy
-        { "another scale", [] (Profile& p) { fieldOf (p, "fx").encoding.scale = 1e-9; } },
-        { "another scale", [] (Profile& p) { fieldOf (p, "fx").encoding.offset = 1.0; } },
-        { "another scale", [] (Profile& p) { fieldOf (p, "effort1").unit = "A"; } },
-        { "another scale",
+        { "a different scale", [] (Profile& p) { fieldOf (p, "fx").encoding.scale = 1e-9; } },
+        { "a different scale", [] (Profile& p) { fieldOf (p, "fx").encoding.offset = 1.0; } },
+        { "a different scale", [] (Profile& p) { fieldOf (p, "effort1").unit = "A"; } },
+        { "a different scale",
           [] (Profile& p) {
               auto& e = fieldOf (p, "fx").encoding;
               e.law = Encoding::Law::table;
               e.x = { 0.0, 1.0 };
               e.y = { 0.0, 1000.0 };
           } },
-        { "other bits", [] (Profile& p) { fieldOf (p, "fx").bits.big_endian = true; } },
-        { "other bits", [] (Profile& p) { p.outputs[0].fields[0].bits.at = 8 * 11; } },   // the enable bit within a force
+        { "different bits", [] (Profile& p) { fieldOf (p, "fx").bits.big_endian = true; } },
+        { "different bits", [] (Profile& p) { p.outputs[0].fields[0].bits.at = 8 * 11; } },   // the enable bit within a force
         { "constants", [] (Profile& p) { p.outputs[0].body[8] = 1; } },
         { "constants", [] (Profile& p) { p.outputs[0].id = 0x54; } },
         { "stream", [] (Profile& p) { p.outputs[0].stream = Stream { .at = 48, .frames = 4, .rate = 1000.0, .channels = { "l" } }; } },
@@ -213,7 +213,7 @@ TEST_CASE ("own profiles: one that drives the device of a shipped profile differ
     CHECK_FALSE (arm ([] (Profile& p) { std::get<SerialArm> (p.kinematics).drives[1].torque_constant = 0.001; }).empty());
 }
 
-TEST_CASE ("own profiles: one that drives the device of a shipped profile just as that does, or less, is used", "[hid]")
+TEST_CASE ("user's profiles: one that drives the same device exactly as the shipped profile does, or drives less of it, is used", "[hid]")
 {
     const Change fine[] = {
         [] (Profile&) {},
@@ -253,7 +253,7 @@ TEST_CASE ("own profiles: one that drives the device of a shipped profile just a
                      .empty());
 }
 
-TEST_CASE ("own profiles: where several shipped profiles fit a device, the same drive as one of them is enough", "[hid]")
+TEST_CASE ("user's profiles: where several shipped profiles fit a device, the same drive as one of them is enough", "[hid]")
 {
     const Change scaled = [] (Profile& p) { p.outputs[0].fields[0].encoding.scale *= 0.1; };
     for (const auto* id : { "dualsense_usb", "dualsense_bluetooth", "dualsense_bluetooth_samples" })
@@ -270,7 +270,7 @@ TEST_CASE ("own profiles: where several shipped profiles fit a device, the same 
     }
 }
 
-TEST_CASE ("own profiles: one that leaves out an init or exit report of the shipped profile is refused, unless it drives nothing", "[hid]")
+TEST_CASE ("user's profiles: one that leaves out an init or exit report of the shipped profile is refused, unless it drives nothing", "[hid]")
 {
     auto shipped = having ("arm", 5.0, {}, Ids { 2 });
     auto arm = *shipped.profiles[0];

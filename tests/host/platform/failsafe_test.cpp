@@ -122,7 +122,7 @@ TEST_CASE ("a process that disarms its failsafe writes nothing", "[platform]")
     CHECK (contentOf (file).empty());
 }
 
-TEST_CASE ("the guardian brings the device of a frozen process to rest, and the process finds out when it goes on", "[platform]")
+TEST_CASE ("the guardian brings the device of a frozen process to rest, and the process finds out when it continues", "[platform]")
 {
     const TemporaryFolder folder;
     const auto file = (folder / "device").string(), other = (folder / "other").string();
@@ -146,7 +146,7 @@ TEST_CASE ("the guardian brings the device of a frozen process to rest, and the 
     CHECK (contentOf (other).empty());
 }
 
-TEST_CASE ("a process that was frozen together with its guardian finds out when it goes on", "[platform]")
+TEST_CASE ("a process that was frozen together with its guardian finds out when it continues", "[platform]")
 {
     const TemporaryFolder folder;
     const auto file = (folder / "device").string();

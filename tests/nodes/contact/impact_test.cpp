@@ -119,7 +119,7 @@ TEST_CASE ("impact: an encoder that flickers by one quantum at each step changes
                     }
 }
 
-TEST_CASE ("impact: a tool that waits and waggles before it touches hits with the speed of its last stroke", "[nodes][contact]")
+TEST_CASE ("impact: if a tool waits and waggles before the touch, the hit has the speed of its last stroke", "[nodes][contact]")
 {
     const double quantum = 5e-6;
     for (const double rate : { 1000.0, 20'000.0 })
@@ -224,7 +224,7 @@ TEST_CASE ("impact: a contact ends only `release` below the surface", "[nodes][c
     CHECK (node.tick ({ .depth = 1e-3 }).hit == Approx (2.1));
 }
 
-TEST_CASE ("impact: within the refractory time there is no second hit, and none is made up later", "[nodes][contact]")
+TEST_CASE ("impact: within the refractory time there is no second hit, and it is not triggered later either", "[nodes][contact]")
 {
     const auto hits = [] (double refractory) {
         // Taps every 20 ms.

@@ -213,7 +213,7 @@ TEST_CASE ("surface: pressing where it is soft and releasing where it is stiff g
     }
 }
 
-TEST_CASE ("surface: where the way is uphill, the contact holds on beyond its bound", "[nodes][deform][energy]")
+TEST_CASE ("surface: where the path leads uphill, the contact holds on beyond its bound", "[nodes][deform][energy]")
 {
     std::vector<Surface::Curves> nodes;
     const auto mesh = flat (8);

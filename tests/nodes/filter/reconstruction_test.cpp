@@ -17,7 +17,7 @@ namespace
 Vec3 forceAt (int k) { return { std::sin (0.3 * k), k % 50 < 25 ? 1.0 : -0.5, 0.01 * k }; }
 }   // namespace
 
-TEST_CASE ("reconstruction: each component passes the Butterworth low-pass, to the bit", "[nodes][filter]")
+TEST_CASE ("reconstruction: each component passes the Butterworth low-pass, bit for bit", "[nodes][filter]")
 {
     auto node = ready<Reconstruction> ({ .cutoff = 30.0 });
     auto x = ready<Butterworth2> ({ .cutoff = 30.0 }), y = x, z = x;

@@ -63,7 +63,7 @@ DeadbeatHold wallFor (const Trial& t, double stiffness)
 BouncingMass continuous (const Trial& t, double stiffness) { return { .mass = t.mass, .damping = t.damping, .stiffness = stiffness, .force = t.hand }; }
 }   // namespace
 
-TEST_CASE ("deadbeat: a bounce leaves as from the continuous wall, wherever the samples fall", "[nodes][hold]")
+TEST_CASE ("deadbeat: a tool bounces as it would off a continuous wall, wherever the samples fall", "[nodes][hold]")
 {
     rc::prop ("any start, speed and rate", [] {
         const double times = *rc::gen::element (0.5, 3.0, 10.0, 30.0);
@@ -87,7 +87,7 @@ TEST_CASE ("deadbeat: a bounce leaves as from the continuous wall, wherever the 
     });
 }
 
-TEST_CASE ("deadbeat: on a wall of 3 times 2B/T, a bounce leaves with the continuous wall's speed, where a sampled spring gains", "[nodes][hold]")
+TEST_CASE ("deadbeat: at 3 times 2B/T, a tool leaves as fast as from a continuous wall, where a sampled spring adds speed", "[nodes][hold]")
 {
     const Trial t;
     const double stiffness = t.stiffnessOf (3.0);
@@ -104,7 +104,7 @@ TEST_CASE ("deadbeat: on a wall of 3 times 2B/T, a bounce leaves with the contin
     CHECK (std::abs (sampled / ideal.speed) > 1.2);
 }
 
-TEST_CASE ("deadbeat: with a mass that is off by 20 %, a bounce leaves within 1 % of the right speed", "[nodes][hold]")
+TEST_CASE ("deadbeat: with a mass that is off by 20 %, a tool bounces within 1 % of the right speed", "[nodes][hold]")
 {
     for (const auto& [times, error] : { std::pair { 3.0, 0.01 }, { 10.0, 0.1 } })
         for (const double believed : { 0.8, 1.2 })

@@ -52,7 +52,7 @@ struct Tap
 };
 }   // namespace
 
-TEST_CASE ("handover: neither direction steps the force, at any speed and rate", "[nodes][shock]")
+TEST_CASE ("handover: the force does not jump in either direction, at any speed and rate", "[nodes][shock]")
 {
     rc::prop ("a tap that goes in, stays and leaves", [] (unsigned seed) {
         std::mt19937 random { seed };
@@ -131,9 +131,9 @@ TEST_CASE ("handover: while the shock is played, the measured position has no ef
     }
 }
 
-TEST_CASE ("handover: handing back to the contact gives at most the energy that the contact stores at the deepest place", "[nodes][shock][energy]")
+TEST_CASE ("handover: handing back to the contact gives at most the energy that the contact stores at the deepest point", "[nodes][shock][energy]")
 {
-    rc::prop ("any spring and way", [] (unsigned seed) {
+    rc::prop ("any spring and path", [] (unsigned seed) {
         std::mt19937 random { seed };
         const auto uniform = [&] (double from, double to) { return std::uniform_real_distribution { from, to }(random); };
         const double rate = 20'000.0, K = uniform (200.0, 5000.0), at = uniform (1e-4, 3e-3), swing = uniform (0.0, 2e-3), w = uniform (5.0, 200.0);

@@ -296,7 +296,7 @@ TEST_CASE ("texture noise: it is silent at rest and out of contact, and grows fr
     CHECK (still.tick ({ 1e-3, 1e-2 }).value != 0.0);
 }
 
-TEST_CASE ("texture noise: at another rate it has the same spectrum, without images or aliases", "[nodes][texture]")
+TEST_CASE ("texture noise: at a different rate it has the same spectrum, without images or aliases", "[nodes][texture]")
 {
     for (const double tick_rate : { 4000.0, 2700.0, 1200.0 })   // faster than the rate of the models (1 kHz): no images may appear
     {

@@ -26,7 +26,7 @@ struct Ripple
         tactus::Vec3 force = tactus::Vec3::Zero();
     };
 
-    static constexpr tactus::Info info { "my.ripple", "Ripple", "Rings around the origin of the xy plane", "own" };
+    static constexpr tactus::Info info { "my.ripple", "Ripple", "Rings around the origin of the xy plane.", "own" };
     static constexpr std::tuple ports {
         tactus::input (&Inputs::position, "position", tactus::unit::metre, "tool position"),
         tactus::param (&Params::amplitude, "amplitude", tactus::unit::newton, "largest force", { .usual = { 0, 1 } }),

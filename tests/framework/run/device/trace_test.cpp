@@ -220,7 +220,7 @@ TEST_CASE ("trace: an incomplete row is reported", "[host][devices]")
     CHECK (idsOf (readTrace (txyz, std::vector<double> { 0, 0, 0, 0, 1 }).messages) == std::vector<std::string> { "trace/ragged" });
 }
 
-TEST_CASE ("trace: a single row is held for ever", "[host][devices]")
+TEST_CASE ("trace: a single row is held forever", "[host][devices]")
 {
     auto device = playing ({ 5.0, 1, 2, 3 }, 1e-3);
     CHECK (device.duration() == 0.0);

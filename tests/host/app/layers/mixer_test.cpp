@@ -121,7 +121,7 @@ TEST_CASE ("a moved layer keeps everything that belongs to it, and moving it bac
     }));
 }
 
-TEST_CASE ("every texture and vibration that can be a layer is added, wired, and compiles", "[layers]")
+TEST_CASE ("every texture and vibration that can be a layer can be added and wired, and compiles", "[layers]")
 {
     REQUIRE (layerTypes (catalogue()).size() >= 4);
     for (const auto* type : layerTypes (catalogue()))

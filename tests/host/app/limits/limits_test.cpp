@@ -176,11 +176,11 @@ TEST_CASE ("the lights follow edits, devices and the graph that is open", "[app]
     CHECK (watch.list().broken() == 1);
 
     rig.document.open (wall ("\"damping\": 1"), {}, "open");
-    CHECK_FALSE (watch.list().is_checked);   // what was found in the other graph is gone at once
+    CHECK_FALSE (watch.list().is_checked);   // what was found in the other graph is gone immediately
     CHECK (watch.messages().empty());
 }
 
-TEST_CASE ("closing waits for a check that runs, and a run of edits ends with the check of the last one", "[app][limits]")
+TEST_CASE ("closing waits for a running check, and a series of edits ends with a check of the last one", "[app][limits]")
 {
     CanvasRig rig { wall ("\"damping\": 1") };
     DeviceSetup setup;

@@ -175,7 +175,7 @@ struct Window final : private Application, public juce::Component
 };
 }   // namespace
 
-TEST_CASE ("Shift+Esc takes the force away while the message thread is stuck, and only a later REARM returns it", "[app][run][safety]")
+TEST_CASE ("Shift+Esc removes the force while the message thread is stuck, and only a later REARM brings it back", "[app][run][safety]")
 {
     onScreen ("on a screen: Shift+Esc");
 }

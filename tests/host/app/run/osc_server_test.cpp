@@ -157,7 +157,7 @@ TEST_CASE ("random packets do not harm the window", "[app][osc]")
     CHECK (r.live_run.messages().empty());
 }
 
-TEST_CASE ("an emergency stop over OSC takes the force away while the message thread is stuck", "[app][osc][safety]")
+TEST_CASE ("an emergency stop over OSC removes the force while the message thread is stuck", "[app][osc][safety]")
 {
     Rig r { "dry_wood" };
     r.live_run.start ({});

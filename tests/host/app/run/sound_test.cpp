@@ -60,7 +60,7 @@ TEST_CASE ("a constant force is silent, and so are values that are not numbers",
     CHECK (std::ranges::all_of (broken, [] (float x) { return std::isfinite (x); }));
 }
 
-TEST_CASE ("without a sound card there is an error, and a run at another rate can be heard too", "[app][sound]")
+TEST_CASE ("without a sound card there is an error, and a run at a different rate can be heard too", "[app][sound]")
 {
     FakeCards card;
     card.there = false;

@@ -381,7 +381,7 @@ TEST_CASE ("scopes: a real-time run is shown, and stays shown when a port is add
     const auto first = client.of ("motor.force").front()->begin();
     b.panel->probe ("board.depth");
     REQUIRE (waitFor ("board.depth", 400));
-    CHECK (client.of ("motor.force").front()->begin() == first);   // the same trace, at most with a gap
+    CHECK (client.of ("motor.force").front()->begin() == first);   // the same trace, possibly with a gap
     CHECK (b.view (ScopeKind::time).plot().shownLanes().size() == 2);
     b.live_run.stop();
 }

@@ -72,7 +72,7 @@ TEST_CASE ("a snapshot changes only what still exists, but no wires")
     CHECK (h.graph().root.wires.size() == wires);
 }
 
-TEST_CASE ("a node of another type that has taken over a name keeps its values")
+TEST_CASE ("a node of a different type that has taken over a name keeps its values")
 {
     graph::History h (graphOf ("dry_wood.json"));
     mustPerform (h, storeSnapshot (h.graph(), 1));
