@@ -15,6 +15,7 @@
 
 #include <exception>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -96,23 +97,31 @@ struct Hooks
     static void* params (void* node) noexcept { return &hosted (node).node.params; }
     static void initialiseOutputs (void* outputs) noexcept { new (outputs) typename N::Outputs(); }
 
-    static void tick (void* node, const double* const* sources, void* outputs) noexcept
-    {
-        auto& h = hosted (node);
-        if constexpr (DeviceBound<N> && ! Peekable<N>) h.device.renew();
-        Erased::tick (&h.node, sources, outputs);
-    }
-
-    static void peek (void* node, const double* const* sources, void* outputs) noexcept
-    {
-        auto& h = hosted (node);
-        if constexpr (DeviceBound<N>) h.device.renew();
-        Erased::peek (&h.node, sources, outputs);
-    }
+    static void tick (void* node, const double* const* sources, void* outputs) noexcept { Erased::tick (&hosted (node).node, sources, outputs); }
+    static void peek (void* node, const double* const* sources, void* outputs) noexcept { Erased::peek (&hosted (node).node, sources, outputs); }
 
     static void tickStored (void* node, const void* stored, const double* const* sources, void* outputs) noexcept
     {
         Erased::tickStored (&hosted (node).node, stored, sources, outputs);
+    }
+
+    /// The hook `f` of a device node that cannot read the host's state in place. The first hook of each tick renews the copy.
+    template <auto f, typename... Arguments>
+    static void renewFirst (void* node, Arguments... arguments) noexcept
+    {
+        hosted (node).device.renew();
+        f (node, arguments...);
+    }
+
+    static void fillCopying (tactus_plugin_node& c) noexcept
+    {
+        if constexpr (Peekable<N>)
+            c.peek = &renewFirst<&peek>;
+        else
+        {
+            c.tick = &renewFirst<&tick>;
+            if constexpr (KnowsStored<N>) c.tick_stored = &renewFirst<&tickStored>;
+        }
     }
 
     static void learn (void* node, const tactus_plugin_mechanics* device) noexcept
@@ -173,6 +182,7 @@ struct Hooks
         if constexpr (Claiming<N>) c.claims = &claims;
         if constexpr (DeviceBound<N>)
         {
+            if (! DeviceLink::in_place) fillCopying (c);
             c.announce = &announce;
             c.bind = [] (void* n) noexcept { hosted (n).node.bind (hosted (n).device.bind()); };
         }
@@ -203,10 +213,19 @@ struct Exported
         Hooks<One>::fill (all().back()->node);
     }
 
-    static std::int32_t init (const tactus_plugin_host*, const tactus_plugin_report* report) noexcept
+    static std::int32_t init (const tactus_plugin_host* host, const tactus_plugin_report* report) noexcept
     {
-        if (users++ > 0) return TACTUS_PLUGIN_OK;
-        return guarded (report, [] { (add<N>(), ...); });
+        const bool is_first = users++ == 0;
+        return guarded (report, [&] {
+            const bool shares = sharesDeviceState (host);
+            if (is_first)
+            {
+                DeviceLink::in_place = shares;
+                (add<N>(), ...);
+            }
+            else if (DeviceLink::in_place && ! shares)
+                throw std::runtime_error ("another version of Tactus in this program uses the plugin");
+        });
     }
 
     static void deinit() noexcept
