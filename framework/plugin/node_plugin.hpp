@@ -23,13 +23,22 @@
 namespace tactus::plugin
 {
 
-/// A node as the host holds it, with what it borrows.
+/// A node as the host holds it, with what it borrows. The node is first: then a pointer to both is also a pointer to the node, and the
+/// host can call the same functions as for a node that is compiled in.
 template <typename N>
 struct Hosted
 {
-    LentServices services;
-    DeviceLink device;
-    N node;   // last, so that it is freed before what it borrows
+    Hosted() : node() {}
+    Hosted (const Hosted&) = delete;
+    Hosted& operator= (const Hosted&) = delete;
+    ~Hosted() { node.~N(); }   // before what it borrows
+
+    union
+    {
+        N node;
+    };
+    LentServices services {};
+    DeviceLink device {};
 };
 
 inline void put (const tactus_plugin_report* report, const std::string& text) noexcept
@@ -97,14 +106,6 @@ struct Hooks
     static void* params (void* node) noexcept { return &hosted (node).node.params; }
     static void initialiseOutputs (void* outputs) noexcept { new (outputs) typename N::Outputs(); }
 
-    static void tick (void* node, const double* const* sources, void* outputs) noexcept { Erased::tick (&hosted (node).node, sources, outputs); }
-    static void peek (void* node, const double* const* sources, void* outputs) noexcept { Erased::peek (&hosted (node).node, sources, outputs); }
-
-    static void tickStored (void* node, const void* stored, const double* const* sources, void* outputs) noexcept
-    {
-        Erased::tickStored (&hosted (node).node, stored, sources, outputs);
-    }
-
     /// The hook `f` of a device node that cannot read the host's state in place. The first hook of each tick renews the copy.
     template <auto f, typename... Arguments>
     static void renewFirst (void* node, Arguments... arguments) noexcept
@@ -116,11 +117,11 @@ struct Hooks
     static void fillCopying (tactus_plugin_node& c) noexcept
     {
         if constexpr (Peekable<N>)
-            c.peek = &renewFirst<&peek>;
+            c.peek = &renewFirst<&Erased::peek>;
         else
         {
-            c.tick = &renewFirst<&tick>;
-            if constexpr (KnowsStored<N>) c.tick_stored = &renewFirst<&tickStored>;
+            c.tick = &renewFirst<&Erased::tick>;
+            if constexpr (KnowsStored<N>) c.tick_stored = &renewFirst<&Erased::tickStored>;
         }
     }
 
@@ -167,10 +168,10 @@ struct Hooks
         c.set = &set;
         c.params = &params;
         c.initialise_outputs = &initialiseOutputs;
-        c.tick = &tick;
-        if constexpr (KnowsStored<N>) c.tick_stored = &tickStored;
+        c.tick = &Erased::tick;
+        if constexpr (KnowsStored<N>) c.tick_stored = &Erased::tickStored;
         if constexpr (LearnsOfDevice<N>) c.learn = &learn;
-        if constexpr (Peekable<N>) c.peek = &peek;
+        if constexpr (Peekable<N>) c.peek = &Erased::peek;
         if constexpr (Delaying<N>) c.delay = [] (const void* n) noexcept -> std::int32_t { return read (n).delay(); };
         if constexpr (Updatable<N>) c.update = [] (void* n) noexcept { hosted (n).node.update(); };
         if constexpr (Adoptable<N>) c.adopt = [] (void* n, const void* old) noexcept { hosted (n).node.adopt (read (old)); };
