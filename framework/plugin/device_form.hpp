@@ -33,7 +33,8 @@ inline std::string formOfDeviceState()
 {
     auto text = nameOfLibrary();
     if (text.empty()) return {};
-    for (const auto size : { sizeof (DeviceState), alignof (DeviceState), sizeof (Vec3), sizeof (Channels), sizeof (std::string), sizeof (std::vector<std::string>) })
+    for (const auto size : { sizeof (DeviceState), alignof (DeviceState), sizeof (Vec3), sizeof (Channels), sizeof (std::string),
+                             sizeof (std::vector<std::string>) })
         text.append (" ").append (std::to_string (size));
     const DeviceState& s = no_device;
     const Reading& r = s.reading;
