@@ -3,6 +3,9 @@
 
 /// The device of a role, as a node in a plugin sees it.
 
+#include "device_form.hpp"
+#include "known.hpp"
+
 #include <tactus/tactus_plugin.h>
 
 #include <tactus/node/device.hpp>
@@ -26,13 +29,31 @@ inline DeviceLayout readLayout (const tactus_plugin_layout& l)
              .mechanics = { l.mechanics->mass, l.mechanics->damping } };
 }
 
-/// The DeviceState that a node in a plugin is bound to: a copy of the host's, renewed before each tick.
+/// True if the nodes of this plugin can read the DeviceState of this host in place. [main thread]
+inline bool sharesDeviceState (const tactus_plugin_host* host)
+{
+    if (host == nullptr || host->extension == nullptr) return false;
+    const auto* lent = static_cast<const tactus_plugin_device_state*> (host->extension (TACTUS_PLUGIN_DEVICE_STATE));
+    const auto own = formOfDeviceState();
+    return lent != nullptr && ! own.empty() && own == lent->form;
+}
+
+/// The DeviceState that a node in a plugin is bound to: the host's, or else a copy that is renewed before each tick.
 class DeviceLink
 {
 public:
+    /// True if all nodes of this plugin read the host's states in place, so that renew() has nothing to do. Constant while the plugin has
+    /// nodes. [main thread]
+    static inline bool in_place = false;
+
     /// Prepares a state with the layout of a new device. The node continues with its old one until bind(). [main thread]
     void announce (const tactus_plugin_device& device)
     {
+        if (in_place)
+        {
+            lent.store (static_cast<const DeviceState*> (device.state), std::memory_order_release);
+            return;
+        }
         seen.push_back (std::make_unique<Seen> (device, readLayout (*device.layout)));   // the old ones stay: the tick thread may be using one
         newest.store (seen.back().get(), std::memory_order_release);
     }
@@ -40,13 +61,14 @@ public:
     /// The state of the device that was announced last. [main or tick thread]
     const DeviceState& bind() noexcept
     {
+        if (const auto* state = lent.load (std::memory_order_acquire)) return *state;
         bound = newest.load (std::memory_order_acquire);
         if (bound == nullptr) return no_device;
         renew();
         return bound->state;
     }
 
-    /// Copies the reading of this tick, and the effort that was applied on the previous tick. [tick thread]
+    /// Copies the reading of this tick, and the effort that was applied on the previous tick. Not needed if `in_place`. [tick thread]
     void renew() noexcept
     {
         if (bound == nullptr) return;
@@ -74,9 +96,16 @@ private:
     struct Seen
     {
         Seen (const tactus_plugin_device& d, DeviceLayout layout)
-            : from (d), axes (*d.axes), signals (*d.signals), applied_axes (*d.applied_axes), applied_signals (*d.applied_signals)
+            : from (known (d)), axes (*d.axes), signals (*d.signals), applied_axes (*d.applied_axes), applied_signals (*d.applied_signals)
         {
             state.layout = std::move (layout);
+        }
+
+        static tactus_plugin_device known (const tactus_plugin_device& d) noexcept
+        {
+            tactus_plugin_device all;
+            copyKnown (all, &d);   // an older host gives fewer members
+            return all;
         }
 
         tactus_plugin_device from;
@@ -93,6 +122,7 @@ private:
             to.set (i, from.values[i]);
     }
 
+    std::atomic<const DeviceState*> lent = nullptr;   // the host's, to be read in place
     std::vector<std::unique_ptr<Seen>> seen;
     std::atomic<Seen*> newest = nullptr;
     Seen* bound = nullptr;

@@ -123,7 +123,8 @@ ShownDevice::ShownDevice (const DeviceState& s)
                .applied_force = s.applied.force.data(),
                .applied_torque = s.applied.torque.data(),
                .applied_axes = &applied_axes,
-               .applied_signals = &applied_signals };
+               .applied_signals = &applied_signals,
+               .state = &s };
 }
 
 Effort readEffort (const tactus_plugin_effort& e) noexcept

@@ -15,6 +15,7 @@
 
 #include <exception>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -22,13 +23,22 @@
 namespace tactus::plugin
 {
 
-/// A node as the host holds it, with what it borrows.
+/// A node as the host holds it, with what it borrows. The node is first: then a pointer to both is also a pointer to the node, and the
+/// host can call the same functions as for a node that is compiled in.
 template <typename N>
 struct Hosted
 {
-    LentServices services;
-    DeviceLink device;
-    N node;   // last, so that it is freed before what it borrows
+    Hosted() : node() {}
+    Hosted (const Hosted&) = delete;
+    Hosted& operator= (const Hosted&) = delete;
+    ~Hosted() { node.~N(); }   // before what it borrows
+
+    union
+    {
+        N node;
+    };
+    LentServices services {};
+    DeviceLink device {};
 };
 
 inline void put (const tactus_plugin_report* report, const std::string& text) noexcept
@@ -96,23 +106,23 @@ struct Hooks
     static void* params (void* node) noexcept { return &hosted (node).node.params; }
     static void initialiseOutputs (void* outputs) noexcept { new (outputs) typename N::Outputs(); }
 
-    static void tick (void* node, const double* const* sources, void* outputs) noexcept
+    /// The hook `f` of a device node that cannot read the host's state in place. The first hook of each tick renews the copy.
+    template <auto f, typename... Arguments>
+    static void renewFirst (void* node, Arguments... arguments) noexcept
     {
-        auto& h = hosted (node);
-        if constexpr (DeviceBound<N> && ! Peekable<N>) h.device.renew();
-        Erased::tick (&h.node, sources, outputs);
+        hosted (node).device.renew();
+        f (node, arguments...);
     }
 
-    static void peek (void* node, const double* const* sources, void* outputs) noexcept
+    static void fillCopying (tactus_plugin_node& c) noexcept
     {
-        auto& h = hosted (node);
-        if constexpr (DeviceBound<N>) h.device.renew();
-        Erased::peek (&h.node, sources, outputs);
-    }
-
-    static void tickStored (void* node, const void* stored, const double* const* sources, void* outputs) noexcept
-    {
-        Erased::tickStored (&hosted (node).node, stored, sources, outputs);
+        if constexpr (Peekable<N>)
+            c.peek = &renewFirst<&Erased::peek>;
+        else
+        {
+            c.tick = &renewFirst<&Erased::tick>;
+            if constexpr (KnowsStored<N>) c.tick_stored = &renewFirst<&Erased::tickStored>;
+        }
     }
 
     static void learn (void* node, const tactus_plugin_mechanics* device) noexcept
@@ -158,10 +168,10 @@ struct Hooks
         c.set = &set;
         c.params = &params;
         c.initialise_outputs = &initialiseOutputs;
-        c.tick = &tick;
-        if constexpr (KnowsStored<N>) c.tick_stored = &tickStored;
+        c.tick = &Erased::tick;
+        if constexpr (KnowsStored<N>) c.tick_stored = &Erased::tickStored;
         if constexpr (LearnsOfDevice<N>) c.learn = &learn;
-        if constexpr (Peekable<N>) c.peek = &peek;
+        if constexpr (Peekable<N>) c.peek = &Erased::peek;
         if constexpr (Delaying<N>) c.delay = [] (const void* n) noexcept -> std::int32_t { return read (n).delay(); };
         if constexpr (Updatable<N>) c.update = [] (void* n) noexcept { hosted (n).node.update(); };
         if constexpr (Adoptable<N>) c.adopt = [] (void* n, const void* old) noexcept { hosted (n).node.adopt (read (old)); };
@@ -173,6 +183,7 @@ struct Hooks
         if constexpr (Claiming<N>) c.claims = &claims;
         if constexpr (DeviceBound<N>)
         {
+            if (! DeviceLink::in_place) fillCopying (c);
             c.announce = &announce;
             c.bind = [] (void* n) noexcept { hosted (n).node.bind (hosted (n).device.bind()); };
         }
@@ -203,10 +214,19 @@ struct Exported
         Hooks<One>::fill (all().back()->node);
     }
 
-    static std::int32_t init (const tactus_plugin_host*, const tactus_plugin_report* report) noexcept
+    static std::int32_t init (const tactus_plugin_host* host, const tactus_plugin_report* report) noexcept
     {
-        if (users++ > 0) return TACTUS_PLUGIN_OK;
-        return guarded (report, [] { (add<N>(), ...); });
+        const bool is_first = users++ == 0;
+        return guarded (report, [&] {
+            const bool shares = sharesDeviceState (host);
+            if (is_first)
+            {
+                DeviceLink::in_place = shares;
+                (add<N>(), ...);
+            }
+            else if (DeviceLink::in_place && ! shares)
+                throw std::runtime_error ("another version of Tactus in this program uses the plugin");
+        });
     }
 
     static void deinit() noexcept

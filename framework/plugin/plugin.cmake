@@ -28,10 +28,12 @@ function (tactus_add_plugin name)
     target_link_libraries (${name} PRIVATE tactus::plugin_kit)
     target_compile_definitions (${name} PRIVATE TACTUS_PLUGIN_NAME="${name}" TACTUS_PLUGIN_VERSION="${PROJECT_VERSION}")
     if (NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
-        target_compile_options (${name} PRIVATE -O2)   # without a build type, CMake would not optimise the nodes
+        target_compile_options (${name} PRIVATE -O3)   # without a build type, CMake would not optimise the nodes
     endif ()
     if (CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
         target_compile_options (${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-fno-gnu-unique>)   # unique symbols would keep the plugin loaded forever
+        # The adapter and several nodes in one file use up the growth that GCC allows inlining, and functions within a tick remain calls.
+        target_compile_options (${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:--param=inline-unit-growth=200>)
     endif ()
     tactus_write_build_file (${name} ${ARGN})
     if (CMAKE_SYSTEM_NAME STREQUAL Linux)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plugin_library.hpp"
 #include "answer.hpp"
+#include "device_form.hpp"
 #include "known.hpp"
 #include "plugin_node.hpp"
 
@@ -8,15 +9,21 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
+#include <string>
 
 namespace tactus
 {
 
 namespace
 {
-const tactus_plugin_host& host() noexcept
+const tactus_plugin_host& host()
 {
-    static const tactus_plugin_host one { sizeof one, TACTUS_PLUGIN_ABI, "Tactus", "", [] (const char*) noexcept -> const void* { return nullptr; } };
+    static const std::string form = plugin::formOfDeviceState();
+    static const tactus_plugin_device_state devices { sizeof devices, form.c_str() };
+    static const tactus_plugin_host one { sizeof one, TACTUS_PLUGIN_ABI, "Tactus", "", [] (const char* id) noexcept -> const void* {
+                                             return std::strcmp (id, TACTUS_PLUGIN_DEVICE_STATE) == 0 ? &devices : nullptr;
+                                         } };
     return one;
 }
 

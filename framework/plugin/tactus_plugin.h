@@ -309,7 +309,18 @@ typedef struct tactus_plugin_device
     const tactus_plugin_channels *axes, *signals;
     const double *applied_force, *applied_torque; /**< what the guard let through on the last tick; three each; N, N m */
     const tactus_plugin_channels *applied_axes, *applied_signals;
+    const void* state; /**< for TACTUS_PLUGIN_DEVICE_STATE; valid as long as the node, and never changes */
 } tactus_plugin_device;
+
+/** The id of an extension of the host: `state` of a tactus_plugin_device is the tactus::DeviceState that the values are part of. A plugin
+ *  in C++ may read it in place, instead of copying the values before each tick, but only if a DeviceState has the same form in both. */
+#define TACTUS_PLUGIN_DEVICE_STATE "tactus.device_state"
+
+typedef struct tactus_plugin_device_state
+{
+    uint32_t size;
+    const char* form; /**< as tactus::plugin::formOfDeviceState() describes it in the host: sizes, places and the standard library */
+} tactus_plugin_device_state;
 
 /** What a sink adds to the effort of its role. The node sets the counts and fills only what it uses. */
 typedef struct tactus_plugin_effort

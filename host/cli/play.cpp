@@ -170,7 +170,7 @@ private:
         command.attend();
         if (const auto attended = command.audio().attend(); ! attended) warnOfCapture (options.capture, attended.error());
         if (options.watch && i % 10 == 0 && file_watch.look()) reload();
-        if (i % 5 == 0)
+        if (i % 2 == 0)
             if (auto news = live.look()) takeOver (*news);
         if (control)
         {

@@ -139,10 +139,11 @@ Result<> LiveCompiler::run (const std::vector<std::string>& command)
 
 std::vector<std::string> LiveCompiler::commonFlags (const LiveSource& s) const
 {
-    std::vector<std::string> flags { compilerOf (s), "-O2", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math" };
+    std::vector<std::string> flags { compilerOf (s), "-O3", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math" };
     if (! s.isC()) flags.insert (flags.end(), { "-std=c++20", "-fvisibility-inlines-hidden" });
 #if defined(__linux__)
-    if (flags.front().find ("clang") == std::string::npos) flags.emplace_back ("-fno-gnu-unique");   // unique symbols would keep the plugin loaded forever
+    // Unique symbols would keep the plugin loaded forever. For the other flag, see tactus_add_plugin.
+    if (flags.front().find ("clang") == std::string::npos) flags.insert (flags.end(), { "-fno-gnu-unique", "--param=inline-unit-growth=200" });
 #endif
     if (const auto include = includeFolder(); ! include.empty()) flags.push_back ("-I" + include.string());
     if (const auto eigen = firstOf ({ "/usr/include/eigen3", "/usr/local/include/eigen3", "/opt/homebrew/include/eigen3" }); ! eigen.empty())

@@ -33,7 +33,8 @@ public:
         double secondsSinceSaved() const;
     };
 
-    /// What has happened since the last look; empty if nothing has. Call this about ten times a second.
+    /// What has happened since the last look; empty if nothing has. Code that differs from what it was and stays the same from one look to
+    /// the next counts as saved. Call this some thirty times a second.
     std::optional<News> look();
 
     /// Starts to make the precompiled header, in the background. Ids: those of LiveCompiler::prepareFor.

@@ -6,6 +6,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <tactus/plugin/device_form.hpp>
+#include <tactus/plugin/plugin_node.hpp>
+#include <tactus/plugin/shared_object.hpp>
+
+#include <cstring>
 #include <span>
 
 using namespace tactus;
@@ -30,6 +35,40 @@ struct Pad final : Device
     Vec3 applied = Vec3::Zero();
 };
 
+/// The plugin of device nodes in a host that lends its DeviceState in another form, or not at all, so that the nodes copy the readings.
+class OtherHost
+{
+public:
+    explicit OtherHost (const char* form) : devices { sizeof devices, form }
+    {
+        lent = form == nullptr ? nullptr : &devices;
+        entry = static_cast<const tactus_plugin*> (object->find ("tactus_plugin_entry"));
+        begun = entry->init (&host, nullptr);
+    }
+    ~OtherHost() { entry->deinit(); }
+    OtherHost (const OtherHost&) = delete;
+    OtherHost& operator= (const OtherHost&) = delete;
+
+    std::vector<NodeType> types() const
+    {
+        std::vector<NodeType> all;
+        for (std::size_t i = 0; i < entry->get_node_count(); ++i)
+            all.push_back (plugin::readNode (entry->get_node (i), "devices", object).value());
+        return all;
+    }
+
+    std::int32_t begun = TACTUS_PLUGIN_FAILED;
+
+private:
+    static const void* extension (const char* id) noexcept { return std::strcmp (id, TACTUS_PLUGIN_DEVICE_STATE) == 0 ? lent : nullptr; }
+
+    static inline const tactus_plugin_device_state* lent = nullptr;
+    tactus_plugin_device_state devices;
+    tactus_plugin_host host { sizeof host, TACTUS_PLUGIN_ABI, "another", "", &extension };
+    std::shared_ptr<SharedObject> object = SharedObject::load (test::pluginFile ("devices")).value();
+    const tactus_plugin* entry = nullptr;
+};
+
 Catalogue types() { return catalogue().with (test::load ("devices").types); }
 
 test::Sketch sketch()
@@ -45,35 +84,34 @@ test::Sketch sketch()
 CompileOptions options (const Plan* before = nullptr) { return { .rate_hz = 1000.0, .records = { "hand.position" }, .before = before }; }
 }   // namespace
 
-TEST_CASE ("a device node in a plugin reads the device of its role on each tick", "[plugins]")
+namespace
 {
-    std::vector<double> seen[2];
-    const Catalogue both[] { types(), catalogue() };
-    for (int which = 0; which < 2; ++which)
+/// What the nodes see and do in ten ticks.
+std::vector<double> readings (const Catalogue& all)
+{
+    std::vector<double> seen;
+    const auto compiled = compile (sketch().graph, all, options());
+    INFO (test::text (compiled.messages));
+    REQUIRE (compiled.plan);
+    Engine engine { compiled.plan };
+    Pad pad;
+    engine.attach ("pad", pad);
+    for (int k = 0; k < 10; ++k)
     {
-        const auto compiled = compile (sketch().graph, both[which], options());
-        INFO (test::text (compiled.messages));
-        REQUIRE (compiled.plan);
-        Engine engine { compiled.plan };
-        Pad pad;
-        engine.attach ("pad", pad);
-        for (int k = 0; k < 10; ++k)
-        {
-            engine.tick();
-            for (const auto& tap : engine.plan().taps())
-                seen[which].push_back (*tap.value);
-            seen[which].push_back (pad.applied.y());
-        }
-        CHECK (pad.applied == Vec3 (0.0, -10.0, 0.0));
+        engine.tick();
+        for (const auto& tap : engine.plan().taps())
+            seen.push_back (*tap.value);
+        seen.push_back (pad.applied.y());
     }
-    CHECK (seen[0] == seen[1]);
-    CHECK (seen[0].size() == 40);
-    CHECK (seen[0][36] == 0.001 * 10);
+    CHECK (pad.applied == Vec3 (0.0, -10.0, 0.0));
+    CHECK (seen.size() == 40);
+    CHECK (seen[36] == 0.001 * 10);
+    return seen;
 }
 
-TEST_CASE ("a device node in a plugin is bound to a device that joins, without allocating in the tick", "[plugins]")
+/// A device that joins while the nodes tick.
+void join (const Catalogue& all)
 {
-    const auto all = types();
     Engine engine { compile (sketch().graph, all, options()).plan };
     for (int k = 0; k < 3; ++k)
         engine.tick();   // no device yet
@@ -90,6 +128,56 @@ TEST_CASE ("a device node in a plugin is bound to a device that joins, without a
     for (int k = 0; k < 100; ++k)
         engine.tick();
     CHECK (pad.applied == Vec3 (0.0, -101.0, 0.0));
+}
+}   // namespace
+
+TEST_CASE ("a device node in a plugin reads the device of its role on each tick", "[plugins]") { CHECK (readings (types()) == readings (catalogue())); }
+
+TEST_CASE ("a device node in a plugin is bound to a device that joins, without allocating in the tick", "[plugins]") { join (types()); }
+
+TEST_CASE ("a device node in a plugin copies the readings of a host whose DeviceState has another form", "[plugins]")
+{
+    for (const char* form : { static_cast<const char*> (nullptr), "", "libstdc++ 7 8 9" })
+    {
+        INFO (std::string (form == nullptr ? "not lent" : form));
+        const OtherHost host { form };
+        REQUIRE (host.begun == TACTUS_PLUGIN_OK);
+        const auto all = catalogue().with (host.types());
+        CHECK (readings (all) == readings (catalogue()));
+        join (all);
+    }
+}
+
+TEST_CASE ("a device node in a plugin goes from the state of one role to that of another, in place or copied", "[plugins]")
+{
+    const DeviceState first { .reading = { .position = Vec3 (4.0, 5.0, 6.0) }, .applied = {} };
+    for (const auto& form : { plugin::formOfDeviceState(), std::string ("another") })
+    {
+        INFO (form);
+        const OtherHost host { form.c_str() };
+        const Catalogue all { host.types() };
+        const auto& type = *all.find ("device.position");
+        DeviceState second { .reading = {}, .applied = {} };
+        const auto node = type.make();
+        bindFirst (type, node.get(), first);
+        bindFirst (type, node.get(), second);
+        second.reading.position = Vec3 (1.0, 2.0, 3.0);   // after the node was bound
+        double out[8] {};
+        type.initialiseOutputs (out);
+        type.tick (node.get(), nullptr, out);
+        CHECK (Vec3 (out) == second.reading.position);
+    }
+}
+
+TEST_CASE ("a plugin that reads one host's devices in place refuses another host in the same program", "[plugins]")
+{
+    const auto types_of_this_host = types();
+    const OtherHost other { "another" };
+    CHECK (other.begun == TACTUS_PLUGIN_FAILED);
+    CHECK (readings (types_of_this_host) == readings (catalogue()));
+
+    const OtherHost same { plugin::formOfDeviceState().c_str() };
+    CHECK (same.begun == TACTUS_PLUGIN_OK);
 }
 
 TEST_CASE ("a device node in a plugin says what the device lacks", "[plugins]")

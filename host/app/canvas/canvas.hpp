@@ -148,6 +148,7 @@ public:
 
 private:
     void documentChanged() override;
+    void typesChanged() override { drag.reset(); }   // a drag may hold a row of a datasheet, so it ends where it is
     void rebuild();
     void breadcrumbsChanged();
     /// What is under the pointer: its id, a description, and the cursor to show.

@@ -104,6 +104,14 @@ void Inspector::rebuild()
     resized();
 }
 
+/// The fields point into the datasheets of node types.
+void Inspector::typesChanged()
+{
+    made_for.clear();
+    rebuild();
+    retired.reset();
+}
+
 void Inspector::paint (juce::Graphics& g)
 {
     g.fillAll (themeOf (*this).panel);

@@ -33,6 +33,7 @@ public:
 
 private:
     void documentChanged() override { rebuild(); }
+    void typesChanged() override;
     void rebuild();
     Inspected inspected();
 

@@ -35,6 +35,7 @@ private:
     static constexpr int head_width = 136;
 
     void documentChanged() override { rebuild(); }
+    void typesChanged() override { rebuildStrips (strips.size()); }   // their fields point into the datasheet of the mixer
     void rebuild();
     void rebuildNames();
     void rebuildStrips (std::size_t layers);

@@ -22,6 +22,10 @@ public:
         virtual ~Listener() = default;
         virtual void documentChanged() = 0;                ///< after an edit, an undo, or when another graph is opened
         virtual void documentRefused (const Message&) {}   ///< called when an edit was refused; nothing has changed
+
+        /// The catalogue has other node types now. documentChanged() follows; after both, nothing may point into the earlier types, because
+        /// they may be unloaded.
+        virtual void typesChanged() {}
     };
 
     /// Where a graph came from.
@@ -52,7 +56,11 @@ public:
     void open (graph::Graph, Source, const std::string& step);
 
     /// Tells the listeners that the graph must be read again, because the node types of the catalogue have changed.
-    void renew() { notifyChanged(); }
+    void renew()
+    {
+        notify ([] (Listener& l) { l.typesChanged(); });
+        notifyChanged();
+    }
 
     /// True if the graph differs from its file.
     bool isChanged() const;

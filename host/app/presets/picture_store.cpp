@@ -14,6 +14,12 @@ PictureStore::~PictureStore()
     stopThread (-1);
 }
 
+void PictureStore::use (const Catalogue& c)
+{
+    const std::scoped_lock guard (lock);
+    catalogue = c;
+}
+
 std::shared_ptr<const ForcePicture> PictureStore::get (const std::filesystem::path& file)
 {
     {
@@ -33,16 +39,18 @@ void PictureStore::run()
     while (! threadShouldExit())
     {
         std::filesystem::path file;
+        Catalogue types;
         {
             const std::scoped_lock guard (lock);
             if (! wanted.empty()) file = wanted.front();
+            types = file.empty() ? Catalogue {} : catalogue;   // a thread that waits keeps no types loaded
         }
         if (file.empty())
         {
             wait (-1);
             continue;
         }
-        auto picture = std::make_shared<const ForcePicture> (pictureOf (file, catalogue, cancelled));
+        auto picture = std::make_shared<const ForcePicture> (pictureOf (file, types, cancelled));
         const std::scoped_lock guard (lock);
         pictures[file] = std::move (picture);
         std::erase (wanted, file);

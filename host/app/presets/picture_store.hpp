@@ -23,14 +23,17 @@ public:
     /// Returns null until the picture is done, and queues it ahead of earlier requests.
     std::shared_ptr<const ForcePicture> get (const std::filesystem::path&);
 
+    /// The node types for pictures that are computed from now on.
+    void use (const Catalogue&);
+
     /// The number of finished pictures. Repaint when it changes.
     int done() const noexcept { return finished.load(); }
 
 private:
     void run() override;
 
-    const Catalogue catalogue;   // a copy: live C++ changes the original while the thread draws
-    std::mutex lock;             // guards `pictures` and `wanted`
+    std::mutex lock;       // guards `catalogue`, `pictures` and `wanted`
+    Catalogue catalogue;   // a copy: live C++ changes the original while the thread draws
     std::map<std::filesystem::path, std::shared_ptr<const ForcePicture>> pictures;
     std::deque<std::filesystem::path> wanted;
     std::atomic<bool> cancelled { false };

@@ -22,6 +22,7 @@ public:
     ~ProblemList() override;
 
     void show (const Messages&);
+    const Messages& messages() const noexcept { return shown; }
 
     std::function<void (const Culprit&)> onShow;
 

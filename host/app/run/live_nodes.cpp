@@ -29,13 +29,13 @@ LiveNodes::LiveNodes (std::vector<LiveSource> sources) : plugins (std::move (sou
 bool LiveNodes::attend()
 {
     const auto now = std::chrono::steady_clock::now();
-    if (now - looked < std::chrono::milliseconds (100)) return false;
+    if (now - looked < std::chrono::milliseconds (25)) return false;   // code is compiled once it is the same in two looks
     looked = now;
     auto news = plugins.look();
     if (! news) return false;
     said = withPlaces (std::move (news->messages));
     if (news->types.empty()) return false;
-    shown.push_back (catalogue());
+    earlier = catalogue();
     extendCatalogue (std::move (news->types));
     file = news->file;
     took_s = news->secondsSinceSaved();

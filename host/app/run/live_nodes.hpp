@@ -11,15 +11,18 @@
 namespace tactus::host
 {
 
-/// Live C++ in the window: adds new versions of plugins to catalogue(). The panels point into the datasheets of types, so all versions
-/// stay loaded until the window closes. [main thread]
+/// Live C++ in the window: adds new versions of plugins to catalogue(). [main thread]
 class LiveNodes
 {
 public:
     explicit LiveNodes (std::vector<LiveSource>);
 
-    /// True if catalogue() has new types now: everything that shows or runs nodes must be refreshed. Call this many times a second.
+    /// True if catalogue() has new types now: everything that shows or runs nodes must be renewed, and then forget() called. Call this
+    /// many times a second.
     bool attend();
+
+    /// Nothing in the window points into the earlier types any longer. A version is unloaded as soon as no plan uses it.
+    void forget() { earlier = {}; }
 
     /// What is wrong with the code that was saved last; each text begins with file and line.
     const Messages& messages() const noexcept { return said; }
@@ -29,7 +32,7 @@ public:
 
 private:
     LivePlugins plugins;
-    std::vector<Catalogue> shown;   // earlier catalogues, which keep the earlier versions of types loaded
+    Catalogue earlier;   // keeps the types that panels point into, until forget()
     Messages said;
     std::filesystem::path file;
     double took_s = 0.0;

@@ -163,6 +163,9 @@ void MainView::attendLiveNodes()
 {
     if (! live_nodes || ! live_nodes->attend()) return;
     edited.renew();
+    pictures.use (catalogue);
+    if (help.isOpen() && ! help.type().empty()) help.showNode (help.type());
+    live_nodes->forget();
     status.notify (juce::String (live_nodes->latest()));
 }
 

@@ -69,6 +69,8 @@ public:
     HelpPanel& helpPanel() noexcept { return help; }
     WelcomePage& welcomePage() noexcept { return welcome; }
     PresetBrowser& browser() noexcept { return presets; }
+    const ProblemList& problemList() const noexcept { return problems; }
+    Inspector& inspected() noexcept { return inspector; }
     juce::String statusText() const { return status.text(); }
 
     /// Asks for a file, see Files::Callbacks. Tests answer immediately.
