@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "handles.hpp"
 
+#include <tactus/kit/nearest_by_boxes.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/run/device/guard_limits.hpp>
 #include <tactus/run/turn.hpp>
@@ -84,6 +85,7 @@ tactus_run* tactus::capi::makeRun (graph::Graph g, CompileOptions options, Asset
 {
     auto made = std::make_unique<tactus_run> (options, reader);
     options.assets = &made->assets;
+    options.services.nearest_triangle = nearestByBoxes;
     made->graph = std::move (g);
     const auto opener = [r = made.get()] (const std::string& role, const tactus::graph::Graph& graph, const tactus::Plan&, Messages& out) {
         return open (*r, role, graph, out);
