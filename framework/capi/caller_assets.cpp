@@ -25,7 +25,10 @@ bool same (const Signal& a, const Signal& b) { return a.rate_hz == b.rate_hz && 
 bool same (const Grid& a, const Grid& b) { return a.rows == b.rows && a.columns == b.columns && sameBits (a.values, b.values); }
 bool same (const Mesh& a, const Mesh& b) { return sameBits (a.points, b.points) && sameBits (a.triangles, b.triangles); }
 
-Message unusable (const std::string& path, std::string what) { return Message::error ("asset/supplied", path, std::move (what), "correct the program that supplies it"); }
+Message unusable (const std::string& path, std::string what)
+{
+    return Message::error ("asset/supplied", path, std::move (what), "correct the program that supplies it");
+}
 
 /// Checks that rows and columns are there, and that there are not too many numbers.
 Result<> checkSize (const tactus_asset& from, const std::string& path)
@@ -51,7 +54,8 @@ Result<Signal> takeSignal (const tactus_asset& from, const std::string& path)
 Result<Grid> takeGrid (const tactus_asset& from, const std::string& path)
 {
     if (auto fits = checkSize (from, path); ! fits) return std::move (fits).error();
-    Grid made { .rows = static_cast<int> (from.rows), .columns = static_cast<int> (from.columns), .values = { from.values, from.values + from.rows * from.columns } };
+    Grid made { .rows = static_cast<int> (from.rows), .columns = static_cast<int> (from.columns), .values = {} };
+    made.values.assign (from.values, from.values + from.rows * from.columns);
     if (! std::ranges::all_of (made.values, [] (double v) { return isFinite (v); })) return unusable (path, "it has numbers that are not finite");
     return made;
 }

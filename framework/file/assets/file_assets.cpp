@@ -115,7 +115,8 @@ Assets::Loaded<Signal> FileAssets::signal (const std::string& path)
 
 Assets::Loaded<Grid> FileAssets::image (const std::string& path)
 {
-    return load (images, path, [&] { return fromBytes<Grid> (path, [this] (std::string_view bytes, std::string_view name) { return readImage (bytes, name); }); });
+    const auto decode = [this] (std::string_view bytes, std::string_view name) { return readImage (bytes, name); };
+    return load (images, path, [&] { return fromBytes<Grid> (path, decode); });
 }
 
 Assets::Loaded<Grid> FileAssets::table (const std::string& path)
