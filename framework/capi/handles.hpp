@@ -3,6 +3,7 @@
 
 /// What the handles of the C API point to. Only this folder and framework/python/ include this.
 
+#include "caller_assets.hpp"
 #include "pushed_device.hpp"
 #include "tactus.h"
 
@@ -51,9 +52,10 @@ public:
 
 struct tactus_run
 {
-    explicit tactus_run (tactus::CompileOptions o) : options (std::move (o)) {}
+    tactus_run (tactus::CompileOptions o, tactus::capi::AssetReader r) : options (std::move (o)), assets (r) {}
 
     tactus::CompileOptions options;
+    tactus::capi::CallerAssets assets;   // must outlive the run
     tactus::graph::Graph graph;
     std::map<std::string, tactus::DeviceOption> described;                        // by role; replaces the graph's description
     std::map<std::string, std::unique_ptr<tactus::capi::PushedDevice>> waiting;   // by role, until the run opens them
@@ -115,7 +117,7 @@ R guarded (tactus_messages* messages, R on_failure, F&& f) noexcept
 }
 
 /// Compiles a graph. The catalogue must outlive the run. Null, with the reasons in `messages`, if the graph does not compile.
-tactus_run* makeRun (graph::Graph, CompileOptions, const Catalogue&, tactus_messages*);
+tactus_run* makeRun (graph::Graph, CompileOptions, AssetReader, const Catalogue&, tactus_messages*);
 
 /// A copy that C code frees with tactus_text_free.
 inline char* copied (const std::string& text)

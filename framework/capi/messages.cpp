@@ -3,6 +3,7 @@
 
 #include <tactus/node/catalogue.hpp>
 #include <tactus/node/datasheet_json.hpp>
+#include <tactus/text/budget.hpp>
 #include <tactus/text/json.hpp>
 
 #include <cstdlib>
@@ -22,6 +23,17 @@ char* tactus_nodes_json (void)
                                    all.push_back (tactus::datasheetJson (type));
                                return copied (all.dump (2));
                            });
+}
+
+tactus_result tactus_set_limits (const char* limits, tactus_messages* messages)
+{
+    if (limits == nullptr) return TACTUS_MISUSE;
+    return guarded (messages, TACTUS_FAILED, [&] {
+        auto read = tactus::readLimits (limits);
+        if (! read) return failed (messages, std::move (read).error());
+        tactus::setBudgets (*read);
+        return TACTUS_OK;
+    });
 }
 
 tactus_messages* tactus_messages_create (void) { return new (std::nothrow) tactus_messages; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "handles.hpp"
 
+#include <tactus/kit/nearest_by_boxes.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/run/device/guard_limits.hpp>
 #include <tactus/run/turn.hpp>
@@ -66,7 +67,7 @@ tactus_run* create (const tactus_graph& g, const tactus_run_options& given, tact
         }
         options.overrides.push_back (std::move (*read));
     }
-    return makeRun (g.history.graph(), std::move (options), tactus::catalogue(), messages);
+    return makeRun (g.history.graph(), std::move (options), { given.assets, given.asset_context }, tactus::catalogue(), messages);
 }
 
 bool knowsRole (const tactus_run& r, const char* role, tactus_messages* messages)
@@ -80,9 +81,11 @@ bool knowsRole (const tactus_run& r, const char* role, tactus_messages* messages
 bool isTickedByCaller (const tactus_run* r) noexcept { return r != nullptr && r->is_open && ! r->run->isLive(); }
 }   // namespace
 
-tactus_run* tactus::capi::makeRun (graph::Graph g, CompileOptions options, const Catalogue& types, tactus_messages* messages)
+tactus_run* tactus::capi::makeRun (graph::Graph g, CompileOptions options, AssetReader reader, const Catalogue& types, tactus_messages* messages)
 {
-    auto made = std::make_unique<tactus_run> (options);
+    auto made = std::make_unique<tactus_run> (options, reader);
+    options.assets = &made->assets;
+    options.services.nearest_triangle = nearestByBoxes;
     made->graph = std::move (g);
     const auto opener = [r = made.get()] (const std::string& role, const tactus::graph::Graph& graph, const tactus::Plan&, Messages& out) {
         return open (*r, role, graph, out);

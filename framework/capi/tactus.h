@@ -138,6 +138,50 @@ TACTUS_API tactus_result tactus_graph_set_device (tactus_graph*, const char* rol
 TACTUS_API int32_t tactus_graph_undo (tactus_graph*); /**< 0 if there is nothing to undo */
 TACTUS_API int32_t tactus_graph_redo (tactus_graph*); /**< 0 if there is nothing to redo */
 
+/* ============================================================================ Assets */
+
+/* Settings can name files: tables (CSV), meshes (OBJ, OFF, PLY, STL), pictures and recordings. The library reads tables and meshes, with
+ * the budgets and errors of `tactus render`. It has no decoders for pictures and recordings, so you supply their numbers. You may supply
+ * tables and meshes, too. */
+
+typedef enum tactus_asset_kind
+{
+    TACTUS_ASSET_SIGNAL = 1, /**< a recording: one row per sample, one column per channel */
+    TACTUS_ASSET_IMAGE = 2,  /**< a picture: grey values from 0 (black) to 1 (white), top row first */
+    TACTUS_ASSET_TABLE = 3,  /**< numbers in rows and columns */
+    TACTUS_ASSET_MESH = 4    /**< points and triangles */
+} tactus_asset_kind;
+
+/** Numbers that you supply instead of a file. The library copies them when your function has returned. */
+typedef struct tactus_asset
+{
+    uint32_t size;        /**< set by the library */
+    size_t rows, columns; /**< of a signal, an image or a table */
+    const double* values; /**< rows x columns finite numbers, row after row */
+    double rate_hz;       /**< sample rate of a signal */
+    const double* points; /**< x, y and z of each point of a mesh, as they would be in its file */
+    size_t point_count;
+    const int32_t* triangles; /**< three points per triangle, numbered from 0, counter-clockwise as seen from outside */
+    size_t triangle_count;
+    const char* problem; /**< with TACTUS_ASSET_REFUSED: why there are no numbers, in a sentence; may be NULL */
+} tactus_asset;
+
+typedef enum tactus_asset_answer
+{
+    TACTUS_ASSET_FROM_FILE = 0, /**< read the file */
+    TACTUS_ASSET_SUPPLIED = 1,  /**< the asset is filled */
+    TACTUS_ASSET_REFUSED = 2    /**< the graph does not compile */
+} tactus_asset_answer;
+
+/** Your function, asked about each file that a setting names, by tactus_run_create and tactus_run_edit. `path` begins with the folder of the
+ *  graph. The asset is empty; what its pointers point to must stay valid until the next call of this function, or until the function of
+ *  the library returns. [main thread] */
+typedef tactus_asset_answer (*tactus_asset_reader) (void* context, tactus_asset_kind kind, const char* path, tactus_asset* asset);
+
+/** Sets what files may cost, for all graphs of this process, as the option --limits of `tactus render` does: "points=1M,memory=2GB". Those
+ *  that the text does not name have their defaults. Call it before a graph is loaded. [main thread] */
+TACTUS_API tactus_result tactus_set_limits (const char* limits, tactus_messages*);
+
 /* ============================================================================ Runs */
 
 typedef struct tactus_run_options
@@ -150,11 +194,13 @@ typedef struct tactus_run_options
     size_t record_count;
     const char* const* sets; /**< values that replace those of the graph: "drag.mu=0.3" */
     size_t set_count;
+    tactus_asset_reader assets; /**< asked before a file is read; NULL: all files are read by the library */
+    void* asset_context;        /**< passed to `assets`; must outlive the run */
 } tactus_run_options;
 
-#define TACTUS_RUN_OPTIONS                                 \
-    {                                                      \
-        sizeof (tactus_run_options), 0.0, 0, 0, 0, 0, 0, 0 \
+#define TACTUS_RUN_OPTIONS                                       \
+    {                                                            \
+        sizeof (tactus_run_options), 0.0, 0, 0, 0, 0, 0, 0, 0, 0 \
     }
 
 /** Compiles a graph, which may be freed or edited afterwards. NULL if it does not compile. [main thread] */

@@ -10,6 +10,11 @@ PYBIND11_MODULE (_tactus, module)
         const std::unique_ptr<char, void (*) (char*)> text { tactus_nodes_json(), tactus_text_free };
         return std::string (text ? text.get() : "[]");
     });
+    module.def ("set_limits", [] (const std::string& limits) {
+        tactus_messages messages;
+        tactus_set_limits (limits.c_str(), &messages);
+        tactus::python::report (messages.list);
+    });
     tactus::python::bindGraph (module);
     tactus::python::bindRun (module);
 }

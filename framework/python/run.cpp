@@ -64,14 +64,16 @@ void PythonRun::call (const char* what, F&& f)
         result = f (&messages);
     }
     own.raiseFailure();
+    assets.raiseFailure();
     report (messages.list);
     if (result == TACTUS_OK) return;
     fail (Message::error ("engine/not_now", "", std::string ("the engine cannot ") + what + " at this time",
                           "an engine ticks either in your loop or live; a live run starts once, and is over when it is stopped"));
 }
 
-PythonRun::PythonRun (const EditedGraph& graph, Options given, const py::list& own_nodes, const std::optional<std::pair<std::vector<std::string>, Rows>>& table)
-    : own (own_nodes)
+PythonRun::PythonRun (const EditedGraph& graph, Options given, const py::list& own_nodes, const std::optional<std::pair<std::vector<std::string>, Rows>>& table,
+                      py::object own_assets)
+    : own (own_nodes), assets (std::move (own_assets))
 {
     CompileOptions options { .rate_hz = given.rate_hz, .feeds = std::move (given.feeds), .records = std::move (given.records) };
     if (table)
@@ -89,10 +91,12 @@ PythonRun::PythonRun (const EditedGraph& graph, Options given, const py::list& o
     {
         auto copy = graph.graph();
         const py::gil_scoped_release without_gil;
-        run.reset (capi::makeRun (std::move (copy), std::move (options), own.catalogue(), &messages));
+        run.reset (capi::makeRun (std::move (copy), std::move (options), assets.reader(), own.catalogue(), &messages));
+        assets.release();
         if (run && feed) run->run->add (*feed);
     }
     own.raiseFailure();
+    assets.raiseFailure();
     report (messages.list);
     if (! run) fail (Message::error ("run/no_plan", "", "the graph does not compile", "see the other messages"));
 }
@@ -319,7 +323,11 @@ void PythonRun::hit (const std::string& input, double speed)
 void PythonRun::edit (const EditedGraph& graph)
 {
     const tactus_graph copy { graph::History (graph.graph()) };   // another thread may edit the graph meanwhile
-    call ("take an edited graph", [&] (auto* m) { return tactus_run_edit (run.get(), &copy, m); });
+    call ("take an edited graph", [&] (auto* m) {
+        const auto taken = tactus_run_edit (run.get(), &copy, m);
+        assets.release();
+        return taken;
+    });
 }
 
 //==============================================================================
@@ -327,8 +335,9 @@ void bindRun (py::module_& module)
 {
     const auto make = [] (const EditedGraph& graph, double rate_hz, std::vector<std::string> feeds, std::vector<std::string> records,
                           std::map<std::string, std::string> sets, const py::list& nodes,
-                          const std::optional<std::pair<std::vector<std::string>, PythonRun::Rows>>& table) {
-        return std::make_unique<PythonRun> (graph, PythonRun::Options { rate_hz, std::move (feeds), std::move (records), std::move (sets) }, nodes, table);
+                          const std::optional<std::pair<std::vector<std::string>, PythonRun::Rows>>& table, py::object assets) {
+        return std::make_unique<PythonRun> (graph, PythonRun::Options { rate_hz, std::move (feeds), std::move (records), std::move (sets) }, nodes, table,
+                                            std::move (assets));
     };
     py::class_<PythonRun> (module, "Run")
         .def (py::init (make))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "assets.hpp"
 #include "graph.hpp"
 #include "own_nodes.hpp"
 
@@ -35,7 +36,8 @@ public:
     };
 
     /// A table of feeds makes the run as long as the table; its columns replace Options::feeds.
-    PythonRun (const EditedGraph&, Options, const py::list& own_nodes, const std::optional<std::pair<std::vector<std::string>, Rows>>& table);
+    PythonRun (const EditedGraph&, Options, const py::list& own_nodes, const std::optional<std::pair<std::vector<std::string>, Rows>>& table,
+               py::object assets);
     ~PythonRun();
     PythonRun (const PythonRun&) = delete;
     PythonRun& operator= (const PythonRun&) = delete;
@@ -82,7 +84,8 @@ private:
 
     std::optional<Feed> feed;
     OwnNodes own;
-    std::unique_ptr<tactus_run, void (*) (tactus_run*)> run { nullptr, tactus_run_free };   // declared after feed and own, because it uses them
+    PythonAssets assets;
+    std::unique_ptr<tactus_run, void (*) (tactus_run*)> run { nullptr, tactus_run_free };   // declared after feed, own and assets, because it uses them
     std::mutex turns;
     std::atomic<std::thread::id> owner {};
     std::atomic<std::uint64_t> done = 0;

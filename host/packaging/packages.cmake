@@ -66,8 +66,10 @@ set (CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 # The Python module, if it is built, is installed as the component `python`.
 get_cmake_property (components COMPONENTS)
 if (python IN_LIST components)
+    math (EXPR next_python "${TACTUS_PYTHON_MINOR} + 1")
     tactus_package (python python3-tactus python "haptic effects from Python" "${about}
-This package contains the Python module." DEPENDS "python3, python3-numpy" RECOMMENDS "python3-matplotlib")
+This package contains the Python module."
+        DEPENDS "python3 (>= 3.${TACTUS_PYTHON_MINOR}~), python3 (<< 3.${next_python}), python3-numpy" RECOMMENDS "python3-matplotlib")
 endif ()
 
 include (CPack)

@@ -1,9 +1,9 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "whole_error.hpp"
 
-#include <host/assets/mesh.hpp>
+#include <tactus/file/assets/mesh.hpp>
 
 #include <string>
 
@@ -16,7 +16,7 @@ inline void tryMesh (std::string_view bytes)
 {
     for (const auto* name : { "fuzz.obj", "fuzz.off", "fuzz.ply", "fuzz.stl" })
     {
-        const auto mesh = host::readMesh (bytes, name);
+        const auto mesh = readers::readMesh (bytes, name);
         if (! mesh)
         {
             checkWhole (mesh.error());

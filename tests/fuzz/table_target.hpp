@@ -1,9 +1,9 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "whole_error.hpp"
 
-#include <host/assets/table.hpp>
+#include <tactus/file/assets/table.hpp>
 
 #include <algorithm>
 
@@ -14,7 +14,7 @@ namespace tactus::fuzz
 /// otherwise.
 inline void tryTable (std::string_view text)
 {
-    const auto grid = host::readGrid (text, "fuzz.csv");
+    const auto grid = readers::readGrid (text, "fuzz.csv");
     if (! grid) return checkWhole (grid.error());
     if (grid->rows < 1 || grid->columns < 1) std::abort();
     if (grid->values.size() != static_cast<std::size_t> (grid->rows) * static_cast<std::size_t> (grid->columns)) std::abort();

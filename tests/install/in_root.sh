@@ -121,6 +121,7 @@ took "the examples, by CMake and by pkg-config"
 
 if grep -q python3-tactus <<<"$ours"; then
     python3 -c 'import tactus; assert tactus.Graph ("/usr/share/tactus/graphs/dry_wood.json").render (duration=0.1)'
+    python3 -c 'import tactus; assert tactus.Graph ("/usr/share/tactus/graphs/liver.json").render (duration=0.1)'   # reads a mesh
     took "the Python module"
 fi
 

@@ -26,7 +26,7 @@ echo "the shared library exports the $(wc -l <"$work/symbols") functions of the 
 
 examples=$work/examples
 cp -r docs/examples "$examples"
-for example in embed embed_c own_node; do
+for example in embed embed_c own_node pictures_c; do
     cmake -S "$examples/$example" -B "$work/$example" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" >/dev/null
     cmake --build "$work/$example" >/dev/null
     "$work/$example/$example" "$source/graphs/dry_wood.json" >"$work/$example.txt"
@@ -55,6 +55,20 @@ echo "docs/examples/node_plugin and a new node: built as plugins, loaded and che
 # The same bits as the program, except for the spelling of numbers.
 "$build/bin/tactus" render graphs/dry_wood.json --duration 1 --out "$work/render.csv" 2>/dev/null
 python3 tests/install/same_bits.py "$work/render.csv" "$work/embed_c.txt"
+
+# Every preset, with its tables and meshes, and with a picture that the example supplies.
+cp -r graphs "$work/graphs"
+rm "$work/graphs/assets/leather.png"
+python3 -B tests/install/png_to_pgm.py graphs/assets/leather.png "$work/graphs/assets/leather.pgm"
+for preset in graphs/*.json; do
+    "$build/bin/tactus" render "$preset" --duration 0.25 --out "$work/render.csv" 2>/dev/null
+    "$work/pictures_c/pictures_c" "$work/$preset" 0.25 >"$work/preset.csv"
+    python3 tests/install/same_bits.py "$work/render.csv" "$work/preset.csv" $(($(wc -l <"$work/render.csv") - 1)) >"$work/same.txt"
+done
+echo "all $(find graphs -maxdepth 1 -name '*.json' | wc -l) presets, read by the library: the bits of \`tactus render\`"
+mv "$work/graphs/assets/liver.obj" "$work/graphs/assets/gone.obj"
+if "$work/pictures_c/pictures_c" "$work/graphs/liver.json" 2>"$work/missing.txt"; then exit 1; fi
+grep "liver.obj: there is no such file" "$work/missing.txt" >/dev/null
 
 # The Python package, from its installed files alone.
 if cmake --install "$build" --component python --prefix "$work/prefix" >/dev/null && [ -d "$work/prefix/lib/python3/dist-packages/tactus" ]; then

@@ -19,6 +19,9 @@ except ImportError:
 import tactus
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "tests/install"))
+import png_to_pgm   # noqa: E402
+
 GRAPHS = ROOT / "graphs"
 PROGRAM = os.environ.get("TACTUS_PROGRAM", "")
 
@@ -49,6 +52,11 @@ def columns(records):
         names += [port] if values.ndim == 1 else [f"{port}.{axis}" for axis in "xyz"]
         arrays.append(values.reshape(len(values), -1))
     return names, np.hstack(arrays)
+
+
+def pixels(path):
+    """The pixels of an 8-bit PNG that is grey, shape (rows, columns)."""
+    return np.array(png_to_pgm.pixels(path), np.uint8)
 
 
 class TestCase(unittest.TestCase):

@@ -13,6 +13,7 @@ those of `tactus render`. Problems raise tactus.Error; warnings are Python warni
 """
 
 from . import _tactus
+from ._assets import Mesh, Signal, set_limits
 from ._engine import Effort, Engine, PushedDevice, Status
 from ._graph import Graph
 from ._messages import Error, Message, TactusWarning
@@ -24,5 +25,5 @@ from ._sweep import Point, sweep
 
 __version__ = _tactus.version()
 
-__all__ = ["Effort", "Engine", "Error", "Graph", "Message", "Node", "Point", "PushedDevice", "Records", "Status", "TactusWarning",
-           "choice", "nodes", "plot", "scalar", "sweep", "vector"]
+__all__ = ["Effort", "Engine", "Error", "Graph", "Mesh", "Message", "Node", "Point", "PushedDevice", "Records", "Signal", "Status",
+           "TactusWarning", "choice", "nodes", "plot", "scalar", "set_limits", "sweep", "vector"]

@@ -12,6 +12,7 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tup
 import numpy as np
 
 from . import _tactus
+from ._assets import Assets, reader
 from ._graph import Graph
 from ._messages import fail
 from ._own import Node, describe
@@ -66,7 +67,8 @@ class Engine:
     nothing."""
 
     def __init__(self, graph: Graph, feed: Optional[Mapping[str, Any]] = None, record: Sequence[str] = (), rate: Optional[float] = None,
-                 set: Optional[Mapping[str, Any]] = None, devices: Optional[Mapping[str, Any]] = None, nodes: Sequence[Type[Node]] = ()):
+                 set: Optional[Mapping[str, Any]] = None, devices: Optional[Mapping[str, Any]] = None, nodes: Sequence[Type[Node]] = (),
+                 assets: Optional[Assets] = None):
         """feed: the ports that you drive, with their first values: a number for a scalar, three for a vector, SI.
         record: ports; without any, the inputs of all sinks.
         rate: in Hz; without it, that of the graph.
@@ -74,7 +76,12 @@ class Engine:
         devices: by role: a PushedDevice, text as for --device ("sim", "trace:FILE.csv", "gesture:NAME", "FILE.json"), or a description
             as in a graph file ({"driver": "sim", …}), whose files are relative to the current folder. Real devices belong to the
             host.
-        nodes: classes derived from tactus.Node that the graph uses; such an engine runs offline only."""
+        nodes: classes derived from tactus.Node that the graph uses; such an engine runs offline only.
+        assets: what you supply instead of files that settings name. Tables and meshes are read from their files; pictures and
+            recordings are not, so supply them. A dict by path, or by the last parts of a path: for a picture an array of shape
+            (rows, columns) or (rows, columns, colours), of uint8, uint16, or floats from 0 (black) to 1 (white), top row first; for a
+            recording a tactus.Signal; for a table an array of shape (rows, columns); for a mesh a tactus.Mesh. Or a function of the kind
+            ("image", "signal", "table", "mesh") and the path that returns one of these, or None to read the file."""
         self._begin()
         self._fed: Dict[str, int] = {}
         self._values = np.zeros(0)
@@ -82,28 +89,30 @@ class Engine:
             self._fed[port] = _width(port, np.asarray(value, dtype=float))
         self._values = np.concatenate([np.ravel(np.asarray(v, dtype=float)) for v in feed.values()]) if feed else self._values
         names = [name for port, width in self._fed.items() for name in names_of(port, width)]
-        self._make(graph, names, record, rate, set, devices, nodes, None)
+        self._make(graph, names, record, rate, set, devices, nodes, None, assets)
 
     @classmethod
     def _offline(cls, graph: Graph, feed: Optional[Mapping[str, Any]], record: Sequence[str], rate: Optional[float],
-                 set: Optional[Mapping[str, Any]], devices: Optional[Mapping[str, Any]], nodes: Sequence[Type[Node]]) -> "Engine":
+                 set: Optional[Mapping[str, Any]], devices: Optional[Mapping[str, Any]], nodes: Sequence[Type[Node]],
+                 assets: Optional[Assets]) -> "Engine":
         """An engine that is fed with a table from its first tick on."""
         engine = cls.__new__(cls)
         engine._begin()
         engine._fed, engine._values = {}, np.zeros(0)
-        engine._make(graph, [], record, rate, set, devices, nodes, table_of(feed) if feed is not None else None)
+        engine._make(graph, [], record, rate, set, devices, nodes, table_of(feed) if feed is not None else None, assets)
         return engine
 
     def _begin(self) -> None:
         self._collected = 0
 
     def _make(self, graph: Graph, feeds: List[str], record: Sequence[str], rate: Optional[float], set: Optional[Mapping[str, Any]],
-              devices: Optional[Mapping[str, Any]], nodes: Sequence[Type[Node]], table: Optional[Tuple[List[str], np.ndarray]]) -> None:
+              devices: Optional[Mapping[str, Any]], nodes: Sequence[Type[Node]], table: Optional[Tuple[List[str], np.ndarray]],
+              assets: Optional[Assets]) -> None:
         if rate is not None and not rate > 0.0:
             fail("run/rate", "", f"{rate} is not a rate", "give a rate in Hz, or None for that of the graph")
         asked = [record] if isinstance(record, str) else list(record)
         values = {name: to_json(value) for name, value in (set or {}).items()}
-        self._run = _tactus.Run(graph._graph, float(rate or 0.0), feeds, asked, values, describe(nodes), table)
+        self._run = _tactus.Run(graph._graph, float(rate or 0.0), feeds, asked, values, describe(nodes), table, reader(assets))
         for role, device in (devices or {}).items():
             self._give(role, device)
         self._run.open()

@@ -8,6 +8,7 @@ import os
 from typing import Any, Dict, Mapping, Optional, Sequence, Tuple, Type, Union
 
 from . import _tactus
+from ._assets import Assets
 from ._messages import fail
 from ._own import Node
 from ._records import Records, to_json, to_optional_json
@@ -111,7 +112,7 @@ class Graph:
 
     def render(self, feed: Optional[Mapping[str, Any]] = None, record: Sequence[str] = (), rate: Optional[float] = None,
                duration: Optional[float] = None, set: Optional[Mapping[str, Any]] = None, devices: Optional[Mapping[str, Any]] = None,
-               nodes: Sequence[Type[Node]] = ()) -> Records:
+               nodes: Sequence[Type[Node]] = (), assets: Optional[Assets] = None) -> Records:
         """Runs the graph offline, as `tactus render` does, with the same bits.
 
         feed: arrays by port, shape (n,) for a scalar and (n, 3) for a vector, in SI units; a single number holds for all ticks. "t", shape
@@ -122,12 +123,13 @@ class Graph:
         set: values of parameters, by name: {"drag.mu": 0.3, "drag.d_max": "20 um"}.
         devices: by role, as for tactus.Engine.
         nodes: classes derived from tactus.Node that the graph uses.
+        assets: what you supply instead of files that settings name, such as pictures, as for tactus.Engine.
 
         Returns a dict of arrays with one row per tick: "t" (n,), scalars (n,), vectors (n, 3). A port inside a `times` section gives the
         last sample of each tick. Ctrl-C ends the run. Other threads can run at the same time."""
         from ._engine import Engine
 
-        with Engine._offline(self, feed, record, rate, set, devices, nodes) as engine:
+        with Engine._offline(self, feed, record, rate, set, devices, nodes, assets) as engine:
             return engine.step(n=_ticks(engine, duration, feed is not None))
 
 

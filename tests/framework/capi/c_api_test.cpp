@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <tactus/tactus.h>
+#include "c_handles.hpp"
 
 #include <support/temporary_folder.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -20,21 +20,11 @@
 
 extern "C" int renderInC (const char* path, double* records, size_t ticks);   // c_api_c99.c
 
+using namespace tactus::test;
+
 namespace
 {
 const std::string presets = TACTUS_SOURCE_DIR "/graphs/";
-
-struct Free
-{
-    void operator() (tactus_messages* m) const { tactus_messages_free (m); }
-    void operator() (tactus_graph* g) const { tactus_graph_free (g); }
-    void operator() (tactus_run* r) const { tactus_run_free (r); }
-    void operator() (char* text) const { tactus_text_free (text); }
-};
-using MessageList = std::unique_ptr<tactus_messages, Free>;
-using GraphHandle = std::unique_ptr<tactus_graph, Free>;
-using RunHandle = std::unique_ptr<tactus_run, Free>;
-using Text = std::unique_ptr<char, Free>;
 
 /// A tool that presses against a spring along z.
 GraphHandle spring (tactus_messages* m)

@@ -4,6 +4,7 @@
 #include "program.hpp"
 
 #include <host/io/plot.hpp>
+#include <tactus/file/assets/table.hpp>
 #include <tactus/file/csv.hpp>
 
 #include <catch2/catch.hpp>
@@ -151,4 +152,23 @@ TEST_CASE ("strokes drawn on a tablet drive the wood preset with position and pr
         if (entry.path().string().find ("drag") != std::string::npos) CHECK (drag > 0.05);
     }
     CHECK (strokes >= 2);
+}
+
+TEST_CASE ("profilometer files are read unchanged", "[host][assets][table][data]")
+{
+    const auto folder = test::sharedData ("topography_contactengineering");
+    if (folder.empty()) return;
+
+    const auto read = [&] (const std::string& name) { return readers::readGrid (test::textOf (folder + "/" + name), name); };
+    const auto dektak = read ("dektak-1.csv"), xy = read ("xy-4.txt");
+    INFO ((dektak ? "" : describe (dektak.error())));
+    INFO ((xy ? "" : describe (xy.error())));
+    REQUIRE (dektak);
+    CHECK (dektak->rows == 1);
+    CHECK (dektak->columns > 9000);
+    CHECK (dektak->values.front() == -0.00933);
+    REQUIRE (xy);
+    CHECK (xy->rows == 1);
+    CHECK (xy->columns > 9000);
+    CHECK (xy->values.front() == 0.003581);
 }

@@ -1,10 +1,10 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "binary.hpp"
 #include "mesh_parts.hpp"
 
 #include <cstdint>
 
-namespace tactus::host
+namespace tactus::readers
 {
 
 namespace
@@ -64,4 +64,4 @@ void readStl (std::string_view bytes, MeshBuilder& mesh)
     text ? readText (bytes, mesh) : readBinary (bytes, mesh);
 }
 
-}   // namespace tactus::host
+}   // namespace tactus::readers

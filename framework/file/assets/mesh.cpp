@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "mesh.hpp"
 #include "mesh_parts.hpp"
 
@@ -11,7 +11,7 @@
 #include <cmath>
 #include <filesystem>
 
-namespace tactus::host
+namespace tactus::readers
 {
 
 namespace
@@ -151,21 +151,20 @@ long long wholeNumber (std::string_view word, std::size_t line)
     return *value;
 }
 
-Result<Mesh> readMesh (std::string_view bytes, std::string_view name)
+namespace
 {
-    const auto kind = std::ranges::find (kinds, endingOf (name), &Kind::ending);
-    if (kind == std::end (kinds))
-        return fail ("mesh/unknown_kind", std::string (name), "its extension is not that of a supported mesh file", "save it as .obj, .off, .ply or .stl");
-
+/// Lets `fill` add points and faces to a builder, and turns what is wrong into a message.
+template <typename F>
+Result<Mesh> built (F&& fill, std::string_view name, const std::string& remedy)
+{
     MeshBuilder builder;
     try
     {
-        kind->read (bytes, builder);
+        fill (builder);
     }
     catch (const MeshProblem& p)
     {
-        return fail (p.id, std::string (name) + (p.line > 0 ? ":" + std::to_string (p.line) : ""), p.what,
-                     p.remedy.empty() ? "check that it is a complete " + std::string (kind->ending) + " file, and export it again" : p.remedy);
+        return fail (p.id, std::string (name) + (p.line > 0 ? ":" + std::to_string (p.line) : ""), p.what, p.remedy.empty() ? remedy : p.remedy);
     }
 
     auto mesh = builder.take();
@@ -173,5 +172,27 @@ Result<Mesh> readMesh (std::string_view bytes, std::string_view name)
         return fail ("mesh/no_triangles", std::string (name), "it has no triangles", "save a surface, not only points or lines");
     return mesh;
 }
+}   // namespace
 
-}   // namespace tactus::host
+Result<Mesh> readMesh (std::string_view bytes, std::string_view name)
+{
+    const auto kind = std::ranges::find (kinds, endingOf (name), &Kind::ending);
+    if (kind == std::end (kinds))
+        return fail ("mesh/unknown_kind", std::string (name), "its extension is not that of a supported mesh file", "save it as .obj, .off, .ply or .stl");
+    return built ([&] (MeshBuilder& builder) { kind->read (bytes, builder); }, name,
+                  "check that it is a complete " + std::string (kind->ending) + " file, and export it again");
+}
+
+Result<Mesh> meshOf (std::span<const double> points, std::span<const std::int32_t> triangles, std::string_view name)
+{
+    return built (
+        [&] (MeshBuilder& builder) {
+            for (std::size_t i = 0; i + 2 < points.size(); i += 3)
+                builder.point ({ points[i], points[i + 1], points[i + 2] });
+            for (std::size_t i = 0; i + 2 < triangles.size(); i += 3)
+                builder.face (std::array<long long, 3> { triangles[i], triangles[i + 1], triangles[i + 2] });
+        },
+        name, "check the points and triangles that the program supplies");
+}
+
+}   // namespace tactus::readers

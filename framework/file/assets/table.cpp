@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "table.hpp"
 #include "text.hpp"
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-namespace tactus::host
+namespace tactus::readers
 {
 
 namespace
@@ -145,4 +145,4 @@ private:
 
 Result<Grid> readGrid (std::string_view text, std::string_view name) { return Reader (text, name).read(); }
 
-}   // namespace tactus::host
+}   // namespace tactus::readers

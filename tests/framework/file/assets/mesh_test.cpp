@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "support/with_limits.hpp"
 
-#include <host/assets/mesh.hpp>
+#include <tactus/file/assets/mesh.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -10,7 +10,7 @@
 #include <cstring>
 
 using namespace tactus;
-using host::readMesh;
+using readers::readMesh;
 
 namespace
 {
@@ -143,7 +143,7 @@ std::string problem (const std::string& bytes, const std::string& name)
 }
 }   // namespace
 
-TEST_CASE ("a tetrahedron gives the same mesh from every kind of file", "[host][assets][mesh]")
+TEST_CASE ("a tetrahedron gives the same mesh from every kind of file", "[file][assets][mesh]")
 {
     for (const auto& [name, bytes] : samples())
     {
@@ -164,7 +164,7 @@ TEST_CASE ("a tetrahedron gives the same mesh from every kind of file", "[host][
     }
 }
 
-TEST_CASE ("identical points are merged, polygons are split, and triangles without area are dropped", "[host][assets][mesh]")
+TEST_CASE ("identical points are merged, polygons are split, and triangles without area are dropped", "[file][assets][mesh]")
 {
     const auto mesh = readMesh ("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv -0 0 0\nv 2 0 0\nf 1 2 3 4\nf 5 6 2\nf 1 2 5\nf 1 2\nl 1 2\n", "a.obj");
     REQUIRE (mesh);
@@ -172,7 +172,7 @@ TEST_CASE ("identical points are merged, polygons are split, and triangles witho
     CHECK (mesh->triangles == Triangles { { 0, 1, 2 }, { 0, 2, 3 } });   // 5 6 2 are collinear
 }
 
-TEST_CASE ("corners that differ in their last digit are merged, so that a mesh has no cracks", "[host][assets][mesh]")
+TEST_CASE ("corners that differ in their last digit are merged, so that a mesh has no cracks", "[file][assets][mesh]")
 {
     const auto mesh = readMesh ("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1.0000000001 0 0\nv 1 1 0\nv 0 0.9999999999 0\nf 1 2 3\nf 4 5 6\n", "a.obj");
     REQUIRE (mesh);
@@ -180,7 +180,7 @@ TEST_CASE ("corners that differ in their last digit are merged, so that a mesh h
     CHECK (mesh->triangles == Triangles { { 0, 1, 2 }, { 1, 3, 2 } });
 }
 
-TEST_CASE ("an unreadable mesh gives an error with a position", "[host][assets][mesh]")
+TEST_CASE ("an unreadable mesh gives an error with a position", "[file][assets][mesh]")
 {
     CHECK (problem ("v 0 0 0\n", "a.gltf") == "mesh/unknown_kind at a.gltf");
     CHECK (problem ("v 0 0 0\nv 1 0\n", "a.obj") == "mesh/syntax at a.obj:2");
@@ -203,7 +203,7 @@ TEST_CASE ("an unreadable mesh gives an error with a position", "[host][assets][
     CHECK (problem ("solid\nvertex 0 0 0\n", "a.stl") == "mesh/truncated at a.stl:2");
 }
 
-TEST_CASE ("a face with more corners than the budget allows is refused before they are read", "[host][assets][mesh]")
+TEST_CASE ("a face with more corners than the budget allows is refused before they are read", "[file][assets][mesh]")
 {
     const std::string head = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nelement face 1\nproperty list int int vertex_index\nend_header\n0\n";
     CHECK (problem (head + "2000000000 0 0 0\n", "a.ply") == "mesh/too_large at a.ply:9");
@@ -215,7 +215,7 @@ TEST_CASE ("a face with more corners than the budget allows is refused before th
     CHECK (problem ("v 0 0 0\nf 1 1 1 1 1 1 x\n", "a.obj") == "mesh/too_large at a.obj:2");
 }
 
-TEST_CASE ("no damaged mesh crashes the reader", "[host][assets][mesh]")
+TEST_CASE ("no damaged mesh crashes the reader", "[file][assets][mesh]")
 {
     const auto all = samples();
     rc::prop ("any bytes changed, doubled or cut off", [&] {

@@ -1,12 +1,14 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <tactus/kit/assets.hpp>
 #include <tactus/text/result.hpp>
 
+#include <cstdint>
+#include <span>
 #include <string_view>
 
-namespace tactus::host
+namespace tactus::readers
 {
 
 /// Parses the bytes of an OBJ, OFF, PLY or STL file; the file name's extension selects the format.
@@ -23,4 +25,8 @@ namespace tactus::host
 /// `where` is name:line for text, name for binary files.
 [[nodiscard]] Result<Mesh> readMesh (std::string_view bytes, std::string_view name);
 
-}   // namespace tactus::host
+/// A mesh of numbers that a program supplies, as readMesh would make it from a file: three coordinates per point, three indices from 0
+/// per triangle. `name` is for messages. Error ids: mesh/syntax, mesh/no_such_point, mesh/no_triangles, mesh/too_large.
+[[nodiscard]] Result<Mesh> meshOf (std::span<const double> points, std::span<const std::int32_t> triangles, std::string_view name);
+
+}   // namespace tactus::readers

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "text.hpp"
@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-namespace tactus::host
+namespace tactus::readers
 {
 
 /// Thrown by the functions below and caught by readMesh.
@@ -55,4 +55,4 @@ void readOff (std::string_view bytes, MeshBuilder&);
 void readPly (std::string_view bytes, MeshBuilder&);
 void readStl (std::string_view bytes, MeshBuilder&);
 
-}   // namespace tactus::host
+}   // namespace tactus::readers

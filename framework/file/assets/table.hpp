@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <tactus/kit/assets.hpp>
@@ -6,7 +6,7 @@
 
 #include <string_view>
 
-namespace tactus::host
+namespace tactus::readers
 {
 
 /// Reads numbers in rows and columns, as instruments and programs write them: separated by commas, semicolons, tabs or
@@ -21,4 +21,4 @@ namespace tactus::host
 /// `where` is name:line.
 [[nodiscard]] Result<Grid> readGrid (std::string_view text, std::string_view name);
 
-}   // namespace tactus::host
+}   // namespace tactus::readers

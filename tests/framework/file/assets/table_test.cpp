@@ -1,7 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/assets/table.hpp>
-
-#include "host/cli/program.hpp"
+// SPDX-License-Identifier: MIT
+#include <tactus/file/assets/table.hpp>
 
 #include <tactus/text/number_text.hpp>
 
@@ -9,7 +7,7 @@
 #include <rapidcheck/catch.h>
 
 using namespace tactus;
-using host::readGrid;
+using readers::readGrid;
 
 namespace
 {
@@ -31,7 +29,7 @@ std::string problem (const std::string& text)
 }
 }   // namespace
 
-TEST_CASE ("tables from spreadsheets, instruments and programs are read", "[host][assets][table]")
+TEST_CASE ("tables from spreadsheets, instruments and programs are read", "[file][assets][table]")
 {
     const std::vector<double> six { 1, -2.5, 3e-3, 4, 5, 6 };
     checkGrid ("1,-2.5,3e-3\n4,5,6\n", 2, 3, six);
@@ -45,14 +43,14 @@ TEST_CASE ("tables from spreadsheets, instruments and programs are read", "[host
     checkGrid ("1\n2\n3\n", 3, 1, { 1, 2, 3 });
 }
 
-TEST_CASE ("positions and heights become a row of heights if the positions are evenly spaced", "[host][assets][table]")
+TEST_CASE ("positions and heights become a row of heights if the positions are evenly spaced", "[file][assets][table]")
 {
     checkGrid ("Lateral um,Raw Micrometer,\n0.0,-9,,\n0.2,-7,,\n0.3,-6,,\n0.5,1,,\n", 1, 4, { -9, -7, -6, 1 });
     checkGrid ("0 5\n0 6\n0 7\n", 3, 2, { 0, 5, 0, 6, 0, 7 });   // two columns of heights
     CHECK (problem ("x y\n0 1\n1 2\n2 3\n7 4\n") == "table/uneven at a.csv:2");
 }
 
-TEST_CASE ("an unreadable table gives an error with a position", "[host][assets][table]")
+TEST_CASE ("an unreadable table gives an error with a position", "[file][assets][table]")
 {
     CHECK (problem ("") == "table/empty at a.csv:0");
     CHECK (problem ("a,b\nc,d\n") == "table/empty at a.csv:2");
@@ -70,7 +68,7 @@ TEST_CASE ("an unreadable table gives an error with a position", "[host][assets]
     CHECK (commas.error().remedy == "write decimal points instead of commas");
 }
 
-TEST_CASE ("numbers written as text are read back bit for bit", "[host][assets][table]")
+TEST_CASE ("numbers written as text are read back bit for bit", "[file][assets][table]")
 {
     rc::prop ("any grid, any separator", [] {
         const int rows = *rc::gen::inRange (1, 6), columns = *rc::gen::inRange (3, 6);
@@ -90,22 +88,4 @@ TEST_CASE ("numbers written as text are read back bit for bit", "[host][assets][
         RC_ASSERT (grid->columns == columns);
         RC_ASSERT (grid->values == values);
     });
-}
-
-TEST_CASE ("profilometer files are read unchanged", "[host][assets][table][data]")
-{
-    const auto folder = test::sharedData ("topography_contactengineering");
-    if (folder.empty()) return;
-
-    const auto dektak = readGrid (test::textOf (folder + "/dektak-1.csv"), "dektak-1.csv"), xy = readGrid (test::textOf (folder + "/xy-4.txt"), "xy-4.txt");
-    INFO ((dektak ? "" : describe (dektak.error())));
-    INFO ((xy ? "" : describe (xy.error())));
-    REQUIRE (dektak);
-    CHECK (dektak->rows == 1);
-    CHECK (dektak->columns > 9000);
-    CHECK (dektak->values.front() == -0.00933);
-    REQUIRE (xy);
-    CHECK (xy->rows == 1);
-    CHECK (xy->columns > 9000);
-    CHECK (xy->values.front() == 0.003581);
 }

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-namespace tactus::host
+namespace tactus::readers
 {
 
 /// Reads text line by line, with any line endings; skips a byte order mark.
@@ -57,4 +57,4 @@ std::optional<T> numberIn (std::string_view text) noexcept
     return value;
 }
 
-}   // namespace tactus::host
+}   // namespace tactus::readers

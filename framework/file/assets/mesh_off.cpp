@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "mesh_parts.hpp"
 
-namespace tactus::host
+namespace tactus::readers
 {
 
 namespace
@@ -53,4 +53,4 @@ void readOff (std::string_view bytes, MeshBuilder& mesh)
     }
 }
 
-}   // namespace tactus::host
+}   // namespace tactus::readers

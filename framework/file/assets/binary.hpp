@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-namespace tactus::host
+namespace tactus::readers
 {
 
 /// Removes a number from the front of the bytes; empty if there are too few bytes.
@@ -23,4 +23,4 @@ std::optional<T> takeNumber (std::string_view& bytes, std::endian order) noexcep
     return std::bit_cast<T> (raw);
 }
 
-}   // namespace tactus::host
+}   // namespace tactus::readers

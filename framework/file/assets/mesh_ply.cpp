@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "binary.hpp"
 #include "mesh_parts.hpp"
 
@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace tactus::host
+namespace tactus::readers
 {
 
 namespace
@@ -198,4 +198,4 @@ void readPly (std::string_view bytes, MeshBuilder& mesh)
     }
 }
 
-}   // namespace tactus::host
+}   // namespace tactus::readers

@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "mesh_parts.hpp"
 
-namespace tactus::host
+namespace tactus::readers
 {
 
 /// Reads points and faces; everything else (normals, texture, groups, materials, curves) is ignored. A corner is
@@ -27,4 +27,4 @@ void readObj (std::string_view bytes, MeshBuilder& mesh)
     }
 }
 
-}   // namespace tactus::host
+}   // namespace tactus::readers
