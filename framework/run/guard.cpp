@@ -182,7 +182,7 @@ void Guard::forget() noexcept
 {
     latched = Stop::none;
     motion = {};
-    pushed = {};
+    mean_effort = {};
     speed = angular_speed = {};
     axis_velocity = {};
     for (auto* all : { &impulse, &angular_impulse, &axis_impulse })
@@ -220,13 +220,13 @@ void Guard::loseTime (double lost_s) noexcept
 void Guard::watch (const Reading& reading, double elapsed_s) noexcept
 {
     const double now = static_cast<double> (ticks++) * dt + lost;
-    pushed.add (last, reading, elapsed_s / dt, watches_axes);
+    mean_effort.add (last, reading, elapsed_s / dt, watches_axes);
     if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! isFinite (reading.age) || hasBrokenAxes (reading))
     {
         // While an effort is on the device, the distance to the next reading counts, so a device cannot hide its motion behind bad readings.
         if (! isAtRest()) return;
         motion.forget();
-        pushed = {};
+        mean_effort = {};
         return;
     }
 
@@ -235,16 +235,16 @@ void Guard::watch (const Reading& reading, double elapsed_s) noexcept
     speed (moved, motion.elapsed);
     if (const double v = speed.speed(); ! (v <= limits.max_speed)) latch (Stop::speed, v);
 
-    double work = pushed.force().dot (moved);
+    double work = mean_effort.force().dot (moved);
     if (watches_turns)
     {
         const Vec3 turned = motion.turned (reading);
         angular_speed (turned, motion.elapsed);
         if (const double w = angular_speed.speed(); ! (w <= limits.max_angular_speed)) latch (Stop::speed, w, Event::Part::torque);
-        work += pushed.torque().dot (turned);
+        work += mean_effort.torque().dot (turned);
     }
     if (watches_axes) work += watchAxes (reading, motion.elapsed);
-    if (motion.isNew (dt)) pushed = {};
+    if (motion.isNew (dt)) mean_effort = {};
     if (limits.max_energy != GuardLimits::none)
         if (const double given = energy (work, elapsed_s); ! (given <= limits.max_energy)) latch (Stop::energy, given);
     if (limits.max_still != GuardLimits::none) still (reading.position, last.force.norm() >= limits.still_force, dt);
@@ -270,7 +270,7 @@ bool Guard::hasBrokenAxes (const Reading& reading) const noexcept { return watch
         auto& velocity = axis_velocity[i];
         velocity = SpeedWatch::filtered (velocity, moved, elapsed_s);
         if (! (std::abs (velocity) <= limits.max_axis_speed)) latch (Stop::speed, std::abs (velocity), Event::Part::axis, axis);
-        work += pushed.axis (i) * moved;
+        work += mean_effort.axis (i) * moved;
     }
     return work;
 }

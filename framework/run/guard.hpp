@@ -221,7 +221,7 @@ private:
     bool watches_axes = false;    // at least one limit needs the axes
     std::uint64_t ticks = 0;
     MotionWatch motion;
-    MeanEffort pushed;   // since the last new reading
+    MeanEffort mean_effort;   // since the last new reading
     SpeedWatch speed, angular_speed;
     std::array<double, Channels::most> axis_velocity {};
     std::array<std::int8_t, Channels::most> axis_of_effort {};   // by effort, the number of the axis that it pushes; -1: unknown
