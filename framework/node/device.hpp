@@ -169,6 +169,10 @@ public:
 
     /// How long this device can drive a run, in s. 0: without limit, so the run needs --duration.
     virtual double duration() const noexcept { return 0.0; }
+
+    /// The guard withholds efforts on this tick: called before write. A driver that sends what it derives from earlier efforts, such as
+    /// the amplitude of a vibration, must forget them, so that the stop takes no longer than the guard's. [tick thread]
+    virtual void withhold() noexcept {}
 };
 
 }   // namespace tactus

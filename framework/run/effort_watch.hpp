@@ -21,10 +21,10 @@ public:
     Vec3 moved = Vec3::Zero();   ///< motion of the tool since the last reading, in m; 0 for the first reading
     double elapsed = 0.0;        ///< time between the two readings, in s
 
-    /// Takes a new reading, which must be finite. turned() and axis() refer to it until before() is called. [tick thread]
+    /// Takes a reading, which must be finite. A negative age counts as 0: it would make the motion seem slow. turned() and axis() refer to it until before() is called. [tick thread]
     void begin (const Reading& reading, double now_s) noexcept
     {
-        const double at = now_s - reading.age;
+        const double at = now_s - std::max (0.0, reading.age);
         moved = known ? Vec3 (reading.position - position) : Vec3 (Vec3::Zero());
         elapsed = known ? std::max (0.0, at - before_at) : 0.0;
         position = reading.position;
@@ -52,6 +52,9 @@ public:
         return was_known ? reading.axes[i] - before : 0.0;
     }
 
+    /// False if a device that is slower than the tick has returned its last reading again.
+    bool isNew (double dt_s) const noexcept { return ! was_known || elapsed > 0.5 * dt_s || moved != Vec3::Zero(); }
+
     /// Forgets the last reading, so that the distance to the next one does not count as motion.
     void forget() noexcept { known = false; }
 
@@ -61,6 +64,32 @@ private:
     std::array<double, Channels::most> axes {};
     double before_at = 0.0;
     bool known = false, was_known = false;
+};
+
+/// The mean of the efforts that were on a device while it moved from one reading to the next.
+class MeanEffort
+{
+public:
+    /// Adds an effort that was on the device for this many ticks, as the motors rendered it. [tick thread]
+    void add (const Effort& effort, const Reading& reading, double ticks, bool with_axes) noexcept
+    {
+        count += ticks;
+        forces += ticks * (effort.force - reading.unrendered_force);
+        torques += ticks * (effort.torque - reading.unrendered_torque);
+        if (! with_axes) return;
+        for (int i = 0; i < effort.axes.size(); ++i)
+            axes[static_cast<std::size_t> (i)] += ticks * effort.axes[i];
+    }
+
+    /// Valid once something has been added. [tick thread]
+    Vec3 force() const noexcept { return forces / count; }
+    Vec3 torque() const noexcept { return torques / count; }
+    double axis (std::size_t i) const noexcept { return axes[i] / count; }
+
+private:
+    Vec3 forces = Vec3::Zero(), torques = Vec3::Zero();   // sums over ticks
+    std::array<double, Channels::most> axes {};
+    double count = 0.0;
 };
 
 /// A low-pass filtered speed, from the distances x - x' between readings that are s apart in time:

@@ -299,7 +299,11 @@ void Engine::afterPlan() noexcept
         const auto wanted = channel.bumpless (total (role, scratch));
         const auto events = channel.guard.events();
         role.state->applied = channel.guard (wanted, role.state->reading, lost_s);
-        if (channel.guard.stop() != Guard::Stop::none) channel.bumpless.stop (role.state->applied);
+        if (channel.guard.stop() != Guard::Stop::none)
+        {
+            channel.bumpless.stop (role.state->applied);
+            if (channel.device) channel.device->withhold();
+        }
         if (channel.device) channel.device->write (role.state->applied);
         if (channel.guard.events() != events) stops.note ({ ticks, channel.role, channel.guard.latest() });   // last, so as not to delay the effort
     }

@@ -182,6 +182,7 @@ void Guard::forget() noexcept
 {
     latched = Stop::none;
     motion = {};
+    mean_effort = {};
     speed = angular_speed = {};
     axis_velocity = {};
     for (auto* all : { &impulse, &angular_impulse, &axis_impulse })
@@ -219,10 +220,13 @@ void Guard::loseTime (double lost_s) noexcept
 void Guard::watch (const Reading& reading, double elapsed_s) noexcept
 {
     const double now = static_cast<double> (ticks++) * dt + lost;
+    mean_effort.add (last, reading, elapsed_s / dt, watches_axes);
     if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! isFinite (reading.age) || hasBrokenAxes (reading))
     {
         // While an effort is on the device, the distance to the next reading counts, so a device cannot hide its motion behind bad readings.
-        if (isAtRest()) motion.forget();
+        if (! isAtRest()) return;
+        motion.forget();
+        mean_effort = {};
         return;
     }
 
@@ -231,18 +235,25 @@ void Guard::watch (const Reading& reading, double elapsed_s) noexcept
     speed (moved, motion.elapsed);
     if (const double v = speed.speed(); ! (v <= limits.max_speed)) latch (Stop::speed, v);
 
-    double work = (last.force - reading.unrendered_force).dot (moved);
+    double work = mean_effort.force().dot (moved);
     if (watches_turns)
     {
         const Vec3 turned = motion.turned (reading);
         angular_speed (turned, motion.elapsed);
         if (const double w = angular_speed.speed(); ! (w <= limits.max_angular_speed)) latch (Stop::speed, w, Event::Part::torque);
-        work += (last.torque - reading.unrendered_torque).dot (turned);
+        work += mean_effort.torque().dot (turned);
     }
     if (watches_axes) work += watchAxes (reading, motion.elapsed);
+    if (motion.isNew (dt)) mean_effort = {};
     if (limits.max_energy != GuardLimits::none)
         if (const double given = energy (work, elapsed_s); ! (given <= limits.max_energy)) latch (Stop::energy, given);
     if (limits.max_still != GuardLimits::none) still (reading.position, last.force.norm() >= limits.still_force, dt);
+}
+
+/// A reading from the future comes from a clock that differs from ours, so no one can say how old it is.
+bool Guard::isRecent (const Reading& reading) const noexcept
+{
+    return reading.age <= limits.watchdog && (reading.age >= -dt || limits.watchdog == GuardLimits::none);
 }
 
 bool Guard::hasBrokenAxes (const Reading& reading) const noexcept { return watches_axes && ! isFinite (reading.axes); }
@@ -259,7 +270,7 @@ bool Guard::hasBrokenAxes (const Reading& reading) const noexcept { return watch
         auto& velocity = axis_velocity[i];
         velocity = SpeedWatch::filtered (velocity, moved, elapsed_s);
         if (! (std::abs (velocity) <= limits.max_axis_speed)) latch (Stop::speed, std::abs (velocity), Event::Part::axis, axis);
-        work += last.axes[static_cast<int> (i)] * moved;
+        work += mean_effort.axis (i) * moved;
     }
     return work;
 }
@@ -290,8 +301,7 @@ Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading) const 
     if (latched == Stop::emergency) return latched;
     if (! isFinite (wanted.force, wanted.torque)) return Stop::not_finite;
     if (hasChannels (wanted) && ! channelsAreFinite (wanted)) return Stop::not_finite;
-    if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! (reading.age <= limits.watchdog) || hasBrokenAxes (reading)
-        || isFrozen())
+    if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! isRecent (reading) || hasBrokenAxes (reading) || isFrozen())
         return Stop::stale;
     if (is_starved) return Stop::starved;
     if (latched != Stop::none) return latched;
@@ -339,7 +349,7 @@ void Guard::describeStale (Event& e, const Reading& reading) const noexcept
     e.fault = reading.fault;
     e.value = reading.age;
     e.limit = limits.watchdog;
-    if (! reading.valid || e.part != Part::none || ! (reading.age <= limits.watchdog)) return;
+    if (! reading.valid || e.part != Part::none || ! isRecent (reading)) return;
     nameValue (e, Part::none, last.force);
     e.fault = ReadingFault::frozen;
     e.value = still.time();
@@ -436,37 +446,43 @@ Effort Guard::operator() (const Effort& wanted, const Reading& reading, double l
     return last;
 }
 
-/// Moves the last effort towards this one, as far as the limits of size and slew allow. One factor scales force, torque and axes,
-/// so what they do together keeps its direction. A part that is limited to 0 is left out, rather than scaling the others to 0.
-void Guard::approach (const Effort& to, double step_s) noexcept
+/// Leaves out the parts of the effort that are limited to 0, rather than scaling the others to 0, and returns the share of the rest,
+/// 0…1, that is within the limits of size.
+double Guard::fit (Effort& to) const noexcept
 {
+    if (! (limits.max_force > 0.0)) to.force.setZero();
+    if (! (limits.max_torque > 0.0)) to.torque.setZero();
+    const double size = std::min (shareWithin (to.force, limits.max_force), shareWithin (to.torque, limits.max_torque));
+    if (to.axes.size() == 0) return size;
+    if (! (limits.max_axis_effort > 0.0)) to.axes = resized ({}, to.axes.size());
+    return std::min (size, shareWithin (to.axes, limits.max_axis_effort));
+}
+
+/// Moves the last effort towards this one, as far as the limits of size and slew allow. One factor scales force, torque and axes,
+/// so what they do together keeps its direction.
+void Guard::approach (Effort to, double step_s) noexcept
+{
+    const double size = fit (to);
     const bool has_channels = hasChannels (last) || hasChannels (to);
-    const Vec3 to_force = limits.max_force > 0.0 ? to.force : Vec3::Zero(), to_torque = limits.max_torque > 0.0 ? to.torque : Vec3::Zero();
-    double size = std::min (shareWithin (to_force, limits.max_force), shareWithin (to_torque, limits.max_torque));
-    Channels to_axes;
-    if (has_channels)
-    {
-        to_axes = resized (limits.max_axis_effort > 0.0 ? to.axes : Channels {}, std::max (last.axes.size(), to.axes.size()));
-        size = std::min (size, shareWithin (to_axes, limits.max_axis_effort));
-    }
+    if (has_channels) to.axes = resized (to.axes, std::max (last.axes.size(), to.axes.size()));
 
     // Half steps, because the difference of two finite numbers may be infinite.
-    const Vec3 force = 0.5 * size * to_force - 0.5 * last.force, torque = 0.5 * size * to_torque - 0.5 * last.torque;
+    const Vec3 force = 0.5 * size * to.force - 0.5 * last.force, torque = 0.5 * size * to.torque - 0.5 * last.torque;
     const double half_s = 0.5 * step_s;
     double step = std::min (shareWithin (force, limits.max_slew * half_s), shareWithin (torque, limits.max_torque_slew * half_s));
     Channels axes;
     if (has_channels)
     {
-        axes = mixed (0.5 * size, to_axes, -0.5, last.axes);
+        axes = mixed (0.5 * size, to.axes, -0.5, last.axes);
         step = std::min (step, shareWithin (axes, limits.max_axis_slew * half_s));
     }
 
     const bool arrives = step == 1.0;
-    last.force = arrives ? Vec3 (size * to_force) : Vec3 (last.force + 2.0 * step * force);
-    last.torque = arrives ? Vec3 (size * to_torque) : Vec3 (last.torque + 2.0 * step * torque);
+    last.force = arrives ? Vec3 (size * to.force) : Vec3 (last.force + 2.0 * step * force);
+    last.torque = arrives ? Vec3 (size * to.torque) : Vec3 (last.torque + 2.0 * step * torque);
     if (! has_channels) return;
-    last.axes = ! arrives ? mixed (1.0, last.axes, 2.0 * step, axes) : size == 1.0 ? to_axes
-                                                                                   : mixed (size, to_axes, 0.0, {});
+    last.axes = ! arrives ? mixed (1.0, last.axes, 2.0 * step, axes) : size == 1.0 ? to.axes
+                                                                                   : mixed (size, to.axes, 0.0, {});
     last.signals = approached (last.signals, to.signals, limits.max_signal, limits.max_signal_slew * step_s);
 }
 
@@ -480,10 +496,13 @@ Effort Guard::crossfade (const Effort& wanted, double fade_by_s) noexcept
     enabled = limits.ramp > 0.0 ? std::min (1.0, enabled + dt / limits.ramp) : 1.0;
     if (enabled == 1.0) return wanted;
 
+    // The limits of size come first: a graph that asks for ten times the limit must not get all of it after a tenth of the ramp.
     // enabled + rest never exceeds 1, so the effort can safely return before the fade is over.
-    const double rest = std::min (withheld, 1.0 - enabled);
-    return { enabled * wanted.force + rest * at_stop.force, enabled * wanted.torque + rest * at_stop.torque,
-             mixed (enabled, wanted.axes, rest, at_stop.axes), mixed (enabled, wanted.signals, rest, at_stop.signals) };
+    Effort within = wanted;
+    const double size = fit (within), part = enabled * size, rest = std::min (withheld, 1.0 - enabled);
+    within.signals = approached ({}, within.signals, limits.max_signal, GuardLimits::none);
+    return { part * within.force + rest * at_stop.force, part * within.torque + rest * at_stop.torque,
+             mixed (part, within.axes, rest, at_stop.axes), mixed (enabled, within.signals, rest, at_stop.signals) };
 }
 
 }   // namespace tactus

@@ -61,9 +61,9 @@ GuardLimits tightest (const GuardLimits&, const GuardLimits&) noexcept;
 /// Each tick, in this order:
 ///
 ///     cause      see below
-///     crossfade  e = enabled w + withheld h          w: wanted now, h: effort at the stop
-///     length     k e            so that |force| <= max_force, |torque| <= max_torque, each |axis| <= max_axis_effort
-///     slew       e' + s (k e - e')                   so that no part changes by more than its slew T; e': last tick
+///     length     k w            so that |force| <= max_force, |torque| <= max_torque, each |axis| <= max_axis_effort; w: wanted now
+///     crossfade  e = enabled k w + withheld h        h: effort at the stop
+///     slew       e' + s (e - e')                     so that no part changes by more than its slew T; e': last tick
 ///
 /// One factor k and one s scale force, torque and axes, so directions are kept, and the limits of size hold on the way as well.
 /// Each signal is limited by itself.
@@ -97,6 +97,9 @@ GuardLimits tightest (const GuardLimits&, const GuardLimits&) noexcept;
 ///  - Speed, impulse and energy are measured from the last effort on the device and its motion, so an excess is
 ///    detected one tick late: the limit is exceeded during that tick and the fade. Impulse and energy count force and torque as
 ///    the motors rendered them (Reading::unrendered_force).
+///  - If readings are slower than ticks, energy is the mean effort since the last new reading, times the motion since then. Otherwise
+///    an effort that turns round just before each reading would seem to brake. A driver must report the age of a reading that it
+///    repeats: the guard takes a repeated reading of age 0 for a tool at rest.
 class Guard
 {
 public:
@@ -183,6 +186,7 @@ private:
     void loseTime (double lost_s) noexcept;
     void watch (const Reading&, double elapsed_s) noexcept;
     double watchAxes (const Reading&, double elapsed_s) noexcept;
+    bool isRecent (const Reading&) const noexcept;
     bool hasBrokenAxes (const Reading&) const noexcept;
     bool isFrozen() const noexcept { return still.time() > limits.max_still; }
     void countImpulse (double s, const Reading&) noexcept;
@@ -191,7 +195,8 @@ private:
     Event describeNow (Stop, const Effort& wanted, const Reading&) const noexcept;
     void describeStale (Event&, const Reading&) const noexcept;
     Effort crossfade (const Effort& wanted, double fade_by_s) noexcept;
-    void approach (const Effort& to, double step_s) noexcept;
+    double fit (Effort& to) const noexcept;
+    void approach (Effort to, double step_s) noexcept;
 
     GuardLimits limits;
     double dt = fade_s;    // in s; until prepare is called, a stop takes one tick
@@ -217,6 +222,7 @@ private:
     bool watches_axes = false;    // at least one limit needs the axes
     std::uint64_t ticks = 0;
     MotionWatch motion;
+    MeanEffort mean_effort;   // since the last new reading
     SpeedWatch speed, angular_speed;
     std::array<double, Channels::most> axis_velocity {};
     std::array<std::int8_t, Channels::most> axis_of_effort {};   // by effort, the number of the axis that it pushes; -1: unknown

@@ -34,6 +34,7 @@ std::string inWordsStale (const Guard::Event& event)
     const std::string why (describe (event.fault));
     if (! event.valid) return why.empty() ? "the device has no valid reading" : why;
     if (event.part == Guard::Event::Part::reading) return "the reading is not a number: " + inWords (f);
+    if (event.value < 0.0) return "the reading is from the future, by " + inMilliseconds (-event.value) + ": the clock of the device differs from ours";
     if (! (event.value >= 0.0)) return "the age of the reading is not a number";
     return why + (why.empty() ? "" : ": ") + "the last reading is " + inMilliseconds (event.value) + " old; the watchdog allows "
            + inMilliseconds (event.limit);

@@ -9,6 +9,7 @@
 #include <tactus/kit/half_space.hpp>
 #include <tactus/text/quote.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -68,6 +69,9 @@ void compute (const Shape& shape, const Options& options)
 
     const HalfSpace body { .young = young, .poisson = options.poisson };
     const Law law = shape.law (body, size);
+    if (const double deepest = law (depth); ! (deepest > 0.0 && std::isfinite (deepest)))
+        fail ("curve/out_of_range", "the force at a depth of " + rounded (depth) + " m would be " + rounded (deepest) + " N",
+              "correct the sizes and their units");
     const EvenBody even { .along = options.points > 0 ? tableOf (law, depth, options.points) : law,
                           .mu = options.mu,
                           .ratio = body.ratio (options.mu > 0.0 ? options.mu : 1.0) };

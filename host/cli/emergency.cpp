@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "emergency.hpp"
+#include "rearm_key.hpp"
 
 #include <host/platform/failsafe.hpp>
 #include <host/platform/signals.hpp>
@@ -62,20 +63,22 @@ void Emergency::listen (const std::stop_token& stop)
     static_cast<void> (raisePriority (priority::stop));   // if real-time priority is refused, the run reports that
     takeEmergencySignals();
     constexpr auto patience = std::chrono::milliseconds (20);
-    double r_at = -repeat_s;
+    RearmKey rearm_key;
     while (! stop.stop_requested())
+    {
         if (! hasKeys())
-            std::this_thread::sleep_for (patience);   // a signal interrupts the sleep
-        else if (const char key = keys.next (patience); key == ' ')
-            press();
-        else if (key == '\x03')   // Ctrl-C in a terminal that sends no signal for it
-            requestStop();
-        else if (key == 'r' || key == 'R')
         {
-            // A key that is held down repeats: only the first press counts.
-            const bool repeats = now() < std::exchange (r_at, now()) + repeat_s;
-            if (! repeats && ! rearm()) came_too_early = true;
+            std::this_thread::sleep_for (patience);   // a signal interrupts the sleep
+            continue;
         }
+        const char key = keys.next (patience);
+        if (key == ' ') press();
+        if (key == '\x03') requestStop();   // Ctrl-C in a terminal that sends no signal for it
+        if (key != '\0')
+            rearm_key.typed (key, now());
+        else if (rearm_key.isDue (now()) && ! rearm())
+            came_too_early = true;
+    }
 }
 
 void Emergency::before (Plan&, std::uint64_t) noexcept

@@ -17,13 +17,12 @@ namespace tactus::host
 /// alarm of the failsafe. A thread of its own reads the keys and handles the signals. Its priority is above that of the tick thread
 /// if the system allows it. So a stop takes effect however long the main thread compiles, prints or waits, and however busy the tick
 /// thread is. For the signals, call holdEmergencySignals() before other threads are started. As a listener of the run, this object
-/// looks for alarms before every tick. R rearms, but not within a second of the stop, so that two keys pressed in a hurry do not
-/// undo the stop. Only one object of this class may exist at a time. [main thread]
+/// looks for alarms before every tick. R rearms if it comes alone (RearmKey), but not within a second of the stop, so that two keys pressed
+/// in a hurry do not undo the stop. Only one object of this class may exist at a time. [main thread]
 class Emergency final : public RunListener
 {
 public:
-    static constexpr double pause_s = 1.0;    ///< shortest time from a stop, or from a rearm, to the next rearm
-    static constexpr double repeat_s = 0.7;   ///< an R that follows another one within this time comes from a key held down
+    static constexpr double pause_s = 1.0;   ///< shortest time from a stop, or from a rearm, to the next rearm
 
     /// The engine must outlive this object.
     explicit Emergency (Engine&);
@@ -32,6 +31,7 @@ public:
     Emergency& operator= (const Emergency&) = delete;
 
     bool hasKeys() const noexcept { return keys.areThere(); }
+    void restoreTerminal() const noexcept { keys.restore(); }   ///< before the program ends without destructors   [any thread]
 
     /// Stops at once. [any thread, even in a signal handler]
     void press() noexcept;

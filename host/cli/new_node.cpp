@@ -214,10 +214,10 @@ void run (const Options& options)
     for (const auto& [file, text] : files)
     {
         if (auto written = writeTextFile (folder / file, filled (text, options)); ! written) fail (written.error());
-        std::cout << (folder / file).string() << '\n';
+        std::cout << printable ((folder / file).string()) << '\n';
     }
     if (! options.only_write) build (folder);
-    std::cout << "try it: tactus nodes " << options.family << '.' << options.name << " --plugins " << (folder / "build").string() << '\n';
+    std::cout << "try it: tactus nodes " << options.family << '.' << options.name << " --plugins " << printable ((folder / "build").string()) << '\n';
 }
 }   // namespace
 

@@ -58,14 +58,15 @@ void print (const std::vector<std::vector<std::string>>& rows)
     {
         std::cout << "  ";
         for (std::size_t i = 0; i < row.size(); ++i)
-            std::cout << row[i] << (i + 1 < row.size() ? std::string (width[i] - letters (row[i]) + 2, ' ') : "\n");
+            std::cout << printable (row[i]) << (i + 1 < row.size() ? std::string (width[i] - letters (row[i]) + 2, ' ') : "\n");
     }
 }
 
 void printDatasheet (const NodeType& t)
 {
-    std::cout << t.info.id << ": " << t.info.name << "\n"
-              << t.info.summary << "\nSource: " << t.info.source << "\n";
+    // A plugin wrote these texts.
+    std::cout << t.info.id << ": " << printable (t.info.name) << "\n"
+              << printable (t.info.summary) << "\nSource: " << printable (t.info.source) << "\n";
     if (! t.origin.empty()) std::cout << "Plugin: " << printableName (t.origin) << "\n";
 
     const auto section = [] (const char* title, const std::vector<PortSheet>& ports, bool with_default) {

@@ -17,7 +17,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -94,7 +96,10 @@ std::unique_ptr<LivePlugins> openLive (const Options& options)
     auto live = std::make_unique<LivePlugins> (std::move (sources));
     for (const auto& header : options.live)
         std::fprintf (stderr, "compiling %s\n", printableName (header).c_str());
-    for (auto& news : live->buildHeaders())
+    if (! options.live.empty()) watchForStop();   // so that a stop also ends the compiler, which would otherwise go on without us
+    auto built = live->buildHeaders (stopRequested);
+    if (stopRequested()) throw Stop {};
+    for (auto& news : built)
     {
         if (report (news.messages, {}, news.file.string()) > 0) throw Stop {};
         extendCatalogue (std::move (news.types));
@@ -102,6 +107,8 @@ std::unique_ptr<LivePlugins> openLive (const Options& options)
     if (const auto prepared = live->prepare(); ! prepared) warn (options.graph, prepared.error());
     return live;
 }
+
+constexpr double look_apart_s = 0.02;   // between two looks at the run
 
 /// A play command, from its first tick to its last.
 class Playing
@@ -127,8 +134,9 @@ public:
             std::fprintf (stderr, "note: %s\n", refused.c_str());
         for (int i = 0; ! command.run().live().isOver(); ++i)
         {
-            std::this_thread::sleep_for (std::chrono::milliseconds (20));
+            std::this_thread::sleep_for (std::chrono::duration<double> (look_apart_s));
             attend (i);
+            if (stopRequested()) endIfStuck();
         }
         finish();
     }
@@ -193,6 +201,22 @@ private:
         file_watch.watch (command.files());
     }
 
+    /// Ends the program if a stop was requested, but the tick does not end: a plugin loops, or a file asks for too much. The writing threads
+    /// have already sent the neutral reports, because the ticks have stopped; the guardian sends them again, and the exit steps.
+    void endIfStuck()
+    {
+        const auto ticks = command.run().live().status().ticks;
+        looks_without_tick = ticks == last_ticks ? looks_without_tick + 1 : 0;
+        last_ticks = ticks;
+        if (looks_without_tick * look_apart_s < std::max (2.0, 5.0 / command.rate())) return;
+        std::fprintf (stderr,
+                      "%serror: a tick does not end, so the program ends without finishing its files\n"
+                      "    the graph asks for too much in one tick, or a plugin loops; `tactus check-plugin` examines plugins [run/stuck]\n",
+                      terminal ? "\n" : "");
+        emergency.restoreTerminal();
+        std::_Exit (1);
+    }
+
     /// Uses a new version of the code of a node.
     void takeOver (LivePlugins::News& news)
     {
@@ -246,6 +270,9 @@ private:
     std::optional<RemoteControl> control;
     HealthWatch health { command.clockRole() };
     const bool terminal = stderrIsTerminal();
+
+    std::uint64_t last_ticks = 0;
+    int looks_without_tick = 0;   // counted in looks and not in seconds, so that a suspended program does not count
 };
 
 void run (const Options& options)

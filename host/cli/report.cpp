@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <utility>
 
 namespace tactus::host
 {
@@ -21,10 +22,21 @@ std::string placeOf (const Message& m, const LoadedGraph& loaded, const std::str
     return file + ":" + std::to_string (at.line) + ":" + std::to_string (at.column);
 }
 
+/// Cuts what a name of a megabyte would make of a message. Long enough for the chain of a loop through many nodes.
+std::string cut (std::string text)
+{
+    constexpr std::size_t longest = 10'000;
+    if (text.size() <= longest) return text;
+    auto end = longest;
+    while (end > 0 && (static_cast<unsigned char> (text[end]) & 0xc0) == 0x80)   // within a character
+        --end;
+    return text.substr (0, end) + "…";
+}
 }   // namespace
 
 std::string inOneLine (std::string text)
 {
+    text = cut (std::move (text));
     std::ranges::replace (text, '\n', ' ');
     return printable (text);
 }
@@ -39,7 +51,7 @@ int report (const Messages& messages, const LoadedGraph& loaded, const std::stri
         errors += error;
         if (++count > most_messages) continue;
         std::cerr << inOneLine (placeOf (m, loaded, file)) << ": " << (error ? "error: " : "warning: ") << inOneLine (m.text);
-        std::cerr << "\n    " << printable (m.remedy) << " [" << m.id << "]\n";
+        std::cerr << "\n    " << printable (cut (m.remedy)) << " [" << m.id << "]\n";
     }
     if (count > most_messages) std::cerr << inOneLine (file) << ": problems not listed: " << count - most_messages << "\n    fix the listed ones first\n";
     return errors;
@@ -50,7 +62,7 @@ void warn (const std::string& file, const Message& m) { std::cerr << inOneLine (
 void fail (const Message& e)
 {
     std::cerr << inOneLine (e.where) << (e.where.empty() ? "" : ": ") << "error: " << inOneLine (e.text);
-    std::cerr << "\n    " << printable (e.remedy) << " [" << e.id << "]\n";
+    std::cerr << "\n    " << printable (cut (e.remedy)) << " [" << e.id << "]\n";
     throw Stop {};
 }
 

@@ -199,12 +199,25 @@ Reading HidDevice::read() noexcept
     return reading;
 }
 
+void HidDevice::withhold() noexcept
+{
+    for (auto& motor : motors)
+        motor.tracker.forgetPeaks();
+}
+
+void HidDevice::limitSignals (double max, double /*max_slew*/) { max_signal = max; }
+
+/// Adds the vibrations to the efforts of their motors. An effort may drive the same motor, so the sum is limited.
 void HidDevice::vibrate (const Channels& signals, HidEffort& effort) noexcept
 {
     for (auto& [amplitude, frequency, channel, hold, tracker] : motors)
     {
         tracker.tick (signals[channel]);
-        if (amplitude >= 0) effort.efforts[static_cast<std::size_t> (amplitude)] += tracker.amplitude();
+        if (amplitude >= 0)
+        {
+            auto& sum = effort.efforts[static_cast<std::size_t> (amplitude)];
+            sum = std::clamp (sum + tracker.amplitude(), -max_signal, max_signal);
+        }
         if (frequency >= 0 && tracker.frequency() > 0.0) effort.efforts[static_cast<std::size_t> (frequency)] = tracker.frequency();
     }
 }
@@ -222,7 +235,7 @@ void HidDevice::write (const Effort& guarded) noexcept
     vibrate (guarded.signals, effort);
 
     if (has_to_rest) values.rest();
-    const auto driven = has_to_rest ? EffortValues {} : values.drive (effort);
+    driven = has_to_rest ? EffortValues {} : values.drive (effort);
     unrendered_force = guarded.force - values.renderedForce();
     unrendered_torque = guarded.torque - values.renderedTorque();
     for (std::size_t i = 0; i < values.outputs(); ++i)

@@ -62,6 +62,10 @@ public:
     void prepare (double dt_s) override;                    // [main thread]
     Reading read() noexcept override;                       // [tick thread]
     void write (const Effort& guarded) noexcept override;   // [tick thread]
+    void withhold() noexcept override;                      // [tick thread]
+
+    /// `max` also limits the motor of a signal when the graph drives it as an effort. Steps are left to the guard. [main thread]
+    void limitSignals (double max, double max_slew) override;
 
     DeviceLayout layout() const override { return layoutOf (values); }
 
@@ -70,6 +74,10 @@ public:
 
     /// The latest decoded values, with names and units. [tick thread]
     const HidModel& model() const noexcept { return values; }
+
+    /// The values of all efforts as last offered to the device, after all limits, in the order of HidModel::effortNames(). 0 while it
+    /// rests. [tick thread]
+    const EffortValues& effortsNow() const noexcept { return driven; }
 
     ReadingCounts counts() const noexcept { return published.load(); }   // [any thread]
 
@@ -122,6 +130,8 @@ private:
 
     std::vector<Streamed> streams;
     std::vector<VibrationMotor> motors;
+    double max_signal = GuardLimits::none;   // of each amplitude
+    EffortValues driven {};
 
     Snapshot<ReadingCounts> published;
 };

@@ -50,6 +50,14 @@ public:
         last = signal;
     }
 
+    /// From now on, only later samples count for the amplitude. Called on each tick of a stop, so that the amplitude falls as the signal
+    /// does, instead of `hold` later.
+    void forgetPeaks() noexcept
+    {
+        older = newest = 0.0;
+        counted = 0;
+    }
+
     double amplitude() const noexcept { return std::max (older, newest); }
     double frequency() const noexcept { return hertz; }   ///< Hz
 

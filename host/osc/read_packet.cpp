@@ -76,6 +76,16 @@ bool addArgument (OSCMessage& message, char type, Bytes& from)
     return true;
 }
 
+/// The message, without arguments, if its address asks for a stop. Programs send buttons in many ways: with types that OSC 1.0 does not
+/// require (T, N, d), or without types. None of them may lose a stop.
+std::optional<OSCMessage> stopIn (std::string_view message)
+{
+    const auto address = message.substr (0, message.find ('\0'));
+    for (const char* stop : { "/tactus/emergency", "/tactus/stop" })
+        if (address == stop) return OSCMessage (juce::OSCAddressPattern (stop));
+    return std::nullopt;
+}
+
 std::optional<OSCMessage> readMessage (Bytes from)
 {
     const auto address = from.text(), types = from.text();
@@ -92,11 +102,17 @@ std::optional<OSCMessage> readMessage (Bytes from)
     }
     return std::nullopt;
 }
+
+Packet damaged (Packet packet)
+{
+    packet.right = false;
+    return packet;
+}
 }   // namespace
 
 Packet readPacket (std::string_view bytes)
 {
-    Packet packet;
+    Packet packet { .messages = {}, .right = true };
     std::vector<Bytes> open { { bytes } };   // the rest of each enclosing bundle, innermost last
     bool element = true;                     // true while the innermost entry is an element that has not been read yet
     while (! open.empty())
@@ -105,14 +121,15 @@ Packet readPacket (std::string_view bytes)
         if (element && ! inner.left.starts_with ('#'))
         {
             auto message = readMessage (inner);
-            if (! message) return packet;
-            packet.messages.push_back (std::move (*message));
+            packet.right = packet.right && message.has_value();
+            if (! message) message = stopIn (inner.left);
+            if (message) packet.messages.push_back (std::move (*message));
             open.pop_back();
             element = false;
         }
         else if (element)
         {
-            if (open.size() > deepest || inner.text() != "#bundle" || ! inner.take (8)) return packet;
+            if (open.size() > deepest || inner.text() != "#bundle" || ! inner.take (8)) return damaged (std::move (packet));
             element = false;
         }
         else if (inner.left.empty())
@@ -121,12 +138,11 @@ Packet readPacket (std::string_view bytes)
         {
             const auto size = inner.word();
             const auto content = size ? inner.take (*size) : std::nullopt;
-            if (! content || content->empty()) return packet;
+            if (! content || content->empty()) return damaged (std::move (packet));
             open.push_back ({ *content });
             element = true;
         }
     }
-    packet.right = true;
     return packet;
 }
 

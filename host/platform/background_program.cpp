@@ -19,7 +19,7 @@ namespace tactus::host
 
 #if defined(_WIN32)
 
-std::unique_ptr<BackgroundProgram> BackgroundProgram::start (const std::vector<std::string>&, const std::filesystem::path&)
+std::unique_ptr<BackgroundProgram> BackgroundProgram::start (const std::vector<std::string>&, const std::filesystem::path&, unsigned)
 {
     return nullptr;
 }
@@ -43,7 +43,8 @@ std::vector<char*> inEnglish()
 }
 }   // namespace
 
-std::unique_ptr<BackgroundProgram> BackgroundProgram::start (const std::vector<std::string>& command, const std::filesystem::path& says)
+std::unique_ptr<BackgroundProgram> BackgroundProgram::start (const std::vector<std::string>& command, const std::filesystem::path& says,
+                                                             [[maybe_unused]] unsigned cpu_seconds)
 {
     auto copies = command;
     std::vector<char*> words;
@@ -72,6 +73,11 @@ std::unique_ptr<BackgroundProgram> BackgroundProgram::start (const std::vector<s
     posix_spawnattr_destroy (&how);
     posix_spawn_file_actions_destroy (&files);
     if (refused != 0) return nullptr;
+#if defined(__linux__)
+    // Holds for each process that the program starts, also if this program is killed first.
+    const rlimit most { cpu_seconds, cpu_seconds };
+    ::prlimit (child, RLIMIT_CPU, &most, nullptr);
+#endif
     constexpr int low_priority = 10;
     ::setpriority (PRIO_PGRP, static_cast<id_t> (child), low_priority);
     return std::unique_ptr<BackgroundProgram> (new BackgroundProgram (child));

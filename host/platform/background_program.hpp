@@ -14,8 +14,13 @@ namespace tactus::host
 class BackgroundProgram
 {
 public:
+    /// The CPU time after which the system ends each process of the program: far more than a plugin takes to compile.
+    static constexpr unsigned usual_cpu_seconds = 600;
+
     /// Starts command[0], which is looked for in PATH; its output goes to the file `says`. Null if it cannot be started; on Windows, always.
-    static std::unique_ptr<BackgroundProgram> start (const std::vector<std::string>& command, const std::filesystem::path& says);
+    /// The limit on CPU time exists only on Linux. It also ends what a killed program has left behind.
+    static std::unique_ptr<BackgroundProgram> start (const std::vector<std::string>& command, const std::filesystem::path& says,
+                                                     unsigned cpu_seconds = usual_cpu_seconds);
 
     ~BackgroundProgram();   ///< ends the program, and all that it has started
     BackgroundProgram (const BackgroundProgram&) = delete;

@@ -27,6 +27,7 @@ struct Keys::Before
 };
 Keys::Keys() = default;
 Keys::~Keys() = default;
+void Keys::restore() const noexcept {}
 char Keys::next (std::chrono::milliseconds) noexcept { return 0; }
 #else
 struct Keys::Before
@@ -45,7 +46,9 @@ Keys::Keys()
     if (tcsetattr (STDIN_FILENO, TCSANOW, &mode) == 0) before = std::move (found);
 }
 
-Keys::~Keys()
+Keys::~Keys() { restore(); }
+
+void Keys::restore() const noexcept
 {
     if (before && tcgetpgrp (STDIN_FILENO) == getpgrp()) tcsetattr (STDIN_FILENO, TCSANOW, &before->mode);
 }

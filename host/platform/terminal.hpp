@@ -20,6 +20,9 @@ public:
     Keys (const Keys&) = delete;
     Keys& operator= (const Keys&) = delete;
 
+    /// Restores the terminal now, for a program that ends without destructors. [any thread]
+    void restore() const noexcept;
+
     bool areThere() const noexcept { return before != nullptr; }
 
     /// The next key that is pressed within `patience`; 0 if none is. [any one thread]

@@ -3,11 +3,11 @@
 #include "compiler_output.hpp"
 
 #include <host/platform/device_file.hpp>
+#include <host/platform/private_folder.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <cstdlib>
-#include <random>
 #include <sstream>
 
 namespace tactus::host
@@ -78,23 +78,26 @@ std::vector<fs::path> wordsOfRule (const std::string& text)
 }
 }   // namespace
 
-LiveCompiler::LiveCompiler()
-{
-    std::error_code failed;
-    folder = fs::temp_directory_path (failed) / ("tactus-live-" + std::to_string (std::random_device {}()));
-    fs::create_directories (folder, failed);
-    fs::permissions (folder, fs::perms::owner_all, failed);   // so that no other user can put a plugin there
-}
+LiveCompiler::LiveCompiler() : folder (privateFolder ("tactus-live-")) {}
 
 LiveCompiler::~LiveCompiler()
 {
     program.reset();
+    if (folder.empty()) return;
     std::error_code ignored;
     fs::remove_all (folder, ignored);
 }
 
+Result<> LiveCompiler::needFolder (const LiveSource& s) const
+{
+    if (! folder.empty()) return {};
+    return Message::error ("live/no_folder", s.file.string(), "no folder can be made for what is compiled, so edits of the C++ code have no effect",
+                           "free some space in " + quote (temporaryFolder().string()) + ", or set TMPDIR to a folder that this user may write");
+}
+
 Result<> LiveCompiler::prepareFor (const LiveSource& s)
 {
+    if (auto missing = needFolder (s); ! missing) return missing;
     const auto compiler = compilerOf (s);
     if (s.isC() || precompiled_by == compiler) return {};
     precompiled_by = compiler;
@@ -110,6 +113,7 @@ Result<> LiveCompiler::prepareFor (const LiveSource& s)
 
 Result<> LiveCompiler::start (const LiveSource& s)
 {
+    if (auto missing = needFolder (s); ! missing) return missing;
     const bool is_prepared = s.isC() || precompiled_by == compilerOf (s);
     if (! precompiles || ! is_prepared) program.reset();
     if (! is_prepared)

@@ -35,7 +35,8 @@ public:
         Messages messages;
     };
 
-    /// Starts to make the precompiled header, so that the first edit need not wait for it. Ids: live/no_compiler, output/unwritable.
+    /// Starts to make the precompiled header, so that the first edit need not wait for it. Ids: live/no_compiler, live/no_folder,
+    /// output/unwritable.
     Result<> prepareFor (const LiveSource&);
 
     /// Starts to compile; drops what is being compiled. Ids: live/no_compiler, live/no_headers, live/no_node, output/unwritable.
@@ -45,6 +46,7 @@ public:
     std::optional<Output> finished();
 
 private:
+    Result<> needFolder (const LiveSource&) const;
     Result<> compile();
     Result<> run (const std::vector<std::string>& command);
     Result<std::vector<std::string>> commandFor (const LiveSource&);

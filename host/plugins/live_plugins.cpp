@@ -108,7 +108,7 @@ std::optional<LivePlugins::News> LivePlugins::load (LiveCompiler::Output output)
 
 Result<> LivePlugins::prepare() { return all.empty() ? Result<> {} : compiler.prepareFor (all.front().source); }
 
-std::vector<LivePlugins::News> LivePlugins::buildHeaders()
+std::vector<LivePlugins::News> LivePlugins::buildHeaders (const std::function<bool()>& stop_wanted)
 {
     for (auto& watched : all)
         if (watched.source.sources.empty())
@@ -119,6 +119,7 @@ std::vector<LivePlugins::News> LivePlugins::buildHeaders()
     std::vector<News> made;
     while (compiled || std::ranges::find (all, true, &Watched::waits) != all.end())
     {
+        if (stop_wanted && stop_wanted()) return made;
         if (auto news = look()) made.push_back (std::move (*news));
         std::this_thread::sleep_for (std::chrono::milliseconds (10));
     }

@@ -8,6 +8,7 @@
 #include <tactus/text/message.hpp>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,8 +42,8 @@ public:
     Result<> prepare();
 
     /// Compiles the sources that are only a header, because no plugin contains their nodes yet, and waits until that is done. For the
-    /// start of a program. Returns the news of each header.
-    std::vector<News> buildHeaders();
+    /// start of a program. Returns the news of each header. Ends early once `stop_wanted` returns true.
+    std::vector<News> buildHeaders (const std::function<bool()>& stop_wanted = {});
 
     std::size_t count() const noexcept { return all.size(); }
 

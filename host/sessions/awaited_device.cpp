@@ -42,6 +42,17 @@ void AwaitedDevice::write (const Effort& guarded) noexcept
     if (auto* d = device()) d->write (guarded);
 }
 
+void AwaitedDevice::withhold() noexcept
+{
+    if (auto* d = device()) d->withhold();
+}
+
+void AwaitedDevice::limitSignals (double max, double max_slew)
+{
+    max_signal = max;
+    max_signal_slew = max_slew;
+}
+
 DeviceLayout AwaitedDevice::layout() const { return hid::layoutOf (hid::HidModel (wanted)); }
 
 std::string AwaitedDevice::trouble() const
@@ -66,6 +77,7 @@ void AwaitedDevice::look()
     auto made = hid::openDevice (description, {}, system, { .profiles = { wanted }, .messages = {} });
     if (auto* d = dynamic_cast<hid::HidDevice*> (made.device.get()))
     {
+        d->limitSignals (max_signal, max_signal_slew);
         d->prepare (dt);
         opened = std::move (made.device);
         there.store (d, std::memory_order_release);

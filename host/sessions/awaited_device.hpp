@@ -30,7 +30,10 @@ public:
     void prepare (double dt_s) override;                    // [main thread]
     Reading read() noexcept override;                       // [tick thread]
     void write (const Effort& guarded) noexcept override;   // [tick thread]
-    DeviceLayout layout() const override;                   // [main thread]
+    void withhold() noexcept override;                      // [tick thread]
+
+    void limitSignals (double max, double max_slew) override;   // [main thread]
+    DeviceLayout layout() const override;                       // [main thread]
 
     /// The device, once it is open; null until then. Valid as long as this object. [any thread]
     hid::HidDevice* device() const noexcept { return there.load (std::memory_order_acquire); }
@@ -49,6 +52,7 @@ private:
     hid::HidSystem& system;
     const std::chrono::milliseconds pause;
     double dt = 1e-3;
+    double max_signal = GuardLimits::none, max_signal_slew = GuardLimits::none;
 
     double age = 0.0;   // time spent waiting for the device to open, without a reading, in s   [tick thread]
 

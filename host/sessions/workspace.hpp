@@ -47,6 +47,7 @@ public:
     void prepare (double dt_s) override { device->prepare (dt_s); }                     // [main thread]
     Reading read() noexcept override;                                                   // [tick thread]
     void write (const Effort& guarded) noexcept override { device->write (guarded); }   // [tick thread]
+    void withhold() noexcept override { device->withhold(); }                           // [tick thread]
     void limitSignals (double max, double max_slew) override { device->limitSignals (max, max_slew); }
     DeviceLayout layout() const override;
     double duration() const noexcept override { return device->duration(); }

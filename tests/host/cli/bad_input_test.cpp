@@ -70,6 +70,16 @@ TEST_CASE ("each kind of bad file is refused with its id and its place", "[cli]"
     CHECK (ran.err.find (file + place) != std::string::npos);
 }
 
+TEST_CASE ("a name of a megabyte is cut in the messages about it", "[cli]")
+{
+    const Scratch scratch;
+    const std::string name (1'000'000, 'a');
+    const auto ran = runTactus ({ "validate", scratch.write ("long.json", graph ('"' + name + R"(": { "type": ")" + name + R"(" })")) });
+    CHECK (ran.status == 1);
+    CHECK_FALSE (ran.err.empty());
+    CHECK (ran.out.size() + ran.err.size() < 100'000);
+}
+
 TEST_CASE ("all problems in all files are reported in one go", "[cli]")
 {
     const Scratch scratch;

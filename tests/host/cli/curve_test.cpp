@@ -133,3 +133,11 @@ TEST_CASE ("fit curve: a recording or a command that cannot be used is refused, 
     refused ({ "fit", "curve", csv, "-o", preset, "--points", "1" }, 2, "--points");
     refused ({ "fit", "curve", csv }, 2, "--out");
 }
+
+TEST_CASE ("curve: sizes that give no force, or an infinite one, are refused, and nothing is written", "[cli][curve]")
+{
+    const Scratch scratch;
+    const auto preset = scratch.path ("body.json");
+    checkRefused ({ "curve", "hertz", "--young", "1e308 Pa", "--radius", "1e308 m", "--depth", "1e308 m", "-o", preset }, 1, "[curve/out_of_range]", preset);
+    checkRefused ({ "curve", "cone", "--young", "1e-308 Pa", "--angle", "1e-300 rad", "-o", preset }, 1, "[curve/out_of_range]", preset);
+}

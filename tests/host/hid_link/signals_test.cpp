@@ -150,6 +150,53 @@ TEST_CASE ("rumble motors get the amplitude of their signal, and HD rumble motor
            == 4);
 }
 
+TEST_CASE ("a stop of a rumble motor takes no longer than the fade of the guard", "[hid]")
+{
+    FakeBoard pad;
+    const auto device = open (pad, "dualsense_usb", 1e-3);
+    const auto amplitudeOf = [&] (double signal, bool is_stopping) {
+        device->read();
+        if (is_stopping) device->withhold();
+        device->write ({ .signals = { signal } });
+        const auto& e = device->effortsNow();
+        return *std::ranges::max_element (e);
+    };
+    amplitudeOf (0.0, false);
+    for (int k = 0; k < 100; ++k)
+        amplitudeOf (std::sin (2.0 * std::numbers::pi * 100.0 * 1e-3 * k), false);
+    double before = amplitudeOf (1.0, false);
+    CHECK (before == 1.0);
+    for (int k = 1; k <= 5; ++k)
+    {
+        const double left = 1.0 - k / 5.0;
+        const double now = amplitudeOf (left, true);   // as Guard::crossfade does
+        CHECK (now == Approx (left).margin (1e-15));
+        CHECK (now < before);
+        before = now;
+    }
+    CHECK (before == 0.0);
+}
+
+TEST_CASE ("max_signal also limits a rumble motor that the graph drives as an effort", "[hid]")
+{
+    FakeBoard pad;
+    const auto device = open (pad, "dualsense_usb", 1e-3);
+    device->limitSignals (0.25, GuardLimits::none);
+    const auto efforts = device->layout().efforts;
+    const auto at = std::ranges::find (efforts, "rumble_left") - efforts.begin();
+    REQUIRE (at < std::ssize (efforts));
+    Effort both { .signals = { 0.25, 0.25 } };
+    both.axes.set (static_cast<int> (at), 1.0);
+    device->read();
+    device->write ({});
+    for (int k = 0; k < 100; ++k)
+    {
+        device->read();
+        device->write (both);
+        REQUIRE (*std::ranges::max_element (device->effortsNow()) == 0.25);
+    }
+}
+
 TEST_CASE ("signals neither allocate nor lock on the tick thread", "[hid]")
 {
     FakeBoard pad;

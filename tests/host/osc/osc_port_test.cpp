@@ -101,6 +101,38 @@ TEST_CASE ("a bundle is unpacked in order", "[osc]")
         CHECK (addressOf (port->next (patience)) == address);
 }
 
+TEST_CASE ("an emergency stop is found whatever its arguments and the rest of its bundle are, and nothing else is made of broken messages", "[osc]")
+{
+    const auto stop = padded ("/tactus/emergency");
+    const auto element = [] (const std::string& bytes) { return word (static_cast<std::uint32_t> (bytes.size())) + bytes; };
+    const auto head = padded ("#bundle") + std::string (8, '\0');
+    const auto unreadable = padded ("/x") + padded (",d") + std::string (8, '\0');
+    const std::vector<std::string> packets {
+        stop + padded (","),
+        stop + padded (",T"),
+        stop + padded (",N"),
+        stop + padded (",[i]") + word (1),
+        stop + padded (",d") + std::string (8, '\0'),
+        stop + padded (",i"),
+        stop + padded ("," + std::string (100, 'i')),
+        stop + padded (",f") + word (0x3f800000) + "more",
+        stop,
+        "/tactus/emergency",
+        head + element (unreadable) + element (stop + padded (",T")),
+        head + element (head + element (unreadable)) + element (stop + padded (",")),
+    };
+    for (const auto& bytes : packets)
+    {
+        CAPTURE (bytes);
+        const auto packet = readPacket (bytes);
+        REQUIRE (packet.messages.size() == 1);
+        CHECK (packet.messages.front().getAddressPattern().toString() == "/tactus/emergency");
+    }
+    for (const auto* address : { "/tactus/start", "/tactus/rearm", "/tactus/emergency2", "/tactus/param", "/x/tactus/emergency" })
+        CHECK (readPacket (padded (address) + padded (",T")).messages.empty());
+    CHECK_FALSE (readPacket (stop + padded (",T")).right);
+}
+
 TEST_CASE ("any bytes are either a packet or refused, and nothing beyond their end is read", "[osc]")
 {
     const auto right =
