@@ -143,6 +143,7 @@ GuardLimits tightest (const GuardLimits& a, const GuardLimits& b) noexcept
         .energy_window = longer (a.max_energy, a.energy_window, b.max_energy, b.energy_window),
         .max_still = less (a.max_still, b.max_still),
         .still_force = less (a.still_force, b.still_force),
+        .still_torque = less (a.still_torque, b.still_torque),
         .workspace_scale = a.workspace_scale * b.workspace_scale,
         .dead_man_pressure = std::max (orForever (a.dead_man_pressure), orForever (b.dead_man_pressure)),
         .dead_man_buttons = a.dead_man_buttons | b.dead_man_buttons,
@@ -228,21 +229,29 @@ void Guard::watch (const Reading& reading, double elapsed_s) noexcept
 
     motion.begin (reading, now);
     const Vec3 moved = motion.moved / limits.workspace_scale;
-    speed (moved, motion.elapsed);
-    if (const double v = speed.speed(); ! (v <= limits.max_speed)) latch (Stop::speed, v);
+    if (limits.max_speed != GuardLimits::none)
+    {
+        speed (moved, motion.elapsed);
+        if (const double v = speed.speed(); ! (v <= limits.max_speed)) latch (Stop::speed, v);
+    }
 
     double work = (last.force - reading.unrendered_force).dot (moved);
     if (watches_turns)
     {
         const Vec3 turned = motion.turned (reading);
-        angular_speed (turned, motion.elapsed);
-        if (const double w = angular_speed.speed(); ! (w <= limits.max_angular_speed)) latch (Stop::speed, w, Event::Part::torque);
+        if (limits.max_angular_speed != GuardLimits::none)
+        {
+            angular_speed (turned, motion.elapsed);
+            if (const double w = angular_speed.speed(); ! (w <= limits.max_angular_speed)) latch (Stop::speed, w, Event::Part::torque);
+        }
         work += (last.torque - reading.unrendered_torque).dot (turned);
     }
     if (watches_axes) work += watchAxes (reading, motion.elapsed);
     if (limits.max_energy != GuardLimits::none)
         if (const double given = energy (work, elapsed_s); ! (given <= limits.max_energy)) latch (Stop::energy, given);
-    if (limits.max_still != GuardLimits::none) still (reading.position, last.force.norm() >= limits.still_force, dt);
+    if (limits.max_still == GuardLimits::none) return;
+    still (reading.position, last.force, limits.still_force, dt);
+    still_turn (reading.rotation, last.torque, limits.still_torque, dt);
 }
 
 bool Guard::hasBrokenAxes (const Reading& reading) const noexcept { return watches_axes && ! isFinite (reading.axes); }
@@ -269,15 +278,17 @@ void Guard::countImpulse (double s, const Reading& reading) noexcept
 {
     // If the driver does not know what the motors rendered, the effort counts in full.
     const auto rendered = [] (const Vec3& written, const Vec3& unrendered) {
-        return isFinite (unrendered) ? Vec3 (written - unrendered).stableNorm() : written.stableNorm();
+        const Vec3 left = written - unrendered;
+        return length (isFinite (left) ? left : written);
     };
-    const auto for_ticks = static_cast<std::uint64_t> (std::clamp (s / dt, 1.0, 1e9));
+    const auto for_ticks = s > dt ? static_cast<std::uint64_t> (std::clamp (s / dt, 1.0, 1e9)) : 1;
     const auto add = [&] (ImpulseWatch& watch, double limit, double effort, Event::Part part) {
-        if (limit == GuardLimits::none) return;
         if (const double pushed = watch (effort * s, for_ticks); ! (pushed <= limit)) latch (Stop::impulse, pushed, part);
     };
-    add (impulse, limits.max_impulse, rendered (last.force, reading.unrendered_force), Event::Part::none);
-    add (angular_impulse, limits.max_angular_impulse, rendered (last.torque, reading.unrendered_torque), Event::Part::torque);
+    if (limits.max_impulse != GuardLimits::none)
+        add (impulse, limits.max_impulse, rendered (last.force, reading.unrendered_force), Event::Part::none);
+    if (limits.max_angular_impulse != GuardLimits::none)
+        add (angular_impulse, limits.max_angular_impulse, rendered (last.torque, reading.unrendered_torque), Event::Part::torque);
     if (limits.max_axis_impulse == GuardLimits::none) return;
     double sum = 0.0;
     for (const double effort : last.axes)
@@ -300,6 +311,19 @@ Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading) const 
     const bool is_held = (reading.buttons & limits.dead_man_buttons) == limits.dead_man_buttons
                          && (limits.dead_man_pressure == 0.0 || reading.pressure >= limits.dead_man_pressure);
     return is_held ? Stop::none : Stop::released;
+}
+
+void Guard::describeFrozen (Event& e) const noexcept
+{
+    const bool turns = still_turn.time() > still.time();
+    const auto& frozen = turns ? still_turn : still;
+    const auto& effort = turns ? last.torque : last.force;
+    e.fault = ReadingFault::frozen;
+    e.part = turns ? Event::Part::torque : Event::Part::none;
+    e.wanted = { effort.x(), effort.y(), effort.z() };
+    e.channel = frozen.coordinate();
+    e.value = frozen.time();
+    e.limit = limits.max_still;
 }
 
 Guard::Event Guard::describeNow (Stop why, const Effort& wanted, const Reading& reading) const noexcept
@@ -339,10 +363,7 @@ Guard::Event Guard::describeNow (Stop why, const Effort& wanted, const Reading& 
         e.value = reading.age;
         e.limit = limits.watchdog;
         if (! reading.valid || e.part != Part::none || ! (reading.age <= limits.watchdog)) break;
-        ofVector (Part::none, last.force);
-        e.fault = ReadingFault::frozen;
-        e.value = still.time();
-        e.limit = limits.max_still;
+        describeFrozen (e);
         break;
     case Stop::starved:
         e.value = behind;
