@@ -35,16 +35,8 @@ public:
     /// The rotation since the last reading as a rotation vector, in rad. Call once for each reading. [tick thread]
     Vec3 turned (const Reading& reading) noexcept
     {
-        if (was_known && reading.rotation == measured) return Vec3::Zero();   // as most devices do not measure it: what follows costs 160 instructions
-        const Eigen::Quaterniond now { rotationMatrix (reading.rotation) };
-        const auto step = now * rotation.conjugate();
-        rotation = now;
-        measured = now.coeffs().allFinite() ? reading.rotation : Vec3 (Vec3::Constant (std::numeric_limits<double>::quiet_NaN()));
-        if (! was_known) return Vec3::Zero();
-        const double sine = step.vec().norm();
-        if (sine == 0.0) return Vec3::Zero();
-        if (! isFinite (sine)) return Vec3::Constant (std::numeric_limits<double>::infinity());   // such an angle is no rotation of a tool
-        return step.vec() * (2.0 * std::atan2 (std::copysign (sine, step.w()), std::abs (step.w())) / sine);
+        // Most devices do not measure it.
+        return was_known && reading.rotation == measured ? Vec3 (Vec3::Zero()) : turnedTo (reading);
     }
 
     /// How far axis i has moved since the last reading. Call once for each axis and reading. [tick thread]
@@ -58,6 +50,19 @@ public:
     void forget() noexcept { known = false; }
 
 private:
+    [[gnu::noinline]] Vec3 turnedTo (const Reading& reading) noexcept
+    {
+        const Eigen::Quaterniond now { rotationMatrix (reading.rotation) };
+        const auto step = now * rotation.conjugate();
+        rotation = now;
+        measured = now.coeffs().allFinite() ? reading.rotation : Vec3 (Vec3::Constant (std::numeric_limits<double>::quiet_NaN()));
+        if (! was_known) return Vec3::Zero();
+        const double sine = step.vec().norm();
+        if (sine == 0.0) return Vec3::Zero();
+        if (! isFinite (sine)) return Vec3::Constant (std::numeric_limits<double>::infinity());   // such an angle is no rotation of a tool
+        return step.vec() * (2.0 * std::atan2 (std::copysign (sine, step.w()), std::abs (step.w())) / sine);
+    }
+
     Vec3 position = Vec3::Zero();
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
     Vec3 measured = Vec3::Zero();   // what `rotation` was computed from; not a number if that is no rotation

@@ -13,10 +13,19 @@ constexpr double most_behind = 50.0;   // times the watchdog; a limit, so that a
 // A few units in the last place below the limit, so that rounding cannot exceed it.
 constexpr double just_under = 1.0 - 16.0 * std::numeric_limits<double>::epsilon();
 
+/// isFinite for two vectors, without branches.
+bool areFinite (const Vec3& a, const Vec3& b) noexcept
+{
+    const Vec3 zero = (a - a) + (b - b);
+    return zero.x() + zero.y() + zero.z() == 0.0;
+}
+
 /// The share of v, 0…1, whose length is at most `most`. v must be finite; its length may overflow.
 double shareWithin (const Vec3& v, double most) noexcept
 {
     if (most == GuardLimits::none) return 1.0;
+    // What is clearly shorter needs no scaling, unless a square could leave the range of doubles.
+    if (most > 1e-140 && most < 1e140 && v.squaredNorm() < 0.999 * most * most) return 1.0;
 
     const double biggest = v.cwiseAbs().maxCoeff();
     if (biggest == 0.0) return 1.0;
@@ -219,8 +228,8 @@ void Guard::loseTime (double lost_s) noexcept
 /// Updates the watches with the motion of the device under its last effort.
 void Guard::watch (const Reading& reading, double elapsed_s) noexcept
 {
-    const double now = static_cast<double> (ticks++) * dt + lost;
-    if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! isFinite (reading.age) || hasBrokenAxes (reading))
+    const double now = static_cast<double> (static_cast<std::int64_t> (ticks++)) * dt + lost;   // a signed number converts in one instruction
+    if (! reading.valid || ! areFinite (reading.position, reading.rotation) || ! isFinite (reading.age) || hasBrokenAxes (reading))
     {
         // While an effort is on the device, the distance to the next reading counts, so a device cannot hide its motion behind bad readings.
         if (isAtRest()) motion.forget();
@@ -254,8 +263,6 @@ void Guard::watch (const Reading& reading, double elapsed_s) noexcept
     still_turn (reading.rotation, last.torque, limits.still_torque, dt);
 }
 
-bool Guard::hasBrokenAxes (const Reading& reading) const noexcept { return watches_axes && ! isFinite (reading.axes); }
-
 /// The work in J that the last efforts have done on the axes that they push.
 [[gnu::noinline]] double Guard::watchAxes (const Reading& reading, double elapsed_s) noexcept
 {
@@ -279,7 +286,8 @@ void Guard::countImpulse (double s, const Reading& reading) noexcept
     // If the driver does not know what the motors rendered, the effort counts in full.
     const auto rendered = [] (const Vec3& written, const Vec3& unrendered) {
         const Vec3 left = written - unrendered;
-        return length (isFinite (left) ? left : written);
+        const double square = left.squaredNorm();
+        return square == 0.0 && left.isZero (0.0) ? 0.0 : length (isFinite (square) || isFinite (left) ? left : written);
     };
     const auto for_ticks = s > dt ? static_cast<std::uint64_t> (std::clamp (s / dt, 1.0, 1e9)) : 1;
     const auto add = [&] (ImpulseWatch& watch, double limit, double effort, Event::Part part) {
@@ -299,9 +307,9 @@ void Guard::countImpulse (double s, const Reading& reading) noexcept
 Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading) const noexcept
 {
     if (latched == Stop::emergency) return latched;
-    if (! isFinite (wanted.force, wanted.torque)) return Stop::not_finite;
+    if (! areFinite (wanted.force, wanted.torque)) return Stop::not_finite;
     if (hasChannels (wanted) && ! channelsAreFinite (wanted)) return Stop::not_finite;
-    if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! (reading.age <= limits.watchdog) || hasBrokenAxes (reading)
+    if (! reading.valid || ! areFinite (reading.position, reading.rotation) || ! (reading.age <= limits.watchdog) || hasBrokenAxes (reading)
         || isFrozen())
         return Stop::stale;
     if (is_starved) return Stop::starved;
@@ -398,7 +406,7 @@ Guard::Event Guard::describeNow (Stop why, const Effort& wanted, const Reading& 
     return e;
 }
 
-Effort Guard::operator() (const Effort& wanted, const Reading& reading, double lost_s) noexcept
+const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, double lost_s) noexcept
 {
     const double elapsed = dt + (lost_s > 0.0 && isFinite (lost_s) ? lost_s : 0.0);
     loseTime (elapsed - dt);
@@ -433,7 +441,9 @@ Effort Guard::operator() (const Effort& wanted, const Reading& reading, double l
         event = describeNow (cause, wanted, reading);   // not another stop, but another reason: a board that was silent is now too hot
     reason = cause;
 
-    approach (crossfade (wanted, step_s), step_s);
+    withheld = std::max (0.0, withheld - step_s / fade_s);
+    if (reason == Stop::none) enabled = limits.ramp > 0.0 ? std::min (1.0, enabled + dt / limits.ramp) : 1.0;
+    enabled == 1.0 ? approach (wanted, step_s) : approach (crossfaded (wanted), step_s);
     return last;
 }
 
@@ -449,6 +459,13 @@ void Guard::approach (const Effort& to, double step_s) noexcept
     {
         to_axes = resized (limits.max_axis_effort > 0.0 ? to.axes : Channels {}, std::max (last.axes.size(), to.axes.size()));
         size = std::min (size, shareWithin (to_axes, limits.max_axis_effort));
+    }
+
+    if (limits.max_slew == GuardLimits::none && limits.max_torque_slew == GuardLimits::none && ! has_channels)
+    {
+        last.force = size * to_force;
+        last.torque = size * to_torque;
+        return;
     }
 
     // Half steps, because the difference of two finite numbers may be infinite.
@@ -471,15 +488,11 @@ void Guard::approach (const Effort& to, double step_s) noexcept
     last.signals = approached (last.signals, to.signals, limits.max_signal, limits.max_signal_slew * step_s);
 }
 
-Effort Guard::crossfade (const Effort& wanted, double fade_by_s) noexcept
+/// During a stop, and while the effort rises again.
+Effort Guard::crossfaded (const Effort& wanted) const noexcept
 {
-    withheld = std::max (0.0, withheld - fade_by_s / fade_s);
-
     if (reason != Stop::none)
         return { withheld * at_stop.force, withheld * at_stop.torque, mixed (withheld, at_stop.axes, 0.0, {}), mixed (withheld, at_stop.signals, 0.0, {}) };
-
-    enabled = limits.ramp > 0.0 ? std::min (1.0, enabled + dt / limits.ramp) : 1.0;
-    if (enabled == 1.0) return wanted;
 
     // enabled + rest never exceeds 1, so the effort can safely return before the fade is over.
     const double rest = std::min (withheld, 1.0 - enabled);

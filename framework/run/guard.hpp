@@ -150,9 +150,9 @@ public:
     /// The layout says which axes the efforts push. [main thread]
     void prepare (const GuardLimits&, double dt_s, const DeviceLayout& = {}) noexcept;
 
-    /// Returns the effort for the device. `lost_s` is the time without ticks before this one, in s; the last effort was on the
+    /// Returns the effort for the device; it stays valid until the next call. `lost_s` is the time without ticks before this one, in s; the last effort was on the
     /// device during this time. [tick thread]
-    Effort operator() (const Effort& wanted, const Reading&, double lost_s = 0.0) noexcept;
+    const Effort& operator() (const Effort& wanted, const Reading&, double lost_s = 0.0) noexcept;
 
     /// Brings the effort to zero and keeps it there until resume(). [tick thread]
     void halt() noexcept { asked_to_halt = true; }
@@ -184,14 +184,17 @@ private:
     void loseTime (double lost_s) noexcept;
     void watch (const Reading&, double elapsed_s) noexcept;
     double watchAxes (const Reading&, double elapsed_s) noexcept;
-    bool hasBrokenAxes (const Reading&) const noexcept;
-    bool isFrozen() const noexcept { return still.time() > limits.max_still || still_turn.time() > limits.max_still; }
+    bool hasBrokenAxes (const Reading& reading) const noexcept { return watches_axes && ! isFinite (reading.axes); }
+    bool isFrozen() const noexcept
+    {
+        return limits.max_still != GuardLimits::none && (still.time() > limits.max_still || still_turn.time() > limits.max_still);
+    }
     void countImpulse (double s, const Reading&) noexcept;
     void latch (Stop, double value, Event::Part = Event::Part::none, int channel = 0) noexcept;
     Stop causeOf (const Effort& wanted, const Reading&) const noexcept;
     void describeFrozen (Event&) const noexcept;
     Event describeNow (Stop, const Effort& wanted, const Reading&) const noexcept;
-    Effort crossfade (const Effort& wanted, double fade_by_s) noexcept;
+    Effort crossfaded (const Effort& wanted) const noexcept;
     void approach (const Effort& to, double step_s) noexcept;
 
     GuardLimits limits;
