@@ -7,7 +7,7 @@
 #                       QEMU guest
 #   ./test.sh --quick   runs only the tests
 #   ./test.sh --long    adds to ./test.sh: each fuzzer for 60 s, 10 000 mutated files through the command line, the tests under
-#                       TSan (thread tests for 30 s each), the window under ASan and UBSan, and a soak of 1.2e8 ticks
+#                       TSan (thread tests for 60 s each), the window under ASan and UBSan, and a soak of 1.2e8 ticks
 #
 # Each of these runs only one part:
 #   ./test.sh --screens drives the host with mouse and keyboard on a virtual display, and draws build/screens/;
@@ -117,7 +117,7 @@ if [ "$mode" = --long ]; then
     /usr/bin/python3 -B tests/fuzz/whole_program.py build/release/bin/tactus --count 10000
     build tsan
     say "Tests under TSan"
-    TACTUS_LIVE_SECONDS=30 run_tests tsan
+    TACTUS_LIVE_SECONDS=60 run_tests tsan
     build asan-window tactus_app_tests
     say "The window under ASan and UBSan"
     run_tests asan-window -R '^app:'

@@ -24,7 +24,7 @@ public:
 
     void begin() noexcept { now = 0; }   // [tick thread]
 
-    Effort operator() (const Effort& wanted) noexcept   // [tick thread]
+    const Effort& operator() (const Effort& wanted) noexcept   // [tick thread]
     {
         if (now == length) return last = wanted;
         if (now == 0)

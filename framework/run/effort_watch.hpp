@@ -21,7 +21,8 @@ public:
     Vec3 moved = Vec3::Zero();   ///< motion of the tool since the last reading, in m; 0 for the first reading
     double elapsed = 0.0;        ///< time between the two readings, in s
 
-    /// Takes a reading, which must be finite. A negative age counts as 0: it would make the motion seem slow. turned() and axis() refer to it until before() is called. [tick thread]
+    /// Takes a reading, which must be finite. A negative age counts as 0: it would make the motion seem slow. Call turned() and
+    /// axisMoved() afterwards. [tick thread]
     void begin (const Reading& reading, double now_s) noexcept
     {
         const double at = now_s - std::max (0.0, reading.age);
@@ -35,14 +36,8 @@ public:
     /// The rotation since the last reading as a rotation vector, in rad. Call once for each reading. [tick thread]
     Vec3 turned (const Reading& reading) noexcept
     {
-        const Eigen::Quaterniond now { rotationMatrix (reading.rotation) };
-        const auto step = now * rotation.conjugate();
-        rotation = now;
-        if (! was_known) return Vec3::Zero();
-        const double sine = step.vec().norm();
-        if (sine == 0.0) return Vec3::Zero();
-        if (! isFinite (sine)) return Vec3::Constant (std::numeric_limits<double>::infinity());   // no tool rotates by such an angle
-        return step.vec() * (2.0 * std::atan2 (std::copysign (sine, step.w()), std::abs (step.w())) / sine);
+        // Most devices do not measure it.
+        return was_known && reading.rotation == measured ? Vec3 (Vec3::Zero()) : turnedTo (reading);
     }
 
     /// How far axis i has moved since the last reading. Call once for each axis and reading. [tick thread]
@@ -59,8 +54,22 @@ public:
     void forget() noexcept { known = false; }
 
 private:
+    [[gnu::noinline]] Vec3 turnedTo (const Reading& reading) noexcept
+    {
+        const Eigen::Quaterniond now { rotationMatrix (reading.rotation) };
+        const auto step = now * rotation.conjugate();
+        rotation = now;
+        measured = now.coeffs().allFinite() ? reading.rotation : Vec3 (Vec3::Constant (std::numeric_limits<double>::quiet_NaN()));
+        if (! was_known) return Vec3::Zero();
+        const double sine = step.vec().norm();
+        if (sine == 0.0) return Vec3::Zero();
+        if (! isFinite (sine)) return Vec3::Constant (std::numeric_limits<double>::infinity());   // no tool rotates by such an angle
+        return step.vec() * (2.0 * std::atan2 (std::copysign (sine, step.w()), std::abs (step.w())) / sine);
+    }
+
     Vec3 position = Vec3::Zero();
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+    Vec3 measured = Vec3::Zero();   // what `rotation` was computed from; not a number if that is no rotation
     std::array<double, Channels::most> axes {};
     double before_at = 0.0;
     bool known = false, was_known = false;
@@ -123,30 +132,49 @@ private:
     Vec3 velocity = Vec3::Zero();
 };
 
-/// How long a position has stayed the same, to the last bit, while a force pushed the hand.
+/// How long a position, or a part of it along which a force pushes, has stayed the same, to the last bit. Also for a rotation and a
+/// torque.
 ///
 /// A hand that holds against a force never rests: it trembles at 8 to 12 Hz, by tens of micrometres. So a position that does not
-/// change comes from a sensor that has stopped, if the sensor's quantum is finer than the tremor: at most about 10 um.
+/// change comes from a sensor that has stopped, if the sensor's quantum is finer than the tremor: at most about 10 um. If only one
+/// coordinate does not change, its sensor has stopped while the others work. A coordinate that has never changed is not measured.
 class StillWatch
 {
 public:
-    /// Only a change of position resets the count. Without a force the count is kept: if it were reset, a stop would end itself by
-    /// taking the force away, and the force would push the hand again and again. [tick thread]
-    void operator() (const Vec3& position, bool is_pushed, double dt_s) noexcept
+    /// Only a change resets a count. Without a force the counts are kept: if they were reset, a stop would end itself by taking the
+    /// force away, and the force would push the hand again and again. [tick thread]
+    void operator() (const Vec3& position, const Vec3& force, double least_force, double dt_s) noexcept
     {
-        if (position != before)
-            still = 0.0;
-        else if (is_pushed)
-            still += dt_s;
+        whole = position == before ? whole + (force.norm() >= least_force ? dt_s : 0.0) : 0.0;
+        for (int i = 0; i < 3; ++i)
+        {
+            if (position[i] != before[i])
+            {
+                still[i] = 0.0;
+                has_changed[i] = known;
+            }
+            else if (has_changed[i] && std::abs (force[i]) >= least_force)
+                still[i] += dt_s;
+        }
         before = position;
+        known = true;
     }
 
-    /// In s.
-    double time() const noexcept { return still; }
+    /// In s. The longest time of all.
+    double time() const noexcept { return std::max (whole, still.maxCoeff()); }
+
+    /// 0, 1 or 2 if only this coordinate has stopped; -1 if all have.
+    int coordinate() const noexcept
+    {
+        int at = 0;
+        return still.maxCoeff (&at) > whole ? at : -1;
+    }
 
 private:
-    Vec3 before = Vec3::Zero();
-    double still = 0.0;
+    Vec3 before = Vec3::Zero(), still = Vec3::Zero();   // still: by coordinate
+    double whole = 0.0;
+    bool has_changed[3] {};   // by coordinate, since the first reading
+    bool known = false;
 };
 
 /// The integral of |force| over the last `window`, stored in sixteenths of the window. It covers at least the window, and at

@@ -296,7 +296,7 @@ void Engine::afterPlan() noexcept
     {
         const auto& role = plan->roles()[i];
         auto& channel = *used[i];
-        const auto wanted = channel.bumpless (total (role, scratch));
+        const auto& wanted = channel.bumpless (total (role, scratch));
         const auto events = channel.guard.events();
         role.state->applied = channel.guard (wanted, role.state->reading, lost_s);
         if (channel.guard.stop() != Guard::Stop::none)

@@ -13,10 +13,19 @@ constexpr double most_behind = 50.0;   // times the watchdog; a limit, so that a
 // A few units in the last place below the limit, so that rounding cannot exceed it.
 constexpr double just_under = 1.0 - 16.0 * std::numeric_limits<double>::epsilon();
 
+/// isFinite for two vectors, without branches.
+bool areFinite (const Vec3& a, const Vec3& b) noexcept
+{
+    const Vec3 zero = (a - a) + (b - b);
+    return zero.x() + zero.y() + zero.z() == 0.0;
+}
+
 /// The share of v, 0…1, whose length is at most `most`. v must be finite; its length may overflow.
 double shareWithin (const Vec3& v, double most) noexcept
 {
     if (most == GuardLimits::none) return 1.0;
+    // What is clearly shorter needs no scaling, unless a square could leave the range of doubles.
+    if (most > 1e-140 && most < 1e140 && v.squaredNorm() < 0.999 * most * most) return 1.0;
 
     const double biggest = v.cwiseAbs().maxCoeff();
     if (biggest == 0.0) return 1.0;
@@ -108,12 +117,6 @@ std::array<std::int8_t, Channels::most> axesOf (const DeviceLayout& layout)
     }
     return all;
 }
-
-int firstNotFinite (const Channels& all) noexcept
-{
-    return static_cast<int> (std::find_if_not (all.begin(), all.end(), [] (double v) { return isFinite (v); })
-                             - all.begin());
-}
 }   // namespace
 
 GuardLimits tightest (const GuardLimits& a, const GuardLimits& b) noexcept
@@ -143,6 +146,7 @@ GuardLimits tightest (const GuardLimits& a, const GuardLimits& b) noexcept
         .energy_window = longer (a.max_energy, a.energy_window, b.max_energy, b.energy_window),
         .max_still = less (a.max_still, b.max_still),
         .still_force = less (a.still_force, b.still_force),
+        .still_torque = less (a.still_torque, b.still_torque),
         .workspace_scale = a.workspace_scale * b.workspace_scale,
         .dead_man_pressure = std::max (orForever (a.dead_man_pressure), orForever (b.dead_man_pressure)),
         .dead_man_buttons = a.dead_man_buttons | b.dead_man_buttons,
@@ -219,9 +223,9 @@ void Guard::loseTime (double lost_s) noexcept
 /// Updates the watches with the motion of the device under its last effort.
 void Guard::watch (const Reading& reading, double elapsed_s) noexcept
 {
-    const double now = static_cast<double> (ticks++) * dt + lost;
+    const double now = static_cast<double> (static_cast<std::int64_t> (ticks++)) * dt + lost;   // a signed number converts in one instruction
     mean_effort.add (last, reading, elapsed_s / dt, watches_axes);
-    if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! isFinite (reading.age) || hasBrokenAxes (reading))
+    if (! reading.valid || ! areFinite (reading.position, reading.rotation) || ! isFinite (reading.age) || hasBrokenAxes (reading))
     {
         // While an effort is on the device, the distance to the next reading counts, so a device cannot hide its motion behind bad readings.
         if (! isAtRest()) return;
@@ -232,22 +236,30 @@ void Guard::watch (const Reading& reading, double elapsed_s) noexcept
 
     motion.begin (reading, now);
     const Vec3 moved = motion.moved / limits.workspace_scale;
-    speed (moved, motion.elapsed);
-    if (const double v = speed.speed(); ! (v <= limits.max_speed)) latch (Stop::speed, v);
+    if (limits.max_speed != GuardLimits::none)
+    {
+        speed (moved, motion.elapsed);
+        if (const double v = speed.speed(); ! (v <= limits.max_speed)) latch (Stop::speed, v);
+    }
 
     double work = mean_effort.force().dot (moved);
     if (watches_turns)
     {
         const Vec3 turned = motion.turned (reading);
-        angular_speed (turned, motion.elapsed);
-        if (const double w = angular_speed.speed(); ! (w <= limits.max_angular_speed)) latch (Stop::speed, w, Event::Part::torque);
+        if (limits.max_angular_speed != GuardLimits::none)
+        {
+            angular_speed (turned, motion.elapsed);
+            if (const double w = angular_speed.speed(); ! (w <= limits.max_angular_speed)) latch (Stop::speed, w, Event::Part::torque);
+        }
         work += mean_effort.torque().dot (turned);
     }
     if (watches_axes) work += watchAxes (reading, motion.elapsed);
     if (motion.isNew (dt)) mean_effort = {};
     if (limits.max_energy != GuardLimits::none)
         if (const double given = energy (work, elapsed_s); ! (given <= limits.max_energy)) latch (Stop::energy, given);
-    if (limits.max_still != GuardLimits::none) still (reading.position, last.force.norm() >= limits.still_force, dt);
+    if (limits.max_still == GuardLimits::none) return;
+    still (reading.position, last.force, limits.still_force, dt);
+    still_turn (reading.rotation, last.torque, limits.still_torque, dt);
 }
 
 /// A reading from the future comes from a clock that differs from ours, so no one can say how old it is.
@@ -255,8 +267,6 @@ bool Guard::isRecent (const Reading& reading) const noexcept
 {
     return reading.age <= limits.watchdog && (reading.age >= -dt || limits.watchdog == GuardLimits::none);
 }
-
-bool Guard::hasBrokenAxes (const Reading& reading) const noexcept { return watches_axes && ! isFinite (reading.axes); }
 
 /// The work in J that the last efforts have done on the axes that they push.
 [[gnu::noinline]] double Guard::watchAxes (const Reading& reading, double elapsed_s) noexcept
@@ -280,15 +290,18 @@ void Guard::countImpulse (double s, const Reading& reading) noexcept
 {
     // If the driver does not know what the motors rendered, the effort counts in full.
     const auto rendered = [] (const Vec3& written, const Vec3& unrendered) {
-        return isFinite (unrendered) ? Vec3 (written - unrendered).stableNorm() : written.stableNorm();
+        const Vec3 left = written - unrendered;
+        const double square = left.squaredNorm();
+        return square == 0.0 && left.isZero (0.0) ? 0.0 : length (isFinite (square) || isFinite (left) ? left : written);
     };
-    const auto for_ticks = static_cast<std::uint64_t> (std::clamp (s / dt, 1.0, 1e9));
+    const auto for_ticks = s > dt ? static_cast<std::uint64_t> (std::clamp (s / dt, 1.0, 1e9)) : 1;
     const auto add = [&] (ImpulseWatch& watch, double limit, double effort, Event::Part part) {
-        if (limit == GuardLimits::none) return;
         if (const double pushed = watch (effort * s, for_ticks); ! (pushed <= limit)) latch (Stop::impulse, pushed, part);
     };
-    add (impulse, limits.max_impulse, rendered (last.force, reading.unrendered_force), Event::Part::none);
-    add (angular_impulse, limits.max_angular_impulse, rendered (last.torque, reading.unrendered_torque), Event::Part::torque);
+    if (limits.max_impulse != GuardLimits::none)
+        add (impulse, limits.max_impulse, rendered (last.force, reading.unrendered_force), Event::Part::none);
+    if (limits.max_angular_impulse != GuardLimits::none)
+        add (angular_impulse, limits.max_angular_impulse, rendered (last.torque, reading.unrendered_torque), Event::Part::torque);
     if (limits.max_axis_impulse == GuardLimits::none) return;
     double sum = 0.0;
     for (const double effort : last.axes)
@@ -299,9 +312,9 @@ void Guard::countImpulse (double s, const Reading& reading) noexcept
 Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading) const noexcept
 {
     if (latched == Stop::emergency) return latched;
-    if (! isFinite (wanted.force, wanted.torque)) return Stop::not_finite;
+    if (! areFinite (wanted.force, wanted.torque)) return Stop::not_finite;
     if (hasChannels (wanted) && ! channelsAreFinite (wanted)) return Stop::not_finite;
-    if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! isRecent (reading) || hasBrokenAxes (reading) || isFrozen())
+    if (! reading.valid || ! areFinite (reading.position, reading.rotation) || ! isRecent (reading) || hasBrokenAxes (reading) || isFrozen())
         return Stop::stale;
     if (is_starved) return Stop::starved;
     if (latched != Stop::none) return latched;
@@ -312,102 +325,8 @@ Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading) const 
     return is_held ? Stop::none : Stop::released;
 }
 
-namespace
-{
-void nameValue (Guard::Event& e, Guard::Event::Part part, const Vec3& v) noexcept
-{
-    e.part = part;
-    e.wanted = { v.x(), v.y(), v.z() };
-}
-
-void nameChannel (Guard::Event& e, Guard::Event::Part part, const Channels& all) noexcept
-{
-    e.part = part;
-    e.channel = firstNotFinite (all);
-    e.wanted = { all[e.channel], 0.0, 0.0 };
-}
-
-void nameNotFinite (Guard::Event& e, const Effort& wanted) noexcept
-{
-    using Part = Guard::Event::Part;
-    if (! isFinite (wanted.force))
-        nameValue (e, Part::force, wanted.force);
-    else if (! isFinite (wanted.torque))
-        nameValue (e, Part::torque, wanted.torque);
-    else if (! isFinite (wanted.axes))
-        nameChannel (e, Part::axis, wanted.axes);
-    else
-        nameChannel (e, Part::signal, wanted.signals);
-}
-}   // namespace
-
-void Guard::describeStale (Event& e, const Reading& reading) const noexcept
-{
-    using Part = Event::Part;
-    if (! isFinite (reading.position, reading.rotation)) nameValue (e, Part::reading, isFinite (reading.position) ? reading.rotation : reading.position);
-    if (hasBrokenAxes (reading)) nameChannel (e, Part::reading, reading.axes);
-    e.fault = reading.fault;
-    e.value = reading.age;
-    e.limit = limits.watchdog;
-    if (! reading.valid || e.part != Part::none || ! isRecent (reading)) return;
-    nameValue (e, Part::none, last.force);
-    e.fault = ReadingFault::frozen;
-    e.value = still.time();
-    e.limit = limits.max_still;
-}
-
-Guard::Event Guard::describeNow (Stop why, const Effort& wanted, const Reading& reading) const noexcept
-{
-    using Part = Event::Part;
-    Event e { .why = why, .valid = reading.valid };
-    const auto limitOf = [&] (double of_tool, double of_rotation, double of_axis) {
-        if (seen_part == Part::axis) return of_axis;
-        return seen_part == Part::torque ? of_rotation : of_tool;
-    };
-
-    switch (why)
-    {
-    case Stop::not_finite:
-        nameNotFinite (e, wanted);
-        break;
-    case Stop::stale:
-        describeStale (e, reading);
-        break;
-    case Stop::starved:
-        e.value = behind;
-        e.limit = limits.watchdog;
-        break;
-    case Stop::released:
-        e.value = reading.pressure;
-        e.limit = limits.dead_man_pressure;
-        break;
-    case Stop::speed:
-        e.value = seen;
-        e.part = seen_part;
-        e.channel = seen_channel;
-        e.limit = limitOf (limits.max_speed, limits.max_angular_speed, limits.max_axis_speed);
-        break;
-    case Stop::impulse:
-        e.value = seen;
-        e.part = seen_part;
-        e.limit = limitOf (limits.max_impulse, limits.max_angular_impulse, limits.max_axis_impulse);
-        e.window = limits.impulse_window;
-        break;
-    case Stop::energy:
-        e.value = seen;
-        e.limit = limits.max_energy;
-        e.window = limits.energy_window;
-        break;
-    case Stop::none:
-    case Stop::halted:
-    case Stop::emergency:
-        break;
-    }
-    return e;
-}
-
 /// Here the force is limited: first a reason to stop is looked for, then the effort is faded, shortened and slowed down.
-Effort Guard::operator() (const Effort& wanted, const Reading& reading, double lost_s) noexcept
+const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, double lost_s) noexcept
 {
     const double elapsed = dt + (lost_s > 0.0 && isFinite (lost_s) ? lost_s : 0.0);
     loseTime (elapsed - dt);
@@ -442,64 +361,71 @@ Effort Guard::operator() (const Effort& wanted, const Reading& reading, double l
         event = describeNow (cause, wanted, reading);   // not another stop, but another reason: a board that was silent is now too hot
     reason = cause;
 
-    approach (crossfade (wanted, step_s), step_s);
+    withheld = std::max (0.0, withheld - step_s / fade_s);
+    if (reason == Stop::none) enabled = limits.ramp > 0.0 ? std::min (1.0, enabled + dt / limits.ramp) : 1.0;
+    enabled == 1.0 ? approach (wanted, step_s) : approach (crossfaded (wanted), step_s);
     return last;
 }
 
 /// Leaves out the parts of the effort that are limited to 0, rather than scaling the others to 0, and returns the share of the rest,
 /// 0…1, that is within the limits of size.
-double Guard::fit (Effort& to) const noexcept
+double Guard::fit (Vec3& force, Vec3& torque, Channels& axes) const noexcept
 {
-    if (! (limits.max_force > 0.0)) to.force.setZero();
-    if (! (limits.max_torque > 0.0)) to.torque.setZero();
-    const double size = std::min (shareWithin (to.force, limits.max_force), shareWithin (to.torque, limits.max_torque));
-    if (to.axes.size() == 0) return size;
-    if (! (limits.max_axis_effort > 0.0)) to.axes = resized ({}, to.axes.size());
-    return std::min (size, shareWithin (to.axes, limits.max_axis_effort));
+    if (! (limits.max_force > 0.0)) force.setZero();
+    if (! (limits.max_torque > 0.0)) torque.setZero();
+    const double size = std::min (shareWithin (force, limits.max_force), shareWithin (torque, limits.max_torque));
+    if (axes.size() == 0) return size;
+    if (! (limits.max_axis_effort > 0.0)) axes = resized ({}, axes.size());
+    return std::min (size, shareWithin (axes, limits.max_axis_effort));
 }
 
 /// Moves the last effort towards this one, as far as the limits of size and slew allow. One factor scales force, torque and axes,
 /// so what they do together keeps its direction.
-void Guard::approach (Effort to, double step_s) noexcept
+void Guard::approach (const Effort& to, double step_s) noexcept
 {
-    const double size = fit (to);
     const bool has_channels = hasChannels (last) || hasChannels (to);
-    if (has_channels) to.axes = resized (to.axes, std::max (last.axes.size(), to.axes.size()));
+    Vec3 to_force = to.force, to_torque = to.torque;
+    Channels to_axes;
+    if (has_channels) to_axes = resized (to.axes, std::max (last.axes.size(), to.axes.size()));
+    const double size = fit (to_force, to_torque, to_axes);
+
+    if (limits.max_slew == GuardLimits::none && limits.max_torque_slew == GuardLimits::none && ! has_channels)
+    {
+        last.force = size * to_force;
+        last.torque = size * to_torque;
+        return;
+    }
 
     // Half steps, because the difference of two finite numbers may be infinite.
-    const Vec3 force = 0.5 * size * to.force - 0.5 * last.force, torque = 0.5 * size * to.torque - 0.5 * last.torque;
+    const Vec3 force = 0.5 * size * to_force - 0.5 * last.force, torque = 0.5 * size * to_torque - 0.5 * last.torque;
     const double half_s = 0.5 * step_s;
     double step = std::min (shareWithin (force, limits.max_slew * half_s), shareWithin (torque, limits.max_torque_slew * half_s));
     Channels axes;
     if (has_channels)
     {
-        axes = mixed (0.5 * size, to.axes, -0.5, last.axes);
+        axes = mixed (0.5 * size, to_axes, -0.5, last.axes);
         step = std::min (step, shareWithin (axes, limits.max_axis_slew * half_s));
     }
 
     const bool arrives = step == 1.0;
-    last.force = arrives ? Vec3 (size * to.force) : Vec3 (last.force + 2.0 * step * force);
-    last.torque = arrives ? Vec3 (size * to.torque) : Vec3 (last.torque + 2.0 * step * torque);
+    last.force = arrives ? Vec3 (size * to_force) : Vec3 (last.force + 2.0 * step * force);
+    last.torque = arrives ? Vec3 (size * to_torque) : Vec3 (last.torque + 2.0 * step * torque);
     if (! has_channels) return;
-    last.axes = ! arrives ? mixed (1.0, last.axes, 2.0 * step, axes) : size == 1.0 ? to.axes
-                                                                                   : mixed (size, to.axes, 0.0, {});
+    last.axes = ! arrives ? mixed (1.0, last.axes, 2.0 * step, axes) : size == 1.0 ? to_axes
+                                                                                   : mixed (size, to_axes, 0.0, {});
     last.signals = approached (last.signals, to.signals, limits.max_signal, limits.max_signal_slew * step_s);
 }
 
-Effort Guard::crossfade (const Effort& wanted, double fade_by_s) noexcept
+/// During a stop, and while the effort rises again.
+Effort Guard::crossfaded (const Effort& wanted) const noexcept
 {
-    withheld = std::max (0.0, withheld - fade_by_s / fade_s);
-
     if (reason != Stop::none)
         return { withheld * at_stop.force, withheld * at_stop.torque, mixed (withheld, at_stop.axes, 0.0, {}), mixed (withheld, at_stop.signals, 0.0, {}) };
-
-    enabled = limits.ramp > 0.0 ? std::min (1.0, enabled + dt / limits.ramp) : 1.0;
-    if (enabled == 1.0) return wanted;
 
     // The limits of size come first: a graph that asks for ten times the limit must not get all of it after a tenth of the ramp.
     // enabled + rest never exceeds 1, so the effort can safely return before the fade is over.
     Effort within = wanted;
-    const double size = fit (within), part = enabled * size, rest = std::min (withheld, 1.0 - enabled);
+    const double size = fit (within.force, within.torque, within.axes), part = enabled * size, rest = std::min (withheld, 1.0 - enabled);
     within.signals = approached ({}, within.signals, limits.max_signal, GuardLimits::none);
     return { part * within.force + rest * at_stop.force, part * within.torque + rest * at_stop.torque,
              mixed (part, within.axes, rest, at_stop.axes), mixed (enabled, within.signals, rest, at_stop.signals) };

@@ -40,8 +40,9 @@ struct GuardLimits
     double impulse_window = 0.0;         ///< window of all three impulse limits, in s; 0: the whole session
     double max_energy = none;            ///< energy that force, torque and axes may give to the hand, as counted by EnergyWatch, in J
     double energy_window = 0.0;          ///< window of max_energy, in s; 0: the whole session
-    double max_still = none;             ///< how long the position may stay exactly the same under a force, as counted by StillWatch, in s
+    double max_still = none;             ///< how long position or rotation may stay exactly the same under an effort, as counted by StillWatch, in s
     double still_force = none;           ///< the least force for max_still, in N
+    double still_torque = none;          ///< the least torque for max_still, in N m
 
     double workspace_scale = 1.0;   ///< motion in the graph divided by motion of the device; the limits are those of the device
 
@@ -144,17 +145,17 @@ public:
         double limit = 0.0;                ///< the limit on this value
         double window = 0.0;               ///< window of the limit, in s; 0: the whole session
         std::array<double, 3> wanted {};   ///< force or torque that was not a number; for an axis or signal, only the first component is used
-        std::int32_t channel = 0;          ///< number of the axis or signal, from 0
+        std::int32_t channel = 0;          ///< number of the axis or signal, from 0; if one coordinate is frozen, its number, and if all are, -1
         std::uint32_t valid = 1;           ///< 1 if the reading was valid
-        ReadingFault fault {};             ///< what is wrong with the reading, if it is known; if it is `frozen`, `wanted` is the force on the tool
+        ReadingFault fault {};             ///< what is wrong with the reading, if known; if it is `frozen`, `wanted` is the force or torque on the tool
     };
 
     /// The layout says which axes the efforts push. [main thread]
     void prepare (const GuardLimits&, double dt_s, const DeviceLayout& = {}) noexcept;
 
-    /// Returns the effort for the device. `lost_s` is the time without ticks before this one, in s; the last effort was on the
+    /// Returns the effort for the device; it stays valid until the next call. `lost_s` is the time without ticks before this one, in s; the last effort was on the
     /// device during this time. [tick thread]
-    Effort operator() (const Effort& wanted, const Reading&, double lost_s = 0.0) noexcept;
+    const Effort& operator() (const Effort& wanted, const Reading&, double lost_s = 0.0) noexcept;
 
     /// Brings the effort to zero and keeps it there until resume(). [tick thread]
     void halt() noexcept { asked_to_halt = true; }
@@ -187,16 +188,20 @@ private:
     void watch (const Reading&, double elapsed_s) noexcept;
     double watchAxes (const Reading&, double elapsed_s) noexcept;
     bool isRecent (const Reading&) const noexcept;
-    bool hasBrokenAxes (const Reading&) const noexcept;
-    bool isFrozen() const noexcept { return still.time() > limits.max_still; }
+    bool hasBrokenAxes (const Reading& reading) const noexcept { return watches_axes && ! isFinite (reading.axes); }
+    bool isFrozen() const noexcept
+    {
+        return limits.max_still != GuardLimits::none && (still.time() > limits.max_still || still_turn.time() > limits.max_still);
+    }
     void countImpulse (double s, const Reading&) noexcept;
     void latch (Stop, double value, Event::Part = Event::Part::none, int channel = 0) noexcept;
     Stop causeOf (const Effort& wanted, const Reading&) const noexcept;
+    void describeFrozen (Event&) const noexcept;
     Event describeNow (Stop, const Effort& wanted, const Reading&) const noexcept;
     void describeStale (Event&, const Reading&) const noexcept;
-    Effort crossfade (const Effort& wanted, double fade_by_s) noexcept;
-    double fit (Effort& to) const noexcept;
-    void approach (Effort to, double step_s) noexcept;
+    Effort crossfaded (const Effort& wanted) const noexcept;
+    double fit (Vec3& force, Vec3& torque, Channels& axes) const noexcept;
+    void approach (const Effort& to, double step_s) noexcept;
 
     GuardLimits limits;
     double dt = fade_s;    // in s; until prepare is called, a stop takes one tick
@@ -228,7 +233,7 @@ private:
     std::array<std::int8_t, Channels::most> axis_of_effort {};   // by effort, the number of the axis that it pushes; -1: unknown
     ImpulseWatch impulse, angular_impulse, axis_impulse;
     EnergyWatch energy;
-    StillWatch still;
+    StillWatch still, still_turn;
 };
 
 /// The event in words, with its numbers: "the last reading is 31 ms old; the watchdog allows 20 ms".

@@ -25,12 +25,23 @@ std::string withinWindow (const Guard::Event& event, const char* unit)
     return event.window > 0.0 && event.window < GuardLimits::none ? limit + " in " + inWords (event.window) + " s" : limit;
 }
 
+/// One of several coordinates is frozen only along its own part of the force, so that part is named.
+std::string inWordsFrozen (const Guard::Event& event)
+{
+    const auto& f = event.wanted;
+    const bool turn = event.part == Guard::Event::Part::torque, is_one = event.channel >= 0 && event.channel < 3;
+    const auto at = static_cast<std::size_t> (is_one ? event.channel : 0);
+    const double effort = is_one ? std::abs (f[at]) : std::hypot (f[0], f[1], f[2]);
+    return std::string (turn ? "the rotation" : "the position") + (is_one ? std::string (turn ? " about " : " along ") + "xyz"[at] : "")
+           + " has not changed for " + inWords (event.value) + " s while a " + (turn ? "torque of " : "force of ") + inWords (effort)
+           + (turn ? " N*m turns" : " N pushes") + " the hand";
+}
+
 std::string inWordsStale (const Guard::Event& event)
 {
     const auto& f = event.wanted;
     if (event.fault == ReadingFault::frozen)
-        return "the position has not changed for " + inWords (event.value) + " s while a force of " + inWords (std::hypot (f[0], f[1], f[2]))
-               + " N pushes the hand";
+        return event.valid ? inWordsFrozen (event) : "one of the encoders that measure the position does not change while the tool moves";
     const std::string why (describe (event.fault));
     if (! event.valid) return why.empty() ? "the device has no valid reading" : why;
     if (event.part == Guard::Event::Part::reading) return "the reading is not a number: " + inWords (f);

@@ -9,7 +9,7 @@ namespace tactus::host::hid
 
 HidModel::HidModel (std::shared_ptr<const Profile> p)
     : description (std::move (p)), decoder (description), encoder (description, decoder), kinematics (description->kinematics),
-      limiter (*description, encoder.effortNames(), encoder.effortUnits(), encoder.restEfforts())
+      limiter (*description, encoder.effortNames(), encoder.effortUnits(), encoder.restEfforts()), encoders (description->limits.still_travel)
 {
     for (std::size_t i = 0; i < 3; ++i)
     {
@@ -35,6 +35,7 @@ HidModel::HidModel (std::shared_ptr<const Profile> p)
 void HidModel::forget() noexcept
 {
     last = {};
+    encoders.restart();
     pose = {};
     pose.strength = hasPosition() ? 0.0 : 1.0;
 }
@@ -64,10 +65,15 @@ void HidModel::place() noexcept
         return v;
     };
 
-    pose = kinematics.pose (kinematics.joints (values (position)));
+    const auto counted = values (position);
+    pose = kinematics.pose (kinematics.joints (counted));
     last.problem = pose.problem;
     const bool placed = pose.problem == PoseProblem::none || pose.problem == PoseProblem::singular;
-    if (placed) last.position = description->axes * pose.position;
+    if (placed)
+    {
+        last.position = description->axes * pose.position;
+        encoders (counted, last.position);
+    }
     last.rotation = description->axes * values (rotation);
     last.valid = placed && (valid < 0 || last.axes[static_cast<std::size_t> (valid)] != 0.0);
 }
@@ -76,6 +82,7 @@ ReadingFault HidModel::fault (double driven_s) const noexcept
 {
     if (last.problem == PoseProblem::unreachable || last.problem == PoseProblem::not_finite) return ReadingFault::impossible_pose;
     if (valid >= 0 && last.axes[static_cast<std::size_t> (valid)] == 0.0) return ReadingFault::not_homed;
+    if (encoders.hasStopped()) return ReadingFault::frozen;
     for (std::size_t i = 0; i < alarms.size(); ++i)
     {
         const auto& alarm = description->alarms[i];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "encoder_watch.hpp"
 #include "kinematics.hpp"
 #include "motor_limiter.hpp"
 #include "report_decoder.hpp"
@@ -134,6 +135,7 @@ private:
     Kinematics kinematics;
     MotorLimiter limiter;
     Kinematics::Pose pose;
+    EncoderWatch encoders;
     HidSample last;
     Vec3 rendered_force = Vec3::Zero(), rendered_torque = Vec3::Zero();
     std::array<int, 3> position {}, rotation {}, force {}, torque {};   // indices of axes and efforts; -1: none

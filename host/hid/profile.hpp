@@ -284,6 +284,7 @@ struct Limits
     GuardLimits guard;                           ///< its watchdog is the largest age that an input may have on the host
     double max_motor = GuardLimits::none;        ///< of each effort that renders the force, in its unit (A, N m or N)
     double max_motor_slew = GuardLimits::none;   ///< of the same, per s
+    double still_travel = GuardLimits::none;     ///< how far the tool may travel without a change of every value that its position comes from, in m
     double max_stiffness = GuardLimits::none;    ///< N/m
     double max_damping = GuardLimits::none;      ///< N s/m
     double device_damping = 0.0;                 ///< damping of the device itself, in N s/m

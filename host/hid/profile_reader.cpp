@@ -137,6 +137,7 @@ Limits readLimits (ProfileFields& profile, const std::string& motor_unit)
         l.guard.watchdog = in.number ("stale_input", unit::second, some, l.guard.watchdog);
         l.max_motor = motorLimit (in, "max_motor", motor_unit);
         l.max_motor_slew = motorLimit (in, "max_motor_slew", motor_unit + "/s");
+        l.still_travel = in.number ("still_travel", unit::metre, some, l.still_travel);
         l.max_stiffness = in.number ("max_stiffness", unit::stiffness, any, l.max_stiffness);
         l.max_damping = in.number ("max_damping", unit::damping, any, l.max_damping);
         l.device_damping = in.number ("device_damping", unit::damping, any, 0.0);

@@ -70,6 +70,7 @@ std::shared_ptr<const Profile> limitedBy (const std::vector<std::shared_ptr<cons
         limited.limits.guard = tightest (limited.limits.guard, other->limits.guard);
         limited.limits.max_motor = std::min (limited.limits.max_motor, other->limits.max_motor);
         limited.limits.max_motor_slew = std::min (limited.limits.max_motor_slew, other->limits.max_motor_slew);
+        limited.limits.still_travel = std::min (limited.limits.still_travel, other->limits.still_travel);
         others += (others.empty() ? "" : ", ") + quote (other->id);
     }
     return others.empty() ? own : std::make_shared<const Profile> (std::move (limited));

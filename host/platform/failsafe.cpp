@@ -44,8 +44,9 @@ struct Entry
 std::array<Entry, Failsafe::most_devices> armed;
 static_assert (std::atomic<int>::is_always_lock_free, "a signal handler reads it");
 
-constexpr std::int64_t shortest_sleep = 50'000'000;     // ns; far longer than the two readings of hasSleptFor() are apart
-constexpr std::int64_t longest_pause = 1'000'000'000;   // ns between two beats; longer than `patience`: the guardian must have been frozen too
+constexpr std::int64_t shortest_sleep = 50'000'000;           // ns; far longer than the two readings of hasSleptFor() are apart
+constexpr int look_apart_ms = 100, looks_until_frozen = 20;   // at the guardian: 2 s, so that a busy computer does not look like a frozen guardian
+constexpr std::int64_t longest_pause = 1'000'000'000;         // ns between two beats; longer than `patience`: the guardian must have been frozen too
 
 std::mutex changing;
 std::atomic<Shared*> shared { nullptr };   // from the first guardian on
@@ -120,18 +121,35 @@ int startGuardian()
     return 0;
 }
 
-/// A thread that replaces the guardian whenever someone kills it. As long as that fails, the alarm is raised again and again, and
+/// Waits until the guardian is dead. Kills it if it gives no sign of life: frozen, it would let a force stay on. [without `changing` held]
+void waitForEndOf (pid_t guardian, int socket) noexcept
+{
+    const auto& looks = shared.load()->looks;
+    pollfd end { .fd = socket, .events = 0, .revents = 0 };
+    auto seen = looks.load();
+    for (int same = 0;;)
+    {
+        const int ready = ::poll (&end, 1, look_apart_ms);
+        if (ready > 0) break;
+        if (ready < 0) continue;
+        const auto now = looks.load();
+        same = now == seen ? same + 1 : 0;
+        seen = now;
+        if (same == looks_until_frozen) ::kill (guardian, SIGKILL);
+    }
+}
+
+/// A thread that replaces the guardian whenever someone kills or freezes it. As long as that fails, the alarm is raised again and again, and
 /// because nothing rearms within a second of an alarm, the forces stay at zero.
 void watchGuardian()
 {
     std::unique_lock lock (changing);
     for (;;)
     {
-        pollfd socket { .fd = to_guardian, .events = 0, .revents = 0 };
+        const auto socket = to_guardian;
         const auto child = guardian_process;
         lock.unlock();
-        while (::poll (&socket, 1, -1) < 0)
-            ;
+        waitForEndOf (child, socket);
         shared.load()->raiseAlarm (Shared::Cause::unguarded, 0);
         ::waitpid (child, nullptr, 0);
         lock.lock();
@@ -263,7 +281,7 @@ Message Failsafe::alarm()
                                  remedy);
     case Shared::Cause::unguarded:
         return Message::warning ("run/unguarded", {},
-                                 "the guardian process, which brings the devices to rest if this program dies, has been killed; "
+                                 "the guardian process, which brings the devices to rest if this program dies, has been killed or frozen; "
                                      + (detail == 0 ? "another one takes its place" : "another one cannot be started: " + reason (static_cast<int> (detail)))
                                      + "; all forces are held at zero",
                                  remedy);

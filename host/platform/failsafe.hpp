@@ -21,16 +21,16 @@ namespace tactus::host
 ///    example because the process was suspended (kill -STOP, a debugger).
 ///
 /// Three events raise an alarm, after which the forces of the whole run must stay at zero until someone rearms: a device was
-/// taken, the guardian itself was killed, or the computer has slept. Runs compare alarms() on every tick.
+/// taken, the guardian itself was killed or frozen, or the computer has slept. Runs compare alarms() on every tick.
 ///
 /// Good to know
 ///  - After a fault both the handler and the guardian write, so the device must tolerate receiving the reports twice.
 ///  - After a stack overflow the handler has no stack, so only the guardian writes.
-///  - The guardian is forked when the first failsafe is armed, and ends with this process. It ignores Ctrl-C. If it is killed, a
-///    thread of this process forks another one at once.
-///  - The guardian reads no clock: it counts how often it has checked the beats. So it does not take a device when the whole
-///    computer pauses. While program and guardian are frozen together, nothing is sent. Afterwards, beat() detects a pause of more
-///    than a second.
+///  - The guardian is forked when the first failsafe is armed, and ends with this process. It has a session of its own and ignores all
+///    signals but KILL, STOP and faults, so nothing that is sent to the group or the terminal of this process reaches it. If it is
+///    killed, a thread of this process forks another one at once; if it is frozen, within about 2 s.
+///  - The guardian counts its own looks at the beats and reads no clock, so it takes no device when the whole computer pauses.
+///    While program and guardian are frozen together, nothing is sent. Afterwards, beat() detects a pause of more than a second.
 class Failsafe
 {
 public:

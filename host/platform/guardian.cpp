@@ -113,13 +113,15 @@ bool send (int to, const FinalReports& reports, int file) noexcept
 
 [[noreturn]] void guard (int socket, Shared& shared) noexcept
 {
-    // Ctrl-C is meant for the other process. Files that the other process has open must not stay open here.
+    // Ctrl-C, Ctrl-Z and every signal to the process group, even SIGSTOP, are meant for the other process: a session of its own keeps
+    // them away. The handlers of the other process must not run here, since they write to its files.
     ::setsid();
-    for (const int signal : { SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT })
+    for (int signal = 1; signal <= SIGRTMAX; ++signal)
         ::signal (signal, SIG_IGN);
     for (const int signal : faults)
         ::signal (signal, SIG_DFL);
-    ::prctl (PR_SET_NAME, "tactus-guardian");
+    ::prctl (PR_SET_NAME, process_name);
+    // Files that the other process has open must not stay open here.
     if (::chdir ("/") != 0) ::_exit (1);
     if (socket != 0) ::dup2 (socket, 0);
     ::close_range (1, ~0U, 0);
@@ -130,6 +132,7 @@ bool send (int to, const FinalReports& reports, int file) noexcept
     {
         pollfd messages { .fd = 0, .events = POLLIN, .revents = 0 };
         const int ready = ::poll (&messages, 1, look_apart_ms);
+        ++shared.looks;
         if (ready == 0)
             lookAtBeats (shared);
         else if (ready > 0 && receive (0, reports, file))

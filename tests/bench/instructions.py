@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes docs/instructions.md: the instructions per tick of each node, counted by callgrind. No clock is involved, so the result is reproducible.
+"""Writes docs/instructions.md: the instructions per tick of each node, and of a whole tick of the reference graph, counted by callgrind.
+No clock is involved, so the result is reproducible.
 
     instructions.py BUILD     BUILD is a release build, such as build/release
 """
@@ -33,6 +34,35 @@ def count(program, *arguments):
         return rows
 
 
+def whole_tick(program, graph, ticks=4000):
+    """Returns the instructions per tick of a graph: all of them, and those of its parts, which call each other but do not overlap."""
+    parts = {"nodes": "tactus::NodeCosts::tick", "guard": "tactus::Guard::operator()", "reading": "tactus::SimulatedDevice::read",
+             "writing": "tactus::SimulatedDevice::write"}
+    with tempfile.TemporaryDirectory() as folder:
+        out = f"{folder}/out"
+        ran = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=whole_tick", f"--callgrind-out-file={out}", program, graph, str(ticks)],
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+        if ran.returncode != 0:
+            sys.exit(ran.stderr)
+        text = subprocess.run(["callgrind_annotate", "--inclusive=yes", "--threshold=100", out], capture_output=True, text=True, check=True).stdout
+    ticked = int(ran.stdout)   # more than asked for: the forces fall to zero first
+
+    def counted(what):
+        return int(re.search(r"^ *([\d,]+) .*" + re.escape(what), text, re.M)[1].replace(",", "")) / ticked
+    return counted("PROGRAM TOTALS"), {part: counted(function + ("" if function.endswith(")") else "(")) for part, function in parts.items()}
+
+
+def whole_tick_lines(program):
+    total, part = whole_tick(program, str(ROOT / "graphs" / "padded_bench.json"))
+    device = part["reading"] + part["writing"]
+    rest = total - part["nodes"] - part["guard"] - device
+    return ["", "## A whole tick", "",
+            "A tick of `graphs/padded_bench.json`, with what surrounds its nodes in a run. The guard has the limits of the preset.", "",
+            "| part | instructions |", "|---|---:|",
+            f"| nodes | {part['nodes']:.0f} |", f"| simulated hand and tool | {device:.0f} |", f"| guard | {part['guard']:.0f} |",
+            f"| engine, times, status for other threads | {rest:.0f} |", f"| all | {total:.0f} |"]
+
+
 def compiled(build):
     """Returns the compiler and the flags that affect the generated code; nodes and everything else use the same."""
     entries = json.loads((build / "compile_commands.json").read_text())
@@ -62,6 +92,7 @@ def main():
         its = node.split(".")[0]
         lines.append(f"| {its if its != family else ''} | `{node}` | {f'{mean - nothing:.0f}' if mean is not None else f'not counted: {problem}'} |")
         family = its
+    lines += whole_tick_lines(str(build / "bin" / "whole_tick"))
     (ROOT / "docs" / "instructions.md").write_text("\n".join(lines) + "\n")
     print(f"docs/instructions.md: {len(nodes)} nodes")
 

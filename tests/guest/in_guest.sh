@@ -91,7 +91,7 @@ say "its guardian is killed under force, and then the program"
 plug --mark $work/pushed
 play --duration 600 & player=$!
 wait_for "$work/pushed"
-kill -KILL "$(pgrep -x tactus-guardian)"
+kill -KILL "$(pgrep -x force-guardian)"
 wait_for_words run/unguarded
 sleep 1
 end_under_force KILL

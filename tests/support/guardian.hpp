@@ -20,7 +20,7 @@ inline pid_t guardianOf (pid_t process)
         pid_t id = -1, parent = -1;
         std::string name;
         char state = 0;
-        if (stat >> id >> name >> state >> parent && name == "(tactus-guardian)" && parent == process && state != 'Z') return id;
+        if (stat >> id >> name >> state >> parent && name == "(force-guardian)" && parent == process && state != 'Z') return id;
     }
     return -1;
 }

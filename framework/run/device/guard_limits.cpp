@@ -95,6 +95,7 @@ void readEffortLimits (ObjectReader& in, GuardLimits& limits)
     if (in.has ("max_still")) in.require ("still_force", "give the smallest force at which max_still applies, such as \"0.5 N\"");
     limits.max_still = in.number ("max_still", unit::second, some, limits.max_still);
     limits.still_force = in.number ("still_force", unit::newton, some, limits.still_force);
+    limits.still_torque = in.number ("still_torque", unit::torque, some, limits.still_torque);
 }
 
 void checkStops (const GuardLimits& limits, const std::string& where, Messages& messages, Unlimited unlimited)

@@ -17,7 +17,7 @@ namespace tactus
 ///      "max_axis_effort": 2.0, "max_axis_slew": 100, "max_signal": 1.0, "max_signal_slew": 50,
 ///      "max_speed": "1.5 m/s", "max_angular_speed": …, "max_axis_speed": …, "max_energy": "50 mJ", "energy_window": "1 s",
 ///      "max_impulse": "4 N*s", "max_angular_impulse": …, "max_axis_impulse": …, "impulse_window": "2 s",
-///      "max_still": "0.5 s", "still_force": "0.5 N",
+///      "max_still": "0.5 s", "still_force": "0.5 N", "still_torque": …,
 ///      "dead_man_button": "grip", "dead_man_pressure": "0.5 N"}
 ///
 /// A limit with a window requires the key of the window, and max_still requires still_force. A button is given by its name on the

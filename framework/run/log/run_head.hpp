@@ -56,6 +56,7 @@ inline constexpr GuardField guard_fields[] {
     { "energy_window", &GuardLimits::energy_window },
     { "max_still", &GuardLimits::max_still },
     { "still_force", &GuardLimits::still_force },
+    { "still_torque", &GuardLimits::still_torque },
     { "workspace_scale", &GuardLimits::workspace_scale },
     { "dead_man_pressure", &GuardLimits::dead_man_pressure },
 };

@@ -62,6 +62,84 @@ TEST_CASE ("when a sensor freezes while the hand is pushed, the force is removed
     CHECK (guard.stop() == Guard::Stop::none);
 }
 
+TEST_CASE ("one coordinate that freezes while the others move takes the force along it away, until it moves again", "[framework][guard][safety]")
+{
+    auto guard = guardWith (still);
+    const auto at = [] (int k) {   // the hand strokes along x while it holds against z
+        auto reading = trembling (k);
+        reading.position.z() = reading.position.x();
+        reading.position.x() = 1e-5 * k;
+        return reading;
+    };
+    for (int k = 0; k < 3000; ++k)
+        CHECK (guard (push, at (k)).force == push.force);
+
+    int k = 3000;
+    const auto frozen = [&] {
+        auto reading = at (k++);
+        reading.position.z() = at (3000).position.z();
+        return reading;
+    };
+    CHECK (ticksToZero (1000, [&] { return guard (push, frozen()).force.norm(); }) <= 500 + 5 + 2);
+    CHECK (guard.stop() == Guard::Stop::stale);
+    CHECK (guard.latest().fault == ReadingFault::frozen);
+    const auto words = describe (guard.latest());
+    CHECK (words.starts_with ("the position along z has not changed for 0.5"));
+    CHECK (words.ends_with (" s while a force of 2 N pushes the hand"));
+
+    for (int i = 0; i < 1000; ++i)
+        CHECK (guard (push, frozen()).force.isZero (0.0));
+    CHECK (guard.events() == 1);
+    CHECK (guard (push, at (3001)).force == push.force);
+    CHECK (guard.stop() == Guard::Stop::none);
+}
+
+TEST_CASE ("a coordinate that nothing pushes may stay the same, and so may one that the device does not measure", "[framework][guard][safety]")
+{
+    auto straight = guardWith (still), plane = guardWith (still);
+    for (int k = 0; k < 5000; ++k)
+    {
+        auto reading = trembling (k);
+        if (k > 10) reading.position.y() = 1e-3;   // has changed once, and is not pushed
+        straight ({ .force = { 2.0, 0.4, 0.0 } }, reading);
+        plane ({ .force = { 1.0, 0.0, 2.0 } }, trembling (k));   // z is always 0
+        REQUIRE (straight.stop() == Guard::Stop::none);
+        REQUIRE (plane.stop() == Guard::Stop::none);
+    }
+}
+
+TEST_CASE ("a rotation that freezes while the hand is turned takes everything away after max_still, until it turns again", "[framework][guard][safety]")
+{
+    const Effort twist { .force = { 0.0, 0.0, 0.3 }, .torque = { 0.0, 0.04, 0.0 } };
+    auto limits = still;
+    limits.still_torque = 0.02;
+    auto guard = guardWith (limits), without = guardWith (still);
+    const auto turning = [] (int k) {
+        auto reading = trembling (k);
+        reading.rotation.y() = 1e2 * trembling (k).position.x();
+        return reading;
+    };
+    for (int k = 0; k < 3000; ++k)
+        CHECK (guard (twist, turning (k)).torque == twist.torque);
+
+    int k = 3000;
+    const auto frozen = [&] {
+        auto reading = turning (k++);
+        reading.rotation = turning (3000).rotation;
+        return reading;
+    };
+    CHECK (ticksToZero (1000, [&] { return guard (twist, frozen()).torque.norm(); }) <= 500 + 5 + 2);
+    CHECK (guard (twist, frozen()).force.isZero (0.0));
+    CHECK (guard.stop() == Guard::Stop::stale);
+    const auto words = describe (guard.latest());
+    CHECK (words.starts_with ("the rotation has not changed for 0.5"));
+    CHECK (words.ends_with (" s while a torque of 0.04 N*m turns the hand"));
+
+    CHECK (guard (twist, turning (3001)).torque == twist.torque);
+    for (int i = 0; i < 1000; ++i)
+        REQUIRE (without (twist, frozen()).torque == twist.torque);
+}
+
 TEST_CASE ("a tool that rests is not frozen: without a force, with a small one, between two reports, and without the limit", "[framework][guard][safety]")
 {
     const Reading resting {};
@@ -89,6 +167,10 @@ TEST_CASE ("max_still requires the force from which it counts, and the stricter 
     CHECK (read == still);
     CHECK (tightest (read, {}) == read);
     CHECK (tightest (read, { .max_still = 1.0, .still_force = 0.2 }) == GuardLimits { .max_still = 0.5, .still_force = 0.2 });
+    const auto turns = readGuardLimits (Json::parse (R"({"max_still": "0.5 s", "still_force": "0.5 N", "still_torque": "20 mN*m"})"), "/guard", messages);
+    CHECK (messages.empty());
+    CHECK (turns.still_torque == 0.02);
+    CHECK (tightest (read, turns).still_torque == 0.02);
 }
 
 TEST_CASE ("a position that jumps stops the guard on the same tick, so the force that the jump causes is never applied", "[framework][guard][safety]")
@@ -154,6 +236,7 @@ TEST_CASE ("the reason that a driver gives for a bad reading reaches the words o
     CHECK (wordsOf ({ .fault = ReadingFault::too_hot, .valid = false }) == "the device reports that a motor is too hot");
     CHECK (wordsOf ({ .fault = ReadingFault::repeated, .age = 0.021 })
            == "the device repeats the same report: the last reading is 21 ms old; the watchdog allows 20 ms");
+    CHECK (wordsOf ({ .fault = ReadingFault::frozen, .valid = false }) == "one of the encoders that measure the position does not change while the tool moves");
     CHECK (wordsOf ({ .age = 0.021 }) == "the last reading is 21 ms old; the watchdog allows 20 ms");
     CHECK (wordsOf ({ .fault = static_cast<ReadingFault> (1000), .valid = false }) == "the device has no valid reading");
 }

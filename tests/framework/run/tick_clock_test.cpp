@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <tactus/run/tick_clock.hpp>
 
+#include "support/tick_thread_locks.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <chrono>
 #include <functional>
+#include <mutex>
 #include <thread>
 
 using namespace tactus;
@@ -56,4 +59,40 @@ TEST_CASE ("a free run ticks until a tick returns that it was the last one", "[r
     CHECK (k == 1000);
     CHECK (latest == 0.0);
     CHECK_FALSE (FreeRun {}.isRealTime());
+}
+
+TEST_CASE ("ticks of a timer and of a free run take no locks, and neither does the wait between them", "[runtime][clocks]")
+{
+    AbsoluteTimer timer { 1e-3 };
+    test::checkThatTicksLockNothing (timer, nullptr, 200, [] { std::this_thread::sleep_for (std::chrono::milliseconds (1)); });
+    FreeRun free;
+    test::checkThatTicksLockNothing (free, nullptr, 2000, [] { std::this_thread::yield(); });
+}
+
+TEST_CASE ("a clock whose thread takes a lock between ticks is found out", "[runtime][clocks]")
+{
+    if constexpr (NoAllocation::watches)
+    {
+        struct Locking final : TickClock
+        {
+            void drive (Ticked& ticked) noexcept override
+            {
+                for (bool goes_on = true; goes_on;)
+                {
+                    const std::lock_guard lock (mutex);
+                    goes_on = ticked.tick (0.0);
+                }
+            }
+            bool isRealTime() const noexcept override { return false; }
+            std::mutex mutex;
+        };
+        Locking clock;
+        Engine engine { test::Sketch {}.node ("a", "signal.constant").compile ({ .rate_hz = 1000.0 }).plan };
+        test::CountLocks counted { 10 };
+        Runner runner { engine, clock, 1000.0, { .length = 20, .hooks = &counted } };
+        runner.start();
+        runner.wait();
+        CHECK (counted.is_over);
+        CHECK (counted.locks == 10);
+    }
 }

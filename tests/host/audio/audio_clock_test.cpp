@@ -2,6 +2,7 @@
 // A sound card as the clock of a run.
 
 #include "support/sketch.hpp"
+#include "support/tick_thread_locks.hpp"
 
 #include <host/audio/audio_clock.hpp>
 #include <tactus/run/runner.hpp>
@@ -132,4 +133,14 @@ TEST_CASE ("a run ticked by a card stops on request even if no block ever arrive
     REQUIRE (soon ([&] { return clock.ticksByTimer() > 3; }));
     runner.stop();
     CHECK (soon ([&] { return runner.isOver(); }));
+}
+
+TEST_CASE ("ticks of a sound card take no locks, on the card's thread and on that of the timer that stands in", "[audio][clocks]")
+{
+    AudioClock played { 1000.0 }, silent { 1000.0 };
+    test::checkThatTicksLockNothing (played, nullptr, 200, [&] {
+        played.block (48, 48'000.0);
+        std::this_thread::sleep_for (1ms);
+    });
+    test::checkThatTicksLockNothing (silent, nullptr, 50, [] { std::this_thread::sleep_for (1ms); });
 }

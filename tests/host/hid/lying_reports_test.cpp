@@ -176,3 +176,52 @@ TEST_CASE ("a pose that no arm can have makes the reading invalid and names the 
     CHECK (apart.position == good.position);
     CHECK (at (60, 120).valid);
 }
+
+TEST_CASE ("an encoder that stops while the tool moves on makes the reading invalid, until it moves again", "[hid][safety]")
+{
+    HidModel arm (test::profileOf ("woodenhaptics_usb"));
+    std::uint16_t count = 0;
+    const auto at = [&] (int a, int b, int c) {
+        const std::uint16_t words[] { static_cast<std::uint16_t> (a), static_cast<std::uint16_t> (b), static_cast<std::uint16_t> (c), ++count };
+        Bytes bytes (8);
+        std::memcpy (bytes.data(), words, 8);
+        arm.decode (bytes);
+        return arm.reading();
+    };
+    at (0, 0, 0);
+    const auto last_turned = at (1, 0, 0).position;
+
+    int k = 0;
+    Reading reading = at (1, ++k, 0);
+    for (; k < 10'000 && reading.valid; reading = at (1, ++k, 0))
+        REQUIRE ((reading.position - last_turned).norm() <= 0.1);
+    CHECK (reading.fault == ReadingFault::frozen);
+    CHECK ((reading.position - last_turned).norm() == Approx (0.1).margin (1e-4));
+    CHECK_FALSE (at (1, ++k, 0).valid);
+
+    CHECK (at (2, k, 0).valid);   // the third one has never turned, so it may be none
+    arm.reset();
+    CHECK (at (1, 0, 0).valid);
+    CHECK (at (1, k, 0).valid);   // after a new start nothing is known of the first one
+}
+
+TEST_CASE ("encoders that count now and then are not taken for stopped, and neither are those of a profile without still_travel", "[hid][safety]")
+{
+    HidModel arm (test::profileOf ("woodenhaptics_usb"));
+    auto profile = *test::profileOf ("woodenhaptics_usb");
+    profile.limits.still_travel = GuardLimits::none;
+    HidModel unlimited (std::make_shared<Profile> (profile));
+    for (int k = 0; k < 3000; ++k)
+    {
+        const auto of = [&] (int a) {
+            const std::uint16_t words[] { static_cast<std::uint16_t> (a), static_cast<std::uint16_t> (k), 0, static_cast<std::uint16_t> (k) };
+            Bytes bytes (8);
+            std::memcpy (bytes.data(), words, 8);
+            return bytes;
+        };
+        arm.decode (of (k / 1000));   // 5 cm
+        unlimited.decode (of (k > 0));
+        REQUIRE (arm.reading().valid);
+        REQUIRE (unlimited.reading().valid);
+    }
+}

@@ -7,9 +7,12 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <thread>
 
@@ -41,19 +44,28 @@ bool until (F&& isSo)
     return isSo();
 }
 
-/// Suspends this process, with all its threads, until the file has this content.
-void freezeUntil (const std::string& file, const std::string& content)
+/// Suspends this process, with all its threads, until the other function returns. `freeze` sends the signal.
+void freezeDuring (const std::function<void()>& freeze, const std::function<void()>& wait)
 {
     const auto frozen = ::getpid();
     const auto waker = ::fork();
     if (waker == 0)
     {
-        until ([&] { return contentOf (file) == content; });
+        ::setpgid (0, 0);
+        wait();
         ::kill (frozen, SIGCONT);
         ::_exit (0);
     }
-    ::raise (SIGSTOP);
+    ::setpgid (waker, waker);   // here too, because the signal may come before the waker has done it
+    freeze();
     ::waitpid (waker, nullptr, 0);
+}
+
+/// Suspends this process until the file has this content.
+void freezeUntil (
+    const std::string& file, const std::string& content, const std::function<void()>& freeze = [] { ::raise (SIGSTOP); })
+{
+    freezeDuring (freeze, [&] { until ([&] { return contentOf (file) == content; }); });
 }
 
 /// Lets the child processes of this one live in a world in which the computer has slept for 100 s. False if the system refuses.
@@ -159,7 +171,7 @@ TEST_CASE ("a process that was frozen together with its guardian finds out when 
         ::kill (guardian, SIGSTOP);
         if (::waitpid (guardian, nullptr, WUNTRACED) != guardian) return 3;
         if (! failsafe->beat (true)) return 4;
-        std::this_thread::sleep_for (std::chrono::milliseconds (1100));
+        freezeDuring ([] { ::raise (SIGSTOP); }, [] { std::this_thread::sleep_for (std::chrono::milliseconds (1100)); });
         const bool noticed = ! failsafe->beat (true) && ! failsafe->beat (false) && Failsafe::alarms() == 1 && Failsafe::alarm().id == "run/frozen";
         ::kill (guardian, SIGCONT);
         return noticed ? 0 : 5;
@@ -168,21 +180,59 @@ TEST_CASE ("a process that was frozen together with its guardian finds out when 
     CHECK (contentOf (file).empty());
 }
 
-TEST_CASE ("if the guardian is killed, there is an alarm, and another one takes its place", "[platform]")
+TEST_CASE ("a signal to the whole group of a process freezes it, but not the guardian, which brings the device to rest", "[platform]")
+{
+    const TemporaryFolder folder;
+    for (const int signal : { SIGSTOP, SIGTSTP })   // SIGTSTP: Ctrl-Z
+    {
+        INFO (signal);
+        const auto file = (folder / std::to_string (signal)).string();
+        std::ofstream { file };
+        const auto end = test::inChild ([&] {
+            ::setpgid (0, 0);   // or the test would be frozen too
+            ::signal (signal, SIG_DFL);
+            auto failsafe = Failsafe::arm (file, rest());
+            if (! failsafe || ! until ([] { return test::guardianOf (::getpid()) > 0; }) || ! failsafe->beat (true)) return 1;
+            freezeUntil (file, "rest!", [signal] { ::kill (0, signal); });
+            return ! failsafe->beat (true) && Failsafe::alarms() == 1 && Failsafe::alarm().id == "run/frozen" ? 0 : 2;
+        });
+        CHECK (end.status == 0);
+        CHECK (contentOf (file) == "rest!");
+    }
+}
+
+TEST_CASE ("no signal but KILL, STOP and faults takes the guardian away from a device", "[platform]")
 {
     const TemporaryFolder folder;
     const auto file = (folder / "device").string();
-    const auto killGuardianFirst = [&] {
+    const auto signalThenDie = [] {
+        pid_t guardian = -1;
+        if (! until ([&] { return (guardian = test::guardianOf (::getpid())) > 0; })) return;
+        const std::array others { SIGKILL, SIGSTOP, SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL };
+        for (int signal = 1; signal <= SIGRTMAX; ++signal)   // those just below SIGRTMIN belong to the C library
+            if ((signal <= SIGSYS || signal >= SIGRTMIN) && std::ranges::count (others, signal) == 0) ::kill (guardian, signal);
+        ::kill (::getpid(), SIGKILL);
+    };
+    CHECK (afterDying (file, signalThenDie, "rest!") == "rest!");
+}
+
+TEST_CASE ("if the guardian is killed or frozen, there is an alarm, and another one takes its place", "[platform]")
+{
+    const TemporaryFolder folder;
+    const auto file = (folder / "device").string();
+    const int signal = GENERATE (SIGKILL, SIGSTOP);
+    INFO (signal);
+    const auto loseGuardianFirst = [&] {
         const auto guardian = [] { return test::guardianOf (::getpid()); };
         pid_t first = -1;
         if (! until ([&] { return (first = guardian()) > 0; }) || Failsafe::alarms() != 0) return;
-        ::kill (first, SIGKILL);
+        ::kill (first, signal);
         const auto hasNext = [&] { return guardian() > 0 && guardian() != first; };
         if (! until ([&] { return Failsafe::alarms() == 1 && hasNext(); }) || Failsafe::alarm().id != "run/unguarded") return;
         static_cast<void> (Failsafe::arm (file, {}));   // returns only after the next guardian has been told everything
         ::kill (::getpid(), SIGKILL);
     };
-    CHECK (afterDying (file, killGuardianFirst, "rest!") == "rest!");
+    CHECK (afterDying (file, loseGuardianFirst, "rest!") == "rest!");
 }
 
 TEST_CASE ("a process finds out that the computer has slept, before it drives a device again", "[platform]")

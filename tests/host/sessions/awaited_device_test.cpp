@@ -12,6 +12,7 @@
 
 #include "support/no_allocation.hpp"
 #include "support/sketch.hpp"
+#include "support/tick_thread_locks.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -303,4 +304,24 @@ TEST_CASE ("the drift of a device is the speed of its clock relative to the cloc
     CHECK_FALSE (by_device.health()[0].drift_ppm);
     CHECK_FALSE (too_early.health()[1].drift_ppm);
     CHECK (describe (thumb).find ("ppm") != std::string::npos);
+}
+
+TEST_CASE ("ticks of a HID device take no locks, by its reports, by the timer that stands in, and before it is there", "[sessions][hid][clocks]")
+{
+    FakeBoard board;
+    const auto device = test::openBoard (board);
+    std::uint16_t count = 0;
+    RunClock reported { *device, 1000.0 };
+    test::checkThatTicksLockNothing (reported, device.get(), 200, [&] {
+        board.send (boardReport (++count, count));
+        std::this_thread::sleep_for (1ms);
+    });
+    RunClock silent { *device, 1000.0 };
+    test::checkThatTicksLockNothing (silent, nullptr, 50, [] { std::this_thread::sleep_for (1ms); });
+
+    FakeBoard nowhere;
+    nowhere.plug (false);
+    AwaitedDevice missing { on_board, test::BoardProfile {}.make(), nowhere, 2ms };
+    RunClock awaiting { missing, 1000.0 };
+    test::checkThatTicksLockNothing (awaiting, &missing, 50, [] { std::this_thread::sleep_for (1ms); });
 }
