@@ -7,7 +7,8 @@
 #                       QEMU guest
 #   ./test.sh --quick   runs only the tests
 #   ./test.sh --long    adds to ./test.sh: each fuzzer for 60 s, 10 000 mutated files through the command line, the tests under
-#                       TSan (thread tests for 60 s each), the window under ASan and UBSan, and a soak of 1.2e8 ticks
+#                       TSan (thread tests for 60 s each), the window under ASan and UBSan, the energy of elastic surfaces on
+#                       1000 long loops for each body and friction, and a soak of 1.2e8 ticks
 #
 # Each of these runs only one part:
 #   ./test.sh --screens drives the host with mouse and keyboard on a virtual display, and draws build/screens/;
@@ -143,6 +144,8 @@ fi
 say "Tests"
 run_tests release
 if [ "$mode" = --long ]; then
+    say "The energy of elastic surfaces on long loops"
+    build/release/bin/tactus_tests "[long]"
     say "Soak"
     TACTUS_SOAK_TICKS=120000000 build/release/bin/tactus_tests "[soak]"
 fi

@@ -237,34 +237,11 @@ private:
     }
 
     /// The node computes the speed from the last positions, and the forces that change it within two ticks. A position that is wrong by
-    /// delta then causes a force of about M delta/T^2. The tolerance of the mass is the range that the tests of the node cover.
+    /// delta then causes a force of about M delta/T^2.
     void deadbeat (const Deadbeat& wall)
     {
-        constexpr double tolerance = 0.2;
-        auto& c = add (wall.node, "deadbeat", "d = 0, M within 20 %, M delta/(2 T^2) <= f_f", "N", "");
-        if (! numbers.mass) return unknown (c, 0.0, "mass");
-        const double mass = numbers.mass->value, assumed = wall.mass > 0.0 ? wall.mass : mass;
-        c.text = "M " + text (mass, "kg") + ", assumed " + text (assumed, "kg") + ", d " + text (delay());
-        if (delay() > 0.0 || std::abs (assumed - mass) > tolerance * mass)
-        {
-            c.verdict = Verdict::broken;
-            c.value = delay() > 0.0 ? delay() : std::abs (assumed - mass);
-            c.unit = delay() > 0.0 ? "1" : "kg";
-            c.limit = delay() > 0.0 ? 0.0 : tolerance * mass;
-            c.remedy = delay() > 0.0 ? "a device without delay, or a softer deform.plane"
-                                     : "a mass of 0, which means the mass of the device, or the mass of this device itself";
-            return;
-        }
-        if (! numbers.quantum) return unknown (c, 0.0, "quantum");
-        const double value = 0.5 * assumed * numbers.quantum->value / (period_s * period_s);
-        c.text += ", delta " + text (1e6 * numbers.quantum->value, "um");
-        if (! numbers.coulomb && value > 0.0) return unknown (c, value, "Coulomb friction");
-        const double limit = numbers.coulomb ? numbers.coulomb->value : 0.0;
-        decide (c, value, limit, Strict::no, 1.0, "a lower rate, a finer quantum, or a device with a dry friction of at least " + text (value, "N"));
+        judgeDeadbeat (demand, wall, numbers, add (wall.node, "deadbeat", "d and M as assumed, M delta/(2 T^2) <= f_f", "N", ""));
     }
-
-    //==========================================================================
-    // Table 1.
 
     void texture (const Texture& t)
     {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
-/// What judge.cpp and judge_links.cpp share.
+/// What judge.cpp, judge_deadbeat.cpp and judge_links.cpp share.
 namespace tactus::check::judging
 {
 
@@ -60,6 +60,9 @@ inline std::string steepestNode (const Demand& demand, const std::vector<double>
     const auto& node = demand.nodes[static_cast<std::size_t> (most - by_node.begin())];
     return "'" + node.path + "' (" + node.type + ", " + text (*most, "N/m") + ")";
 }
+
+/// Sets the condition `deadbeat`.
+void judgeDeadbeat (const Demand&, const Deadbeat&, const DeviceNumbers&, Condition&);
 
 /// The conditions `coupling` and `curl`, which need the slopes of several axes or roles at once.
 void judgeLinks (const Demand&, std::span<const RoleDevice>, std::vector<Condition>&);

@@ -224,9 +224,24 @@ private:
         {
             const auto its = nodesOf (*plan, role.name);
             for (const auto n : all)
-                if (its[n]) demand.deadbeats.push_back ({ n, role.name, valueInFile (*plan, n, "mass", 0.0) });
+                if (its[n]) demand.deadbeats.push_back (deadbeatAt (n, role.name));
         }
         return all;
+    }
+
+    Deadbeat deadbeatAt (std::size_t n, const std::string& role) const
+    {
+        Deadbeat wall { .node = n, .role = role, .mass = valueInFile (*plan, n, "mass", 0.0), .stiffness = valueInFile (*plan, n, "stiffness", 0.0) };
+        wall.delay = settingInFile (*plan, n, "delay", 0.0);
+        bool is_first = true;
+        for (const auto& path : plan->delays())
+            if (belongs (path.source, role) && belongs (path.sink, role))
+            {
+                wall.shortest = is_first ? path.shortest : std::min (wall.shortest, path.shortest);
+                wall.longest = std::max (wall.longest, path.longest);
+                is_first = false;
+            }
+        return wall;
     }
 
     /// Measures the slopes of all roles, if the force of any role depends on the position of any role.

@@ -80,7 +80,10 @@ struct Deadbeat
 {
     std::size_t node = 0;
     std::string role;
-    double mass = 0.0;   ///< the mass that the node assumes, in kg; 0: that of the device
+    double mass = 0.0;                        ///< the mass that the node assumes, in kg; 0: that of the device
+    double stiffness = 0.0;                   ///< N/m
+    double delay = 0.0;                       ///< the delay that the node assumes, in ticks
+    std::int64_t shortest = 0, longest = 0;   ///< delays of the compiled paths from the role's sources to its sinks, in ticks
 };
 
 /// A node that claims a spatial frequency and whose force the hand felt.

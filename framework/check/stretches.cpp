@@ -28,6 +28,16 @@ double valueInFile (const Plan& plan, std::size_t node, std::string_view id, dou
     const auto row = std::ranges::find (params, id, &PortSheet::id);
     return row == params.end() ? fallback : plan.flat().param (static_cast<int> (node), static_cast<std::size_t> (row - params.begin()))[0];
 }
+
+double settingInFile (const Plan& plan, std::size_t node, std::string_view id, double fallback)
+{
+    const auto& settings = typeOf (plan, node).settings;
+    const auto row = std::ranges::find (settings, id, &SettingSheet::id);
+    if (row == settings.end()) return fallback;
+    const auto* value = std::get_if<double> (&plan.flat().nodes[node].settings[static_cast<std::size_t> (row - settings.begin())]);
+    return value != nullptr ? *value : fallback;
+}
+
 std::optional<StretchWatch> StretchWatch::of (const Plan& plan, std::size_t node)
 {
     if (! plan.flat().nodes[node].runs()) return std::nullopt;

@@ -15,6 +15,9 @@ namespace tactus::check
 /// The value of a param or choice as it is set, without wires; the fallback if the node has no such param.
 double valueInFile (const Plan&, std::size_t node, std::string_view id, double fallback);
 
+/// The value of a setting that is a number; the fallback if the node has no such setting.
+double settingInFile (const Plan&, std::size_t node, std::string_view id, double fallback);
+
 /// Finds the shortest stretch s at which the contact of a friction node slides while at least half of its largest drag is felt. A light
 /// touch slides at a shorter stretch, but its drag is weaker, too. What counts as s depends on the node:
 ///

@@ -153,8 +153,8 @@ public:
     /// The layout says which axes the efforts push. [main thread]
     void prepare (const GuardLimits&, double dt_s, const DeviceLayout& = {}) noexcept;
 
-    /// Returns the effort for the device; it stays valid until the next call. `lost_s` is the time without ticks before this one, in s; the last effort was on the
-    /// device during this time. [tick thread]
+    /// Returns the effort for the device; it stays valid until the next call. `lost_s` is the time without ticks before this one, in s; the
+    /// last effort was on the device during this time. [tick thread]
     const Effort& operator() (const Effort& wanted, const Reading&, double lost_s = 0.0) noexcept;
 
     /// Brings the effort to zero and keeps it there until resume(). [tick thread]

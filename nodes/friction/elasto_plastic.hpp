@@ -64,8 +64,11 @@ namespace tactus::nodes
 ///    0.5 N creeps by 81 um/s, although the state is 1. `load: bound` neither gives energy nor walks, however the load changes,
 ///    and is the default. In graph files of version 1, the default was `passive`.
 ///  - Eq. (1) to (4) are one-dimensional. Here d and dp lie in the tangent plane. When the normal turns, the plane turns with it
-///    by the smallest angle and takes d along, so d keeps its length and the turn does no work. If d were projected on the new
-///    plane instead, each turn would shorten it, and a contact that is held under a trembling normal would walk.
+///    by the smallest angle and takes d along (parallel transport), so d keeps its length and the turn does no work. The plain
+///    extension of eq. (3) projects p - c on the new plane instead. Then every turn shortens d, and under a normal that trembles, the
+///    contact walks: with +-5 degrees at 10 Hz about one axis, a tool that is held in place loses 36 % of its force in a minute at
+///    1 kHz, and 2 % at 20 kHz; on a cone of 5 degrees, a tool that leans with a fifth of the force that the contact holds walks by 4.8 um/s
+///    at any rate. For a constant normal, both are the same.
 ///
 /// Good to know
 ///  - Time-free: only displacement moves the state. A tool at rest feels a constant force forever, and repeating a sample does

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+using tactus::Bristle;
 using tactus::Vec3;
 using tactus::nodes::ElastoPlastic;
 
@@ -32,6 +33,22 @@ struct Tremor
     }
 };
 
+/// A contact without parallel transport: the stretch is projected on the tangent plane of each sample.
+struct Projected
+{
+    Bristle bristle { .d_max = 1e-4, .d_stick = 1e-4 };
+    double sigma = 0.5 / 1e-4;   // N/m
+    Vec3 p = Vec3::Zero(), d = Vec3::Zero();
+
+    Vec3 force (const Vec3& position, const Vec3& normal)
+    {
+        const Vec3 n = normal.normalized(), dp = position - p, kept = d - n * n.dot (d);
+        d = bristle.stretch (kept, dp - n * n.dot (dp)).d;
+        p = position;
+        return -sigma * d;
+    }
+};
+
 /// A hand that leans with 0.1 N on a tool of 50 g, while the contact can hold 0.5 N. The tool moves in x and y.
 struct Lean
 {
@@ -43,16 +60,22 @@ struct Lean
     /// How far the tool walks after the first 10 s, in m. Its position is averaged over a second.
     double walk() const
     {
+        ElastoPlastic node;
+        node.params = { .mu = 0.5, .d_max = 1e-4, .load = load };
+        return walkOn ([&] (const Vec3& p, const Vec3& n) { return node.tick ({ .position = p, .normal = n }).force; });
+    }
+
+    template <typename Contact>
+    double walkOn (Contact&& contact) const
+    {
         const double dt = 1.0 / rate, mass = 0.05, damping = 12.0, decay = std::exp (-damping * dt / mass);
         const double per_v = mass / damping * (1.0 - decay);
         const Vec3 hand = 0.1 * Vec3 { std::cos (direction), std::sin (direction), 0.0 };
         const int ticks = static_cast<int> (seconds * rate), second = static_cast<int> (rate);
-        ElastoPlastic node;
-        node.params = { .mu = 0.5, .d_max = 1e-4, .load = load };
         Vec3 x = Vec3::Zero(), v = Vec3::Zero(), first = Vec3::Zero(), last = Vec3::Zero();
         for (int k = 0; k < ticks; ++k)
         {
-            Vec3 f = hand + node.tick ({ .position = x, .normal = tremor.normal (k * dt) }).force;
+            Vec3 f = hand + contact (x, tremor.normal (k * dt));
             f.z() = 0.0;
             x += v * per_v + f / damping * (dt - per_v);
             v = v * decay + f / damping * (1.0 - decay);
@@ -104,6 +127,26 @@ TEST_CASE ("friction: under a trembling normal, a tool that leans with a constan
                 INFO (frequency << " Hz at " << rate << " Hz, " << (cone ? "on a cone" : "about one axis"));
                 CHECK (lean.walk() < 2.0 * stretch * std::pow (angle, 4.0) * cycles);
             }
+}
+
+TEST_CASE ("friction: if the stretch were projected on the plane of each sample, the contact would walk, as the header says", "[nodes][friction]")
+{
+    for (const double rate : { 1000.0, 20'000.0 })
+    {
+        const Lean lean { .tremor = { .cone = true }, .rate = rate, .seconds = 21.0 };
+        Projected projected;
+        const double walk = lean.walkOn ([&] (const Vec3& p, const Vec3& n) { return projected.force (p, n); });
+        CHECK (walk / 10.0 == Approx (4.8e-6).epsilon (0.02));
+        CHECK (lean.walk() / 10.0 < 0.03e-6);
+
+        Projected held;
+        const Vec3 p { 2e-5, 0.0, 0.0 };
+        const double before = held.force (p, Vec3::UnitZ()).norm();
+        double after = 0.0;
+        for (int k = 0; k < 60 * static_cast<int> (rate); ++k)
+            after = held.force (p, Tremor {}.normal (k / rate)).norm();
+        CHECK (after / before == Approx (rate > 1000.0 ? 0.98 : 0.64).epsilon (0.01));
+    }
 }
 
 TEST_CASE ("friction: a normal that jumps takes the stretch along by the smallest turn of the plane", "[nodes][friction]")

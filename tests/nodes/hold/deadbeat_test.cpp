@@ -216,6 +216,15 @@ TEST_CASE ("deadbeat: a delay that the node knows changes neither a bounce nor a
             double leaves = 0.0;
             play (t, wall, [&] (double, double v) { leaves = v; });
             CHECK (leaves == Approx (ideal.speed).epsilon (1e-5));
+
+            t.start = -1e-4;
+            t.speed = 0.0;
+            t.hand = 0.7;
+            t.ticks = 3000;
+            wall = wallFor (t, stiffness);
+            double e = 0.0;
+            play (t, wall, [&] (double depth, double) { e = depth; });
+            CHECK (e == Approx (t.hand / stiffness).epsilon (0.01));
         }
 }
 

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "judging.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::check::judging
+{
+
+namespace
+{
+constexpr double usual_error = 0.2;   // of the mass: a mass that is known is known to this fraction
+
+/// A wall of hold.deadbeat on a device whose mass and damping are known.
+struct Wall
+{
+    double mass, damping, assumed, stiffness, delay, period_s;   // kg, N s/m, kg, N/m, ticks, s
+
+    /// K T^2/M: the square of the angle, in rad, by which a bounce advances in a tick.
+    double turn() const noexcept { return stiffness * period_s * period_s / mass; }
+
+    /// By how much M may be smaller than assumed, as a fraction of M. The node then pushes too hard, which counts as a negative damping
+    /// of second order in K. Found by simulation, within a factor of 4, for K T^2/M up to 4 and d up to 16.
+    double mayBeLess() const noexcept
+    {
+        const double late = (1.0 + 2.0 * delay) * turn();
+        return late > 0.0 ? std::min (usual_error, damping * period_s / mass / (2.0 * late * late)) : usual_error;
+    }
+
+    /// By how much M may be larger than assumed: any usual error, but nothing if the wall turns the tool back within a few ticks.
+    double mayBeMore() const noexcept { return (1.0 + delay) * (1.0 + delay) * turn() <= 3.0 ? usual_error : 0.0; }
+
+    bool isMassRight() const noexcept
+    {
+        constexpr double rounding = 1e-9;   // of the mass
+        const double less = assumed / mass - 1.0;
+        return less <= mayBeLess() + rounding && -less <= mayBeMore() + rounding;
+    }
+
+    /// The stiffest wall that hides the steps of a sensor from the hand, in N/m.
+    double stiffest() const noexcept { return mass / std::pow ((1.0 + delay) * period_s, 2.0); }
+
+    /// The stiffest wall whose mass may be off by the usual error, in N/m.
+    double forgiving() const noexcept
+    {
+        const double over = mass / (period_s * period_s) / (1.0 + 2.0 * delay) * std::sqrt (damping * period_s / mass / (2.0 * usual_error));
+        return std::min (over, 3.0 * stiffest());
+    }
+};
+
+void breaks (Condition& c, double value, double limit, std::string_view unit, const std::string& remedy)
+{
+    c.verdict = Verdict::broken;
+    c.value = value;
+    c.limit = limit;
+    c.unit = unit;
+    c.remedy = remedy;
+}
+}   // namespace
+
+void judgeDeadbeat (const Demand& demand, const Deadbeat& node, const DeviceNumbers& numbers, Condition& c)
+{
+    if (! numbers.mass) return unknown (c, 0.0, "mass");
+    const double shortest = delayOf (numbers) + static_cast<double> (node.shortest), longest = delayOf (numbers) + static_cast<double> (node.longest);
+    const Wall wall { .mass = numbers.mass->value,
+                      .damping = numbers.damping ? numbers.damping->value : 0.0,
+                      .assumed = node.mass > 0.0 ? node.mass : numbers.mass->value,
+                      .stiffness = node.stiffness,
+                      .delay = node.delay,
+                      .period_s = periodOf (demand, numbers) };
+    c.text = "M " + text (wall.mass, "kg") + ", assumed " + text (wall.assumed, "kg") + ", d " + text (longest) + ", assumed " + text (node.delay);
+    if (node.delay < shortest || node.delay > longest)
+        return breaks (c, node.delay < shortest ? shortest : longest, node.delay, "1",
+                       "the setting \"delay\" at " + text (shortest) + " ticks, a device without delay, or a softer deform.plane");
+    if (! numbers.damping) return unknown (c, 0.0, "damping");
+
+    c.text += "; M may be " + text (100.0 * wall.mayBeLess()) + " % smaller or " + text (100.0 * wall.mayBeMore()) + " % larger than assumed";
+    const auto softer = "a stiffness of at most " + text (wall.forgiving(), "N/m") + ", at which M may be off by " + text (100.0 * usual_error) + " %";
+    if (! wall.isMassRight())
+        return breaks (c, std::abs (wall.assumed - wall.mass), wall.mass * (wall.assumed > wall.mass ? wall.mayBeLess() : wall.mayBeMore()), "kg",
+                       "mass 0, which takes the mass of the device, the mass of this device, or " + softer);
+
+    if (! numbers.quantum) return unknown (c, 0.0, "quantum");
+    const double quantum = numbers.quantum->value, value = 0.5 * wall.assumed * quantum / (wall.period_s * wall.period_s);
+    c.text += ", delta " + text (1e6 * quantum, "um");
+    constexpr double rounding = 1e-9;
+    if (quantum > 0.0 && wall.stiffness > wall.stiffest() * (1.0 + rounding))
+        return breaks (c, wall.stiffness, wall.stiffest(), "N/m", "a stiffness of at most " + text (wall.stiffest(), "N/m"));
+    if (! numbers.coulomb && value > 0.0) return unknown (c, value, "Coulomb friction");
+    const double limit = numbers.coulomb ? numbers.coulomb->value : 0.0;
+    auto remedy = "a device with a dry friction of at least " + text (value, "N");
+    if (limit > 0.0)
+        remedy = "a quantum of at most " + text (1e6 * quantum * limit / value, "um") + ", a rate of at most "
+                 + text (std::sqrt (limit / value) / wall.period_s, "Hz") + ", or " + remedy;
+    decide (c, value, limit, Strict::no, 1.0, remedy);
+    if (c.verdict == Verdict::holds && std::min (wall.mayBeLess(), wall.mayBeMore()) < usual_error)
+    {
+        c.verdict = Verdict::close;
+        c.remedy = softer;
+    }
+}
+
+}   // namespace tactus::check::judging

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// The condition `deadbeat` covers what a wall of hold.deadbeat does in a simulation, if the mass of the tool is not what it assumes.
+#include <tactus/check/judge.hpp>
+#include <tactus/nodes/hold/deadbeat.hpp>
+#include <tactus/run/device/sim.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+using namespace tactus;
+
+namespace
+{
+double spread (double low, double high) { return low * std::pow (high / low, 1e-6 * *rc::gen::inRange (0, 1'000'001)); }
+
+/// A wall, and the device that it pushes. `turn` is K T^2/M, `loss` B T/M, both with the true mass.
+struct Trial
+{
+    double rate_hz = 1000.0, mass = 0.1, turn = 0.12, loss = 0.02;
+    double believed = 1.0;   // mass given to the node, divided by the true mass
+    int delay = 0;           // of the device, and known to the node, in ticks
+    double quantum = 0.0, coulomb = 0.0;
+
+    double stiffness() const { return turn * mass * rate_hz * rate_hz; }
+
+    Simulation device() const
+    {
+        return { .mass = mass, .damping = loss * mass * rate_hz, .quantum = quantum, .delay = delay, .coulomb = coulomb };
+    }
+
+    check::Condition judged() const
+    {
+        check::Demand demand { .rate_hz = rate_hz };
+        demand.roles.push_back ({ .role = "h0" });
+        demand.nodes.push_back ({ "wall", "hold.deadbeat" });
+        demand.deadbeats.push_back ({ .role = "h0", .mass = believed * mass, .stiffness = stiffness(), .delay = static_cast<double> (delay) });
+        const check::RoleDevice known { "h0", numbersOf (device()), "sim" };
+        for (const auto& c : check::judge (demand, { &known, 1 }))
+            if (c.id == "deadbeat") return c;
+        return {};
+    }
+
+    /// Lets a hand of 1 N press on the wall. `start`: how high the tool is let go, in units of the depth at which it comes to rest. Returns the
+    /// largest distance from this depth in the last quarter of a long time, in the same unit.
+    double unrest (double start) const
+    {
+        const double rest = 1.0 / stiffness();
+        auto sim = device();
+        sim.hand_force = { 0.0, 0.0, -1.0 };
+        sim.position = { 0.0, 0.0, start * rest };
+        SimulatedDevice tool { sim };
+        nodes::DeadbeatHold wall;
+        wall.params = { .stiffness = stiffness(), .mass = believed * mass, .damping = sim.damping };
+        wall.settings.delay = delay;
+        tool.prepare (1.0 / rate_hz);
+        wall.prepare ({ .rate_hz = rate_hz });
+        wall.update();
+        const int ticks = 3000 + static_cast<int> (24.0 / loss + 40.0 * loss / turn);
+        double most = 0.0;
+        for (int k = 0; k < ticks; ++k)
+        {
+            const auto now = tool.read();
+            const double off = std::abs (-now.true_position.z() / rest - 1.0);
+            if (! (off < 1e4)) return off;
+            if (k >= ticks - ticks / 4) most = std::max (most, off);
+            tool.write ({ .force = wall.tick ({ .position = now.position }).force });
+        }
+        return most;
+    }
+
+    friend std::ostream& operator<< (std::ostream& out, const Trial& t)
+    {
+        out << "M " << t.mass << " kg, BT/M " << t.loss << ", KT2/M " << t.turn << ", " << t.rate_hz << " Hz, believed " << t.believed;
+        return out << ", d " << t.delay << ", delta " << t.quantum << " m, f_f " << t.coulomb << " N";
+    }
+};
+}   // namespace
+
+TEST_CASE ("a deadbeat wall whose mass is off by no more than 'deadbeat' allows comes to rest", "[check]")
+{
+    rc::prop ("any mass, damping, stiffness, rate, delay and mistake", [] {
+        Trial t { .rate_hz = spread (500.0, 10e3), .mass = spread (0.02, 1.0), .loss = spread (3e-3, 0.1) };
+        t.delay = *rc::gen::element (0, 0, 1, 2, 5, 16);
+        t.turn = spread (0.003, 2.0) / (1.0 + t.delay);
+        t.believed = spread (0.8, 1.2);
+        const auto row = t.judged();
+        RC_TAG (std::string (check::nameOf (row.verdict)));
+        if (row.verdict == check::Verdict::broken) return;
+        for (const double start : { -0.7, 0.5, 5.0 })
+        {
+            const double off = t.unrest (start);
+            RC_LOG() << t << ": " << off << '\n';
+            RC_ASSERT (off < 0.01);
+        }
+    });
+}
+
+TEST_CASE ("a deadbeat wall whose mass is assumed 4 times as wrong as 'deadbeat' allows never comes to rest", "[check]")
+{
+    for (const double rate : { 1000.0, 10'000.0 })
+        for (const auto& [turn, loss] : { std::pair { 0.1, 0.5e-3 }, { 0.2, 2e-3 }, { 0.4, 8e-3 }, { 0.6, 15e-3 } })
+        {
+            Trial t { .rate_hz = rate, .turn = turn, .loss = loss };
+            const double allowed = loss / (2.0 * turn * turn);
+            REQUIRE (4.0 * allowed < 0.2);
+            t.believed = 1.0 + 0.99 * allowed;
+            CHECK (t.judged().verdict == check::Verdict::close);
+            t.believed = 1.0 + 4.0 * allowed;
+            INFO (rate << " Hz, KT2/M " << turn);
+            CHECK (t.judged().verdict == check::Verdict::broken);
+            CHECK (t.unrest (5.0) > 0.01);
+        }
+}
+
+TEST_CASE ("on the wall of 3 times 2B/T on which the test of the node stays bounded, the mass may be off by 20 %", "[check]")
+{
+    for (const double believed : { 0.801, 1.199 })
+    {
+        const Trial t { .turn = 6.0 * 0.02, .loss = 0.02, .believed = believed };
+        CHECK (t.judged().verdict == check::Verdict::holds);
+        CHECK (t.unrest (5.0) < 0.01);
+    }
+    CHECK (Trial { .turn = 6.0 * 0.02, .loss = 0.02, .believed = 0.78 }.judged().verdict == check::Verdict::broken);
+    CHECK (Trial { .turn = 6.0 * 0.02, .loss = 0.02, .believed = 1.22 }.judged().verdict == check::Verdict::broken);
+}
+
+TEST_CASE ("a deadbeat wall within 'deadbeat' comes to rest in spite of the steps of the sensor", "[check]")
+{
+    rc::prop ("any mass, damping, stiffness, rate, delay, mistake, quantum and friction", [] {
+        Trial t { .rate_hz = spread (500.0, 10e3), .mass = spread (0.02, 1.0), .loss = spread (5e-3, 0.3) };
+        t.delay = *rc::gen::element (0, 0, 1, 2, 5);
+        t.turn = spread (0.003, 1.0) / std::pow (1.0 + t.delay, 2.0);
+        t.believed = spread (0.8, 1.2);
+        const double needed = spread (0.01, 0.4);   // N; less than half of the hand's force
+        t.quantum = 2.0 * needed / (t.believed * t.mass * t.rate_hz * t.rate_hz);
+        t.coulomb = needed * spread (1.0, 2.0);
+        const auto row = t.judged();
+        RC_TAG (std::string (check::nameOf (row.verdict)));
+        if (row.verdict == check::Verdict::broken) return;
+        // It rests within what the dry friction and a step of the sensor hide.
+        const double hidden = t.coulomb + t.quantum * t.stiffness();
+        RC_LOG() << t << ": " << t.unrest (0.5) << '\n';
+        RC_ASSERT (t.unrest (0.5) < hidden + 0.02);
+    });
+}
