@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -36,7 +37,7 @@ public:
             std::memcpy (&word, from + i * sizeof word, sizeof word);
             words[i].store (word, std::memory_order_release);
         };
-        const auto size = (bytes + sizeof (std::uint64_t) - 1) / sizeof (std::uint64_t);
+        const auto size = std::min ((bytes + sizeof (std::uint64_t) - 1) / sizeof (std::uint64_t), words.size());
         std::size_t i = 0;
         for (; i + 4 <= size; i += 4)   // a run publishes its status on every tick: this takes half of the instructions
         {
