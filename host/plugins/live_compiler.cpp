@@ -83,7 +83,8 @@ LiveCompiler::LiveCompiler()
     std::error_code failed;
     folder = fs::temp_directory_path (failed) / ("tactus-live-" + std::to_string (std::random_device {}()));
     fs::create_directories (folder, failed);
-    fs::permissions (folder, fs::perms::owner_all, failed);   // so that no other user can put a plugin there
+    fs::permissions (folder, fs::perms::owner_all, failed);               // so that no other user can put a plugin there
+    static_cast<void> (writeTextFile (commonHeader(), common_headers));   // if this fails, the compiler says so
 }
 
 LiveCompiler::~LiveCompiler()
@@ -101,16 +102,15 @@ Result<> LiveCompiler::prepareFor (const LiveSource& s)
     precompiles = true;
     compiles_next = false;
     source = s;
-    const auto header = folder / "common.hpp";
-    if (auto written = writeTextFile (header, common_headers); ! written) return written;
+    const auto header = commonHeader().string();
     auto command = commonFlags (s);
-    command.insert (command.end(), { "-x", "c++-header", header.string(), "-o", header.string() + ".gch" });
+    command.insert (command.end(), { "-x", "c++-header", header, "-o", header + ".gch" });
     return run (command);
 }
 
-Result<> LiveCompiler::start (const LiveSource& s)
+Result<> LiveCompiler::start (const LiveSource& s, Headers headers)
 {
-    const bool is_prepared = s.isC() || precompiled_by == compilerOf (s);
+    const bool is_prepared = s.isC() || precompiled_by == compilerOf (s) || headers == Headers::read_again;
     if (! precompiles || ! is_prepared) program.reset();
     if (! is_prepared)
         if (auto refused = prepareFor (s); ! refused) return refused;
@@ -159,7 +159,7 @@ Result<std::vector<std::string>> LiveCompiler::commandFor (const LiveSource& s)
     auto command = commonFlags (s);
     for (const auto& include : s.includes)
         command.push_back ("-I" + include.string());
-    if (! s.isC()) command.insert (command.end(), { "-include", (folder / "common.hpp").string() });
+    if (! s.isC()) command.insert (command.end(), { "-include", commonHeader().string() });   // or the precompiled one, if it is there
     for (const auto& macro : s.definitions)
         command.push_back ("-D" + macro);
     const auto plugin = folder / (std::to_string (count) + ".tactus");

@@ -35,11 +35,17 @@ public:
         Messages messages;
     };
 
-    /// Starts to make the precompiled header, so that the first edit need not wait for it. Ids: live/no_compiler, output/unwritable.
+    /// Starts to make the precompiled header, so that the first edit need not wait for it. Ids: live/no_compiler.
     Result<> prepareFor (const LiveSource&);
 
+    enum class Headers
+    {
+        precompiled,   ///< waits for the precompiled header, and makes it if there is none
+        read_again     ///< does not wait: the sooner result if little is compiled before the first edit
+    };
+
     /// Starts to compile; drops what is being compiled. Ids: live/no_compiler, live/no_headers, live/no_node, output/unwritable.
-    Result<> start (const LiveSource&);
+    Result<> start (const LiveSource&, Headers = Headers::precompiled);
 
     /// The result of the compilation, given once; empty while the compiler works, or if it has nothing to do. Ids: live/compile.
     std::optional<Output> finished();
@@ -50,6 +56,7 @@ private:
     Result<std::vector<std::string>> commandFor (const LiveSource&);
     std::vector<std::string> commonFlags (const LiveSource&) const;
     std::vector<std::filesystem::path> filesRead() const;
+    std::filesystem::path commonHeader() const { return folder / "common.hpp"; }
 
     std::filesystem::path folder;
     LiveSource source;
