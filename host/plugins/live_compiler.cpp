@@ -90,9 +90,11 @@ LiveCompiler::~LiveCompiler()
 
 Result<> LiveCompiler::needFolder (const LiveSource& s) const
 {
-    if (! folder.empty()) return {};
-    return Message::error ("live/no_folder", s.file.string(), "no folder can be made for what is compiled, so edits of the C++ code have no effect",
-                           "free some space in " + quote (temporaryFolder().string()) + ", or set TMPDIR to a folder that this user may write");
+    if (folder.empty())
+        return Message::error ("live/no_folder", s.file.string(), "no folder can be made for what is compiled, so edits of the C++ code have no effect",
+                               "free some space in " + quote (temporaryFolder().string()) + ", or set TMPDIR to a folder that this user may write");
+    if (std::error_code unknown; fs::exists (commonHeader(), unknown)) return {};
+    return writeTextFile (commonHeader(), common_headers);
 }
 
 Result<> LiveCompiler::prepareFor (const LiveSource& s)
@@ -104,17 +106,16 @@ Result<> LiveCompiler::prepareFor (const LiveSource& s)
     precompiles = true;
     compiles_next = false;
     source = s;
-    const auto header = folder / "common.hpp";
-    if (auto written = writeTextFile (header, common_headers); ! written) return written;
+    const auto header = commonHeader().string();
     auto command = commonFlags (s);
-    command.insert (command.end(), { "-x", "c++-header", header.string(), "-o", header.string() + ".gch" });
+    command.insert (command.end(), { "-x", "c++-header", header, "-o", header + ".gch" });
     return run (command);
 }
 
-Result<> LiveCompiler::start (const LiveSource& s)
+Result<> LiveCompiler::start (const LiveSource& s, Headers headers)
 {
     if (auto missing = needFolder (s); ! missing) return missing;
-    const bool is_prepared = s.isC() || precompiled_by == compilerOf (s);
+    const bool is_prepared = s.isC() || precompiled_by == compilerOf (s) || headers == Headers::read_again;
     if (! precompiles || ! is_prepared) program.reset();
     if (! is_prepared)
         if (auto refused = prepareFor (s); ! refused) return refused;
@@ -163,7 +164,7 @@ Result<std::vector<std::string>> LiveCompiler::commandFor (const LiveSource& s)
     auto command = commonFlags (s);
     for (const auto& include : s.includes)
         command.push_back ("-I" + include.string());
-    if (! s.isC()) command.insert (command.end(), { "-include", (folder / "common.hpp").string() });
+    if (! s.isC()) command.insert (command.end(), { "-include", commonHeader().string() });   // or the precompiled one, if it is there
     for (const auto& macro : s.definitions)
         command.push_back ("-D" + macro);
     const auto plugin = folder / (std::to_string (count) + ".tactus");

@@ -241,7 +241,7 @@ TEST_CASE ("saved C code is compiled and loaded; with errors, or if it cannot be
     CHECK (bad.messages[0].text.find ("'w' undeclared") != std::string::npos);
 
     const auto declared = replaced (code, "static void tick", "void nowhere (void);\nstatic void tick");
-    folder.write ("twice.c", replaced (declared, "(void)node;\n    *(double*)outputs", "nowhere();\n    *(double*)outputs"));
+    folder.write ("twice.c", replaced (declared, "(void)node;\n#ifdef BAD_NAN", "nowhere();\n#ifdef BAD_NAN"));
     const auto unloadable = next (live);
     CHECK (unloadable.types.empty());
     REQUIRE (unloadable.messages.size() == 1);
