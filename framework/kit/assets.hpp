@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The contents of files as nodes see them: plain arrays. The host reads the files; a node never sees a path.
+/// The contents of files as nodes see them: plain arrays. The program reads the files; a node never sees a path.
 
 #include "at.hpp"
 #include "vec3.hpp"

@@ -63,13 +63,18 @@ install (FILES ${packaging}/libtactus-dev.overrides DESTINATION ${CMAKE_INSTALL_
 set (CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${made}/shlibs ${made}/triggers)
 set (CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
-# The Python module, if it is built, is installed as the component `python`.
+# The Python module, if it is built, is installed as the component `python`. As with every Python package of Debian, its byte code is written
+# when it is installed, and removed with it.
 get_cmake_property (components COMPONENTS)
-if (python IN_LIST components)
+if ("python" IN_LIST components)   # quoted, because install.cmake has a variable of this name
     math (EXPR next_python "${TACTUS_PYTHON_MINOR} + 1")
     tactus_package (python python3-tactus python "haptic effects from Python" "${about}
 This package contains the Python module."
         DEPENDS "python3 (>= 3.${TACTUS_PYTHON_MINOR}~), python3 (<< 3.${next_python}), python3-numpy" RECOMMENDS "python3-matplotlib")
+    file (WRITE ${made}/postinst "#!/bin/sh\nset -e\nif [ \"$1\" = configure ] && command -v py3compile >/dev/null; then py3compile -p python3-tactus; fi\n")
+    file (WRITE ${made}/prerm "#!/bin/sh\nset -e\nif command -v py3clean >/dev/null; then py3clean -p python3-tactus; fi\n")
+    set (CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${made}/postinst ${made}/prerm)
+    set (CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)   # makes them executable
 endif ()
 
 include (CPack)

@@ -52,7 +52,7 @@ TEST_CASE ("every preset has the bits of tactus render when it is played through
         ++count;
         INFO (entry.path().filename());
         const auto path = entry.path().string(), out = scratch.path ("out.csv");
-        const auto ran = runTactus ({ "render", path, "--duration", "0.3", "--out", out });
+        const auto ran = runTactus ({ "render", path, "--duration", "0.5", "--out", out });
         INFO (ran.err);
         REQUIRE (ran.status == 0);
         const auto theirs = readTable (fs::path (out));
