@@ -313,7 +313,8 @@ TEST_CASE ("ticks of a HID device take no locks, by its reports, by the timer th
     std::uint16_t count = 0;
     RunClock reported { *device, 1000.0 };
     test::checkThatTicksLockNothing (reported, device.get(), 200, [&] {
-        board.send (boardReport (++count, count));
+        ++count;
+        board.send (boardReport (count, count));
         std::this_thread::sleep_for (1ms);
     });
     RunClock silent { *device, 1000.0 };
