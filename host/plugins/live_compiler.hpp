@@ -21,7 +21,7 @@ namespace tactus::host
 class LiveCompiler
 {
 public:
-    LiveCompiler();
+    LiveCompiler() = default;
     ~LiveCompiler();
     LiveCompiler (const LiveCompiler&) = delete;
     LiveCompiler& operator= (const LiveCompiler&) = delete;
@@ -45,14 +45,14 @@ public:
     std::optional<Output> finished();
 
 private:
-    Result<> needFolder (const LiveSource&) const;
+    Result<> needFolder (const LiveSource&);
     Result<> compile();
     Result<> run (const std::vector<std::string>& command);
     Result<std::vector<std::string>> commandFor (const LiveSource&);
     std::vector<std::string> commonFlags (const LiveSource&) const;
     std::vector<std::filesystem::path> filesRead() const;
 
-    std::filesystem::path folder;
+    std::filesystem::path folder;   // empty until something is compiled
     LiveSource source;
     std::unique_ptr<BackgroundProgram> program;
     bool precompiles = false;     // `program` is making the precompiled header
