@@ -19,7 +19,7 @@ struct Noting final : Device
 {
     void prepare (double) override {}
     Reading read() noexcept override { return reading; }
-    void write (const Effort& e) noexcept override { calls += e.force.isZero (0.0) ? '0' : 'e'; }
+    void write (const Effort& e) noexcept override { calls += e.force.norm() < 1e-9 ? '0' : 'e'; }
     void withhold() noexcept override { calls += 'w'; }
 
     Reading reading;
