@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sections.hpp"
 
+#include <tactus/text/budget.hpp>
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>
@@ -135,6 +136,24 @@ void refuseSection (const graph::Node& node, const std::string& path, Origin her
                         "collapse it into a subgraph, and set the rate there");
 }
 
+namespace
+{
+/// A tick with too many runs takes seconds or hours, in which nothing can end the run.
+void checkRuns (Flat& flat)
+{
+    std::vector<double> speeds;   // by section
+    for (int s = 0; s < flat.sectionCount(); ++s)
+        speeds.push_back (flat.speed (s));
+    double runs = 0.0;
+    for (int n = 0; n < flat.nodeCount(); ++n)
+        runs += speeds[at (flat.node (n).section)];
+    if (runs <= budgets().runs) return;
+    const auto fastest = static_cast<int> (std::ranges::max_element (speeds) - speeds.begin());
+    auto over = overBudget ("graph/too_large", &Budgets::runs, "in one tick, the graph", runs, "use smaller `times`, or fewer nodes in these sections");
+    flat.error (std::move (over.id), flat.section (fastest).origin, std::move (over.text), std::move (over.remedy));
+}
+}   // namespace
+
 void checkSections (Flat& flat, double rate_hz)
 {
     if (flat.sections.size() == 1) return;
@@ -153,6 +172,7 @@ void checkSections (Flat& flat, double rate_hz)
         if (fast[at (s)] == none && section.kind == Section::Kind::times) fast[at (s)] = s;
     }
     if (std::ranges::count (fast, none) == std::ssize (fast)) return;
+    checkRuns (flat);
 
     const Downstream downstream { flat };
     std::set<int> reported;

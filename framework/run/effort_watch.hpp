@@ -21,8 +21,8 @@ public:
     Vec3 moved = Vec3::Zero();   ///< motion of the tool since the last reading, in m; 0 for the first reading
     double elapsed = 0.0;        ///< time between the two readings, in s
 
-    /// Takes a reading, which must be finite. A negative age counts as 0: it would make the motion seem slow. Call turned() and
-    /// axisMoved() afterwards. [tick thread]
+    /// Takes a reading, which must be finite. A negative age counts as 0, because it would make the motion seem slow. turned() and axisMoved()
+    /// refer to this reading until the next call. [tick thread]
     void begin (const Reading& reading, double now_s) noexcept
     {
         const double at = now_s - std::max (0.0, reading.age);

@@ -29,6 +29,7 @@ struct Budgets
     double roles = 1000;      ///< each opens a device
     double nodes = 2e5;       ///< a processor core computes about 10 000 nodes in a tick
     double wires = 1e6;       ///< five for each node
+    double runs = 1e7;        ///< a thousand nodes at 1 MHz in a graph at 100 Hz; a tenth of a second of a processor core
     double memory = 450e6;    ///< the largest height map, 2048 times 2048, takes 412 MB
     double time = 5.0;        ///< as long as a person waits for a file to open
 };
@@ -53,6 +54,7 @@ inline constexpr BudgetSheet budget_sheets[] {
     { "roles", &Budgets::roles, "roles", "roles of a graph" },
     { "nodes", &Budgets::nodes, "nodes", "nodes and instances of subgraphs, with all subgraphs expanded" },
     { "wires", &Budgets::wires, "wires", "wires with all subgraphs expanded; also values given to instances" },
+    { "runs", &Budgets::runs, "runs", "how often nodes run in one tick of the graph, those in `times` sections as often as the section" },
     { "memory", &Budgets::memory, "bytes", "estimated memory of the nodes, with their settings and delays" },
     { "time", &Budgets::time, "s", "estimated time of compiling; the work is counted, and a unit of work takes 5 ns" },
 };

@@ -78,8 +78,6 @@ std::vector<fs::path> wordsOfRule (const std::string& text)
 }
 }   // namespace
 
-LiveCompiler::LiveCompiler() : folder (privateFolder ("tactus-live-")) {}
-
 LiveCompiler::~LiveCompiler()
 {
     program.reset();
@@ -88,8 +86,9 @@ LiveCompiler::~LiveCompiler()
     fs::remove_all (folder, ignored);
 }
 
-Result<> LiveCompiler::needFolder (const LiveSource& s) const
+Result<> LiveCompiler::needFolder (const LiveSource& s)
 {
+    if (folder.empty()) folder = privateFolder ("tactus-live-");
     if (folder.empty())
         return Message::error ("live/no_folder", s.file.string(), "no folder can be made for what is compiled, so edits of the C++ code have no effect",
                                "free some space in " + quote (temporaryFolder().string()) + ", or set TMPDIR to a folder that this user may write");

@@ -22,7 +22,7 @@ namespace tactus::host
 class LiveCompiler
 {
 public:
-    LiveCompiler();
+    LiveCompiler() = default;
     ~LiveCompiler();
     LiveCompiler (const LiveCompiler&) = delete;
     LiveCompiler& operator= (const LiveCompiler&) = delete;
@@ -52,7 +52,7 @@ public:
     std::optional<Output> finished();
 
 private:
-    Result<> needFolder (const LiveSource&) const;
+    Result<> needFolder (const LiveSource&);
     Result<> compile();
     Result<> run (const std::vector<std::string>& command);
     Result<std::vector<std::string>> commandFor (const LiveSource&);
@@ -60,7 +60,7 @@ private:
     std::vector<std::filesystem::path> filesRead() const;
     std::filesystem::path commonHeader() const { return folder / "common.hpp"; }
 
-    std::filesystem::path folder;
+    std::filesystem::path folder;   // empty until something is compiled
     LiveSource source;
     std::unique_ptr<BackgroundProgram> program;
     bool precompiles = false;     // `program` is making the precompiled header

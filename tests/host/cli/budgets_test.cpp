@@ -49,6 +49,22 @@ TEST_CASE ("attack: a file of 5 KB cannot ask for 2^64 nodes", "[cli][budget]")
     CHECK_THAT (ran.err, Contains ("[graph/too_large]") && Contains ("--limits "));
 }
 
+TEST_CASE ("attack: a file of 300 bytes cannot ask for a tick that takes minutes", "[cli][budget]")
+{
+    const Scratch scratch;
+    const auto sections = [] (int instances) {
+        return R"({ "format": "tactus-graph", "version": 2, "rate_hz": 1, "nodes": { "fast": { "type": "graph:section", "times": 1000000 } },
+          "graphs": { "section": { "nodes": { "all": { "type": "graph:one", "count": )"
+               + std::to_string (instances) + R"( } } }, "one": { "nodes": { "noise": { "type": "signal.noise" } } } } })";
+    };
+    const auto file = scratch.write ("minutes.json", sections (20'000));
+    const auto ran = runTactus ({ "render", file, "--duration", "1" });
+    CHECK (ran.status == 1);
+    CHECK_THAT (ran.err, Contains ("[graph/too_large]") && Contains ("--limits runs="));
+    CHECK (runTactus ({ "validate", file, "--limits", "runs=100G" }).status == 0);
+    CHECK (runTactus ({ "validate", scratch.write ("fine.json", sections (5)) }).status == 0);
+}
+
 TEST_CASE ("attack: brackets nested 5000 deep are refused", "[cli][budget]")
 {
     const Scratch scratch;

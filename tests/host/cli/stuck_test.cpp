@@ -18,7 +18,7 @@ TEST_CASE ("a play whose tick does not end can still be ended, and says why its 
       "graphs": { "section": { "nodes": { "all": { "type": "graph:one", "count": 20000 } } },
                   "one": { "nodes": { "noise": { "type": "signal.noise" } } } } })";
     const Scratch scratch;
-    Running play { { "play", scratch.write ("g.json", graph), "--osc", "off" } };
+    Running play { { "play", scratch.write ("g.json", graph), "--osc", "off", "--limits", "runs=100G" } };
     REQUIRE (play.says ("Ctrl-C stops"));
     const auto ran = play.stop();
     INFO (ran.err);
