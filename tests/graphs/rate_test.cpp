@@ -174,6 +174,31 @@ TEST_CASE ("the list of presets that need a higher rate names only presets that 
         }
 }
 
+TEST_CASE ("the steps of an encoder change the slow force of a damped contact by less than 0.3 %, because its damping has a window", "[graphs][rate]")
+{
+    for (const char* preset : { "denim", "oak_board", "sandpaper", "two_fingers" })
+    {
+        CAPTURE (preset);
+        const auto g = loadGraph (folder / (std::string (preset) + ".json")).graph;
+        const auto slow = [&] (const char* quantum, double window_s) {
+            auto changed = g;
+            for (auto& [role, device] : changed.devices)
+                device["quantum"] = quantum;
+            auto* patch = &changed.root.nodes;
+            for (auto& [name, inner] : changed.graphs)
+                if (std::ranges::count (inner.nodes, "deform.plane", &graph::Node::type) > 0) patch = &inner.nodes;
+            const auto plane = std::ranges::find (*patch, "deform.plane", &graph::Node::type);
+            REQUIRE (plane != patch->end());
+            REQUIRE (plane->settings.contains ("window"));
+            plane->settings["window"] = window_s;
+            return rmsOf (play (changed, 20000.0), 20000.0).slow;
+        };
+        const double exact = slow ("0 um", 1e-3), is = slow ("5 um", 1e-3), without = slow ("5 um", 0.0);
+        CHECK (is == Approx (exact).epsilon (0.003));
+        CHECK (std::abs (without / exact - 1.0) > 0.003);
+    }
+}
+
 TEST_CASE ("the steps of an encoder do not interrupt the crunch of the potato, at any rate", "[graphs][rate]")
 {
     auto g = loadGraph (folder / "potato_cut.json").graph;

@@ -12,8 +12,10 @@
 #include <catch2/catch.hpp>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -23,6 +25,30 @@
 namespace tactus::test
 {
 
+/// One table of heights, whatever file a graph asks for.
+struct OneTable final : Assets
+{
+    std::shared_ptr<const Grid> grid;
+
+    Loaded<Signal> signal (const std::string& path) override { return none (path); }
+    Loaded<Grid> image (const std::string& path) override { return none (path); }
+    Loaded<Grid> table (const std::string&) override { return grid; }
+    Loaded<Mesh> mesh (const std::string& path) override { return none (path); }
+
+private:
+    static Message none (const std::string& path) { return Message::error ("asset/unreadable", path, "there is only a table"); }
+};
+
+/// A tool that stays where a test puts it.
+struct HeldTool final : Device
+{
+    Reading now {};
+
+    void prepare (double) override {}
+    Reading read() noexcept override { return now; }
+    void write (const Effort&) noexcept override {}
+};
+
 /// Hands named h0, h1, … on simulated devices, with springs between their positions and their forces. A test first judges
 /// the loop as `tactus check` does, then lets go of the tools near their equilibrium.
 struct Loops
@@ -30,6 +56,7 @@ struct Loops
     double rate_hz = 1000.0;
     std::vector<Simulation> tools;
     std::vector<std::string> nodes {}, wires {}, graphs {};   // JSON
+    std::shared_ptr<OneTable> assets = std::make_shared<OneTable>();
 
     struct Pull
     {
@@ -91,6 +118,73 @@ struct Loops
         wire (name + ".out", hand (i) + "_motor.force" + end, std::to_string (-stiffness) + " N/m");
     }
 
+    /// A node whose position is that of a hand, and whose force acts on the hand. `rest` is JSON: the params and settings.
+    std::string feels (std::size_t i, const std::string& type, const std::string& rest)
+    {
+        const auto name = type.substr (0, type.find ('.')) + std::to_string (nodes.size());
+        nodes.push_back ('"' + name + R"(": { "type": ")" + type + R"(", )" + rest + " }");
+        wire (hand (i) + "_at.position", name + ".position");
+        wire (name + ".force", hand (i) + "_motor.force");
+        return name;
+    }
+
+    CompileOptions options() const { return { .rate_hz = rate_hz, .assets = assets.get() }; }
+
+    /// Tools held by force, and the graph that they feel.
+    struct Held
+    {
+        std::vector<std::unique_ptr<HeldTool>> tools {};
+        std::unique_ptr<Engine> engine {};
+
+        explicit Held (const Loops& loops)
+        {
+            engine = std::make_unique<Engine> (compile (loops.graph(), catalogue(), loops.options()).plan);
+            for (std::size_t i = 0; i < loops.tools.size(); ++i)
+            {
+                tools.push_back (std::make_unique<HeldTool>());
+                engine->attach (loops.hand (i), *tools.back());
+            }
+            settle();
+        }
+
+        void settle()
+        {
+            for (int k = 0; k < 64; ++k)   // longer than any delay of a graph of these tests
+                engine->tick();
+        }
+
+        Eigen::VectorXd forces() const
+        {
+            Eigen::VectorXd all (static_cast<Eigen::Index> (3 * tools.size()));
+            for (std::size_t i = 0; i < tools.size(); ++i)
+                all.segment<3> (static_cast<Eigen::Index> (3 * i)) = engine->plan().roles()[i].state->applied.force;
+            return all;
+        }
+    };
+
+    /// As pushesAway(), but with any nodes: the stiffness is that of the graph with the tools at the origin.
+    bool pushesAwayFromOrigin() const
+    {
+        constexpr double step = 1e-7;   // m
+        Held held { *this };
+        const auto size = static_cast<Eigen::Index> (3 * tools.size());
+        Eigen::MatrixXd k = Eigen::MatrixXd::Zero (size, size);
+        for (Eigen::Index n = 0; n < size; ++n)
+        {
+            auto& place = held.tools[static_cast<std::size_t> (n / 3)]->now.position[n % 3];
+            place = step;
+            held.settle();
+            k.col (n) = held.forces();
+            place = -step;
+            held.settle();
+            k.col (n) = (held.forces() - k.col (n)) / (2.0 * step);
+            place = 0.0;
+            held.settle();
+        }
+        const Eigen::VectorXcd values = k.eigenvalues();
+        return std::any_of (values.begin(), values.end(), [&] (const auto& v) { return v.real() < 1e-5 * k.norm() && std::abs (v.imag()) < 1e-6 * k.norm(); });
+    }
+
     graph::Graph graph() const
     {
         std::string text = R"({ "format": "tactus-graph", "version": 1, "name": "loops", "rate_hz": )" + std::to_string (rate_hz) + R"(, "nodes": { )";
@@ -119,7 +213,7 @@ struct Loops
     std::vector<check::Condition> conditions (double half_box = 5e-3, check::Thoroughness how = { .places = 6 }) const
     {
         const auto g = graph();
-        const check::Subject subject { g, catalogue() };
+        const check::Subject subject { g, catalogue(), options() };
         std::vector<std::unique_ptr<check::SweepDevice>> sweeps;
         std::vector<check::Hand> hands;
         std::vector<check::RoleDevice> devices;
@@ -130,7 +224,7 @@ struct Loops
             hands.push_back ({ hand (i), *sweeps.back() });
             devices.push_back ({ hand (i), numbersOf (tools[i]), "sim" });
         }
-        auto compiled = compile (g, catalogue(), { .rate_hz = rate_hz });
+        auto compiled = compile (g, catalogue(), options());
         INFO (test::text (compiled.messages));
         REQUIRE (compiled.plan);
         const auto motion = check::recordMotion (compiled.plan, hands, static_cast<std::size_t> (rate_hz));
@@ -141,29 +235,58 @@ struct Loops
     /// that in the first quarter.
     double growth (int ticks) const
     {
+        double first = 0.0, last = 0.0;
+        const bool stays = letGo (ticks, Eigen::VectorXd::Zero (3 * static_cast<Eigen::Index> (tools.size())), [&] (int k, std::size_t, const Vec3& p) {
+            if (k < ticks / 4) first = std::max (first, p.norm());
+            if (k >= 3 * ticks / 4) last = std::max (last, p.norm());
+        });
+        return stays ? last / first : 1e9;
+    }
+
+    /// How far the tools swing in the second and in the last quarter of a run, in m. They are let go 1 um beside the origin, and each hand
+    /// holds its tool against the force that it feels at the origin.
+    std::pair<double, double> swings (int ticks) const
+    {
+        using Box = std::array<Eigen::AlignedBox3d, 2>;
+        std::vector<Box> boxes (tools.size());
+        const bool stays = letGo (ticks, -Held (*this).forces(), [&] (int k, std::size_t tool, const Vec3& p) {
+            if (k >= ticks / 4 && k < ticks / 2) boxes[tool][0].extend (p);
+            if (k >= 3 * ticks / 4) boxes[tool][1].extend (p);
+        });
+        std::pair<double, double> most { 0.0, 0.0 };
+        for (const auto& box : boxes)
+            most = { std::max (most.first, box[0].diagonal().norm()), std::max (most.second, box[1].diagonal().norm()) };
+        if (! stays) most.second = 1e9;
+        return most;
+    }
+
+private:
+    /// Calls see (tick, tool, position) for each tool after each tick. False if a tool runs away.
+    template <typename See>
+    bool letGo (int ticks, const Eigen::VectorXd& hands, See&& see) const
+    {
         std::vector<std::unique_ptr<SimulatedDevice>> devices;
-        Engine engine { compile (graph(), catalogue(), { .rate_hz = rate_hz }).plan };
+        Engine engine { compile (graph(), catalogue(), options()).plan };
         for (std::size_t i = 0; i < tools.size(); ++i)
         {
             auto tool = tools[i];
             const double a = 1e-6 * (1.0 + 0.3 * static_cast<double> (i));
             tool.position = { a, -0.7 * a, 0.4 * a };
+            tool.hand_force = hands.segment<3> (3 * static_cast<Eigen::Index> (i));
             devices.push_back (std::make_unique<SimulatedDevice> (tool));
             engine.attach (hand (i), *devices.back());
         }
-        double first = 0.0, last = 0.0;
         for (int k = 0; k < ticks; ++k)
         {
             engine.tick();
             for (std::size_t i = 0; i < tools.size(); ++i)
             {
-                const double r = engine.plan().roles()[i].state->reading.true_position.norm();
-                if (! (r < 1e6)) return 1e9;
-                if (k < ticks / 4) first = std::max (first, r);
-                if (k >= 3 * ticks / 4) last = std::max (last, r);
+                const Vec3& p = engine.plan().roles()[i].state->reading.true_position;
+                if (! (p.norm() < 1e6)) return false;
+                see (k, i, p);
             }
         }
-        return last / first;
+        return true;
     }
 };
 

@@ -119,6 +119,24 @@ TEST_CASE ("a deadbeat wall is not judged by its slope but by mass, delay and qu
     CHECK (test::brokenIds (wall ({ .mass = 0.1, .damping = 2.0, .quantum = 2e-5, .coulomb = 0.6 }, "0.1")) == "h0:deadbeat");
 }
 
+TEST_CASE ("a deadbeat wall must know the whole delay, that of the device and that of the wires", "[check]")
+{
+    const auto wall = [] (int of_device, int of_wire, int known) {
+        Loops loops { .tools = { { .mass = 0.1, .damping = 2.0, .delay = of_device, .coulomb = 0.6 } } };
+        const auto delay = R"("settings": { "delay": )" + std::to_string (known) + " }";
+        loops.nodes.push_back (R"("wall": { "type": "hold.deadbeat", "params": { "stiffness": "4 N/mm" }, )" + delay + " }");
+        loops.wire ("h0_at.position", "wall.position", "1", of_wire);
+        loops.wire ("wall.force", "h0_motor.force");
+        return test::brokenIds (loops.conditions());
+    };
+    CHECK (wall (0, 0, 0).empty());
+    CHECK (wall (1, 0, 1).empty());
+    CHECK (wall (1, 1, 2).empty());
+    CHECK (wall (1, 0, 0) == "h0:deadbeat");
+    CHECK (wall (0, 0, 1) == "h0:deadbeat");
+    CHECK (wall (1, 1, 1) == "h0:deadbeat");
+}
+
 TEST_CASE ("a motion that ran away is refused, with the reason", "[check]")
 {
     Loops loops { .tools = { { .mass = 0.1, .damping = 1.0 } } };

@@ -68,8 +68,8 @@ TEST_CASE ("surface: on any body, the force changes by little more than the stif
     for (const double mu : { 0.0, 0.01, 0.1, 0.5, 1.0 })
         for (const auto& body : bodies (mu))
         {
-            if (body.name == "box") continue;              // a contact that has caught at a right angle may end while it is stretched
-            const bool may_catch = body.name == "bumps";   // so may one between coarse bumps
+            if (body.name == "box" && mu > 0.5) continue;   // a contact that has caught at a right angle may end while it is stretched
+            const bool may_catch = body.name == "bumps";    // so may one between coarse bumps
             double most = 0.0, usual = 0.0;
             for (unsigned seed = 0; seed < test::rounds (4u); ++seed)
             {
@@ -95,6 +95,44 @@ TEST_CASE ("surface: on any body, the force changes by little more than the stif
             CHECK (most < 2.0);
             CHECK (usual < 3.0);
         }
+}
+
+TEST_CASE ("surface: a contact that had caught ends with the step that the header says, and what it stored is dissipated", "[nodes][deform]")
+{
+    constexpr double step = 1e-5;
+    const auto largestEnd = [] (const char* name, double mu) {
+        const auto all = bodies (mu);
+        const auto& body = *std::ranges::find (all, name, &Body::name);
+        double most = 0.0;
+        for (unsigned seed = 0; seed < 12; ++seed)
+        {
+            Strokes strokes (body, seed);
+            auto node = made (body.surface);
+            auto before = node.tick ({ .position = strokes.at() });
+            for (int s = 0; s < 6; ++s)
+                strokes.stroke (step, [&] (const Vec3& next) {
+                    const auto out = node.tick ({ .position = next });
+                    if (before.state > 0.0 && out.state == 0.0)
+                    {
+                        most = std::max (most, (out.force - before.force).norm());
+                        const double work = 2.0 * (before.force.norm() + 1000.0 * step) * step;   // at most, on this tick
+                        CHECK (out.dissipated_energy - before.dissipated_energy == Approx (before.stored_energy).margin (work));
+                    }
+                    before = out;
+                });
+        }
+        return most;
+    };
+    CHECK (largestEnd ("box", 0.5) < 0.02);
+    const double box = largestEnd ("box", 1.0);
+    CHECK (box > 1.0);
+    CHECK (box < 8.0);
+    for (const double mu : { 0.0, 1.0 })
+    {
+        const double bumps = largestEnd ("bumps", mu);
+        CHECK (bumps > 0.3);
+        CHECK (bumps < 0.8);
+    }
 }
 
 TEST_CASE ("surface: on a sphere without friction, the force does not step where the contact changes its triangle", "[nodes][deform]")
