@@ -3,6 +3,7 @@
 #include "setting_code.hpp"
 #include "tick_code.hpp"
 
+#include <algorithm>
 #include <set>
 
 namespace tactus::host
@@ -185,14 +186,25 @@ std::string rolesOf (const Exported& e)
     return text;
 }
 
-std::string members (const Exported& e)
+bool hasState (const Exported& e)
 {
-    std::string text = "private:\n    /// What lasts from one tick to the next, apart from the nodes.\n    struct State\n    {\n";
+    return ! e.wiring.kept.empty() || std::ranges::any_of (e.wiring.nodes, [] (const ExportedNode& n) { return n.is_inner && n.is_read; });
+}
+
+std::string state (const Exported& e)
+{
+    if (! hasState (e)) return {};
+    std::string text = "    /// What lasts from one tick to the next, apart from the nodes.\n    struct State\n    {\n";
     for (const auto& [type, name] : e.wiring.kept)
         text += "        " + type + " " + name + (type == "double" ? " = 0.0" : type == "std::uint64_t" ? " = 0" : " {}") + ";\n";
     for (const auto& n : e.wiring.nodes)
         if (n.is_inner && n.is_read) text += "        " + n.type + "::Outputs " + n.name + "_out {};\n";
-    text += "    };\n\n    State state {};\n    std::uint64_t ticks = 0;\n";
+    return text + "    };\n\n    State state {};\n";
+}
+
+std::string members (const Exported& e)
+{
+    std::string text = "private:\n" + state (e) + "    std::uint64_t ticks = 0;\n";
     if (! e.roles.empty()) text += "    double lost_s = 0.0;\n";
     if (! e.parameters.empty())
     {
@@ -272,7 +284,8 @@ std::string meet (const Exported& e, const ExportedNode& n)
 std::string prepare (const Exported& e, SettingCode& settings)
 {
     std::string text = "void " + e.class_name + "::prepare (double ticks_per_second)\n{\n    using tactus::exported::renew, tactus::exported::start;\n"
-                       "    renew (state);\n    ticks = 0;\n";
+                       "    ticks = 0;\n";
+    if (hasState (e)) text += "    renew (state);\n";
     if (! e.parameters.empty()) text += "    parameters.prepare (ticks_per_second);\n";
     if (! e.hits.empty()) text += "    hits.fill ({});\n";
     if (! e.roles.empty()) text += "    lost_s = 0.0;\n";

@@ -182,9 +182,9 @@ private:
     {
         for (std::size_t i = 0; i < e.wiring.hits.size(); ++i)
         {
-            const auto& [node, pulse] = e.wiring.hits[i];
+            const auto& [instance, pulse] = e.wiring.hits[i];
             constexpr double speed = 0.25;
-            run.engine().strike ({ plan.instances()[e.wiring.nodes[node].instance].knobs, pulse }, speed);
+            run.engine().strike ({ plan.instances()[instance].knobs, pulse }, speed);
             test.events.push_back ({ k, SelfTestEvent::Kind::hit, i, speed });
         }
     }

@@ -38,18 +38,18 @@ void Wiring::nameNodes()
         const auto& flat = plan.flat().nodes[i];
         const auto& instance = plan.instances()[i];
         by_outputs.emplace (bytes (instance.outputs), i);
+        for (std::size_t k = 0; instance.is_struck && k < instance.knobs->pulses.size(); ++k)
+        {
+            by_pulse.emplace (&instance.knobs->pulses[k], hits.size());
+            hits.emplace_back (i, k);
+            hit_names.push_back (plan::nameOfHit (plan, i, k));
+        }
         if (! flat.runs() || ! instance.node) continue;
         auto& known = classes[flat.type->info.id];
         if (known.name.empty()) known = classOf (flat.type->info.id);
         by_address.emplace (instance.node.get(), nodes.size());
         by_params.emplace (bytes (flat.type->paramsOf (instance.node.get())), nodes.size());
         by_instance.emplace (i, nodes.size());
-        for (std::size_t k = 0; instance.knobs && k < instance.knobs->pulses.size(); ++k)
-        {
-            by_pulse.emplace (&instance.knobs->pulses[k], hits.size());
-            hits.emplace_back (nodes.size(), k);
-            hit_names.push_back (plan::nameOfHit (plan, i, k));
-        }
         std::vector<std::string> endings { "_out", "_driven", "_stored" };
         for (const auto& row : flat.type->inputs)
             for (const auto* ending : { "_values", "_list" })
@@ -123,10 +123,13 @@ void Wiring::nameValue (const double* value, const std::string& fallback, bool i
     values.emplace (value, (is_inner ? "state." : "") + name);
 }
 
-std::string Wiring::nameObject (const void* object, const double* out, const std::string& type)
+/// Named after what reads it, or else after where it comes from.
+std::string Wiring::nameObject (const void* object, const double* out, const double* from, const std::string& type)
 {
     const auto consumer = consumers.find (out);
-    auto name = members.make ((consumer != consumers.end() ? consumer->second : "wire") + "_wire");
+    const auto output = outputAt (from);
+    const auto source = output ? plan.flat().nodes[output->instance].path + "_" + nameOf (*output->sheet, output->slot) : "crossing";
+    auto name = members.make (consumer != consumers.end() ? consumer->second + "_wire" : source + "_wire");
     kept.emplace_back (type, name);
     objects.emplace (object, "state." + name);
     return "state." + name;
@@ -168,7 +171,7 @@ void Wiring::nameSection (const plan::RunningSection& running)
     for (const auto& [links, type] : kinds)
         for (const auto& link : *links)
             values.emplace (&link.converter->out,
-                            nameObject (link.converter, &link.converter->out, std::string ("tactus::exported::") + type) + ".out");
+                            nameObject (link.converter, &link.converter->out, link.from, std::string ("tactus::exported::") + type) + ".out");
     nameRecords (running.records, true);
 }
 
@@ -192,8 +195,8 @@ void Wiring::nameRecords (std::span<const Record> records, bool is_inner)
         if (r.step == &plan::Bypass::step) nameBypass (*static_cast<plan::Bypass*> (r.self), is_inner);
         if (r.step == &plan::DelayLine::read)
         {
-            const auto* line = static_cast<plan::DelayLine*> (r.self)->line;
-            nameObject (line, &line->out, "tactus::exported::DelayLine<" + std::to_string (line->samples.size()) + ">");
+            const auto& [from, line] = *static_cast<plan::DelayLine*> (r.self);
+            nameObject (line, &line->out, from, "tactus::exported::DelayLine<" + std::to_string (line->samples.size()) + ">");
             nameValue (&line->out, "delayed", is_inner);
         }
         if (r.step == &plan::RunningSection::every || r.step == &plan::RunningSection::times) nameSection (*static_cast<plan::RunningSection*> (r.self));

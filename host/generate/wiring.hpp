@@ -51,7 +51,7 @@ public:
     std::vector<ExportedNode> nodes;                          ///< nodes that run, in the order of Plan::instances
     std::map<const void*, ExportedSection> sections;          ///< by RunningSection
     std::vector<std::pair<std::string, std::string>> kept;    ///< type and name of each member of `state`
-    std::vector<std::pair<std::size_t, std::size_t>> hits;    ///< by hit input: number in `nodes`, and index in Knobs::pulses
+    std::vector<std::pair<std::size_t, std::size_t>> hits;    ///< by hit input: number in Plan::instances, and index in Knobs::pulses
     std::vector<std::string> hit_names;                       ///< as in `tactus hit`: "ring.hit"
     std::vector<std::string> role_names, role_ports;          ///< by role: the member of the class, and of Inputs and Outputs
     std::vector<std::string> feed_names, tap_names;           ///< members of Inputs and of Outputs
@@ -100,7 +100,7 @@ private:
     void nameSection (const plan::RunningSection&);
     void nameBypass (const plan::Bypass&, bool is_inner);
     void nameValue (const double* value, const std::string& fallback, bool is_inner);
-    std::string nameObject (const void* object, const double* out, const std::string& type);
+    std::string nameObject (const void* object, const double* out, const double* from, const std::string& type);
     int sectionOf (std::span<const Record>) const;
     std::optional<Output> outputAt (const double*) const;
     std::string paramAt (const double*);
