@@ -15,6 +15,7 @@
 #                       with --update, also copies the pictures used in the pages to docs/host/
 #   ./test.sh --sound   plays a ring on a virtual sound card, strokes a board in the host with the mouse, and listens to both
 #   ./test.sh --devices drives the virtual HID devices
+#   ./test.sh --export  exports all presets and 100 random graphs as C++ code, compiles it with g++ and clang++, and compares the bits
 #   ./test.sh --figures redraws docs/figures/ and recounts docs/instructions.md
 #   ./test.sh --packages makes the Debian packages, and installs, uses and removes them in a clean Debian (needs root); before that,
 #                       it builds all nodes as plugins and examines them
@@ -22,12 +23,13 @@
 
 mode=${1:-}
 case $mode in
-    ''|--quick|--long|--screens|--sound|--devices|--figures|--packages) ;;
-    *) echo "usage: ./test.sh [--quick|--long|--screens [--update]|--sound|--devices|--figures|--packages]" >&2; exit 2 ;;
+    ''|--quick|--long|--screens|--sound|--devices|--export|--figures|--packages) ;;
+    *) echo "usage: ./test.sh [--quick|--long|--screens [--update]|--sound|--devices|--export|--figures|--packages]" >&2; exit 2 ;;
 esac
 
 packages+=(python3-jsonschema xvfb xdotool)
 [ "$mode" = --long ] && packages+=(clang-14 libclang-rt-14-dev)
+[ "$mode" = --export ] && packages+=(clang-14)
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
 [ "$mode" = --screens ] && packages+=(xauth imagemagick)
 [ "$mode" = --sound ] && packages+=(xauth imagemagick jackd2 jack-capture python3-numpy)
@@ -80,6 +82,13 @@ if [ "$mode" = --sound ]; then
     /usr/bin/python3 -B tests/audio/ring.py build/release/bin/tactus out/listen
     say "Listening to strokes"
     /usr/bin/python3 -B tests/host/app/screens/listen.py build/release/bin/tactus-host out/listen
+    exit
+fi
+
+if [ "$mode" = --export ]; then
+    build release tactus_tests
+    say "Exported graphs"
+    TACTUS_EXPORT_COMPILERS="g++ clang++-14" build/release/bin/tactus_tests "[export],[.export_all]"
     exit
 fi
 

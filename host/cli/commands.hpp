@@ -22,5 +22,6 @@ void addFit (const Command&);
 void addNewNode (const Command&);
 void addCurve (const Command&);
 void addCheckPlugin (const Command&);
+void addExport (const Command&);
 
 }   // namespace tactus::host

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// Pieces of C++ text.
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// A number as C++ that reads back to the same bits: "0.4", "-1e-09", "tactus::inf". Every NaN becomes the same one.
+std::string literal (double);
+
+/// A text as a C++ string literal.
+std::string textLiteral (std::string_view);
+
+/// A text for a comment: in one line, so that it ends where it should.
+std::string comment (std::string_view);
+
+/// The text as an identifier: "finger[3]/drag.mu" becomes "finger_3_drag_mu".
+std::string identifier (std::string_view);
+
+/// "DryWood" for "dry_wood".
+std::string className (std::string_view identifier);
+
+/// "a, b, c"
+std::string listed (const std::vector<std::string>&, std::string_view between = ", ");
+
+/// What begins with `head` and has these parts: on one line if it fits, else with each part on a line of its own. `end` closes it.
+std::string wrapped (std::string_view indent, const std::string& head, const std::vector<std::string>& parts, std::string_view end);
+
+/// Gives out names that are unique in their scope and are no words of C++.
+class Names
+{
+public:
+    /// These names are taken.
+    explicit Names (std::set<std::string> taken = {}) : used (std::move (taken)) {}
+
+    /// The identifier of this text, with a number if it is taken. The names that these endings make of it are taken, too.
+    std::string make (std::string_view text, const std::vector<std::string>& endings = {});
+
+private:
+    std::set<std::string> used;
+};
+
+}   // namespace tactus::host

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "export_graph.hpp"
+#include "class_code.hpp"
+#include "folder_code.hpp"
+#include "self_test_code.hpp"
+#include "self_test_run.hpp"
+#include "sources.hpp"
+
+#include <tactus/file/text_file.hpp>
+#include <tactus/plan/find_param.hpp>
+#include <tactus/run/turn.hpp>
+#include <tactus/text/quote.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+namespace tactus::host
+{
+
+namespace
+{
+namespace fs = std::filesystem;
+
+/// The words that the class uses for itself, so no node may have them as a name.
+const std::set<std::string>& ownWords()
+{
+    static const std::set<std::string> words { "prepare", "tick", "set", "get", "strike", "halt", "resume", "rearm", "loseTime", "emergencyStop", "rate_hz",
+                                               "ticks_per_second", "in", "out", "hit", "hits", "state", "ticks", "lost_s", "parameters", "param", "control",
+                                               "position", "turn", "low", "high", "renew", "start", "phase", "part", "tactus", "std", "sumOf", "value" };
+    return words;
+}
+
+void refuse (Messages& messages, std::string id, const std::string& where, std::string text, std::string remedy)
+{
+    messages.push_back (Message::error (std::move (id), where, std::move (text), std::move (remedy)));
+}
+
+/// Names everything that cannot be exported.
+void refusePlugins (const Plan& plan, Messages& messages)
+{
+    for (const auto& node : plan.flat().nodes)
+        if (node.runs() && (! node.type->origin.empty() || classOf (node.type->info.id).header.empty()))
+            refuse (messages, "export/plugin", "", quote (node.path) + " (" + std::string (node.type->info.id) + ") cannot be exported: its code is "
+                        + (node.type->origin.empty() ? std::string ("not part of this program") : "in the plugin " + node.type->origin),
+                    "bypass it, or use a node that `tactus nodes` lists without a plugin");
+}
+
+std::vector<std::string> limitsOf (const Plan& plan)
+{
+    std::vector<std::string> all;
+    for (const auto& node : plan.flat().nodes)
+        for (std::size_t i = 0; node.runs() && i < node.settings.size(); ++i)
+            if (node.type->settings[i].id == "search_ticks" && std::get<double> (node.settings[i]) > 0.0)
+                all.push_back ("`" + node.path + "` searches its mesh in the background in Tactus. Here it searches within the tick on which the answer is due, so that "
+                               "tick takes longer.");
+    return all;
+}
+
+std::vector<ExportedParameter> parametersOf (Wiring& wiring)
+{
+    std::vector<ExportedParameter> all;
+    Names enumerators;
+    for (std::size_t n = 0; n < wiring.nodes.size(); ++n)
+    {
+        auto& node = wiring.nodes[n];
+        const auto& flat = wiring.flat (node);
+        node.parameters = all.size();
+        for (std::size_t p = 0; p < flat.type->params.size(); ++p)
+        {
+            const auto& sheet = flat.type->params[p];
+            const auto values = wiring.plan.flat().param (static_cast<int> (node.instance), p);
+            for (int k = 0; k < flat.slots (sheet); ++k)
+            {
+                const auto knob = plan::Knobs::indexOf (*flat.type, p, static_cast<std::size_t> (k));
+                auto name = plan::nameOf (wiring.plan, node.instance, knob);
+                auto enumerator = enumerators.make (name);
+                all.push_back ({ std::move (name), std::move (enumerator), n, &sheet, k, knob, values[static_cast<std::size_t> (k)] });
+            }
+        }
+    }
+    return all;
+}
+
+/// By knob: the target of each knob that was turned since `turns` was read.
+std::vector<std::optional<double>> targets (const Wiring& wiring, const std::vector<ExportedParameter>& parameters, const Plan& turned,
+                                            const std::vector<std::uint32_t>& before)
+{
+    std::vector<std::optional<double>> all (parameters.size());
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+    {
+        const auto& knob = turned.instances()[wiring.nodes[parameters[i].node].instance].knobs->all[parameters[i].knob];
+        if (knob.turns != before[i]) all[i] = knob.target.load();
+    }
+    return all;
+}
+
+/// Finds out what a control does by turning it on another plan of the same graph, with its ends one way round and then the other: at 0 a
+/// parameter gets exactly the first of its two values.
+std::vector<ExportedControl> controlsOf (const graph::Graph& graph, const Wiring& wiring, const std::vector<ExportedParameter>& parameters,
+                                         const std::shared_ptr<Plan>& same)
+{
+    std::vector<ExportedControl> all;
+    Names enumerators;
+    Engine engine { same };
+    auto reversed = graph;
+    for (auto& control : reversed.controls)
+        for (auto& to : control.to)
+            std::swap (to.low, to.high);
+    for (const auto& control : graph.controls)
+    {
+        auto& made = all.emplace_back();
+        made.id = control.id;
+        made.enumerator = enumerators.make (control.id);
+        made.name = control.name;
+        made.value = control.value;
+        std::vector<std::optional<double>> ends[2];
+        for (int end = 0; end < 2; ++end)
+        {
+            std::vector<std::uint32_t> turns;
+            for (const auto& p : parameters)
+                turns.push_back (same->instances()[wiring.nodes[p.node].instance].knobs->all[p.knob].turns);
+            (void) turnControl (engine, end == 0 ? graph : reversed, control.id, 0.0);
+            ends[end] = targets (wiring, parameters, *same, turns);
+        }
+        for (std::size_t i = 0; i < parameters.size(); ++i)
+            if (ends[0][i] && ends[1][i]) made.to.push_back ({ i, *ends[0][i], *ends[1][i] });
+    }
+    return all;
+}
+
+std::string stemOf (const std::string& file)
+{
+    auto stem = identifier (fs::path (file).stem().string());
+    for (auto& c : stem)
+        c = c >= 'A' && c <= 'Z' ? static_cast<char> (c - 'A' + 'a') : c;
+    return Names().make (stem);
+}
+
+std::vector<ExportedRole> rolesOf (const Run& run)
+{
+    std::vector<ExportedRole> all;
+    for (const auto& use : run.engine().newest().roles())
+    {
+        auto& role = all.emplace_back();
+        role.name = use.name;
+        for (const auto& [name, opened] : run.devices())
+            if (name == use.name) role = { name, opened.limits, opened.device->layout() };
+    }
+    return all;
+}
+
+void addFiles (ExportedFolder& folder, const Exported& e, const ClassFiles& code)
+{
+    std::set<std::string> used { "tactus/run/exported_graph.hpp" };
+    if (code.source.find ("tactus/run/exported_data.hpp") != code.source.npos || ! code.data.empty()) used.insert ("tactus/run/exported_data.hpp");
+    for (const auto& node : e.wiring.nodes)
+        used.insert (node.header);
+    const auto sources = withIncludes (used);
+    auto& files = folder.files;
+    files = { { e.stem + ".hpp", code.header },
+              { e.stem + ".cpp", code.source },
+              { "CMakeLists.txt", cmakeFile (e, sources) },
+              { "Makefile", makeFile (e, sources) },
+              { "README.md", readmeFile (e, limitsOf (e.wiring.plan)) },
+              { "LICENSE", std::string (findSource ("LICENSES/MIT.txt")->text) } };
+    if (! code.data.empty()) files.emplace_back (e.stem + "_data.hpp", code.data);
+    for (const auto& path : sources)
+        files.emplace_back (path, findSource (path)->text);
+}
+
+constexpr const char* manifest = "tactus_export.txt";
+}   // namespace
+
+ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& options)
+{
+    ExportedFolder folder;
+    Run run { catalogue(), options.compile, options.open ? options.open : simulatedDevices() };
+    folder.messages = run.load (graph);
+    if (hasErrors (folder.messages)) return folder;
+    const auto& plan = run.engine().plan();
+    refusePlugins (plan, folder.messages);
+    if (hasErrors (folder.messages)) return folder;
+
+    Wiring wiring { plan, options.compile.feeds, ownWords() };
+    Exported e { .graph = graph, .wiring = wiring, .file = options.file, .stem = stemOf (options.file), .class_name = {}, .program = options.program,
+                 .parameters = parametersOf (wiring), .controls = {}, .hits = {}, .roles = {} };
+    e.class_name = className (e.stem);
+    if (const auto same = compile (graph, catalogue(), options.compile); same.plan) e.controls = controlsOf (graph, wiring, e.parameters, same.plan);
+    Names hits;
+    for (const auto& name : wiring.hit_names)
+        e.hits.push_back (hits.make (name));
+
+    run.openDevices (graph, folder.messages);
+    if (hasErrors (folder.messages)) return folder;
+    e.roles = rolesOf (run);
+    const auto code = classFiles (e);   // before the run, because it moves the values
+    addFiles (folder, e, code);
+    auto self_test = selfTestFiles (e, selfTestOf (run, e));
+    folder.files.emplace_back (e.stem + "_self_test.cpp", std::move (self_test.source));
+    folder.files.emplace_back (e.stem + "_self_test_data.hpp", std::move (self_test.data));
+    folder.stem = e.stem;
+    folder.class_name = e.class_name;
+    return folder;
+}
+
+bool canWriteFolder (const fs::path& path)
+{
+    std::error_code unseen;
+    return ! fs::exists (path, unseen) || (fs::is_directory (path, unseen) && (fs::is_empty (path, unseen) || fs::exists (path / manifest, unseen)));
+}
+
+namespace
+{
+/// Writes all files, and last the list of them.
+Result<> writeFiles (const ExportedFolder& folder, const fs::path& path)
+{
+    std::string list;
+    for (const auto& [name, text] : folder.files)
+    {
+        if (auto written = writeTextFile (path / name, text); ! written) return written;
+        list += name + "\n";
+    }
+    return writeTextFile (path / manifest, list);
+}
+
+/// Removes the files of an earlier export that this one does not have. Files of others stay.
+void removeOld (const ExportedFolder& folder, const fs::path& path, const std::string& list)
+{
+    std::set<std::string> names;
+    for (const auto& [name, text] : folder.files)
+        names.insert (name);
+    for (std::size_t i = 0; i < list.size();)
+    {
+        const auto end = std::min (list.find ('\n', i), list.size());
+        const fs::path name = list.substr (i, end - i);
+        i = end + 1;
+        const bool is_inside = name.is_relative() && std::ranges::none_of (name, [] (const fs::path& part) { return part == ".."; });
+        std::error_code ignored;
+        if (is_inside && ! names.contains (name.generic_string())) fs::remove (path / name, ignored);
+    }
+}
+}   // namespace
+
+Result<> writeFolder (const ExportedFolder& folder, const fs::path& path)
+{
+    if (! canWriteFolder (path))
+        return Message::error ("output/exists", path.string(), "the folder is not empty, and holds no earlier export", "name a new folder with -o");
+    if (const auto earlier = readTextFile (path / manifest))
+    {
+        removeOld (folder, path, *earlier);
+        return writeFiles (folder, path);
+    }
+    auto target = fs::absolute (path).lexically_normal();
+    if (! target.has_filename()) target = target.parent_path();
+    const fs::path beside = target.string() + ".new";   // a new folder appears whole, or not at all
+    std::error_code failed, ignored;
+    fs::remove_all (beside, ignored);
+    auto written = writeFiles (folder, beside);
+    if (written)
+    {
+        fs::remove (target, ignored);   // if it exists, it is empty
+        fs::rename (beside, target, failed);
+        if (failed) written = Message::error ("output/unwritable", path.string(), "the folder cannot be written: " + failed.message(), "name another folder with -o");
+    }
+    if (! written) fs::remove_all (beside, ignored);
+    return written;
+}
+
+}   // namespace tactus::host

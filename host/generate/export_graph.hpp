@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tactus/plan/compile.hpp>
+#include <tactus/run/run.hpp>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tactus::host
+{
+
+struct ExportOptions
+{
+    std::string file;         ///< name of the graph file, for comments; its stem names the class
+    std::string program;      ///< "tactus 0.2.0"
+    CompileOptions compile;   ///< feeds become inputs, and records outputs
+    Run::OpenDevice open;     ///< the devices of the self-test; empty: those that the graph describes, simulated
+};
+
+/// A folder of C++ files that is not written yet.
+struct ExportedFolder
+{
+    std::vector<std::pair<std::string, std::string>> files;   ///< path and text; empty if there are errors
+    std::string stem, class_name;
+    Messages messages;
+};
+
+/// Turns a graph into C++ code that computes the same bits, with a self-test. Ids of its own: export/plugin (a node whose code is not part
+/// of the program). [main thread]
+ExportedFolder exportGraph (const graph::Graph&, const ExportOptions&);
+
+/// Writes the files into a folder that is new or empty, or holds an earlier export, whose files are replaced. Errors: output/exists,
+/// output/unwritable. [main thread]
+Result<> writeFolder (const ExportedFolder&, const std::filesystem::path&);
+
+/// True if the folder is new or empty or holds an earlier export.
+bool canWriteFolder (const std::filesystem::path&);
+
+}   // namespace tactus::host

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "self_test_run.hpp"
+
+#include <tactus/run/device/make_device.hpp>
+#include <tactus/run/turn.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr double not_kept = std::numeric_limits<double>::quiet_NaN();   // equals no value, so the column is never left out
+
+/// A number to keep on every tick.
+struct Kept
+{
+    std::string target;
+    std::function<double()> value;
+    double idle = 0.0;   ///< a column of only this value is left out
+};
+
+/// A component of a vector in this reading or effort, as code and as its address.
+void addVector (std::vector<Kept>& all, const std::string& name, const Vec3& v, const std::string& end = {})
+{
+    for (int c = 0; c < 3; ++c)
+        all.push_back ({ name + "." + "xyz"[c] + "()" + end, [&v, c] { return v[c]; } });
+}
+
+void addReading (std::vector<Kept>& all, const std::string& name, const Reading& r)
+{
+    addVector (all, name + ".position", r.position, " = @");
+    addVector (all, name + ".rotation", r.rotation, " = @");
+    addVector (all, name + ".true_position", r.true_position, " = @");
+    addVector (all, name + ".true_velocity", r.true_velocity, " = @");
+    addVector (all, name + ".unrendered_force", r.unrendered_force, " = @");
+    addVector (all, name + ".unrendered_torque", r.unrendered_torque, " = @");
+    all.push_back ({ name + ".pressure = @", [&r] { return r.pressure; } });
+    all.push_back ({ name + ".age = @", [&r] { return r.age; } });
+    all.push_back ({ name + ".valid = @ != 0.0", [&r] { return r.valid ? 1.0 : 0.0; }, 1.0 });
+    all.push_back ({ name + ".buttons = static_cast<std::uint32_t> (@)", [&r] { return static_cast<double> (r.buttons); } });
+}
+
+void addChannels (std::vector<Kept>& all, const std::string& name, const Channels& channels, int count, bool is_input)
+{
+    for (int i = 0; i < count; ++i)
+        all.push_back ({ is_input ? name + ".set (" + std::to_string (i) + ", @)" : name + "[" + std::to_string (i) + "]",
+                         [&channels, i] { return channels[i]; },
+                         is_input ? not_kept : 0.0 });
+}
+
+class Recording
+{
+public:
+    Recording (Run& r, const Exported& e_) : run (r), e (e_), plan (r.engine().plan())
+    {
+        for (std::size_t i = 0; i < plan.roles().size(); ++i)
+            addRole (i);
+        for (std::size_t f = 0; f < e.wiring.feed_names.size(); ++f)
+            inputs.push_back ({ "in." + e.wiring.feed_names[f] + " = @", [this, f] { return plan.feeds()[f]; } });
+        for (std::size_t t = 0; t < plan.taps().size(); ++t)
+            addTap (t);
+        test.inputs.resize (inputs.size());
+        test.outputs.resize (outputs.size());
+    }
+
+    SelfTest record()
+    {
+        constexpr std::size_t shortest = 1000, longest = 3000, after_contact = 500;
+        std::optional<std::size_t> contact;
+        for (std::size_t k = 0; k < longest && (k < shortest || ! contact || k < *contact + after_contact); ++k)
+        {
+            act (k, contact);
+            for (std::size_t f = 0; f < plan.feeds().size(); ++f)
+                plan.feeds()[f] = std::sin (0.01 * static_cast<double> (k * (f + 1)));
+            run.tick();
+            keep (inputs, test.inputs);
+            keep (outputs, test.outputs);
+            test.ticks = k + 1;
+            for (std::size_t i = 0; i < plan.roles().size() && ! contact; ++i)
+                if (plan.roles()[i].state->applied.force.norm() > 1e-3) contact = k;
+        }
+        dropIdle (inputs, test.inputs);
+        for (std::size_t i = 0; i < outputs.size(); ++i)
+            test.outputs[i].target = outputs[i].target;
+        return std::move (test);
+    }
+
+private:
+    Run& run;
+    const Exported& e;
+    Plan& plan;
+    std::vector<Kept> inputs, outputs;
+    SelfTest test;
+
+    void addRole (std::size_t i)
+    {
+        const auto& state = *plan.roles()[i].state;
+        const auto in = "in." + e.wiring.role_ports[i], out = "out." + e.wiring.role_ports[i];
+        addReading (inputs, in, state.reading);
+        addChannels (inputs, in + ".axes", state.reading.axes, static_cast<int> (state.layout.axes.size()), true);
+        addChannels (inputs, in + ".signals", state.reading.signals, state.layout.signal_inputs, true);
+        addVector (outputs, out + ".force", state.applied.force);
+        addVector (outputs, out + ".torque", state.applied.torque);
+        addChannels (outputs, out + ".axes", state.applied.axes, static_cast<int> (state.layout.efforts.size()), false);
+        addChannels (outputs, out + ".signals", state.applied.signals, state.layout.signal_outputs, false);
+    }
+
+    void addTap (std::size_t t)
+    {
+        const auto& tap = plan.taps()[t];
+        const auto name = "out." + e.wiring.tap_names[t];
+        if (tap.samples == nullptr)
+            outputs.push_back ({ name, [&tap] { return *tap.value; } });
+        else
+            for (int i = 0; i < tap.per_tick; ++i)
+                outputs.push_back ({ name + "[" + std::to_string (i) + "]", [&tap, i] { return tap.samples[i]; } });
+    }
+
+    static void keep (const std::vector<Kept>& all, std::vector<SelfTestColumn>& columns)
+    {
+        for (std::size_t i = 0; i < all.size(); ++i)
+            columns[i].values.push_back (all[i].value());
+    }
+
+    /// Names the columns, and drops inputs that are never used.
+    static void dropIdle (const std::vector<Kept>& all, std::vector<SelfTestColumn>& columns)
+    {
+        std::size_t n = 0;
+        for (std::size_t i = 0; i < all.size(); ++i)
+        {
+            const bool is_used = std::ranges::any_of (columns[i].values, [&] (double v) { return ! (v == all[i].idle) || std::signbit (v); });
+            if (! is_used) continue;
+            auto column = std::move (columns[i]);
+            column.target = all[i].target;
+            columns[n++] = std::move (column);
+        }
+        columns.resize (n);
+    }
+
+    /// Parameters, controls and hits are tried at fixed times, and again in the contact, if there is one.
+    void act (std::size_t k, const std::optional<std::size_t>& contact)
+    {
+        for (const auto from : { std::optional<std::size_t> (200), contact })
+        {
+            if (! from || (from != contact && contact && *contact <= 200)) continue;
+            if (k == *from + 100) turnParams (k);
+            if (k == *from + 200) turnControls (k, from == contact ? 0.2 : 0.9);
+            if (k == *from + 300) hitInputs (k);
+        }
+    }
+
+    void turnParams (std::size_t k)
+    {
+        constexpr std::size_t most = 12;
+        for (std::size_t i = 0; i < std::min (most, e.parameters.size()); ++i)
+        {
+            const auto number = i * e.parameters.size() / std::min (most, e.parameters.size());
+            const auto& p = e.parameters[number];
+            const auto& hard = p.sheet->limits.hard;
+            double value = p.value == 0.0 ? 0.01 : 1.125 * p.value;
+            if (! p.sheet->choices.empty()) value = static_cast<double> ((static_cast<std::size_t> (p.value) + 1) % p.sheet->choices.size());
+            else value = hard.clamp (value);
+            run.engine().set ({ plan.instances()[e.wiring.nodes[p.node].instance].knobs, p.knob, p.sheet }, value);
+            test.events.push_back ({ k, SelfTestEvent::Kind::param, number, value });
+        }
+    }
+
+    void turnControls (std::size_t k, double position)
+    {
+        for (std::size_t i = 0; i < e.controls.size(); ++i)
+            if (turnControl (run.engine(), e.graph, e.controls[i].id, position)) test.events.push_back ({ k, SelfTestEvent::Kind::control, i, position });
+    }
+
+    void hitInputs (std::size_t k)
+    {
+        for (std::size_t i = 0; i < e.wiring.hits.size(); ++i)
+        {
+            const auto& [instance, pulse] = e.wiring.hits[i];
+            constexpr double speed = 0.25;
+            run.engine().strike ({ plan.instances()[instance].knobs, pulse }, speed);
+            test.events.push_back ({ k, SelfTestEvent::Kind::hit, i, speed });
+        }
+    }
+};
+}   // namespace
+
+Run::OpenDevice simulatedDevices()
+{
+    return [] (const std::string& role, const graph::Graph& graph, const Plan&, Messages& messages) -> Run::RoleDevice {
+        const auto* described = graph.device (role);
+        auto description = described != nullptr ? *described : Json {};
+        const auto driver = description.is_object() && description.contains ("driver") ? description.at ("driver") : Json {};
+        if (driver != Json ("sim") && driver != Json ("trace") && driver != Json ("gesture"))
+            if (auto option = parseDeviceOption (role + "=sim", graph.devices, graph.folder)) description = option->description;
+        auto made = makeDevice (description, graph.folder);
+        for (auto& m : made.messages)
+        {
+            m.where = "/devices/" + role + m.where;
+            messages.push_back (std::move (m));
+        }
+        return { std::move (made.device), made.limits };
+    };
+}
+
+SelfTest selfTestOf (Run& run, const Exported& e) { return Recording { run, e }.record(); }
+
+}   // namespace tactus::host

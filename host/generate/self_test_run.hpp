@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "self_test_code.hpp"
+
+#include <tactus/run/run.hpp>
+
+namespace tactus::host
+{
+
+/// Opens the devices that the graph describes. Those that are real are simulated.
+Run::OpenDevice simulatedDevices();
+
+/// Runs the graph with the engine of this program, turns its controls and parameters, hits its inputs, and keeps all inputs and outputs.
+SelfTest selfTestOf (Run&, const Exported&);
+
+}   // namespace tactus::host

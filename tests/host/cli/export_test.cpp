@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "program.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+
+using namespace tactus::test;
+
+TEST_CASE ("an exported folder builds and passes its self-test alone", "[cli][export]")
+{
+    const Scratch scratch;
+    const auto folder = scratch.path ("dry_wood");
+    const auto ran = runTactus ({ "export", TACTUS_SOURCE_DIR "/graphs/dry_wood.json", "-o", folder });
+    INFO (ran.err);
+    REQUIRE (ran.status == 0);
+    CHECK (ran.err.empty());
+    CHECK (ran.out.find ("DryWood") != std::string::npos);
+    for (const auto* file : { "dry_wood.hpp", "dry_wood.cpp", "CMakeLists.txt", "Makefile", "README.md", "LICENSE", "tactus/nodes/friction/elasto_plastic.hpp" })
+        CHECK (std::filesystem::exists (folder + "/" + file));
+
+    const auto said = scratch.path ("said");
+    const auto make = "make -s -C '" + folder + "' test CXXFLAGS='-O0 -Wall -Wextra -Werror' > '" + said + "' 2>&1";
+    const int status = std::system (make.c_str());
+    INFO (textOf (said));
+    CHECK (status == 0);
+    CHECK (textOf (said).find ("0 allocations in ") != std::string::npos);
+}
+
+TEST_CASE ("export replaces only its own folders, and writes nothing if something is wrong", "[cli][export]")
+{
+    const Scratch scratch;
+    const auto folder = scratch.path ("out");
+    const auto graph = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 2, "devices": {}, "nodes": { "a": { "type": "signal.constant" } }, "wires": [] })");
+    checkRefused ({ "export", graph, "-o", folder, "--to", "arduino" }, 2, "does not exist yet", folder);
+    checkRefused ({ "export", graph, "-o", folder, "--to", "cpq" }, 2, "cpp", folder);
+    checkRefused ({ "export", graph }, 2, "--out", folder);
+    checkRefused ({ "export", scratch.path ("none.json"), "-o", folder }, 1, "none.json", folder);
+    const auto unknown = scratch.write ("u.json", R"({ "format": "tactus-graph", "version": 2, "devices": {}, "nodes": { "a": { "type": "my.node" } }, "wires": [] })");
+    checkRefused ({ "export", unknown, "-o", folder }, 1, "my.node", folder);
+
+    REQUIRE (runTactus ({ "export", graph, "-o", folder, "--record", "a.out" }).status == 0);
+    CHECK (textOf (folder + "/g.hpp").find ("a_out") != std::string::npos);
+    std::filesystem::copy_file (graph, folder + "/mine.json");
+    REQUIRE (runTactus ({ "export", graph, "-o", folder, "--set", "a.value=3", "--record", "a.out" }).status == 0);
+    CHECK (textOf (folder + "/g.cpp").find ("a.params.value, 3.0") != std::string::npos);
+    CHECK (std::filesystem::exists (folder + "/mine.json"));
+
+    const auto other = scratch.path ("other");
+    std::filesystem::create_directories (other);
+    std::filesystem::copy_file (graph, other + "/mine.json");
+    checkRefused ({ "export", graph, "-o", other }, 1, "is not empty", other + "/g.hpp");
+    CHECK (std::filesystem::exists (other + "/mine.json"));
+}
