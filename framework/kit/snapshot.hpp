@@ -38,15 +38,15 @@ public:
             words[i].store (word, std::memory_order_release);
         };
         const auto size = std::min ((bytes + sizeof (std::uint64_t) - 1) / sizeof (std::uint64_t), words.size());
-        std::size_t i = 0;
-        for (; i + 4 <= size; i += 4)   // a run publishes its status on every tick: this takes half of the instructions
+        const auto in_fours = size - size % 4;
+        for (std::size_t i = 0; i < in_fours; i += 4)   // a run publishes its status on every tick: this takes half of the instructions
         {
             put (i);
             put (i + 1);
             put (i + 2);
             put (i + 3);
         }
-        for (; i < size; ++i)
+        for (std::size_t i = in_fours; i < size; ++i)
             put (i);
         sequence.store (n + 2, std::memory_order_release);
     }
