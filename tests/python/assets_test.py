@@ -157,7 +157,7 @@ class Refused(TestCase):
         engine = tactus.Engine(graph, feed={"it.position": PATH[300]}, record=["it.force"], assets=breaks_later)
         before = engine.step(n=5)["it.force"]
         self.assertRaises(ZeroDivisionError, engine.edit, graph)
-        self.assertEqual(engine.step(n=5)["it.force"].shape, before.shape)   # the graph before the edit goes on
+        self.assertEqual(engine.step(n=5)["it.force"].shape, before.shape)   # the graph before the edit keeps playing
 
     def test_limits_are_those_of_the_program(self):
         try:
