@@ -61,8 +61,7 @@ void run (const Options& options)
     if (report (folder.messages, loaded, options.graph) > 0) throw Stop {};
     if (auto written = writeFolder (folder, options.folder); ! written) fail (written.error());
     std::cout << options.folder << ": " << folder.class_name << " in " << folder.stem << ".hpp, " << folder.files.size() << " files\n"
-              << "try it: cmake -S " << options.folder << " -B " << options.folder << "/build && cmake --build " << options.folder << "/build && ctest --test-dir "
-              << options.folder << "/build\n";
+              << "try it: make -C " << options.folder << " test\n";
 }
 }   // namespace
 

@@ -77,7 +77,8 @@ std::string inputsAndOutputs (const Exported& e)
     {
         const auto& tap = e.wiring.plan.taps()[i];
         const auto& name = e.wiring.tap_names[i];
-        text += tap.samples == nullptr ? "        double " + name + " = 0.0;" : "        std::array<double, " + std::to_string (tap.per_tick) + "> " + name + " {};";
+        const auto count = std::to_string (tap.per_tick);
+        text += "        " + (tap.samples == nullptr ? "double " + name + " = 0.0;" : "std::array<double, " + count + "> " + name + " {};");
         text += "   ///< " + comment (tap.name) + (tap.unit.empty() ? "" : ", in " + tap.unit) + "\n";
     }
     return text + "    };\n\n";
@@ -178,7 +179,8 @@ std::string rolesOf (const Exported& e)
     std::string text;
     for (std::size_t i = 0; i < e.roles.size(); ++i)
     {
-        text += "    /// The device in the role " + comment (e.roles[i].name) + ": its limits, what it has, and its guard. Change limits and layout before prepare().\n";
+        text += "    /// The device in the role " + comment (e.roles[i].name) + ": its limits, what it has, and its guard.\n"
+                                                                                "    /// Change limits and layout before prepare().\n";
         text += wrapped ("    ", "tactus::exported::Role " + e.wiring.role_names[i] + " {",
                          { ".limits = " + limitsOf (e.roles[i].limits), ".layout = " + layoutOf (e.roles[i].layout) }, "};");
         text += "\n";
@@ -196,7 +198,9 @@ std::string state (const Exported& e)
     if (! hasState (e)) return {};
     std::string text = "    /// What lasts from one tick to the next, apart from the nodes.\n    struct State\n    {\n";
     for (const auto& [type, name] : e.wiring.kept)
-        text += "        " + type + " " + name + (type == "double" ? " = 0.0" : type == "std::uint64_t" ? " = 0" : " {}") + ";\n";
+        text += "        " + type + " " + name + (type == "double" ? " = 0.0" : type == "std::uint64_t" ? " = 0"
+                                                                                                        : " {}")
+                + ";\n";
     for (const auto& n : e.wiring.nodes)
         if (n.is_inner && n.is_read) text += "        " + n.type + "::Outputs " + n.name + "_out {};\n";
     return text + "    };\n\n    State state {};\n";
@@ -233,7 +237,8 @@ std::string header (const Exported& e)
             + "/// All functions are for one thread, the one that ticks. An object must not be moved, because nodes point to their devices.\nclass "
             + e.class_name + "\n{\npublic:\n    static constexpr double rate_hz = " + literal (e.wiring.plan.rateHz()) + ";   ///< the rate of the patch\n\n";
     text += inputsAndOutputs (e) + enums (e);
-    text += "    " + e.class_name + "() = default;\n    " + e.class_name + " (const " + e.class_name + "&) = delete;\n    " + e.class_name + "& operator= (const "
+    text += "    " + e.class_name + "() = default;\n    " + e.class_name + " (const " + e.class_name + "&) = delete;\n    " + e.class_name
+            + "& operator= (const "
             + e.class_name + "&) = delete;\n\n";
     return text + functions (e) + rolesOf (e) + members (e) + "};\n";
 }
@@ -284,7 +289,7 @@ std::string meet (const Exported& e, const ExportedNode& n)
 std::string prepare (const Exported& e, SettingCode& settings)
 {
     std::string text = "void " + e.class_name + "::prepare (double ticks_per_second)\n{\n    using tactus::exported::renew, tactus::exported::start;\n"
-                       "    ticks = 0;\n";
+                                                "    ticks = 0;\n";
     if (hasState (e)) text += "    renew (state);\n";
     if (! e.parameters.empty()) text += "    parameters.prepare (ticks_per_second);\n";
     if (! e.hits.empty()) text += "    hits.fill ({});\n";
@@ -308,9 +313,11 @@ std::string prepare (const Exported& e, SettingCode& settings)
 std::string setControl (const Exported& e)
 {
     if (e.controls.empty()) return {};
-    std::string text = "void " + e.class_name + "::set (Control control, double position) noexcept\n{\n    if (! (position >= 0.0 && position <= 1.0)) return;\n"
-                       "    const auto turn = [this, position] (Param param, double low, double high) noexcept {\n"
-                       "        set (param, position == 0.0 ? low : low + position * (high - low));\n    };\n    switch (control)\n    {\n";
+    std::string text = "void " + e.class_name + "::set (Control control, double position) noexcept\n{\n"
+                                                "    if (! (position >= 0.0 && position <= 1.0)) return;\n"
+                                                "    const auto turn = [this, position] (Param param, double low, double high) noexcept {\n"
+                                                "        set (param, position == 0.0 ? low : low + position * (high - low));\n    };\n"
+                                                "    switch (control)\n    {\n";
     for (const auto& c : e.controls)
     {
         text += "    case Control::" + c.enumerator + ":\n";
@@ -355,12 +362,15 @@ ClassFiles classFiles (const Exported& e)
     const auto prepared = prepare (e, settings);
     files.header = header (e);
     if (settings.usesData())
-        files.data = std::string (license) + "// The constant tables of " + comment (e.file) + ".\n#pragma once\n\n#include <tactus/run/exported_data.hpp>\n\nnamespace "
+        files.data = std::string (license) + "// The constant tables of " + comment (e.file) + ".\n#pragma once\n\n"
+                                                                                               "#include <tactus/run/exported_data.hpp>\n\nnamespace "
                      + space + "\n{\n\n" + settings.data() + "}   // namespace " + space + "\n";
     const bool needs_lists = prepared.find ("tactus::exported::listOf") != prepared.npos;
     files.source = std::string (license) + "#include \"" + e.stem + ".hpp\"\n";
-    if (settings.usesData()) files.source += "#include \"" + space + ".hpp\"\n";
-    else if (needs_lists) files.source += "#include <tactus/run/exported_data.hpp>\n";
+    if (settings.usesData())
+        files.source += "#include \"" + space + ".hpp\"\n";
+    else if (needs_lists)
+        files.source += "#include <tactus/run/exported_data.hpp>\n";
     files.source += "\n#include <memory>\n\nusing tactus::exported::sumOf;\n";
     files.source += "\n" + prepared + setControl (e) + tick (e, body);
     return files;

@@ -14,16 +14,16 @@ namespace tactus::host
 namespace
 {
 constexpr std::string_view words_of_cpp[] {
-    "alignas",   "alignof",      "and",          "and_eq",        "asm",       "auto",     "bitand",    "bitor",      "bool",      "break",
-    "case",      "catch",        "char",         "char16_t",      "char32_t",  "char8_t",  "class",     "co_await",   "co_return", "co_yield",
-    "compl",     "concept",      "const",        "const_cast",    "consteval", "constexpr", "constinit", "continue",  "decltype",  "default",
-    "delete",    "do",           "double",       "dynamic_cast",  "else",      "enum",     "explicit",  "export",     "extern",    "false",
-    "float",     "for",          "friend",       "goto",          "if",        "inline",   "int",       "long",       "mutable",   "namespace",
-    "new",       "noexcept",     "not",          "not_eq",        "nullptr",   "operator", "or",        "or_eq",      "private",   "protected",
-    "public",    "register",     "reinterpret_cast", "requires",  "return",    "short",    "signed",    "sizeof",     "static",    "static_assert",
-    "static_cast", "struct",     "switch",       "template",      "this",      "thread_local", "throw", "true",       "try",       "typedef",
-    "typeid",    "typename",     "union",        "unsigned",      "using",     "virtual",  "void",      "volatile",   "wchar_t",   "while",
-    "xor",       "xor_eq",       "linux",        "unix",          "main",      "errno",    "stdin",     "stdout",     "stderr",    "assert"
+    "alignas", "alignof", "and", "and_eq", "asm", "auto", "bitand", "bitor", "bool", "break",
+    "case", "catch", "char", "char16_t", "char32_t", "char8_t", "class", "co_await", "co_return", "co_yield",
+    "compl", "concept", "const", "const_cast", "consteval", "constexpr", "constinit", "continue", "decltype", "default",
+    "delete", "do", "double", "dynamic_cast", "else", "enum", "explicit", "export", "extern", "false",
+    "float", "for", "friend", "goto", "if", "inline", "int", "long", "mutable", "namespace",
+    "new", "noexcept", "not", "not_eq", "nullptr", "operator", "or", "or_eq", "private", "protected",
+    "public", "register", "reinterpret_cast", "requires", "return", "short", "signed", "sizeof", "static", "static_assert",
+    "static_cast", "struct", "switch", "template", "this", "thread_local", "throw", "true", "try", "typedef",
+    "typeid", "typename", "union", "unsigned", "using", "virtual", "void", "volatile", "wchar_t", "while",
+    "xor", "xor_eq", "linux", "unix", "main", "errno", "stdin", "stdout", "stderr", "assert"
 };
 
 bool isWord (char c) { return std::isalnum (static_cast<unsigned char> (c)) != 0; }
@@ -110,6 +110,14 @@ std::string wrapped (std::string_view indent, const std::string& head, const std
     for (std::size_t i = 0; i < parts.size(); ++i)
         all += std::string (indent) + "    " + parts[i] + (i + 1 < parts.size() ? "," : "") + "\n";
     return all + std::string (indent) + std::string (end) + "\n";
+}
+
+std::string filled (std::string text, const std::vector<std::pair<std::string, std::string>>& marks)
+{
+    for (const auto& [mark, word] : marks)
+        for (auto at = text.find (mark); at != std::string::npos; at = text.find (mark, at + word.size()))
+            text.replace (at, mark.size(), word);
+    return text;
 }
 
 std::string Names::make (std::string_view text, const std::vector<std::string>& endings)

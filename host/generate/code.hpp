@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace tactus::host
@@ -31,6 +32,9 @@ std::string listed (const std::vector<std::string>&, std::string_view between = 
 
 /// What begins with `head` and has these parts: on one line if it fits, else with each part on a line of its own. `end` closes it.
 std::string wrapped (std::string_view indent, const std::string& head, const std::vector<std::string>& parts, std::string_view end);
+
+/// A text in which each mark, such as @STEM@, is replaced by what belongs there.
+std::string filled (std::string text, const std::vector<std::pair<std::string, std::string>>& marks);
 
 /// Gives out names that are unique in their scope and are no words of C++.
 class Names

@@ -31,19 +31,18 @@ const std::set<std::string>& ownWords()
     return words;
 }
 
-void refuse (Messages& messages, std::string id, const std::string& where, std::string text, std::string remedy)
-{
-    messages.push_back (Message::error (std::move (id), where, std::move (text), std::move (remedy)));
-}
-
 /// Names everything that cannot be exported.
 void refusePlugins (const Plan& plan, Messages& messages)
 {
     for (const auto& node : plan.flat().nodes)
-        if (node.runs() && (! node.type->origin.empty() || classOf (node.type->info.id).header.empty()))
-            refuse (messages, "export/plugin", "", quote (node.path) + " (" + std::string (node.type->info.id) + ") cannot be exported: its code is "
-                        + (node.type->origin.empty() ? std::string ("not part of this program") : "in the plugin " + node.type->origin),
-                    "bypass it, or use a node that `tactus nodes` lists without a plugin");
+    {
+        const bool is_ours = node.type->origin.empty();
+        if (! node.runs() || (is_ours && ! classOf (node.type->info.id).header.empty())) continue;
+        const auto where = is_ours ? std::string ("not part of this program") : "in the plugin " + node.type->origin;
+        messages.push_back (Message::error ("export/plugin", "",
+                                            quote (node.path) + " (" + std::string (node.type->info.id) + ") cannot be exported: its code is " + where,
+                                            "bypass it, or use a node that `tactus nodes` lists without a plugin"));
+    }
 }
 
 std::vector<std::string> limitsOf (const Plan& plan)
@@ -52,8 +51,9 @@ std::vector<std::string> limitsOf (const Plan& plan)
     for (const auto& node : plan.flat().nodes)
         for (std::size_t i = 0; node.runs() && i < node.settings.size(); ++i)
             if (node.type->settings[i].id == "search_ticks" && std::get<double> (node.settings[i]) > 0.0)
-                all.push_back ("`" + node.path + "` searches its mesh in the background in Tactus. Here it searches within the tick on which the answer is due, so that "
-                               "tick takes longer.");
+                all.push_back ("`" + node.path + "` searches its mesh in the background in Tactus. Here it searches within the tick on which the answer is "
+                               "due, so "
+                                                 "that tick takes longer.");
     return all;
 }
 
@@ -120,7 +120,7 @@ std::vector<ExportedControl> controlsOf (const graph::Graph& graph, const Wiring
             std::vector<std::uint32_t> turns;
             for (const auto& p : parameters)
                 turns.push_back (same->instances()[wiring.nodes[p.node].instance].knobs->all[p.knob].turns);
-            (void) turnControl (engine, end == 0 ? graph : reversed, control.id, 0.0);
+            (void)turnControl (engine, end == 0 ? graph : reversed, control.id, 0.0);
             ends[end] = targets (wiring, parameters, *same, turns);
         }
         for (std::size_t i = 0; i < parameters.size(); ++i)
@@ -175,24 +175,36 @@ constexpr const char* manifest = "tactus_export.txt";
 ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& options)
 {
     ExportedFolder folder;
-    Run run { catalogue(), options.compile, options.open ? options.open : simulatedDevices() };
-    folder.messages = run.load (graph);
+    Run tried { catalogue(), options.compile, options.open ? options.open : simulatedDevices() };
+    folder.messages = tried.load (graph);
     if (hasErrors (folder.messages)) return folder;
-    const auto& plan = run.engine().plan();
-    refusePlugins (plan, folder.messages);
+    refusePlugins (tried.engine().plan(), folder.messages);
+    tried.openDevices (graph, folder.messages);
     if (hasErrors (folder.messages)) return folder;
 
+    Run run { catalogue(), options.compile, repeatedDevices (tried) };
+    (void)run.load (graph);   // as before, so it has the same messages
+    Messages known;
+    run.openDevices (graph, known);
+    const auto& plan = run.engine().plan();
+
     Wiring wiring { plan, options.compile.feeds, ownWords() };
-    Exported e { .graph = graph, .wiring = wiring, .file = options.file, .stem = stemOf (options.file), .class_name = {}, .program = options.program,
-                 .parameters = parametersOf (wiring), .controls = {}, .hits = {}, .roles = {} };
+    Exported e { .graph = graph,
+                 .wiring = wiring,
+                 .file = options.file,
+                 .stem = stemOf (options.file),
+                 .class_name = {},
+                 .program = options.program,
+                 .parameters = parametersOf (wiring),
+                 .controls = {},
+                 .hits = {},
+                 .roles = {} };
     e.class_name = className (e.stem);
     if (const auto same = compile (graph, catalogue(), options.compile); same.plan) e.controls = controlsOf (graph, wiring, e.parameters, same.plan);
     Names hits;
     for (const auto& name : wiring.hit_names)
         e.hits.push_back (hits.make (name));
 
-    run.openDevices (graph, folder.messages);
-    if (hasErrors (folder.messages)) return folder;
     e.roles = rolesOf (run);
     const auto code = classFiles (e);   // before the run, because it moves the values
     addFiles (folder, e, code);
@@ -261,7 +273,8 @@ Result<> writeFolder (const ExportedFolder& folder, const fs::path& path)
     {
         fs::remove (target, ignored);   // if it exists, it is empty
         fs::rename (beside, target, failed);
-        if (failed) written = Message::error ("output/unwritable", path.string(), "the folder cannot be written: " + failed.message(), "name another folder with -o");
+        if (failed)
+            written = Message::error ("output/unwritable", path.string(), "the folder cannot be written: " + failed.message(), "name another folder with -o");
     }
     if (! written) fs::remove_all (beside, ignored);
     return written;

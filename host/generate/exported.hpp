@@ -21,7 +21,7 @@ struct ExportedParameter
     std::string enumerator;   ///< "drag_mu"
     std::size_t node = 0;     ///< number in Wiring::nodes
     const PortSheet* sheet = nullptr;
-    int slot = 0;             ///< component or entry
+    int slot = 0;   ///< component or entry
     std::size_t knob = 0;
     double value = 0.0;
 };

@@ -70,57 +70,103 @@ std::string tables (const Exported& e)
 
 std::string cmakeFile (const Exported& e, const std::set<std::string>& sources)
 {
-    return "# SPDX-License-Identifier: MIT\ncmake_minimum_required (VERSION 3.16)\nproject (" + e.stem
-           + " LANGUAGES CXX)\nfind_package (Eigen3 3.4 REQUIRED NO_MODULE)\n\nif (NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)\n"
-             "    set (CMAKE_BUILD_TYPE Release)\nendif ()\n\nadd_library ("
-           + e.stem + " STATIC" + compiled (e, sources, "\n    ") + ")\ntarget_compile_features (" + e.stem + " PUBLIC cxx_std_20)\ntarget_include_directories ("
-           + e.stem + " PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})\ntarget_link_libraries (" + e.stem
-           + " PUBLIC Eigen3::Eigen)\n# Without these flags, the bits may differ from those of Tactus.\ntarget_compile_options (" + e.stem
-           + " PUBLIC -ffp-contract=off -fno-math-errno -fno-trapping-math)\n\nenable_testing ()\nadd_executable (" + e.stem + "_self_test " + e.stem
-           + "_self_test.cpp)\ntarget_link_libraries (" + e.stem + "_self_test PRIVATE " + e.stem + ")\nadd_test (NAME " + e.stem + " COMMAND " + e.stem
-           + "_self_test)\n";
+    return filled (R"(# SPDX-License-Identifier: MIT
+cmake_minimum_required (VERSION 3.16)
+project (@STEM@ LANGUAGES CXX)
+find_package (Eigen3 3.4 REQUIRED NO_MODULE)
+
+if (NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+    set (CMAKE_BUILD_TYPE Release)
+endif ()
+
+add_library (@STEM@ STATIC@SOURCES@)
+target_compile_features (@STEM@ PUBLIC cxx_std_20)
+target_include_directories (@STEM@ PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
+target_link_libraries (@STEM@ PUBLIC Eigen3::Eigen)
+# Without these flags, the bits may differ from those of Tactus.
+target_compile_options (@STEM@ PUBLIC -ffp-contract=off -fno-math-errno -fno-trapping-math)
+
+enable_testing ()
+add_executable (@STEM@_self_test @STEM@_self_test.cpp)
+target_link_libraries (@STEM@_self_test PRIVATE @STEM@)
+add_test (NAME @STEM@ COMMAND @STEM@_self_test)
+)",
+                   { { "@SOURCES@", compiled (e, sources, "\n    ") }, { "@STEM@", e.stem } });
 }
 
 std::string makeFile (const Exported& e, const std::set<std::string>& sources)
 {
-    return "# SPDX-License-Identifier: MIT\n# make test: builds and runs the self-test. EIGEN is the folder of Eigen's headers.\nEIGEN ?= /usr/include/eigen3\n"
-           "CXXFLAGS ?= -O2 -Wall -Wextra\nFLAGS = -std=c++20 -I. -isystem $(EIGEN) -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti\n\n"
-           "sources ="
-           + compiled (e, sources, " \\\n    ") + "\nobjects = $(sources:.cpp=.o)\n\nlib" + e.stem
-           + ".a: $(objects)\n\t$(AR) rcs $@ $^\n\n%.o: %.cpp\n\t$(CXX) $(CXXFLAGS) $(FLAGS) -c -o $@ $<\n\n" + e.stem + "_self_test: " + e.stem + "_self_test.o lib"
-           + e.stem + ".a\n\t$(CXX) $(LDFLAGS) -o $@ $^\n\ntest: " + e.stem + "_self_test\n\t./" + e.stem + "_self_test\n\nclean:\n\trm -f $(objects) " + e.stem
-           + "_self_test.o " + e.stem + "_self_test lib" + e.stem + ".a\n\n.PHONY: test clean\n";
+    return filled (R"(# SPDX-License-Identifier: MIT
+# make test: builds and runs the self-test. EIGEN is the folder of Eigen's headers.
+EIGEN ?= /usr/include/eigen3
+CXXFLAGS ?= -O2 -Wall -Wextra
+FLAGS = -std=c++20 -I. -isystem $(EIGEN) -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti
+
+sources =@SOURCES@
+objects = $(sources:.cpp=.o)
+
+lib@STEM@.a: $(objects)
+	$(AR) rcs $@ $^
+
+%.o: %.cpp
+	$(CXX) $(CXXFLAGS) $(FLAGS) -c -o $@ $<
+
+@STEM@_self_test: @STEM@_self_test.o lib@STEM@.a
+	$(CXX) $(LDFLAGS) -o $@ $^
+
+test: @STEM@_self_test
+	./@STEM@_self_test
+
+clean:
+	rm -f $(objects) @STEM@_self_test.o @STEM@_self_test lib@STEM@.a
+
+.PHONY: test clean
+)",
+                   { { "@SOURCES@", compiled (e, sources, " \\\n    ") }, { "@STEM@", e.stem } });
 }
 
 std::string readmeFile (const Exported& e, const std::vector<std::string>& limits)
 {
-    std::string text = "# " + comment (e.graph.name.empty() ? e.stem : e.graph.name) + "\n\n";
-    if (! e.graph.about.empty()) text += comment (e.graph.about) + "\n\n";
-    text += "A graph of Tactus as C++20. `" + e.program + " export` wrote this folder from `" + comment (e.file)
-            + "`. It needs only Eigen 3.4 (headers) and the standard library, and is under the MIT licence.\n\n    cmake -B build && cmake --build build && ctest "
-              "--test-dir build\n    make test\n\nBoth build the self-test and run it. It compares every output of a recorded run with what Tactus computed, bit "
-              "for bit. It also prints how many bytes the graph takes, and how many `prepare` allocates.\n\n## Use it\n\n"
-            + example (e)
-            + "`" + e.stem + ".hpp` declares the class, and `" + e.stem + ".cpp` computes a tick: one statement per node, in running order. The laws of the nodes are in "
-              "`tactus/nodes/`, in the files of the patch's node types.\n\n"
-              "- All values are in SI units. x points right, y away from the person, z up.\n"
-              "- `tick` allocates nothing, throws nothing and locks nothing. `prepare` allocates what tables and meshes need, once.\n"
-              "- All functions are for one thread.\n"
-              "- Each role has a guard, which limits its effort and brings it to zero on bad readings. ";
     bool has_limits = true;
     for (const auto& role : e.roles)
         has_limits = has_limits && role.limits != GuardLimits {};
-    text += has_limits ? "Its limits are those of the patch. Set `limits` and `layout` of a role to those of your device before `prepare`.\n"
-                       : "**The patch sets no limits for every role.** Set `limits` and `layout` of each role to those of your device before `prepare`.\n";
-    text += "- The bits are those of Tactus if the code is compiled without contraction into fused multiply-adds (see `CMakeLists.txt`) and linked to the same "
-            "`libm`. Other versions of `libm` may differ in the last bits of `sin`, `exp` and the like.\n";
-    if (! limits.empty())
-    {
-        text += "\n## Limits\n\n";
-        for (const auto& l : limits)
-            text += "- " + comment (l) + "\n";
-    }
-    return text + "\n" + tables (e);
+    std::string more;
+    for (const auto& l : limits)
+        more += "- " + comment (l) + "\n";
+    return filled (R"(# @TITLE@
+
+@ABOUT@A graph of Tactus as C++20. `@PROGRAM@ export` wrote this folder from `@FILE@`. It needs only Eigen 3.4 (headers) and the
+standard library, and is under the MIT licence.
+
+    cmake -B build && cmake --build build && ctest --test-dir build
+    make test
+
+Either command builds the self-test and runs it. It compares every output of a recorded run with what Tactus computed, bit for bit. It
+also prints how many bytes the graph takes, and how many `prepare` allocates.
+
+## Use it
+
+@EXAMPLE@`@STEM@.hpp` declares the class, and `@STEM@.cpp` computes a tick: one statement per node, in running order. The laws of the
+nodes are in `tactus/nodes/`, one file per node type.
+
+- All values are in SI units. x points right, y away from the person, z up.
+- `tick` allocates nothing, throws nothing and locks nothing. `prepare` allocates what tables and meshes need, once.
+- All functions are for one thread.
+- Each role has a guard, which limits its effort and brings it to zero on bad readings. @LIMITS@ Set `limits` and `layout` of each role
+  to those of your device before `prepare`.
+- The bits are those of Tactus if the code is compiled without contraction into fused multiply-adds (see `CMakeLists.txt`) and linked to
+  the same `libm`. Another `libm` may differ in the last bits of `sin`, `exp` and the like.
+@MORE@
+@TABLES@)",
+                   { { "@TITLE@", comment (e.graph.name.empty() ? e.stem : e.graph.name) },
+                     { "@ABOUT@", e.graph.about.empty() ? "" : comment (e.graph.about) + "\n\n" },
+                     { "@LIMITS@", has_limits ? "Its limits are those of the patch." : "**The patch does not set limits for every role.**" },
+                     { "@EXAMPLE@", example (e) },
+                     { "@MORE@", more },
+                     { "@TABLES@", tables (e) },
+                     { "@PROGRAM@", e.program },
+                     { "@FILE@", comment (e.file) },
+                     { "@STEM@", e.stem } });
 }
 
 }   // namespace tactus::host

@@ -119,14 +119,6 @@ int main()
 #endif
 )";
 
-std::string filled (std::string text, const std::vector<std::pair<std::string, std::string>>& words)
-{
-    for (const auto& [mark, word] : words)
-        for (auto at = text.find (mark); at != std::string::npos; at = text.find (mark, at + word.size()))
-            text.replace (at, mark.size(), word);
-    return text;
-}
-
 std::string arrayOf (const std::string& name, const std::vector<double>& values)
 {
     constexpr std::size_t most_columns = 150;
@@ -154,7 +146,7 @@ std::string events (const Exported& e, const SelfTest& test)
         using Event = SelfTestEvent::Kind;
         const auto what = event.kind == Event::param     ? "set (" + e.class_name + "::Param::" + e.parameters[event.number].enumerator
                           : event.kind == Event::control ? "set (" + e.class_name + "::Control::" + e.controls[event.number].enumerator
-                                                        : "strike (" + e.class_name + "::Hit::" + e.hits[event.number];
+                                                         : "strike (" + e.class_name + "::Hit::" + e.hits[event.number];
         text += "        graph." + what + ", " + literal (event.value) + ");\n";
         if (i + 1 == test.events.size() || event.tick != test.events[i + 1].tick) text += "        break;\n";
     }
@@ -166,7 +158,9 @@ SelfTestFiles selfTestFiles (const Exported& e, const SelfTest& test)
 {
     SelfTestFiles files;
     const auto space = e.stem + "_self_test";
-    files.data = "// SPDX-License-Identifier: MIT\n// Inputs, and the outputs that Tactus computed from them.\n#pragma once\n\n#include <limits>\n\nnamespace " + space
+    files.data = "// SPDX-License-Identifier: MIT\n// Inputs, and the outputs that Tactus computed from them.\n#pragma once\n\n#include <limits>\n\n"
+                 "namespace "
+                 + space
                  + "\n{\n\ninline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();\n\n";
     std::string inputs, checks;
     for (std::size_t i = 0; i < test.inputs.size(); ++i)

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
+#include <memory>
 #include <optional>
 
 namespace tactus::host
@@ -17,6 +19,8 @@ namespace tactus::host
 namespace
 {
 constexpr double not_kept = std::numeric_limits<double>::quiet_NaN();   // equals no value, so the column is never left out
+
+constexpr std::size_t self_test_ticks = 1200, ticks_before_contact = 150;
 
 /// A number to keep on every tick.
 struct Kept
@@ -72,19 +76,14 @@ public:
 
     SelfTest record()
     {
-        constexpr std::size_t shortest = 1000, longest = 3000, after_contact = 500;
-        std::optional<std::size_t> contact;
-        for (std::size_t k = 0; k < longest && (k < shortest || ! contact || k < *contact + after_contact); ++k)
+        for (test.ticks = 0; test.ticks < self_test_ticks; ++test.ticks)
         {
-            act (k, contact);
+            act (test.ticks);
             for (std::size_t f = 0; f < plan.feeds().size(); ++f)
-                plan.feeds()[f] = std::sin (0.01 * static_cast<double> (k * (f + 1)));
+                plan.feeds()[f] = std::sin (0.01 * static_cast<double> (test.ticks * (f + 1)));
             run.tick();
             keep (inputs, test.inputs);
             keep (outputs, test.outputs);
-            test.ticks = k + 1;
-            for (std::size_t i = 0; i < plan.roles().size() && ! contact; ++i)
-                if (plan.roles()[i].state->applied.force.norm() > 1e-3) contact = k;
         }
         dropIdle (inputs, test.inputs);
         for (std::size_t i = 0; i < outputs.size(); ++i)
@@ -144,16 +143,12 @@ private:
         columns.resize (n);
     }
 
-    /// Parameters, controls and hits are tried at fixed times, and again in the contact, if there is one.
-    void act (std::size_t k, const std::optional<std::size_t>& contact)
+    void act (std::size_t k)
     {
-        for (const auto from : { std::optional<std::size_t> (200), contact })
-        {
-            if (! from || (from != contact && contact && *contact <= 200)) continue;
-            if (k == *from + 100) turnParams (k);
-            if (k == *from + 200) turnControls (k, from == contact ? 0.2 : 0.9);
-            if (k == *from + 300) hitInputs (k);
-        }
+        if (k == ticks_before_contact + 100) turnParams (k);
+        if (k == ticks_before_contact + 300) turnControls (k, 0.9);
+        if (k == ticks_before_contact + 450) hitInputs (k);
+        if (k == ticks_before_contact + 500) turnControls (k, 0.2);
     }
 
     void turnParams (std::size_t k)
@@ -165,8 +160,10 @@ private:
             const auto& p = e.parameters[number];
             const auto& hard = p.sheet->limits.hard;
             double value = p.value == 0.0 ? 0.01 : 1.125 * p.value;
-            if (! p.sheet->choices.empty()) value = static_cast<double> ((static_cast<std::size_t> (p.value) + 1) % p.sheet->choices.size());
-            else value = hard.clamp (value);
+            if (! p.sheet->choices.empty())
+                value = static_cast<double> ((static_cast<std::size_t> (p.value) + 1) % p.sheet->choices.size());
+            else
+                value = hard.clamp (value);
             run.engine().set ({ plan.instances()[e.wiring.nodes[p.node].instance].knobs, p.knob, p.sheet }, value);
             test.events.push_back ({ k, SelfTestEvent::Kind::param, number, value });
         }
@@ -206,6 +203,64 @@ Run::OpenDevice simulatedDevices()
             messages.push_back (std::move (m));
         }
         return { std::move (made.device), made.limits };
+    };
+}
+
+namespace
+{
+class RepeatingDevice final : public Device
+{
+public:
+    RepeatingDevice (std::shared_ptr<const std::vector<Reading>> all, DeviceLayout l) : readings (std::move (all)), own_layout (std::move (l)) {}
+
+    void prepare (double) override {}
+    Reading read() noexcept override { return now < readings->size() ? (*readings)[now++] : Reading {}; }
+    void write (const Effort&) noexcept override {}
+    DeviceLayout layout() const override { return own_layout; }
+
+private:
+    std::shared_ptr<const std::vector<Reading>> readings;
+    DeviceLayout own_layout;
+    std::size_t now = 0;
+};
+
+double sizeOf (const Effort& e)
+{
+    double size = std::max (e.force.norm(), e.torque.norm());
+    for (const auto* channels : { &e.axes, &e.signals })
+        for (const double v : *channels)
+            size = std::max (size, std::abs (v));
+    return size;
+}
+}   // namespace
+
+Run::OpenDevice repeatedDevices (Run& run)
+{
+    constexpr std::size_t longest = 40000;
+    constexpr double smallest_effort = 1e-3;
+    const auto& roles = run.engine().plan().roles();
+    std::vector<std::vector<Reading>> readings (roles.size());
+    std::optional<std::size_t> contact;
+    for (std::size_t k = 0; ! roles.empty() && k < longest && (! contact || k < *contact + self_test_ticks); ++k)
+    {
+        run.tick();
+        for (std::size_t i = 0; i < roles.size(); ++i)
+        {
+            readings[i].push_back (roles[i].state->reading);
+            if (! contact && sizeOf (roles[i].state->applied) > smallest_effort) contact = k;
+        }
+    }
+    const auto first = static_cast<std::ptrdiff_t> (contact && *contact > ticks_before_contact ? *contact - ticks_before_contact : 0);
+    std::map<std::string, std::shared_ptr<const std::vector<Reading>>> by_role;
+    for (std::size_t i = 0; i < roles.size(); ++i)
+        by_role[roles[i].name] = std::make_shared<const std::vector<Reading>> (readings[i].begin() + first, readings[i].end());
+    std::map<std::string, std::pair<DeviceLayout, GuardLimits>> opened;
+    for (const auto& [role, device] : run.devices())
+        opened[role] = { device.device->layout(), device.limits };
+    return [by_role, opened] (const std::string& role, const graph::Graph&, const Plan&, Messages&) -> Run::RoleDevice {
+        const auto of = opened.find (role);
+        if (of == opened.end()) return {};
+        return { std::make_unique<RepeatingDevice> (by_role.at (role), of->second.first), of->second.second };
     };
 }
 

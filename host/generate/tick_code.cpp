@@ -8,16 +8,15 @@ namespace tactus::host
 
 std::string TickCode::write()
 {
-    std::string last;
-    for (int pass = 0; pass < 2; ++pass)   // the first pass finds out which outputs are read
+    // What is not read is left out, and then perhaps nothing reads what it read.
+    do
     {
         code.clear();
         records (wiring.plan.records(), "    ", "ticks");
-        last = code;
-        for (std::size_t i = 0; i < wiring.plan.taps().size(); ++i)
-            if (wiring.plan.taps()[i].samples == nullptr) wiring.valueAt (wiring.plan.taps()[i].value);
-    }
-    return last;
+        for (const auto& tap : wiring.plan.taps())
+            if (tap.samples == nullptr) wiring.valueAt (tap.value);
+    } while (wiring.noteReads());
+    return code;
 }
 
 void TickCode::records (std::span<const Record> all, const std::string& indent, const std::string& ticks)
@@ -31,17 +30,18 @@ void TickCode::record (const Record& r, const std::string& indent, const std::st
     if (r.step == &plan::Sum::step)
     {
         const auto& sum = *static_cast<plan::Sum*> (r.self);
-        line (indent, wiring.target (&sum.out) + " = " + sumOf (sum) + ";");
+        if (wiring.isRead (&sum.out)) line (indent, wiring.target (&sum.out) + " = " + sumOf (sum) + ";");
     }
     else if (r.step == &plan::Strike::step)
     {
         const auto& strike = *static_cast<plan::Strike*> (r.self);
-        line (indent, wiring.target (&strike.out) + " = hits[" + std::to_string (wiring.hitOf (strike.pulse)) + "] (" + wiring.valueAt (strike.from) + ");");
+        const auto target = wiring.isRead (&strike.out) ? wiring.target (&strike.out) + " = " : std::string {};
+        line (indent, target + "hits[" + std::to_string (wiring.hitOf (strike.pulse)) + "] (" + wiring.valueAt (strike.from) + ");");
     }
     else if (r.step == &plan::DelayLine::read)
     {
         const auto* delay = static_cast<plan::DelayLine*> (r.self)->line;
-        line (indent, wiring.target (&delay->out) + " = " + wiring.object (delay) + ".read();");
+        if (wiring.isRead (&delay->out)) line (indent, wiring.target (&delay->out) + " = " + wiring.object (delay) + ".read();");
     }
     else if (r.step == &plan::DelayLine::write)
     {
@@ -166,7 +166,9 @@ void TickCode::driven (const ExportedNode& n, const plan::DrivenNode& d, const s
         line (indent, stored);
     }
     const bool has_result = ! type.peek && n.is_read, has_no_inputs = d.faulted.empty();
-    const auto result = ! has_result ? "" : (n.is_inner ? "" : has_no_inputs ? "auto " : "const auto ") + Wiring::outputsOf (n) + " = ";
+    const auto result = ! has_result ? "" : (n.is_inner ? "" : has_no_inputs ? "auto "
+                                                                             : "const auto ")
+                                                + Wiring::outputsOf (n) + " = ";
     code += wrapped (indent, result + n.name + ".tick ({", members, asks_for_stored ? "}, " + n.name + "_stored);" : "});");
     if (has_result && has_no_inputs) line (indent, "if (" + wires + ".fault) " + Wiring::outputsOf (n) + " = {};");
 }
@@ -175,10 +177,13 @@ void TickCode::bypass (const plan::Bypass& b, const double* const* sources, cons
 {
     for (const auto& copy : b.copies)
     {
+        if (! wiring.isRead (copy.to)) continue;
         std::vector<std::string> all;
         for (const auto slot : copy.slots)
             all.push_back (wiring.valueAt (sources[slot]));
-        line (indent, wiring.target (copy.to) + " = " + (all.size() == 1 ? all.front() : all.empty() ? "0.0" : "sumOf (" + listed (all) + ")") + ";   // bypassed");
+        line (indent, wiring.target (copy.to) + " = " + (all.size() == 1 ? all.front() : all.empty() ? "0.0"
+                                                                                                     : "sumOf (" + listed (all) + ")")
+                          + ";   // bypassed");
     }
 }
 

@@ -203,6 +203,23 @@ void Wiring::nameRecords (std::span<const Record> records, bool is_inner)
     }
 }
 
+bool Wiring::noteReads()
+{
+    bool has_changed = false;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+    {
+        const bool is_read = node_reads.contains (i);
+        has_changed = has_changed || nodes[i].is_read != is_read;
+        nodes[i].is_read = is_read;
+    }
+    has_changed = has_changed || ! has_noted || reads != known_reads;
+    known_reads = std::move (reads);
+    reads.clear();
+    node_reads.clear();
+    has_noted = true;
+    return has_changed;
+}
+
 ExportedNode* Wiring::nodeOf (const void* node)
 {
     const auto found = by_address.find (node);
@@ -219,7 +236,8 @@ std::optional<Wiring::Output> Wiring::outputAt (const double* value) const
     for (const auto& row : node.type->outputs)
     {
         const auto size = sizeof (double) * at (row.list ? list_capacity * row.width : row.width);
-        if (offset >= row.offset && offset < row.offset + size) return Output { found->second, &row, static_cast<int> ((offset - row.offset) / sizeof (double)) };
+        if (offset < row.offset || offset >= row.offset + size) continue;
+        return Output { found->second, &row, static_cast<int> ((offset - row.offset) / sizeof (double)) };
     }
     return std::nullopt;
 }
@@ -240,13 +258,17 @@ std::string Wiring::paramAt (const double* value)
 
 std::string Wiring::valueAt (const double* value)
 {
-    if (const auto known = values.find (value); known != values.end()) return known->second;
+    if (const auto known = values.find (value); known != values.end())
+    {
+        reads.insert (value);
+        return known->second;
+    }
     if (const auto* first = plan.feeds().data(); value >= first && value < first + plan.feeds().size())
         return "in." + feed_names[static_cast<std::size_t> (value - first)];
     if (const auto output = outputAt (value))
         if (const auto node = by_instance.find (output->instance); node != by_instance.end())
         {
-            nodes[node->second].is_read = true;
+            node_reads.insert (node->second);
             return outputsOf (nodes[node->second]) + "." + memberOf (*output->sheet, output->slot);
         }
     if (auto param = paramAt (value); ! param.empty()) return param;

@@ -23,12 +23,12 @@ namespace tactus::host
 /// A node of a plan as exported code names it.
 struct ExportedNode
 {
-    std::size_t instance = 0;    ///< number in Plan::instances
-    std::string name;            ///< the member: "grain_wave"
-    std::string type, header;    ///< "tactus::nodes::Grating", "tactus/nodes/texture/grating.hpp"
-    bool is_inner = false;       ///< inside a part of the graph that runs at another rate
-    bool is_read = false;        ///< something reads its outputs
-    std::size_t parameters = 0;  ///< number of its first parameter
+    std::size_t instance = 0;     ///< number in Plan::instances
+    std::string name;             ///< the member: "grain_wave"
+    std::string type, header;     ///< "tactus::nodes::Grating", "tactus/nodes/texture/grating.hpp"
+    bool is_inner = false;        ///< inside a part of the graph that runs at another rate
+    bool is_read = true;          ///< something reads its outputs
+    std::size_t parameters = 0;   ///< number of its first parameter
 };
 
 /// The records of a part of the plan that runs at another rate.
@@ -48,19 +48,26 @@ public:
     Wiring (const Plan&, const std::vector<std::string>& feeds, std::set<std::string> taken);
 
     const Plan& plan;
-    std::vector<ExportedNode> nodes;                          ///< nodes that run, in the order of Plan::instances
-    std::map<const void*, ExportedSection> sections;          ///< by RunningSection
-    std::vector<std::pair<std::string, std::string>> kept;    ///< type and name of each member of `state`
-    std::vector<std::pair<std::size_t, std::size_t>> hits;    ///< by hit input: number in Plan::instances, and index in Knobs::pulses
-    std::vector<std::string> hit_names;                       ///< as in `tactus hit`: "ring.hit"
-    std::vector<std::string> role_names, role_ports;          ///< by role: the member of the class, and of Inputs and Outputs
-    std::vector<std::string> feed_names, tap_names;           ///< members of Inputs and of Outputs
+    std::vector<ExportedNode> nodes;                         ///< nodes that run, in the order of Plan::instances
+    std::map<const void*, ExportedSection> sections;         ///< by RunningSection
+    std::vector<std::pair<std::string, std::string>> kept;   ///< type and name of each member of `state`
+    std::vector<std::pair<std::size_t, std::size_t>> hits;   ///< by hit input: number in Plan::instances, and index in Knobs::pulses
+    std::vector<std::string> hit_names;                      ///< as in `tactus hit`: "ring.hit"
+    std::vector<std::string> role_names, role_ports;         ///< by role: the member of the class, and of Inputs and Outputs
+    std::vector<std::string> feed_names, tap_names;          ///< members of Inputs and of Outputs
 
-    /// The value that a pointer of the plan leads to, as an expression. Notes that it is read.
+    /// The value that a pointer of the plan leads to, as an expression. Notes that it is read: see noteReads().
     std::string valueAt (const double*);
 
     /// Three pointers as a vector. `type` comes before a list in braces.
     std::string valueAt (const double* const* three, const std::string& type = {});
+
+    /// Begins to note again what is read. From now on, is_read and isRead tell what was read since the last call; before the second call,
+    /// everything. Returns false if nothing has changed.
+    bool noteReads();
+
+    /// True if something reads a value that is a local variable.
+    bool isRead (const double* value) const { return ! has_noted || known_reads.contains (value); }
 
     ExportedNode* nodeOf (const void* node);
     const plan::FlatNode& flat (const ExportedNode& n) const { return plan.flat().nodes[n.instance]; }
@@ -106,13 +113,16 @@ private:
     std::string paramAt (const double*);
 
     Names members;
+    std::set<const double*> reads, known_reads;   // values of records
+    std::set<std::size_t> node_reads;             // nodes whose outputs are read
+    bool has_noted = false;
     std::unordered_map<const double*, std::string> consumers;   // the input or parameter that reads a value: "motor_force_x"
     std::unordered_map<const double*, std::string> values;      // how to read a value
     std::unordered_map<const void*, std::string> objects;
-    std::unordered_map<const void*, std::size_t> by_address;      // the number in `nodes` of a node
-    std::map<const std::byte*, std::size_t> by_outputs;           // the number of an instance by where its outputs begin
-    std::map<const std::byte*, std::size_t> by_params;            // the number in `nodes` by where the params begin
-    std::unordered_map<std::size_t, std::size_t> by_instance;     // the number in `nodes` by that of the instance
+    std::unordered_map<const void*, std::size_t> by_address;    // the number in `nodes` of a node
+    std::map<const std::byte*, std::size_t> by_outputs;         // the number of an instance by where its outputs begin
+    std::map<const std::byte*, std::size_t> by_params;          // the number in `nodes` by where the params begin
+    std::unordered_map<std::size_t, std::size_t> by_instance;   // the number in `nodes` by that of the instance
     std::map<const plan::Pulse*, std::size_t> by_pulse;
 };
 

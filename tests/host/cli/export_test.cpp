@@ -9,6 +9,15 @@
 
 using namespace tactus::test;
 
+namespace
+{
+/// A graph file with one node of this type.
+std::string graphOf (const std::string& type)
+{
+    return R"({ "format": "tactus-graph", "version": 2, "devices": {}, "nodes": { "a": { "type": ")" + type + R"(" } }, "wires": [] })";
+}
+}   // namespace
+
 TEST_CASE ("an exported folder builds and passes its self-test alone", "[cli][export]")
 {
     const Scratch scratch;
@@ -18,7 +27,8 @@ TEST_CASE ("an exported folder builds and passes its self-test alone", "[cli][ex
     REQUIRE (ran.status == 0);
     CHECK (ran.err.empty());
     CHECK (ran.out.find ("DryWood") != std::string::npos);
-    for (const auto* file : { "dry_wood.hpp", "dry_wood.cpp", "CMakeLists.txt", "Makefile", "README.md", "LICENSE", "tactus/nodes/friction/elasto_plastic.hpp" })
+    for (const auto* file : { "dry_wood.hpp", "dry_wood.cpp", "CMakeLists.txt",
+                              "Makefile", "README.md", "LICENSE", "tactus/nodes/friction/elasto_plastic.hpp" })
         CHECK (std::filesystem::exists (folder + "/" + file));
 
     const auto said = scratch.path ("said");
@@ -33,12 +43,12 @@ TEST_CASE ("export replaces only its own folders, and writes nothing if somethin
 {
     const Scratch scratch;
     const auto folder = scratch.path ("out");
-    const auto graph = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 2, "devices": {}, "nodes": { "a": { "type": "signal.constant" } }, "wires": [] })");
+    const auto graph = scratch.write ("g.json", graphOf ("signal.constant"));
     checkRefused ({ "export", graph, "-o", folder, "--to", "arduino" }, 2, "does not exist yet", folder);
     checkRefused ({ "export", graph, "-o", folder, "--to", "cpq" }, 2, "cpp", folder);
     checkRefused ({ "export", graph }, 2, "--out", folder);
     checkRefused ({ "export", scratch.path ("none.json"), "-o", folder }, 1, "none.json", folder);
-    const auto unknown = scratch.write ("u.json", R"({ "format": "tactus-graph", "version": 2, "devices": {}, "nodes": { "a": { "type": "my.node" } }, "wires": [] })");
+    const auto unknown = scratch.write ("u.json", graphOf ("my.node"));
     checkRefused ({ "export", unknown, "-o", folder }, 1, "my.node", folder);
 
     REQUIRE (runTactus ({ "export", graph, "-o", folder, "--record", "a.out" }).status == 0);
