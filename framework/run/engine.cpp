@@ -96,7 +96,7 @@ void Engine::equip (Channel& channel, Device& device, const GuardLimits& limits,
     layout = device.layout();
     channel.device = &device;
     channel.guard.prepare (limits, dt_s, layout);
-    channel.is_news = true;
+    channel.is_news = channel.to_announce = true;
     const auto valid = tightest (limits, limits);   // as the guard reads them: a limit that is negative or not a number lets nothing through
     device.limitSignals (valid.max_signal, valid.max_signal_slew);
     device.prepare (dt_s);
@@ -106,7 +106,7 @@ void Engine::equip (Channel& channel, Device& device, const GuardLimits& limits,
 void Engine::announce (const Running& plan)
 {
     for (const auto& node : plan.bound)
-        if (node.channel->is_news && node.type->announce) node.type->announce (node.node, *node.state);
+        if (node.channel->to_announce && node.type->announce) node.type->announce (node.node, *node.state);
 }
 
 /// Binds nodes to the layouts of new devices, and tells the nodes that learn about a device what it is.
@@ -122,9 +122,11 @@ void Engine::attach (std::string_view role, Device& device, const GuardLimits& l
 {
     const auto& roles = newest().roles();
     if (std::ranges::find (roles, role, &Plan::RoleUse::name) == roles.end()) throw std::out_of_range ("the plan has no role '" + std::string (role) + "'");
-    equip (channelOf (std::string (role)), device, limits, newest(), 1.0 / rate_hz);
+    auto& channel = channelOf (std::string (role));
+    equip (channel, device, limits, newest(), 1.0 / rate_hz);
     announce (plans.newest());
     introduce (plans.newest());
+    channel.to_announce = false;
 }
 
 void Engine::report (Journal& to) noexcept
@@ -136,6 +138,7 @@ void Engine::report (Journal& to) noexcept
 std::shared_ptr<Plan> Engine::withdraw()
 {
     const auto back = plans.takeBack();
+    has_withdrawn = has_withdrawn || back;
     return back ? back->plan : nullptr;
 }
 
@@ -159,7 +162,12 @@ void Engine::submit (std::shared_ptr<Plan> next, std::span<const Joining> joinin
         if (next->rateHz() != rate_hz) throw std::invalid_argument ("a plan for a different rate cannot take over");
         for (const auto& j : joining)
             join (j, *next);
-        plans.takeBack();
+        const bool was_waiting = plans.takeBack() || has_withdrawn;
+        has_withdrawn = false;
+        // If the tick thread has taken the last plan, it binds the nodes to the devices that joined with it, and they must not be told again.
+        if (! was_waiting)
+            for (const auto& channel : channels)
+                channel->to_announce = channel->to_announce && std::ranges::count (joining, channel->role, &Joining::role) > 0;
         auto made = makeRunning (std::move (next));
         announce (*made);
         plans.give (std::move (made));

@@ -161,7 +161,8 @@ private:
         Guard guard {};
         Bumpless bumpless {};
         std::uint64_t touched_at = 0;   // the tick on which a plan last changed anything upstream of this role
-        bool is_news = false;           // the nodes are not bound to its device yet
+        bool is_news = false;           // the nodes are not bound to its device yet   [tick thread, once a plan with it is submitted]
+        bool to_announce = false;       // the next plan tells its nodes of the device   [main thread]
     };
 
     /// A node that belongs to a role; its type has one of the hooks bind and learn.
@@ -210,6 +211,7 @@ private:
     double rate_hz;
     std::vector<std::unique_ptr<Channel>> channels;   // of all roles so far; if a role has several, the last one is in use   [main thread]
     PlanSwap<Running> plans;
+    bool has_withdrawn = false;         // the last submitted plan was withdrawn   [main thread]
     std::atomic<bool> touched = true;   // a knob was turned, a hit triggered, or one of the next two flags set; the tick thread clears it
     std::atomic<bool> emergency = false, rearming = false;
     GuardLog stops;
