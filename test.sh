@@ -88,7 +88,7 @@ fi
 if [ "$mode" = --export ]; then
     build release tactus_tests
     say "Exported graphs"
-    TACTUS_EXPORT_COMPILERS="g++ clang++-14" build/release/bin/tactus_tests "[export],[.export_all]"
+    TACTUS_EXPORT_COMPILERS="g++ clang++-14" build/release/bin/tactus_tests "[export],[export_all]"
     exit
 fi
 

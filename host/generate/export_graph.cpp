@@ -52,7 +52,7 @@ std::vector<std::string> limitsOf (const Plan& plan)
         for (std::size_t i = 0; node.runs() && i < node.settings.size(); ++i)
             if (node.type->settings[i].id == "search_ticks" && std::get<double> (node.settings[i]) > 0.0)
                 all.push_back ("`" + node.path + "` searches its mesh in the background in Tactus. Here it searches within the tick on which the answer is "
-                               "due, so "
+                                                 "due, so "
                                                  "that tick takes longer.");
     return all;
 }
