@@ -131,7 +131,7 @@ struct Window
     template <typename F>
     bool until (F&& f)
     {
-        constexpr int patience = 15000;
+        constexpr int patience = 50000;
         for (int i = 0; i < patience; ++i)
         {
             if (f()) return true;
@@ -179,7 +179,7 @@ struct Window
 std::weak_ptr<const void> pluginOf (const std::string& type) { return catalogue().find (type)->owner; }
 }   // namespace
 
-TEST_CASE ("a header that is saved while its graph runs in the window takes over, and an error leaves the old node running", "[live]")
+TEST_CASE ("a header that is saved while its graph runs in the window takes over, and an error leaves the old node running", "[live_nodes]")
 {
     TemporaryFolder code;
     code.write ("push.hpp", header ("0.0"));
@@ -225,7 +225,7 @@ TEST_CASE ("a header that is saved while its graph runs in the window takes over
     CHECK_FALSE (w.error());
 }
 
-TEST_CASE ("the window unloads each version of a plugin when the next one has taken over, stopped or with its help open", "[live]")
+TEST_CASE ("the window unloads each version of a plugin when the next one has taken over, stopped or with its help open", "[live_nodes]")
 {
     TemporaryFolder code;
     const auto text = *readTextFile (TACTUS_SOURCE_DIR "/tests/plugins/objects/written_in_c.c");
