@@ -64,7 +64,7 @@ class QueryService;
 /// What a host lends to the nodes of a graph. Each service may be missing; nodes work without it.
 struct Services
 {
-    std::function<std::unique_ptr<NearestTriangle> (std::shared_ptr<const Mesh>)> nearest_triangle {};   ///< builds an index of a large mesh; call it in prepare
+    std::function<std::unique_ptr<NearestTriangle> (std::shared_ptr<const Mesh>)> nearest_triangle {};   ///< makes an index of a large mesh; call it in prepare
     QueryService* answers = nullptr;                                                                     ///< answers the async queries; null: answered when due
 };
 

@@ -174,8 +174,8 @@ std::string readme()
                        "own), and on each device whose profile states its damping.\n\n"
                        "The simulated devices have a damping of 0.5 to 3 N s/m, as an arm with dampers has. This is more than a bare arm has: the two "
                        "profiles guess 0.1 N s/m. A device needs at least the stiffness of the contact times half a tick, plus the damping of the contact, so "
-                       "on a bare arm nearly every preset breaks `stiffness`. There, turn down the stiffness and the damping of the preset, and raise the rate. On its own "
-                       "device, a preset breaks nothing, with these exceptions:\n\n";
+                       "on a bare arm nearly every preset breaks `stiffness`. There, turn down the stiffness and the damping of the preset, and raise "
+                       "the rate. On its own device, a preset breaks nothing, with these exceptions:\n\n";
     for (const auto& [preset, why] : breaks)
         text += "- `" + preset + "` breaks `" + why.first + "`: " + why.second + ".\n";
     text += "\n"
