@@ -111,10 +111,10 @@ Result<> LiveCompiler::prepareFor (const LiveSource& s)
     return run (command);
 }
 
-Result<> LiveCompiler::start (const LiveSource& s, Headers headers)
+Result<> LiveCompiler::start (const LiveSource& s)
 {
     if (auto missing = needFolder (s); ! missing) return missing;
-    const bool is_prepared = s.isC() || precompiled_by == compilerOf (s) || headers == Headers::read_again;
+    const bool is_prepared = s.isC() || precompiled_by == compilerOf (s);
     if (! precompiles || ! is_prepared) program.reset();
     if (! is_prepared)
         if (auto refused = prepareFor (s); ! refused) return refused;
@@ -163,7 +163,7 @@ Result<std::vector<std::string>> LiveCompiler::commandFor (const LiveSource& s)
     auto command = commonFlags (s);
     for (const auto& include : s.includes)
         command.push_back ("-I" + include.string());
-    if (! s.isC()) command.insert (command.end(), { "-include", commonHeader().string() });   // or the precompiled one, if it is there
+    if (! s.isC()) command.insert (command.end(), { "-include", commonHeader().string() });
     for (const auto& macro : s.definitions)
         command.push_back ("-D" + macro);
     const auto plugin = folder / (std::to_string (count) + ".tactus");

@@ -39,14 +39,8 @@ public:
     /// output/unwritable.
     Result<> prepareFor (const LiveSource&);
 
-    enum class Headers
-    {
-        precompiled,   ///< waits for the precompiled header, and makes it if there is none
-        read_again     ///< does not wait: the sooner result if little is compiled before the first edit
-    };
-
     /// Starts to compile; drops what is being compiled. Ids: live/no_compiler, live/no_headers, live/no_node, output/unwritable.
-    Result<> start (const LiveSource&, Headers = Headers::precompiled);
+    Result<> start (const LiveSource&);
 
     /// The result of the compilation, returned only once; empty while the compiler works, or if it has nothing to do. Ids: live/compile.
     std::optional<Output> finished();

@@ -73,7 +73,7 @@ std::optional<LivePlugins::News> LivePlugins::startNext()
     if (next == all.end()) return std::nullopt;
     next->waits = false;
     started = FileClock::now();
-    if (auto refused = compiler.start (next->source, headers); ! refused) return News { next->source.file, {}, { refused.error() }, next->saved };
+    if (auto refused = compiler.start (next->source); ! refused) return News { next->source.file, {}, { refused.error() }, next->saved };
     compiled = static_cast<std::size_t> (next - all.begin());
     return std::nullopt;
 }
@@ -111,9 +111,6 @@ Result<> LivePlugins::prepare() { return all.empty() ? Result<> {} : compiler.pr
 
 std::vector<LivePlugins::News> LivePlugins::buildHeaders (const std::function<bool()>& stop_wanted)
 {
-    // A precompiled header takes as long as it saves on three nodes. One or two nodes are compiled without it, so that the run starts sooner.
-    const auto count = std::ranges::count_if (all, [] (const Watched& w) { return w.source.sources.empty(); });
-    headers = count < 3 ? LiveCompiler::Headers::read_again : LiveCompiler::Headers::precompiled;
     for (auto& watched : all)
         if (watched.source.sources.empty())
         {
@@ -127,7 +124,6 @@ std::vector<LivePlugins::News> LivePlugins::buildHeaders (const std::function<bo
         if (auto news = look()) made.push_back (std::move (*news));
         std::this_thread::sleep_for (std::chrono::milliseconds (10));
     }
-    headers = LiveCompiler::Headers::precompiled;
     return made;
 }
 

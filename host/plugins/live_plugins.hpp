@@ -64,7 +64,6 @@ private:
     std::vector<Watched> all;
     LiveCompiler compiler;
     std::optional<std::size_t> compiled;   // index of the source that the compiler works on
-    LiveCompiler::Headers headers = LiveCompiler::Headers::precompiled;
     std::filesystem::file_time_type started {};
 };
 

@@ -5,11 +5,31 @@
 
 #include <catch2/catch.hpp>
 
+#include <sstream>
 #include <string>
 
+#include <unistd.h>
+
 using namespace tactus;
+using test::eventually;
 using test::Running;
 using test::Scratch;
+
+namespace
+{
+/// The CPU time that all threads of a process have used.
+double cpuSeconds (long process)
+{
+    const auto line = test::textOf ("/proc/" + std::to_string (process) + "/stat");
+    std::istringstream fields (line.substr (line.rfind (')') + 2));
+    std::string skipped;
+    for (int i = 0; i < 11; ++i)   // up to the 13th field of proc(5)
+        fields >> skipped;
+    double user = 0.0, system = 0.0;
+    fields >> user >> system;
+    return (user + system) / static_cast<double> (sysconf (_SC_CLK_TCK));
+}
+}   // namespace
 
 TEST_CASE ("a play whose tick does not end can still be ended, and says why its files are not finished", "[cli]")
 {
@@ -20,6 +40,7 @@ TEST_CASE ("a play whose tick does not end can still be ended, and says why its 
     const Scratch scratch;
     Running play { { "play", scratch.write ("g.json", graph), "--osc", "off", "--limits", "runs=100G" } };
     REQUIRE (play.says ("Ctrl-C stops"));
+    REQUIRE (eventually ([&] { return cpuSeconds (play.id()) > 2.0; }));   // only the tick takes that much
     const auto ran = play.stop();
     INFO (ran.err);
     CHECK (ran.status == 1);
