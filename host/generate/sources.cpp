@@ -44,6 +44,16 @@ std::string_view valueAfter (std::string_view text, std::string_view key, std::s
     const auto begin = at + key.size();
     return text.substr (begin, text.find (end, begin) - begin);
 }
+
+/// True if this file has code of the header: guard.cpp and guard_event.cpp of guard.hpp.
+bool isCodeOf (std::string_view file, std::string_view header)
+{
+    constexpr std::string_view code = ".cpp", declarations = ".hpp";
+    if (! file.ends_with (code) || ! header.ends_with (declarations)) return false;
+    const auto stem = header.substr (0, header.size() - declarations.size()), name = file.substr (0, file.size() - code.size());
+    if (name == stem) return true;
+    return name.starts_with (stem) && name[stem.size()] == '_' && findSource (std::string (name).append (declarations)) == nullptr;
+}
 }   // namespace
 
 const SourceFile* findSource (std::string_view path) noexcept
@@ -74,7 +84,8 @@ std::set<std::string> withIncludes (const std::set<std::string>& paths)
         if (file == nullptr || ! all.insert (path).second) continue;
         for (auto& included : includesOf (*file))
             next.push_back (std::move (included));
-        if (path.ends_with (".hpp")) next.push_back (path.substr (0, path.size() - 4) + ".cpp");
+        for (const auto& other : sourceFiles())
+            if (isCodeOf (other.path, path)) next.emplace_back (other.path);
     }
     return all;
 }
