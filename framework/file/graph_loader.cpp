@@ -22,7 +22,7 @@ constexpr std::size_t longest_chain = 32;
 
 Message unreadable (const fs::path& path, const std::string& reason)
 {
-    return Message::error ("file/unreadable", {}, quote (path.string()) + " cannot be read: " + reason,
+    return Message::error ("file/unreadable", {}, quotePath (path) + " cannot be read: " + reason,
                            "check the path; a path in a file is relative to the folder of that file");
 }
 

@@ -26,7 +26,7 @@ struct Guest
 
     [[noreturn]] void failed (const char* hook, const Answer& why) const
     {
-        throw NodeFault ("the node '" + std::string (hooks.id) + "' of the plugin " + quote (file) + " failed in `" + hook + "`: " + quote (why.text()));
+        throw NodeFault ("the node '" + std::string (hooks.id) + "' of the plugin " + quotePath (file) + " failed in `" + hook + "`: " + quote (why.text()));
     }
 
     /// Calls a hook that can fail, and returns the text that it reports.

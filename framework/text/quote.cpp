@@ -79,6 +79,15 @@ std::string quote (std::string_view text)
     return out + "'";
 }
 
+std::string quotePath (const std::filesystem::path& path)
+{
+    const auto text = path.string();
+    std::string out = "'";
+    for (std::string_view rest = text; ! rest.empty();)
+        out += takeCharacter (rest);
+    return out + "'";
+}
+
 std::string printable (std::string_view text)
 {
     std::string out;

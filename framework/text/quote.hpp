@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,9 @@ namespace tactus
 /// Quotes text that a user wrote, for use in a message: in single quotes, and cut if it is long. Everything that is not printable
 /// UTF-8 is escaped, so that a broken file cannot break the message about it.
 std::string quote (std::string_view);
+
+/// Quotes the path of a file, whole: the name of a file is at its end, and a message must name the file. Escaped like quote.
+std::string quotePath (const std::filesystem::path&);
 
 /// Escapes what could disturb a terminal: control characters, characters that change the direction of writing or are invisible, and
 /// bytes that are not UTF-8. Line ends stay.

@@ -125,12 +125,12 @@ Messages checkAssets (const Json& snapshot, const fs::path& folder)
         if (! now)
             messages.push_back ({ .id = "log/asset_missing",
                                   .where = "/assets/" + pointerPart (path),
-                                  .text = quote (file.string()) + ", which the run used, cannot be read",
+                                  .text = quotePath (file) + ", which the run used, cannot be read",
                                   .remedy = "restore the file; its path is relative to the folder of the log" });
         else if (Json (*now) != hash)
             messages.push_back ({ .id = "log/asset_changed",
                                   .where = "/assets/" + pointerPart (path),
-                                  .text = quote (file.string()) + " has changed since the run used it",
+                                  .text = quotePath (file) + " has changed since the run used it",
                                   .remedy = "restore the old file, or name a graph file on the command line to replay that graph with the new file" });
     }
     return messages;

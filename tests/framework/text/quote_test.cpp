@@ -18,6 +18,7 @@ TEST_CASE ("quote: whatever could disturb a terminal is escaped", "[text]")
                   "visible")
            == "'in\\xE2\\x80\\x8Bvisible'");   // U+200B has no width
     CHECK (quote ("\xff\xc3") == "'\\xFF\\xC3'");
+    CHECK (quotePath ("/" + std::string (200, 'a') + "\n.json") == "'/" + std::string (200, 'a') + "\\x0A.json'");
     CHECK (quote (std::string (100, 'a')) == "'" + std::string (60, 'a') + "…'");
     CHECK (printable ("two\nlines\r") == "two\nlines\\x0D");
 }
