@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 # Builds and tests everything. Works on a fresh Debian 12 and can be run repeatedly.
 #
-#   ./test.sh           runs the tests, normally and under ASan and UBSan (everything that does not need JUCE), adds a node as
-#                       a newcomer would, builds the examples against the installed library, and drives virtual HID devices in a
-#                       QEMU guest
+#   ./test.sh           runs the tests, normally and under ASan and UBSan (everything that does not need JUCE), runs the demo,
+#                       adds a node as a newcomer would, builds the examples against the installed library, and drives virtual
+#                       HID devices in a QEMU guest
 #   ./test.sh --quick   runs only the tests
 #   ./test.sh --long    adds to ./test.sh: each fuzzer for 60 s, 10 000 mutated files through the command line, the tests under
 #                       TSan (thread tests for 60 s each), the window under ASan and UBSan, the energy of elastic surfaces on
@@ -142,6 +142,8 @@ fi
 
 build release
 if [ "$mode" != --quick ]; then
+    say "The demo"
+    ./demo.sh --offline
     say "A newcomer's node"
     tests/newcomer/run.sh
 fi
