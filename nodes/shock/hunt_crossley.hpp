@@ -254,8 +254,8 @@ inline void HuntCrossley::start (Voice& voice, double speed) const noexcept
 {
     voice = { .v = speed, .m = massNow(), .sounds = true };
     Score score;
-    Passage before { 0.0, speed };
-    const auto add = [&] (const Passage& now) noexcept {
+    MotionState before { 0.0, speed };
+    const auto add = [&] (const MotionState& now) noexcept {
         if (score.length == int (score.samples.size())) return;
         const double moved = 0.5 * voice.m * (before.v - now.v) * (before.v + now.v);
         const double stored = settings.stiffness.energy (now.d) - settings.stiffness.energy (before.d);
