@@ -27,7 +27,7 @@ case $mode in
     *) echo "usage: ./test.sh [--quick|--long|--screens [--update]|--sound|--devices|--export|--figures|--packages]" >&2; exit 2 ;;
 esac
 
-packages+=(python3-jsonschema xvfb xdotool)
+packages+=(python3-jsonschema python3-distributed xvfb xdotool)
 [ "$mode" = --long ] && packages+=(clang-14 libclang-rt-14-dev)
 [ "$mode" = --export ] && packages+=(clang-14)
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
