@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mesh_walk.hpp"
+#include "math/math.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -227,7 +228,7 @@ std::vector<Vec3> normalsOf (const Mesh& mesh)
         {
             const Vec3& corner = mesh.corner (t, c);
             const Vec3 u = mesh.corner (t, (c + 1) % 3) - corner, v = mesh.corner (t, (c + 2) % 3) - corner, n = u.cross (v);
-            normals[at (mesh.triangles[at (t)][at (c)])] += direction (n) * std::atan2 (n.norm(), u.dot (v));
+            normals[at (mesh.triangles[at (t)][at (c)])] += direction (n) * math::atan2 (n.norm(), u.dot (v));
         }
     for (auto& n : normals)
         n = direction (n);

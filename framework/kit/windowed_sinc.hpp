@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "math/math.hpp"
+
 #include <cmath>
 
 namespace tactus
 {
 
 /// sin (x) / x, and 1 at 0.
-inline double sinc (double x) noexcept { return x == 0.0 ? 1.0 : std::sin (x) / x; }
+inline double sinc (double x) noexcept { return x == 0.0 ? 1.0 : math::sin (x) / x; }
 
 /// The modified Bessel function I_0. std::cyl_bessel_i is not available everywhere.
 inline double besselI0 (double v) noexcept

@@ -85,6 +85,9 @@ target_include_directories (@STEM@ PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries (@STEM@ PUBLIC Eigen3::Eigen)
 # Without these flags, the bits may differ from those of Tactus.
 target_compile_options (@STEM@ PUBLIC -ffp-contract=off -fno-math-errno -fno-trapping-math)
+if (CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64|i[3-6]86)$")
+    target_compile_options (@STEM@ PUBLIC -mno-fma -mno-fma4 -mno-avx512f)
+endif ()
 
 enable_testing ()
 add_executable (@STEM@_self_test @STEM@_self_test.cpp)
@@ -100,7 +103,8 @@ std::string makeFile (const Exported& e, const std::set<std::string>& sources)
 # make test: builds and runs the self-test. EIGEN is the folder of Eigen's headers.
 EIGEN ?= /usr/include/eigen3
 CXXFLAGS ?= -O2 -Wall -Wextra
-FLAGS = -std=c++20 -I. -isystem $(EIGEN) -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti
+NO_FMA := $(if $(filter x86_64-% amd64-% i386-% i486-% i586-% i686-%,$(shell $(CXX) -dumpmachine)),-mno-fma -mno-fma4 -mno-avx512f)
+FLAGS = -std=c++20 -I. -isystem $(EIGEN) -ffp-contract=off -fno-math-errno -fno-trapping-math $(NO_FMA) -fno-exceptions -fno-rtti
 
 sources =@SOURCES@
 objects = $(sources:.cpp=.o)
@@ -154,8 +158,8 @@ nodes are in `tactus/nodes/`, one file per node type.
 - All functions are for one thread.
 - Each role has a guard, which limits its effort and brings it to zero on bad readings. @LIMITS@ Set `limits` and `layout` of each role
   to those of your device before `prepare`.
-- The bits are those of Tactus if the code is compiled without contraction into fused multiply-adds (see `CMakeLists.txt`) and linked to
-  the same `libm`. Another `libm` may differ in the last bits of `sin`, `exp` and the like.
+- The bits are those of Tactus if the code is compiled without contraction into fused multiply-adds (see `CMakeLists.txt`). No function
+  of `libm` is called, so its version does not matter.
 @MORE@
 @TABLES@)",
                    { { "@TITLE@", comment (e.graph.name.empty() ? e.stem : e.graph.name) },

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tactus/kit/free_impact.hpp>
+#include <tactus/kit/math/math.hpp>
 #include <tactus/kit/past_window.hpp>
 #include <tactus/node/node.hpp>
 
@@ -222,7 +223,7 @@ inline double Plane::returned (double rate_hz, double phase) const
 {
     constexpr int longest = 1000;   // in samples
     const double T = 1.0 / rate_hz, decay = tool.damping * T / tool.mass;
-    const double kept = std::exp (-decay), per_force = decay > 0.0 ? -std::expm1 (-decay) / tool.damping : T / tool.mass;
+    const double kept = math::exp (-decay), per_force = decay > 0.0 ? -math::expm1 (-decay) / tool.damping : T / tool.mass;
     const double per_speed = decay > 0.0 ? per_force * tool.mass : T, rise = decay > 0.0 ? (T - per_speed) / tool.damping : 0.5 * T * T / tool.mass;
 
     double d = phase * hard_hit * T, v = hard_hit;
@@ -264,7 +265,7 @@ inline std::string Plane::warning (const Setup& setup) const
     double needed = setup.rate_hz;
     while (needed <= highest && needed * rebound.duration < many && ! (std::abs (farthest (needed) - right) <= tolerance))
         needed *= 1.1;
-    const double digit = std::pow (10.0, std::floor (std::log10 (needed)) - 1.0);
+    const double digit = math::pow (10.0, std::floor (math::log10 (needed)) - 1.0);
 
     std::ostringstream text;
     text << std::setprecision (2) << "a tool of " << tool.mass << " kg that hits at " << hard_hit << " m/s comes back at " << wrong

@@ -3,11 +3,11 @@
 
 #include <tactus/kit/bouncing_mass.hpp>
 #include <tactus/kit/held_step.hpp>
+#include <tactus/kit/math/math.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace tactus::nodes
 {
@@ -203,7 +203,7 @@ private:
             double expected = now.e[0], v = speed (now.e[1], now.e[0], before + now.push);
             step (expected, v, held + now.push);
             const double per_push = step.x_per_f + step.x_per_v * step.v_per_f - (1.0 + step.v_loss) * step.x_per_f;   // depth per N
-            now.push += (e - expected) / per_push * -std::expm1 (-dt / smoothing);
+            now.push += (e - expected) / per_push * -math::expm1 (-dt / smoothing);
         }
         return now.known > 0 ? speed (now.e[0], e, held + now.push) : 0.0;
     }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/node/generic.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace tactus::nodes
@@ -99,10 +101,10 @@ struct LayerMix
     {
         const double dt = setup.dt_s();
         ramp = dt / 10e-3;
-        attack = -std::expm1 (-dt / 5e-3);
-        release = -std::expm1 (-dt / 100e-3);
-        decay = std::exp (-dt / 50e-3);
-        fading = std::exp (-dt / 2.0);
+        attack = -math::expm1 (-dt / 5e-3);
+        release = -math::expm1 (-dt / 100e-3);
+        decay = math::exp (-dt / 50e-3);
+        fading = math::exp (-dt / 2.0);
         forget();
     }
 
@@ -111,7 +113,7 @@ struct LayerMix
         any_solo = false;
         for (int i = 0; i < settings.inputs; ++i)
             any_solo = any_solo || params.solo[i] > 0.5;
-        ducked = std::pow (10.0, -params.duck_db / 20.0);
+        ducked = math::pow (10.0, -params.duck_db / 20.0);
     }
 
     void adopt (const LayerMix& old) noexcept
@@ -199,7 +201,7 @@ inline LayerMix::Outputs LayerMix::tick (const Inputs& in) noexcept
     if (params.ceiling > 0.0 && std::abs (sum) > params.ceiling)
     {
         out.out = std::copysign (params.ceiling, sum);
-        out.reduction = 20.0 * (std::log10 (std::abs (sum)) - std::log10 (params.ceiling));
+        out.reduction = 20.0 / std::numbers::ln10 * math::log (std::abs (sum) / params.ceiling);
     }
     return out;
 }

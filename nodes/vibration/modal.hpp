@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/node/mode.hpp>
 #include <tactus/node/node.hpp>
 
-#include <cmath>
 #include <complex>
 #include <cstddef>
 #include <numbers>
@@ -90,7 +90,9 @@ struct Modal
             const double turn = 2.0 * std::numbers::pi * mode.frequency * params.pitch * dt;
             const double shrink = mode.decay * params.damping * dt;
             const bool sounds = turn < std::numbers::pi && shrink > 0.0;
-            voices[i].factor = sounds ? std::polar (std::exp (-shrink), turn) : Phasor {};
+            const double length = sounds ? math::exp (-shrink) : 0.0;
+            const auto [sine, cosine] = math::sinCos (sounds ? turn : 0.0);
+            voices[i].factor = { length * cosine, length * sine };
         }
     }
 

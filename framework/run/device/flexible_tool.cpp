@@ -25,7 +25,7 @@ int halvingsOf (double number, int most) noexcept
 }
 
 /// e^A - 1, accurate also where A is small: the series for A / 2^n, then n doublings, e^2x - 1 = 2 (e^x - 1) + (e^x - 1)^2.
-Square expm1 (const Square& a)
+Square exponentialMinusOne (const Square& a)
 {
     const double norm = a.cwiseAbs().rowwise().sum().maxCoeff();
     const int doublings = halvingsOf (norm / 0.25, 100);
@@ -61,7 +61,7 @@ FlexibleTool::FlexibleTool (const Properties& properties, double dt_s) : what (p
 
     const Eigen::Vector<double, 6> scale { 1.0 / w, 1.0, 1.0 / w, 1.0, m * w, e * w };
     const auto changeIn = [&] (const Square& rates, double time) -> Change {
-        const Square change = scale.asDiagonal() * expm1 (time * rates) * scale.cwiseInverse().asDiagonal();
+        const Square change = scale.asDiagonal() * exponentialMinusOne (time * rates) * scale.cwiseInverse().asDiagonal();
         return change.block<4, 5> (0, 1);
     };
     finest = what.coulomb > 0.0 ? std::max (1, halvingsOf (dt_s / finest_s, finest_level)) : 0;
