@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "export_graph.hpp"
+#include "adapted_source.hpp"
 #include "class_code.hpp"
 #include "folder_code.hpp"
 #include "self_test_code.hpp"
@@ -27,7 +28,7 @@ const std::set<std::string>& ownWords()
 {
     static const std::set<std::string> words { "prepare", "tick", "set", "get", "strike", "halt", "resume", "rearm", "loseTime", "emergencyStop", "rate_hz",
                                                "ticks_per_second", "in", "out", "hit", "hits", "state", "ticks", "lost_s", "parameters", "param", "control",
-                                               "position", "turn", "low", "high", "renew", "start", "phase", "part", "tactus", "std", "sumOf", "value" };
+                                               "position", "turn", "low", "high", "renewAll", "memoryUsed", "memory_size", "max_rate_hz", "start", "phase", "part", "tactus", "std", "sumOf", "value" };
     return words;
 }
 
@@ -152,8 +153,8 @@ std::vector<ExportedRole> rolesOf (const Run& run)
 
 void addFiles (ExportedFolder& folder, const Exported& e, const ClassFiles& code)
 {
-    std::set<std::string> used { "tactus/run/exported_graph.hpp" };
-    if (code.source.find ("tactus/run/exported_data.hpp") != code.source.npos || ! code.data.empty()) used.insert ("tactus/run/exported_data.hpp");
+    std::set<std::string> used { "tactus/run/exported_graph.hpp", "tactus/run/exported_memory.hpp" };
+    if (! code.data.empty()) used.insert ("tactus/kit/surface.hpp");
     for (const auto& node : e.wiring.nodes)
         used.insert (node.header);
     const auto sources = withIncludes (used);
@@ -166,7 +167,7 @@ void addFiles (ExportedFolder& folder, const Exported& e, const ClassFiles& code
               { "LICENSE", std::string (findSource ("LICENSES/MIT.txt")->text) } };
     if (! code.data.empty()) files.emplace_back (e.stem + "_data.hpp", code.data);
     for (const auto& path : sources)
-        files.emplace_back (path, findSource (path)->text);
+        files.emplace_back (path, adapted (*findSource (path)));
 }
 
 constexpr const char* manifest = "tactus_export.txt";
@@ -206,6 +207,7 @@ ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& opti
         e.hits.push_back (hits.make (name));
 
     e.roles = rolesOf (run);
+    e.memory = memoryOf (wiring);
     const auto code = classFiles (e);   // before the run, because it moves the values
     addFiles (folder, e, code);
     auto self_test = selfTestFiles (e, selfTestOf (run, e));
