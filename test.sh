@@ -29,7 +29,7 @@ esac
 
 packages+=(python3-jsonschema xvfb xdotool)
 [ "$mode" = --long ] && packages+=(clang-14 libclang-rt-14-dev)
-[ "$mode" = --export ] && packages+=(clang-14)
+[ "$mode" = --export ] && packages+=(clang-14 gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
 [ "$mode" = --screens ] && packages+=(xauth imagemagick)
 [ "$mode" = --sound ] && packages+=(xauth imagemagick jackd2 jack-capture python3-numpy)
@@ -86,9 +86,11 @@ if [ "$mode" = --sound ]; then
 fi
 
 if [ "$mode" = --export ]; then
-    build release tactus_tests
+    build release tactus tactus_tests
     say "Exported graphs"
     TACTUS_EXPORT_COMPILERS="g++ clang++-14" build/release/bin/tactus_tests "[export],[export_all]"
+    say "On a Cortex-M7"
+    build/release/bin/tactus_tests "[export_m7],[export_targets]"
     exit
 fi
 

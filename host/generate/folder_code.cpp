@@ -132,6 +132,30 @@ instructions: @STEM@_self_test
 
 namespace
 {
+/// How to build what is in the folder.
+std::string buildOf (const Exported& e, ExportTarget target)
+{
+    if (target == ExportTarget::arduino)
+        return "This is an Arduino library. Copy the folder into `libraries/`, install the library Eigen, and open the example `Board`. The core of the "
+               "board\nmust compile C++20 (`-std=gnu++20`), and must not use `-ffast-math`. `extras/` has a self-test for a computer:\n\n"
+               "    g++ -std=c++20 -O2 -ffp-contract=off -fno-math-errno -fno-trapping-math -Isrc -isystem /usr/include/eigen3 \\\n"
+               "        extras/*.cpp $(find src -name '*.cpp') -o self_test && ./self_test\n";
+    std::string text = R"(    cmake -B build && cmake --build build && ctest --test-dir build
+    make test
+
+Either command builds the self-test and runs it. It compares every output of a recorded run with what Tactus computed, bit for bit. It
+also prints how many bytes the graph takes. `make instructions` counts the instructions of a tick (it needs valgrind).
+)";
+    if (target == ExportTarget::c_api)
+        text += "\n`" + e.stem + ".h` is the same class for C99: create, prepare, tick, set, destroy. `" + e.stem + "_example.c` shows how to use it; link it with\n`lib"
+                + e.stem + ".a` and the C++ library.\n";
+    if (target == ExportTarget::fmu)
+        text += "\n`make fmu` builds `" + e.stem + ".fmu`, a unit for co-simulation by the Functional Mock-up Interface 2.0, for 64-bit Linux. It runs at the rate\n"
+                "of the patch: a step of h seconds runs all ticks that begin within it, on the inputs that are set. Its state can be saved and set again\n"
+                "in the same unit; it cannot be serialised.\n";
+    return text;
+}
+
 /// Bytes of the class, roughly: the sizes of parameters, guards and readings on a 64-bit computer.
 std::size_t aboutBytesOf (const Exported& e)
 {
@@ -142,7 +166,7 @@ std::size_t aboutBytesOf (const Exported& e)
 }
 }   // namespace
 
-std::string readmeFile (const Exported& e, const std::vector<std::string>& limits)
+std::string readmeFile (const Exported& e, ExportTarget target, const std::vector<std::string>& limits)
 {
     bool has_limits = true;
     for (const auto& role : e.roles)
@@ -155,12 +179,7 @@ std::string readmeFile (const Exported& e, const std::vector<std::string>& limit
 @ABOUT@A graph of Tactus as C++20. `@PROGRAM@ export` wrote this folder from `@FILE@`. It needs only Eigen 3.4 (headers) and the
 standard library, and is under the MIT licence.
 
-    cmake -B build && cmake --build build && ctest --test-dir build
-    make test
-
-Either command builds the self-test and runs it. It compares every output of a recorded run with what Tactus computed, bit for bit. It
-also prints how many bytes the graph takes. `make instructions` counts the instructions of a tick (it needs valgrind).
-
+@BUILD@
 ## Use it
 
 @EXAMPLE@`@STEM@.hpp` declares the class, and `@STEM@.cpp` computes a tick: one statement per node, in running order. The laws of the
@@ -178,7 +197,8 @@ nodes are in `tactus/nodes/`, one file per node type.
   the same `libm`. Another `libm` may differ in the last bits of `sin`, `exp` and the like.
 @MORE@
 @TABLES@)",
-                   { { "@BYTES@", std::to_string (aboutBytesOf (e)) },
+                   { { "@BUILD@", buildOf (e, target) },
+                     { "@BYTES@", std::to_string (aboutBytesOf (e)) },
                      { "@NODES@", std::to_string (e.memory.nodes) },
                      { "@PREPARED@", std::to_string (e.memory.prepared) },
                      { "@MEASURED@", e.memory.nodes > 0 ? "" : "(This program could not measure the nodes.)" },
