@@ -348,7 +348,7 @@ public:
 
     template <typename F>
     requires (! std::is_same_v<std::remove_cvref_t<F>, Function> && std::is_invocable_r_v<R, const std::remove_cvref_t<F>&, A...>)
-    Function (F&& f) : held (makeShared<const std::remove_cvref_t<F>> (std::forward<F> (f))), call (&callOf<std::remove_cvref_t<F>>)
+        Function (F&& f) : held (makeShared<const std::remove_cvref_t<F>> (std::forward<F> (f))), call (&callOf<std::remove_cvref_t<F>>)
     {
     }
 
@@ -357,7 +357,8 @@ public:
 
 private:
     std::shared_ptr<const void> held;
-    R (*call) (const void*, A...) = nullptr;
+    R (*call)
+    (const void*, A...) = nullptr;
 
     template <typename F>
     static R callOf (const void* f, A... arguments)

@@ -184,7 +184,7 @@ std::string writeOutputs (const Exported& e)
     {
         const auto& name = e.wiring.tap_names[i];
         text += e.wiring.plan.taps()[i].samples == nullptr ? "    outputs->" + name + " = out." + name + ";\n"
-                                                            : "    std::copy (out." + name + ".begin(), out." + name + ".end(), outputs->" + name + ");\n";
+                                                           : "    std::copy (out." + name + ".begin(), out." + name + ".end(), outputs->" + name + ");\n";
     }
     return text;
 }

@@ -19,7 +19,10 @@ const bool CountedMemory::counts = false;
 const bool CountedMemory::counts = true;
 #endif
 
-CountedMemory::CountedMemory() noexcept : outer (counting) { counting = this; }
+CountedMemory::CountedMemory() noexcept : outer (counting)
+{
+    counting = this;
+}
 CountedMemory::~CountedMemory() { counting = outer; }
 
 void CountedMemory::take (const void* place, std::size_t size) noexcept

@@ -27,7 +27,7 @@ struct ExportOptions
     std::string program;      ///< "tactus 0.2.0"
     CompileOptions compile;   ///< feeds become inputs, and records outputs
     ExportTarget target = ExportTarget::cpp;
-    Run::OpenDevice open;     ///< the devices of the self-test; empty: those that the graph describes, simulated
+    Run::OpenDevice open;   ///< the devices of the self-test; empty: those that the graph describes, simulated
 };
 
 /// A folder of C++ files that is not written yet.

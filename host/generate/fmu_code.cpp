@@ -44,7 +44,7 @@ void addInput (Variables& all, const std::string& name, const std::string& code,
 
 void addOutput (Variables& all, const std::string& name, const std::string& code, const std::string& about)
 {
-    all.reals.push_back ({ .name = "out." + name, .about = about, .kind = Variable::Kind::output, .code = code });
+    all.reals.push_back ({ .name = name, .about = about, .kind = Variable::Kind::output, .code = code });
 }
 
 void addRoleInputs (Variables& all, const Exported& e, std::size_t i)
@@ -73,11 +73,11 @@ void addRoleOutputs (Variables& all, const Exported& e, std::size_t i)
     const auto out = "out." + role + ".";
     for (const auto& [name, about] : { std::pair { "force", "on the tool, after the guard, N" }, { "torque", "on the tool, after the guard, N m" } })
         for (const char c : { 'x', 'y', 'z' })
-            addOutput (all, role + "." + name + "." + c, out + name + "." + c + "()", about);
+            addOutput (all, "out." + role + "." + name + "." + c, out + name + "." + c + "()", about);
     for (std::size_t a = 0; a < e.roles[i].layout.efforts.size(); ++a)
-        addOutput (all, role + ".axes." + std::to_string (a), out + "axes[" + std::to_string (a) + "]", e.roles[i].layout.efforts[a]);
+        addOutput (all, "out." + role + ".axes." + std::to_string (a), out + "axes[" + std::to_string (a) + "]", e.roles[i].layout.efforts[a]);
     for (int s = 0; s < e.roles[i].layout.signal_outputs; ++s)
-        addOutput (all, role + ".signals." + std::to_string (s), out + "signals[" + std::to_string (s) + "]", "signal output");
+        addOutput (all, "out." + role + ".signals." + std::to_string (s), out + "signals[" + std::to_string (s) + "]", "signal output");
 }
 
 void addTaps (Variables& all, const Exported& e)
@@ -87,10 +87,10 @@ void addTaps (Variables& all, const Exported& e)
         const auto& tap = e.wiring.plan.taps()[i];
         const auto code = "out." + e.wiring.tap_names[i];
         if (tap.samples == nullptr)
-            addOutput (all, tap.name, code, tap.unit);
+            addOutput (all, "record." + tap.name, code, tap.unit);
         else
             for (int k = 0; k < tap.per_tick; ++k)
-                addOutput (all, tap.name + "." + std::to_string (k), code + "[" + std::to_string (k) + "]", tap.unit);
+                addOutput (all, "record." + tap.name + "." + std::to_string (k), code + "[" + std::to_string (k) + "]", tap.unit);
     }
 }
 

@@ -151,8 +151,8 @@ also prints how many bytes the graph takes. `make instructions` counts the instr
                 + e.stem + ".a` and the C++ library.\n";
     if (target == ExportTarget::fmu)
         text += "\n`make fmu` builds `" + e.stem + ".fmu`, a unit for co-simulation by the Functional Mock-up Interface 2.0, for 64-bit Linux. It runs at the rate\n"
-                "of the patch: a step of h seconds runs all ticks that begin within it, on the inputs that are set. Its state can be saved and set again\n"
-                "in the same unit; it cannot be serialised.\n";
+                                                   "of the patch: a step of h seconds runs all ticks that begin within it, on the inputs that are set. Its state can be saved and set again\n"
+                                                   "in the same unit; it cannot be serialised.\n";
     return text;
 }
 

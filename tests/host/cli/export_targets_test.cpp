@@ -27,7 +27,8 @@ constexpr double h = 1.0 / 4000.0;
 bool succeeds (const std::string& command, const std::string& said)
 {
     const bool is_right = std::system ((command + " > '" + said + "' 2>&1").c_str()) == 0;
-    INFO (command << "\n" << textOf (said));
+    INFO (command << "\n"
+                  << textOf (said));
     CHECK (is_right);
     return is_right;
 }
@@ -91,7 +92,7 @@ void checkTicks (Fmu& unit, const std::vector<std::vector<double>>& expected, in
             REQUIRE (unit.set (std::string ("in.") + inputs[i], motion (k)[i]));
         REQUIRE (unit.step (k * h, h));
         for (std::size_t i = 0; i < 3; ++i)
-            if (unit.get (std::string ("out.") + recorded[i]) != expected[static_cast<std::size_t> (k)][i + 1]) ++different;
+            if (unit.get (std::string ("record.") + recorded[i]) != expected[static_cast<std::size_t> (k)][i + 1]) ++different;
     }
     CHECK (different == 0);
 }
@@ -133,8 +134,7 @@ TEST_CASE ("a graph gives the same bits from C, in a simulator, and plays on a s
     REQUIRE (succeeds ("make -s -C '" + c + "' libdry_wood.a CXXFLAGS='-O0 -fPIC -Wall -Wextra -Werror'", said));
     const std::string library = "'" + c + "/libdry_wood.a'", compile = "c++ " + std::string (flags);
 
-    SECTION ("C")
-    {
+    {   // C
         const auto program = scratch.path ("in_c"), object = scratch.path ("in_c.o");
         REQUIRE (succeeds ("cc -std=c99 -Wall -Wextra -Wpedantic -Werror -I'" + c + "' -c -o '" + object + "' '" + c + "/dry_wood_example.c'", said));
         REQUIRE (succeeds ("c++ -o '" + program + "' '" + object + "' " + library, said));
@@ -161,15 +161,13 @@ int main()
         CHECK (from_c.out.find ("999 ") != std::string::npos);
     }
 
-    SECTION ("a unit for co-simulation")
-    {
+    {   // a unit for co-simulation
         const auto fmu = exportedTo (scratch, "fmu"), object = scratch.path ("dry_wood.so");
         REQUIRE (succeeds (compile + "-shared -fvisibility=hidden -I'" + fmu + "' -o '" + object + "' '" + fmu + "/dry_wood_fmu.cpp' " + library, said));
         checkUnit (textOf (fmu + "/modelDescription.xml"), object, rendered (scratch, 4000));
     }
 
-    SECTION ("an Arduino library")
-    {
+    {   // an Arduino library
         const auto arduino = exportedTo (scratch, "arduino"), program = scratch.path ("board");
         CHECK (textOf (arduino + "/library.properties").find ("includes=dry_wood.hpp") != std::string::npos);
         const std::string boards = TACTUS_SOURCE_DIR "/tests/host/generate/boards";

@@ -131,8 +131,7 @@ std::string ExportedProgram::compileAndRun (const std::string& compile, const st
     for (const auto& source : sources)
         files += " " + source;
     const auto there = "cd '" + folder.path().string() + "' && ";
-    const bool passed
-        = std::system ((there + compile + files + " > said.txt 2>&1").c_str()) == 0 && std::system ((there + run + " >> said.txt 2>&1").c_str()) == 0;
+    const bool passed = std::system ((there + compile + files + " > said.txt 2>&1").c_str()) == 0 && std::system ((there + run + " >> said.txt 2>&1").c_str()) == 0;
     return (passed ? "passed\n" : "failed\n") + contentOf (folder / "said.txt");
 }
 

@@ -39,7 +39,7 @@ Fmu::Fmu (const std::string& description, const std::string& path, const std::st
     }
     library = dlopen (path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) return;
-    const auto instantiate = function<void* (*) (const char*, int, const char*, const char*, const void*, int, int)> ("fmi2Instantiate");
+    const auto instantiate = function<void* (*)(const char*, int, const char*, const char*, const void*, int, int)> ("fmi2Instantiate");
     if (instantiate == nullptr) return;
     instance = instantiate ("test", 1, (guid.empty() ? attribute ("guid") : guid).c_str(), "", nullptr, 0, 0);
     if (instance == nullptr) return;

@@ -5,6 +5,8 @@
 
 #include SKETCH
 
+#include <cmath>
+
 namespace
 {
 constexpr int motor_z = 6, direction_z = 9;
@@ -14,6 +16,17 @@ void pass (std::uint32_t us)
 {
     for (const auto end = RawHID.now_us + us; RawHID.now_us < end; RawHID.now_us += 50)
         loop();
+}
+
+/// Moves the sensor to this count, slowly.
+void moveTo (int count)
+{
+    while (RawHID.counts[2] != count)
+    {
+        RawHID.counts[2] += RawHID.counts[2] < count ? 1 : -1;
+        pass (1000);
+    }
+    pass (1000000);
 }
 
 SimulatedBoard::Report asking (double force_z)
@@ -29,17 +42,18 @@ SimulatedBoard::Report asking (double force_z)
 
 int main()
 {
+    RawHID.counts[2] = 2048 + 100;
     setup();
     pass (1000000);
-    if (RawHID.duty[motor_z] != 0) return 1;        // far from the object, so no force
+    if (RawHID.duty[motor_z] != 0) return 1;   // outside, so no force
     if (RawHID.reports < 900 || RawHID.reports > 1100) return 2;
     if (RawHID.from_board[0] != 0x54 || (RawHID.from_board[2] & 1) == 0) return 3;
 
-    RawHID.counts[2] = 2048 - 60;                   // 1.5 mm deep
-    pass (1000000);
+    moveTo (2048 - 60);   // 1.5 mm deep
     const int pushed = RawHID.duty[motor_z];
     if (pushed <= 0 || RawHID.level[direction_z] != HIGH) return 4;
-    if (tactus::board::get (RawHID.from_board, 20, 1e-9) != -60 * 0.1 / 4096 && std::abs (tactus::board::get (RawHID.from_board, 20, 1e-9) + 60 * 0.1 / 4096) > 1e-9) return 5;
+    const double reported = tactus::board::get (RawHID.from_board, 20, 1e-9);
+    if (! (std::abs (reported + 60 * 0.1 / 4096) < 1e-9)) return 5;
 
     for (int i = 0; i < 10; ++i)
     {
@@ -53,13 +67,12 @@ int main()
     broken[16] ^= 1;
     RawHID.to_board.push_back (broken);
     pass (2000);
-    if (RawHID.duty[motor_z] != 50) return 8;       // a report with a wrong CRC is ignored
+    if (RawHID.duty[motor_z] != 50) return 8;   // a report with a wrong CRC is ignored
 
-    pass (50000);                                   // silence: the board's own graph again
+    pass (50000);   // silence: the board's own graph again
     if (RawHID.duty[motor_z] != pushed || RawHID.level[direction_z] != HIGH) return 9;
     if ((RawHID.from_board[2] & 4) == 0) return 10;
 
-    RawHID.counts[2] = 2048 + 400;
-    pass (1000000);
+    moveTo (2048 + 100);
     return RawHID.duty[motor_z] == 0 ? 0 : 11;
 }

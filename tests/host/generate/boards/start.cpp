@@ -10,7 +10,7 @@
 extern "C"
 {
     extern char bss_begin[], bss_end[], heap_begin[], heap_end[], stack_top[];
-    int main();
+    int runMain() __asm__("main");
     void __libc_init_array();
     void _init() {}
     void reset();
@@ -19,9 +19,12 @@ extern "C"
     /// Asks the debugger, which is QEMU.
     static std::uint32_t semihost (std::uint32_t what, const void* with)
     {
-        register std::uint32_t r0 __asm__ ("r0") = what;
-        register const void* r1 __asm__ ("r1") = with;
-        __asm__ volatile ("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
+        register std::uint32_t r0 __asm__("r0") = what;
+        register const void* r1 __asm__("r1") = with;
+        __asm__ volatile("bkpt 0xab"
+                         : "+r"(r0)
+                         : "r"(r1)
+                         : "memory");
         return r0;
     }
 
@@ -36,7 +39,9 @@ extern "C"
     {
         const std::uint32_t block[] { 0x20026, static_cast<std::uint32_t> (status) };   // ADP_Stopped_ApplicationExit
         semihost (0x20, block);                                                         // SYS_EXIT_EXTENDED
-        for (;;) {}
+        for (;;)
+        {
+        }
     }
 
     /// Only for printf of the C library.
@@ -66,12 +71,12 @@ extern "C"
     void reset()
     {
         *reinterpret_cast<volatile std::uint32_t*> (0xE000ED88) |= 0xFu << 20;   // access to the floating-point unit
-        __asm__ volatile ("dsb\nisb");
+        __asm__ volatile("dsb\nisb");
         std::memset (bss_begin, 0, static_cast<std::size_t> (bss_end - bss_begin));
         *reinterpret_cast<volatile std::uint32_t*> (0x40000008) = 0xffffffff;
         *reinterpret_cast<volatile std::uint32_t*> (0x40000000) = 1;
         __libc_init_array();
-        _exit (main());
+        _exit (runMain());
     }
 
     void fault()
