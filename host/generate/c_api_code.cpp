@@ -23,7 +23,7 @@ std::string capitals (std::string text)
     return text;
 }
 
-std::string channels (const char* name, std::size_t count, const char* about)
+std::string cChannels (const char* name, std::size_t count, const char* about)
 {
     return count == 0 ? std::string {} : std::string ("    double ") + name + "[" + std::to_string (count) + "];   /* " + about + " */\n";
 }
@@ -46,16 +46,16 @@ std::string roleStructs (const Exported& e)
                   "    double true_velocity[3];       /* of a simulated device, m/s */\n"
                   "    double unrendered_force[3];    /* what the motors could not do of the last force, N */\n"
                   "    double unrendered_torque[3];   /* the same for the torque, N m */\n"
-                + channels ("axes", layout.axes.size(), "m, rad or 1") + channels ("signals", static_cast<std::size_t> (layout.signal_inputs), "signal inputs")
+                + cChannels ("axes", layout.axes.size(), "m, rad or 1") + cChannels ("signals", static_cast<std::size_t> (layout.signal_inputs), "signal inputs")
                 + "} " + name + "_reading;\n\n/* What this device should apply. */\ntypedef struct " + name + "_effort\n{\n"
                 + "    double force[3];    /* on the tool, N */\n    double torque[3];   /* on the tool, N m */\n"
-                + channels ("axes", layout.efforts.size(), "N or N m") + channels ("signals", static_cast<std::size_t> (layout.signal_outputs), "signal outputs")
+                + cChannels ("axes", layout.efforts.size(), "N or N m") + cChannels ("signals", static_cast<std::size_t> (layout.signal_outputs), "signal outputs")
                 + "} " + name + "_effort;\n\n";
     }
     return text;
 }
 
-std::string structs (const Exported& e)
+std::string cStructs (const Exported& e)
 {
     std::string text = roleStructs (e) + "typedef struct " + e.stem + "_inputs\n{\n";
     for (const auto& role : e.wiring.role_ports)
@@ -76,7 +76,7 @@ std::string structs (const Exported& e)
     return text + "} " + e.stem + "_outputs;\n\n";
 }
 
-std::string enumOf (const Exported& e, const std::string& kind, const std::vector<std::string>& names)
+std::string cEnumOf (const Exported& e, const std::string& kind, const std::vector<std::string>& names)
 {
     if (names.empty()) return {};
     std::vector<std::string> all;
@@ -103,7 +103,7 @@ std::vector<std::string> controlNames (const Exported& e)
 }
 
 /// @S@ is the stem.
-std::string functions (const Exported& e)
+std::string cFunctions (const Exported& e)
 {
     std::string text = R"(/* How many bytes of memory a graph needs, and a multiple of which number its address must be. */
 size_t @S@_size (void);
@@ -138,15 +138,15 @@ void @S@_destroy (@S@* graph);
     return filled (text, { { "@S@", e.stem }, { "@U@", capitals (e.stem) } });
 }
 
-std::string header (const Exported& e)
+std::string cHeader (const Exported& e)
 {
     const auto guard = capitals (e.stem) + "_H";
     return "/* SPDX-License-Identifier: MIT */\n/* " + filled (comment (e.graph.name.empty() ? e.stem : e.graph.name), { { "*/", "* /" } })
            + " as a C interface. All functions of a graph are for one thread. */\n#ifndef " + guard + "\n#define " + guard
            + "\n\n#include <stdbool.h>\n#include <stddef.h>\n#include <stdint.h>\n\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n#define " + capitals (e.stem)
            + "_RATE_HZ " + literal (e.wiring.plan.rateHz()) + "\n#define " + capitals (e.stem) + "_MAX_RATE_HZ " + literal (e.wiring.plan.rateHz())
-           + "\n\ntypedef struct " + e.stem + " " + e.stem + ";\n\n" + structs (e) + enumOf (e, "param", paramNames (e)) + enumOf (e, "control", controlNames (e))
-           + enumOf (e, "hit", e.hits) + functions (e) + "#ifdef __cplusplus\n}\n#endif\n\n#endif\n";
+           + "\n\ntypedef struct " + e.stem + " " + e.stem + ";\n\n" + cStructs (e) + cEnumOf (e, "param", paramNames (e)) + cEnumOf (e, "control", controlNames (e))
+           + cEnumOf (e, "hit", e.hits) + cFunctions (e) + "#ifdef __cplusplus\n}\n#endif\n\n#endif\n";
 }
 
 /// Statements that copy the inputs into those of the class.
@@ -205,7 +205,7 @@ std::string optionalFunctions (const Exported& e)
     return text;
 }
 
-std::string source (const Exported& e)
+std::string cSource (const Exported& e)
 {
     const bool reads = ! e.roles.empty() || ! e.wiring.feed_names.empty(), writes = ! e.roles.empty() || ! e.wiring.tap_names.empty();
     return filled (R"(// SPDX-License-Identifier: MIT
@@ -287,7 +287,7 @@ void @S@_destroy (@S@* graph)
                      { "@S@", e.stem } });
 }
 
-std::string example (const Exported& e)
+std::string cExample (const Exported& e)
 {
     std::string move, print;
     for (const auto& role : e.wiring.role_ports)
@@ -324,6 +324,6 @@ int main (void)
 }
 }   // namespace
 
-CFiles cFiles (const Exported& e) { return { header (e), source (e), example (e) }; }
+CFiles cFiles (const Exported& e) { return { cHeader (e), cSource (e), cExample (e) }; }
 
 }   // namespace tactus::host
