@@ -46,7 +46,7 @@ std::string_view valueAfter (std::string_view text, std::string_view key, std::s
 }
 
 /// Code that only checks a graph before it is exported.
-bool isOnlyForChecks (std::string_view path) { return path == "tactus/node/device_parts.cpp" || path == "tactus/kit/surface_check.cpp"; }
+bool isOnlyForChecks (std::string_view path) { return path == "tactus/node/device_parts.cpp"; }
 
 /// True if this file has code of the header: guard.cpp and guard_event.cpp of guard.hpp.
 bool isCodeOf (std::string_view file, std::string_view header)

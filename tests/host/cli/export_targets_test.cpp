@@ -18,8 +18,6 @@ using namespace tactus::test;
 namespace
 {
 constexpr const char* graph = TACTUS_SOURCE_DIR "/graphs/dry_wood.json";
-constexpr const char* ports[] { "board.position.z", "drag.position.x", "drag.position.z" };
-constexpr const char* inputs[] { "board_position_z", "drag_position_x", "drag_position_z" };
 constexpr const char* recorded[] { "board.force.z", "drag.force.x", "drag.deflection.x" };
 constexpr const char* flags = "-std=c++20 -O0 -fPIC -Wall -Wextra -Werror -ffp-contract=off -fno-math-errno -fno-trapping-math -isystem /usr/include/eigen3 ";
 constexpr double h = 1.0 / 4000.0;
@@ -36,8 +34,8 @@ bool succeeds (const std::string& command, const std::string& said)
 /// Down into the board, sideways with a turn, and out again.
 std::array<double, 3> motion (int k)
 {
-    const double t = k * h, x = 0.004 * std::sin (9.0 * t), z = 0.0006 - 0.0012 * std::sin (2.5 * t);
-    return { z, x, z };
+    const double t = k * h;
+    return { 0.004 * std::sin (9.0 * t), 0.0, 0.0006 - 0.0012 * std::sin (2.5 * t) };
 }
 
 std::vector<std::vector<double>> numbersOf (const std::string& csv)
@@ -59,24 +57,24 @@ std::vector<std::vector<double>> numbersOf (const std::string& csv)
 /// What `render` computes for this motion; the columns are those of `recorded`.
 std::vector<std::vector<double>> rendered (const Scratch& scratch, int ticks)
 {
-    std::ostringstream feed;
-    feed.precision (17);
-    feed << ports[0] << "," << ports[1] << "," << ports[2] << "\n";
+    std::ostringstream trace;
+    trace.precision (17);
+    trace << "t,x,y,z\n";
     for (int k = 0; k < ticks; ++k)
-        feed << motion (k)[0] << "," << motion (k)[1] << "," << motion (k)[2] << "\n";
-    const auto in = scratch.write ("in.csv", feed.str()), out = scratch.path ("out.csv");
-    const auto ran = runTactus ({ "render", graph, "--feed", in, "--record", "board.force.z,drag.force.x,drag.deflection.x", "--out", out });
+        trace << k * h << "," << motion (k)[0] << "," << motion (k)[1] << "," << motion (k)[2] << "\n";
+    const auto in = scratch.write ("in.csv", trace.str()), out = scratch.path ("out.csv");
+    const auto ran = runTactus (
+        { "render", graph, "--device", "stylus=trace:" + in, "--record", "board.force.z,drag.force.x,drag.deflection.x", "--out", out });
     INFO (ran.err);
     REQUIRE (ran.status == 0);
     return numbersOf (textOf (out));
 }
 
-/// Writes the graph for this target, with the ports of the motion as inputs.
+/// Writes the graph for this target.
 std::string exportedTo (const Scratch& scratch, const std::string& target)
 {
     const auto folder = scratch.path (target);
-    const auto ran = runTactus ({ "export", graph, "-o", folder, "--to", target, "--input", "board.position.z,drag.position.x,drag.position.z", "--record",
-                                  "board.force.z,drag.force.x,drag.deflection.x" });
+    const auto ran = runTactus ({ "export", graph, "-o", folder, "--to", target, "--record", "board.force.z,drag.force.x,drag.deflection.x" });
     INFO (ran.err);
     REQUIRE (ran.status == 0);
     return folder;
@@ -89,7 +87,7 @@ void checkTicks (Fmu& unit, const std::vector<std::vector<double>>& expected, in
     for (int k = first; k < static_cast<int> (expected.size()); ++k)
     {
         for (std::size_t i = 0; i < 3; ++i)
-            REQUIRE (unit.set (std::string ("in.") + inputs[i], motion (k)[i]));
+            REQUIRE (unit.set (std::string ("in.stylus.position.") + "xyz"[i], motion (k)[i]));
         REQUIRE (unit.step (k * h, h));
         for (std::size_t i = 0; i < 3; ++i)
             if (unit.get (std::string ("record.") + recorded[i]) != expected[static_cast<std::size_t> (k)][i + 1]) ++different;

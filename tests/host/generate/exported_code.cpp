@@ -153,7 +153,7 @@ std::string ExportedProgram::runOnM7 (const std::string& flags) const
     return compileAndRun ("arm-none-eabi-g++ -mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard -fno-threadsafe-statics -ffunction-sections "
                           "-fdata-sections "
                               + flags + " -nostartfiles -Wl,--gc-sections -T '" + here + "an500.ld' '" + here + "start.cpp' -o all.elf",
-                          "qemu-system-arm -M mps2-an500 -nographic -monitor none -serial none -semihosting-config enable=on,target=native -icount shift=6 "
+                          "qemu-system-arm -M mps2-an500 -nographic -monitor none -serial none -chardev stdio,id=said -semihosting-config enable=on,target=native,chardev=said -icount shift=6 "
                           "-kernel all.elf");
 }
 

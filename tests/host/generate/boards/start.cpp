@@ -12,6 +12,7 @@ extern "C"
     extern char bss_begin[], bss_end[], heap_begin[], heap_end[], stack_top[];
     int runMain() __asm__("main");
     void __libc_init_array();
+    void* __dso_handle = nullptr;   // crtbegin.o is not linked
     void _init() {}
     void reset();
     void fault();
