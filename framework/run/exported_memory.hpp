@@ -216,6 +216,8 @@ public:
     constexpr T* end() noexcept { return first + count; }
     constexpr const T* begin() const noexcept { return first; }
     constexpr const T* end() const noexcept { return first + count; }
+    std::reverse_iterator<T*> rbegin() noexcept { return std::reverse_iterator<T*> (end()); }
+    std::reverse_iterator<T*> rend() noexcept { return std::reverse_iterator<T*> (begin()); }
     constexpr T& operator[] (std::size_t i) noexcept { return first[i]; }
     constexpr const T& operator[] (std::size_t i) const noexcept { return first[i]; }
     constexpr T& front() noexcept { return first[0]; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The same graph as a class, behind a C interface, in an Arduino library and as a unit for simulators. The class is compiled only once.
+// The same graph behind a C interface, as a unit for simulators and in an Arduino library.
 
 #include "program.hpp"
 
@@ -54,7 +54,17 @@ std::vector<std::vector<double>> numbersOf (const std::string& csv)
     return rows;
 }
 
-/// What `render` computes for this motion; the columns are those of `recorded`.
+/// What `render` records while the stylus moves as this trace says.
+std::vector<std::vector<double>> rendered (const Scratch& scratch, const std::string& trace, const std::string& ports)
+{
+    const auto in = scratch.write ("in.csv", trace), out = scratch.path ("out.csv");
+    const auto ran = runTactus ({ "render", graph, "--device", "stylus=trace:" + in, "--record", ports, "--out", out });
+    INFO (ran.err);
+    REQUIRE (ran.status == 0);
+    return numbersOf (textOf (out));
+}
+
+/// The same for motion(); the columns are those of `recorded`.
 std::vector<std::vector<double>> rendered (const Scratch& scratch, int ticks)
 {
     std::ostringstream trace;
@@ -62,12 +72,7 @@ std::vector<std::vector<double>> rendered (const Scratch& scratch, int ticks)
     trace << "t,x,y,z\n";
     for (int k = 0; k < ticks; ++k)
         trace << k * h << "," << motion (k)[0] << "," << motion (k)[1] << "," << motion (k)[2] << "\n";
-    const auto in = scratch.write ("in.csv", trace.str()), out = scratch.path ("out.csv");
-    const auto ran = runTactus (
-        { "render", graph, "--device", "stylus=trace:" + in, "--record", "board.force.z,drag.force.x,drag.deflection.x", "--out", out });
-    INFO (ran.err);
-    REQUIRE (ran.status == 0);
-    return numbersOf (textOf (out));
+    return rendered (scratch, trace.str(), "board.force.z,drag.force.x,drag.deflection.x");
 }
 
 /// Writes the graph for this target.
@@ -125,7 +130,7 @@ void checkUnit (const std::string& description, const std::string& library, cons
 }
 }   // namespace
 
-TEST_CASE ("a graph gives the same bits from C, in a simulator, and plays on a simulated board", "[cli][export]")
+TEST_CASE ("a graph gives the same bits from C and in a simulator", "[cli][export]")
 {
     const Scratch scratch;
     const auto c = exportedTo (scratch, "c-api"), said = scratch.path ("said");
@@ -136,27 +141,27 @@ TEST_CASE ("a graph gives the same bits from C, in a simulator, and plays on a s
         const auto program = scratch.path ("in_c"), object = scratch.path ("in_c.o");
         REQUIRE (succeeds ("cc -std=c99 -Wall -Wextra -Wpedantic -Werror -I'" + c + "' -c -o '" + object + "' '" + c + "/dry_wood_example.c'", said));
         REQUIRE (succeeds ("c++ -o '" + program + "' '" + object + "' " + library, said));
-        const auto by_class = scratch.write ("by_class.cpp", R"(#include "dry_wood.hpp"
-#include <cstdio>
-int main()
-{
-    static DryWood graph;
-    DryWood::Inputs in;
-    DryWood::Outputs out;
-    graph.prepare();
-    for (int k = 0; k < 1000; ++k)
-    {
-        in.stylus.position = { 1e-5 * k, 0.0, 0.002 - 4e-6 * k };
-        graph.tick (in, out);
-        std::printf ("%d %a %a %a\n", k, out.stylus.force[0], out.stylus.force[1], out.stylus.force[2]);
-    }
-}
-)");
-        REQUIRE (succeeds (compile + "-I'" + c + "' -o '" + scratch.path ("in_cpp") + "' '" + by_class + "' " + library, said));
-        const auto from_c = runProgram (program, {}), from_cpp = runProgram (scratch.path ("in_cpp"), {});
+        std::ostringstream trace;
+        trace.precision (17);
+        trace << "t,x,y,z\n";
+        for (int k = 0; k < 1000; ++k)
+            trace << k * h << "," << 1e-5 * k << ",0," << 0.002 - 4e-6 * k << "\n";
+        const auto expected = rendered (scratch, trace.str(), "motor.force");   // its guard does not act here
+        const auto from_c = runProgram (program, {});
         CHECK (from_c.status == 0);
-        CHECK (from_c.out == from_cpp.out);
-        CHECK (from_c.out.find ("999 ") != std::string::npos);
+        std::istringstream lines (from_c.out);
+        std::size_t different = 0, k = 0;
+        for (std::string line; std::getline (lines, line); ++k)
+        {
+            REQUIRE (k < expected.size());
+            char* next = line.data();
+            std::strtod (next, &next);
+            for (std::size_t c = 1; c <= 3; ++c)
+                if (std::strtod (next, &next) != expected[k][c]) ++different;
+        }
+        CHECK (k == 1000);
+        CHECK (different == 0);
+        CHECK (expected[999][3] > 1.0);
     }
 
     {   // a unit for co-simulation
@@ -164,19 +169,9 @@ int main()
         REQUIRE (succeeds (compile + "-shared -fvisibility=hidden -I'" + fmu + "' -o '" + object + "' '" + fmu + "/dry_wood_fmu.cpp' " + library, said));
         checkUnit (textOf (fmu + "/modelDescription.xml"), object, rendered (scratch, 4000));
     }
-
-    {   // an Arduino library
-        const auto arduino = exportedTo (scratch, "arduino"), program = scratch.path ("board");
-        CHECK (textOf (arduino + "/library.properties").find ("includes=dry_wood.hpp") != std::string::npos);
-        const std::string boards = TACTUS_SOURCE_DIR "/tests/host/generate/boards";
-        REQUIRE (succeeds (compile + "-I'" + arduino + "/src' -I'" + boards + "' -DSKETCH='\"" + arduino + "/examples/Board/Board.ino\"' -o '" + program + "' '"
-                               + boards + "/simulated_board.cpp' " + library,
-                           said));
-        CHECK (runProgram (program, {}).status == 0);
-    }
 }
 
-TEST_CASE ("a unit for co-simulation is built, packed and loaded as its folder says", "[.export_targets]")
+TEST_CASE ("units for simulators, libraries for boards and C interfaces build as their folders say", "[.export_targets]")
 {
     const Scratch scratch;
     const auto fmu = exportedTo (scratch, "fmu"), said = scratch.path ("said"), unpacked = scratch.path ("unpacked");
@@ -187,6 +182,11 @@ TEST_CASE ("a unit for co-simulation is built, packed and loaded as its folder s
 
     const auto arduino = exportedTo (scratch, "arduino");
     REQUIRE (succeeds ("cd '" + arduino + "' && c++ " + flags + "-Isrc extras/*.cpp $(find src -name '*.cpp') -o self_test && ./self_test", said));
+    const std::string boards = TACTUS_SOURCE_DIR "/tests/host/generate/boards";
+    REQUIRE (succeeds ("cd '" + arduino + "' && c++ " + flags + "-Isrc -I'" + boards + "' -DSKETCH='\"" + arduino + "/examples/Board/Board.ino\"' -o board '"
+                           + boards + "/simulated_board.cpp' $(find src -name '*.cpp')",
+                       said));
+    CHECK (runProgram (arduino + "/board", {}).status == 0);
     const auto c = exportedTo (scratch, "c-api");
     CHECK (succeeds ("make -s -C '" + c + "' test", said));
 }
