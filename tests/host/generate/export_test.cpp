@@ -12,6 +12,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 
@@ -21,6 +22,21 @@ using test::ExportedProgram;
 namespace
 {
 bool passes (const std::string& said) { return said.starts_with ("passed"); }
+
+/// The largest difference that self-tests print, as a part of the value expected.
+double largestDifference (const std::string& said)
+{
+    std::istringstream lines (said);
+    double largest = 0.0;
+    for (std::string line; std::getline (lines, line);)
+    {
+        const auto is = line.find (" is "), expected = line.find (", expected ");
+        if (is == line.npos || expected == line.npos) continue;
+        const double value = std::strtod (line.c_str() + is + 4, nullptr), wanted = std::strtod (line.c_str() + expected + 11, nullptr);
+        largest = std::max (largest, std::abs (value - wanted) / std::max (std::abs (wanted), 1e-9));
+    }
+    return largest;
+}
 
 /// The C++ code of a graph that has to be exportable.
 void require (ExportedProgram& program, const host::ExportedFolder& exported, const std::string& name)
@@ -107,12 +123,25 @@ TEST_CASE ("presets give the bits of the engine on a Cortex-M7", "[.export_m7]")
     }
     const auto said = program.runOnM7 ("-O2");
     WARN (left_out << said);
-    std::istringstream lines (said);
-    int right = 0;
-    for (std::string line; std::getline (lines, line);)
-        right += line.find ("values compared") != line.npos && line.ends_with (", 0 differ") ? 1 : 0;
     CHECK (program.graphCount() >= 30);
-    CHECK (right == program.graphCount());
+    CHECK (said.find ("fault") == said.npos);
+
+    // These call no elementary function of the C library. Those of newlib differ from glibc's in the last bits, so the others may differ.
+    for (const auto* name : { "canvas_weave", "celery_stalk", "liver_cut", "oak_board", "potato_cut", "tactile_key", "two_fingers" })
+    {
+        const auto line = said.substr (said.find (std::string ("\n") + name + ": ") + 1);
+        const auto compared = line.find (" values compared, ");
+        INFO (name);
+        REQUIRE (compared != line.npos);
+        CHECK (line.substr (compared, line.find ('\n', compared) - compared) == " values compared, 0 differ");
+    }
+
+    std::istringstream lines (said);
+    int compared = 0;
+    for (std::string line; std::getline (lines, line);)
+        compared += line.find ("values compared") != line.npos ? 1 : 0;
+    CHECK (compared == program.graphCount());
+    CHECK (largestDifference (said) < 1e-9);
 }
 
 TEST_CASE ("an exported graph calls its nodes and values what the patch calls them", "[export]")
