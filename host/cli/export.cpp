@@ -78,8 +78,8 @@ void addExport (const Command& app)
             "A graph file, such as graphs/dry_wood.json, or the name of a preset, such as dry_wood")
         .required();
     command.addOption ("-o,--out", options->folder, "The folder to write: new, empty, or an earlier export, which is replaced").required();
-    command.addOption ("--to", options->target, "What to write: cpp, a C++20 class with a self-test; c-api, the same with a C interface; arduino, a library for "
-                                                "boards; fmu, a unit for simulators (FMI 2.0)")
+    command.addOption ("--to", options->target, "What to write: cpp, a C++20 class with a self-test; c-api, the same with a C interface; arduino, a "
+                                                "library for boards; fmu, a unit for simulators (FMI 2.0)")
         .type ("cpp|c-api|arduino|fmu");
     command.addOption ("--input", options->inputs, "Make these ports inputs of the class, such as drag.mu or drag.position.x").separatedBy (',');
     command.addOption ("--record", options->records, "Make these ports outputs of the class; default: the inputs of every sink").separatedBy (',');

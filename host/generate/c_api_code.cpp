@@ -46,10 +46,12 @@ std::string roleStructs (const Exported& e)
                   "    double true_velocity[3];       /* of a simulated device, m/s */\n"
                   "    double unrendered_force[3];    /* what the motors could not do of the last force, N */\n"
                   "    double unrendered_torque[3];   /* the same for the torque, N m */\n"
-                + cChannels ("axes", layout.axes.size(), "m, rad or 1") + cChannels ("signals", static_cast<std::size_t> (layout.signal_inputs), "signal inputs")
+                + cChannels ("axes", layout.axes.size(), "m, rad or 1")
+                + cChannels ("signals", static_cast<std::size_t> (layout.signal_inputs), "signal inputs")
                 + "} " + name + "_reading;\n\n/* What this device should apply. */\ntypedef struct " + name + "_effort\n{\n"
                 + "    double force[3];    /* on the tool, N */\n    double torque[3];   /* on the tool, N m */\n"
-                + cChannels ("axes", layout.efforts.size(), "N or N m") + cChannels ("signals", static_cast<std::size_t> (layout.signal_outputs), "signal outputs")
+                + cChannels ("axes", layout.efforts.size(), "N or N m")
+                + cChannels ("signals", static_cast<std::size_t> (layout.signal_outputs), "signal outputs")
                 + "} " + name + "_effort;\n\n";
     }
     return text;
@@ -145,7 +147,8 @@ std::string cHeader (const Exported& e)
            + " as a C interface. All functions of a graph are for one thread. */\n#ifndef " + guard + "\n#define " + guard
            + "\n\n#include <stdbool.h>\n#include <stddef.h>\n#include <stdint.h>\n\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n#define " + capitals (e.stem)
            + "_RATE_HZ " + literal (e.wiring.plan.rateHz()) + "\n#define " + capitals (e.stem) + "_MAX_RATE_HZ " + literal (e.wiring.plan.rateHz())
-           + "\n\ntypedef struct " + e.stem + " " + e.stem + ";\n\n" + cStructs (e) + cEnumOf (e, "param", paramNames (e)) + cEnumOf (e, "control", controlNames (e))
+           + "\n\ntypedef struct " + e.stem + " " + e.stem + ";\n\n" + cStructs (e) + cEnumOf (e, "param", paramNames (e))
+           + cEnumOf (e, "control", controlNames (e))
            + cEnumOf (e, "hit", e.hits) + cFunctions (e) + "#ifdef __cplusplus\n}\n#endif\n\n#endif\n";
 }
 

@@ -139,8 +139,8 @@ std::string layoutOf (const DeviceLayout& l)
 
 std::string functions (const Exported& e)
 {
-    std::string text = "    /// Makes all nodes as new, for this many ticks per second. Returns false, and does nothing, if the rate is not above 0 or is above\n"
-                       "    /// max_rate_hz: the memory of the nodes is measured for that rate.\n"
+    std::string text = "    /// Makes all nodes as new, for this many ticks per second. Returns false, and does nothing, if the rate is not above 0\n"
+                       "    /// or is above max_rate_hz: the memory of the nodes is measured for that rate.\n"
                        "    bool prepare (double ticks_per_second = rate_hz) noexcept;\n\n"
                        "    /// Computes one tick. The same inputs give the same bits as in Tactus.\n"
                        "    void tick (const Inputs&, Outputs&) noexcept;\n\n";
@@ -236,8 +236,9 @@ std::string header (const Exported& e)
         text += "#include <" + h + ">\n";
     text += "\n#include <array>\n#include <cstddef>\n#include <cstdint>\n\n/// " + title (e) + "\n///\n"
             + "/// All functions are for one thread, the one that ticks. An object must not be moved, because nodes point to their devices.\nclass "
-            + e.class_name + " : public tactus::exported::Memory<" + std::to_string (e.memory.prepared) + ">\n{\npublic:\n    static constexpr double rate_hz = "
-            + literal (e.wiring.plan.rateHz()) + ";   ///< the rate of the patch\n    static constexpr double max_rate_hz = rate_hz;\n\n";
+            + e.class_name + " : public tactus::exported::Memory<" + std::to_string (e.memory.prepared) + ">\n{\npublic:\n"
+            + "    static constexpr double rate_hz = " + literal (e.wiring.plan.rateHz()) + ";   ///< the rate of the patch\n"
+            + "    static constexpr double max_rate_hz = rate_hz;\n\n";
     text += inputsAndOutputs (e) + enums (e);
     text += "    " + e.class_name + "() = default;\n    " + e.class_name + " (const " + e.class_name + "&) = delete;\n    " + e.class_name
             + "& operator= (const "
@@ -401,9 +402,21 @@ ClassFiles classFiles (const Exported& e)
     const auto prepared = prepare (e, settings);
     files.header = header (e);
     if (settings.usesData())
-        files.data = std::string (license) + "// The constant tables of " + comment (e.file) + ".\n#pragma once\n\n"
-                                                                                               "#include <tactus/kit/surface.hpp>\n#include <tactus/run/exported_memory.hpp>\n\n#include <array>\n\nnamespace "
-                     + space + "\n{\n\n" + settings.data() + "}   // namespace " + space + "\n";
+        files.data = filled (R"(// SPDX-License-Identifier: MIT
+// The constant tables of @FILE@.
+#pragma once
+
+#include <tactus/kit/surface.hpp>
+#include <tactus/run/exported_memory.hpp>
+
+#include <array>
+
+namespace @SPACE@
+{
+
+@DATA@}   // namespace @SPACE@
+)",
+                             { { "@FILE@", comment (e.file) }, { "@SPACE@", space }, { "@DATA@", settings.data() } });
     files.source = std::string (license) + notesOf (e.graph) + "#include \"" + e.stem + ".hpp\"\n";
     if (settings.usesData()) files.source += "#include \"" + space + ".hpp\"\n";
     files.source += "\nusing tactus::exported::sumOf;\n";

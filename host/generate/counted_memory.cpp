@@ -55,7 +55,8 @@ namespace
     const auto whole = std::max<std::size_t> (size, 1);
     for (;;)
     {
-        void* const place = alignment <= alignof (std::max_align_t) ? std::malloc (whole) : std::aligned_alloc (alignment, (whole + alignment - 1) / alignment * alignment);
+        const bool is_usual = alignment <= alignof (std::max_align_t);
+        void* const place = is_usual ? std::malloc (whole) : std::aligned_alloc (alignment, (whole + alignment - 1) / alignment * alignment);
         if (place != nullptr)
         {
             if (counting != nullptr) counting->take (place, size);

@@ -31,7 +31,8 @@ const std::set<std::string>& ownWords()
 {
     static const std::set<std::string> words { "prepare", "tick", "set", "get", "strike", "halt", "resume", "rearm", "loseTime", "emergencyStop", "rate_hz",
                                                "ticks_per_second", "in", "out", "hit", "hits", "state", "ticks", "lost_s", "parameters", "param", "control",
-                                               "position", "turn", "low", "high", "renewAll", "memoryUsed", "memory_size", "max_rate_hz", "start", "phase", "part", "tactus", "std", "sumOf", "value" };
+                                               "position", "turn", "low", "high", "renewAll", "memoryUsed", "memory_size", "max_rate_hz",
+                                               "start", "phase", "part", "tactus", "std", "sumOf", "value" };
     return words;
 }
 

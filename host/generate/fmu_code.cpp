@@ -52,7 +52,12 @@ void addRoleInputs (Variables& all, const Exported& e, std::size_t i)
     const auto& role = e.wiring.role_ports[i];
     const auto in = "in." + role + ".";
     constexpr std::pair<const char*, const char*> vectors[] {
-        { "position", "of the tool, m" }, { "rotation", "rotation vector, rad" }, { "true_position", "of a simulated device, m" }, { "true_velocity", "of a simulated device, m/s" }, { "unrendered_force", "what the motors could not do, N" }, { "unrendered_torque", "what the motors could not do, N m" }
+        { "position", "of the tool, m" },
+        { "rotation", "rotation vector, rad" },
+        { "true_position", "of a simulated device, m" },
+        { "true_velocity", "of a simulated device, m/s" },
+        { "unrendered_force", "what the motors could not do, N" },
+        { "unrendered_torque", "what the motors could not do, N m" },
     };
     for (const auto& [name, about] : vectors)
         for (const char c : { 'x', 'y', 'z' })
@@ -201,7 +206,8 @@ std::string description (const Exported& e, const Variables& all)
                                            : "  <ModelStructure>\n    <Outputs>\n" + outputs + "    </Outputs>\n    <InitialUnknowns>\n" + outputs
                                                  + "    </InitialUnknowns>\n  </ModelStructure>\n";
     return filled (R"(<?xml version="1.0" encoding="UTF-8"?>
-<fmiModelDescription fmiVersion="2.0" modelName="@NAME@" guid="@GUID@" description="@ABOUT@" generationTool="@TOOL@" variableNamingConvention="flat" numberOfEventIndicators="0">
+<fmiModelDescription fmiVersion="2.0" modelName="@NAME@" guid="@GUID@" description="@ABOUT@" generationTool="@TOOL@"
+    variableNamingConvention="flat" numberOfEventIndicators="0">
   <CoSimulation modelIdentifier="@S@" canHandleVariableCommunicationStepSize="true" canGetAndSetFMUstate="true" canSerializeFMUstate="false"/>
   <DefaultExperiment startTime="0" stepSize="@STEP@"/>
   <ModelVariables>

@@ -147,12 +147,16 @@ Either command builds the self-test and runs it. It compares every output of a r
 also prints how many bytes the graph takes. `make instructions` counts the instructions of a tick (it needs valgrind).
 )";
     if (target == ExportTarget::c_api)
-        text += "\n`" + e.stem + ".h` is the same class for C99: create, prepare, tick, set, destroy. `" + e.stem + "_example.c` shows how to use it; link it with\n`lib"
-                + e.stem + ".a` and the C++ library.\n";
+        text += filled ("\n`@S@.h` is the same class for C99: create, prepare, tick, set, destroy. `@S@_example.c` shows how to use it; link it with\n"
+                        "`lib@S@.a` and the C++ library.\n",
+                        { { "@S@", e.stem } });
     if (target == ExportTarget::fmu)
-        text += "\n`make fmu` builds `" + e.stem + ".fmu`, a unit for co-simulation by the Functional Mock-up Interface 2.0, for 64-bit Linux. It runs at the rate\n"
-                                                   "of the patch: a step of h seconds runs all ticks that begin within it, on the inputs that are set. Its state can be saved and set again\n"
-                                                   "in the same unit; it cannot be serialised.\n";
+        text += filled (R"(
+`make fmu` builds `@S@.fmu`, a unit for co-simulation by the Functional Mock-up Interface 2.0, for 64-bit Linux. It runs at the rate
+of the patch: a step of h seconds runs all ticks that begin within it, on the inputs that are set. Its state can be saved and set again
+in the same unit; it cannot be serialised.
+)",
+                        { { "@S@", e.stem } });
     return text;
 }
 

@@ -140,7 +140,8 @@ std::string SettingCode::grid (const Grid* g, const std::string& name)
 {
     if (g == nullptr) return "nullptr";
     return pointer ("constexpr tactus::Grid", name + "_grid",
-                    "{ .rows = " + std::to_string (g->rows) + ", .columns = " + std::to_string (g->columns) + ", .values = " + numbers (g->values, name) + " }");
+                    "{ .rows = " + std::to_string (g->rows) + ", .columns = " + std::to_string (g->columns)
+                        + ", .values = " + numbers (g->values, name) + " }");
 }
 
 std::string SettingCode::curves (const Surface& s, const std::string& name)

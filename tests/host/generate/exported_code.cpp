@@ -131,7 +131,8 @@ std::string ExportedProgram::compileAndRun (const std::string& compile, const st
     for (const auto& source : sources)
         files += " " + source;
     const auto there = "cd '" + folder.path().string() + "' && ";
-    const bool passed = std::system ((there + compile + files + " > said.txt 2>&1").c_str()) == 0 && std::system ((there + run + " >> said.txt 2>&1").c_str()) == 0;
+    const auto succeeds = [&] (const std::string& command) { return std::system ((there + command).c_str()) == 0; };
+    const bool passed = succeeds (compile + files + " > said.txt 2>&1") && succeeds (run + " >> said.txt 2>&1");
     return (passed ? "passed\n" : "failed\n") + contentOf (folder / "said.txt");
 }
 
@@ -153,7 +154,8 @@ std::string ExportedProgram::runOnM7 (const std::string& flags) const
     return compileAndRun ("arm-none-eabi-g++ -mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard -fno-threadsafe-statics -ffunction-sections "
                           "-fdata-sections "
                               + flags + " -nostartfiles -Wl,--gc-sections -T '" + here + "an500.ld' '" + here + "start.cpp' -o all.elf",
-                          "qemu-system-arm -M mps2-an500 -nographic -monitor none -serial none -chardev stdio,id=said -semihosting-config enable=on,target=native,chardev=said -icount shift=6 "
+                          "qemu-system-arm -M mps2-an500 -nographic -monitor none -serial none -chardev stdio,id=said "
+                          "-semihosting-config enable=on,target=native,chardev=said -icount shift=6 "
                           "-kernel all.elf");
 }
 

@@ -34,7 +34,8 @@ Fmu::Fmu (const std::string& description, const std::string& path, const std::st
     {
         const auto tag = text.substr (at, text.find ("</ScalarVariable>", at) - at);
         const auto inner = tag.substr (tag.find ('>') + 1);
-        all[attributeOf (tag, "name")] = { static_cast<unsigned> (std::stoul (attributeOf (tag, "valueReference"))), inner.substr (1, inner.find_first_of (" /") - 1),
+        const auto number = static_cast<unsigned> (std::stoul (attributeOf (tag, "valueReference")));
+        all[attributeOf (tag, "name")] = { number, inner.substr (1, inner.find_first_of (" /") - 1),
                                            attributeOf (tag, "causality"), attributeOf (inner, "start") };
     }
     library = dlopen (path.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -63,7 +64,8 @@ std::string Fmu::attribute (const std::string& name) const
 bool Fmu::set (const std::string& name, double value)
 {
     const auto& v = all.at (name);
-    if (v.type == "Real") return function<Status (*) (void*, const unsigned*, std::size_t, const double*)> ("fmi2SetReal") (instance, &v.number, 1, &value) == 0;
+    using SetReal = Status (*) (void*, const unsigned*, std::size_t, const double*);
+    if (v.type == "Real") return function<SetReal> ("fmi2SetReal") (instance, &v.number, 1, &value) == 0;
     const int whole = static_cast<int> (value);
     return function<Status (*) (void*, const unsigned*, std::size_t, const int*)> (v.type == "Integer" ? "fmi2SetInteger" : "fmi2SetBoolean") (
                instance, &v.number, 1, &whole)
