@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace tactus
 {
@@ -105,15 +106,19 @@ double smallestImpulse (const GuardLimits& l) noexcept { return std::min ({ l.ma
 /// For each effort, the number of the axis that it pushes, or -1: the axis of the same name, or axisN for effortN.
 std::array<std::int8_t, Channels::most> axesOf (const DeviceLayout& layout)
 {
-    constexpr std::string_view effort = "effort";
+    constexpr std::string_view effort = "effort", axis = "axis";
     std::array<std::int8_t, Channels::most> all;
     all.fill (-1);
     for (std::size_t i = 0; i < std::min (layout.efforts.size(), all.size()); ++i)
     {
-        const auto& name = layout.efforts[i];
-        int axis = indexOf (layout.axes, name);
-        if (axis < 0 && name.starts_with (effort)) axis = indexOf (layout.axes, "axis" + name.substr (effort.size()));
-        if (axis < Channels::most) all[i] = static_cast<std::int8_t> (axis);
+        const std::string_view name = layout.efforts[i];
+        int index = indexOf (layout.axes, name);
+        for (std::size_t k = 0; index < 0 && name.starts_with (effort) && k < layout.axes.size(); ++k)
+        {
+            const std::string_view other = layout.axes[k];
+            if (other.starts_with (axis) && other.substr (axis.size()) == name.substr (effort.size())) index = static_cast<int> (k);
+        }
+        if (index < Channels::most) all[i] = static_cast<std::int8_t> (index);
     }
     return all;
 }

@@ -5,11 +5,10 @@
 #include <tactus/kit/math/math.hpp>
 #include <tactus/kit/past_window.hpp>
 #include <tactus/node/node.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 #include <string>
 
 namespace tactus::nodes
@@ -267,12 +266,11 @@ inline std::string Plane::warning (const Setup& setup) const
         needed *= 1.1;
     const double digit = math::pow (10.0, std::floor (math::log10 (needed)) - 1.0);
 
-    std::ostringstream text;
-    text << std::setprecision (2) << "a tool of " << tool.mass << " kg that hits at " << hard_hit << " m/s comes back at " << wrong
-         << " times its speed instead of " << right << " times, because the contact lasts only " << rebound.duration * setup.rate_hz << " samples; ";
-    if (needed <= highest) text << "raise the rate to " << std::setprecision (7) << std::ceil (needed / digit) * digit << " Hz, ";
-    text << "use a softer law, or play the contact with shock.hunt_crossley";
-    return text.str();
+    auto text = "a tool of " + roundedText (tool.mass, 2) + " kg that hits at " + roundedText (hard_hit, 2) + " m/s comes back at " + roundedText (wrong, 2)
+                + " times its speed instead of " + roundedText (right, 2) + " times, because the contact lasts only "
+                + roundedText (rebound.duration * setup.rate_hz, 2) + " samples; ";
+    if (needed <= highest) text += "raise the rate to " + roundedText (std::ceil (needed / digit) * digit, 7) + " Hz, ";
+    return text + "use a softer law, or play the contact with shock.hunt_crossley";
 }
 
 }   // namespace tactus::nodes
