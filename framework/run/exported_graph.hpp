@@ -28,8 +28,13 @@ inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 template <typename... T>
 double sumOf (T... values) noexcept
 {
-    double all[] { values... };
-    return plan::sum (all, static_cast<int> (sizeof...(T)));
+    if constexpr (sizeof...(T) <= plan::most_in_network)
+        return plan::sumOf (values...);
+    else
+    {
+        double all[] { values... };
+        return plan::sum (all, static_cast<int> (sizeof...(T)));
+    }
 }
 
 /// The sum of all sinks of a role.
