@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine.hpp"
 
+#include "effort_sum.hpp"
+
 #include <tactus/plan/find_hit.hpp>
 #include <tactus/plan/find_param.hpp>
 
@@ -10,36 +12,15 @@
 namespace tactus
 {
 
-/// The sum of the efforts of all sinks of a role. The result does not depend on the order of the sinks.
+/// The sum of the efforts of all sinks of a role.
 Effort Engine::total (const Plan::RoleUse& role, Scratch& scratch) noexcept
 {
     if (role.sinks.size() == 1) return role.sinks[0].effort (role.sinks[0].node);
 
     std::size_t n = 0;
-    int axes = 0, signals = 0;
     for (const auto& sink : role.sinks)
-    {
-        const auto& e = scratch.efforts[n++] = sink.effort (sink.node);
-        axes = std::max (axes, e.axes.size());
-        signals = std::max (signals, e.signals.size());
-    }
-
-    const auto sum = [&] (auto part) {
-        for (std::size_t i = 0; i < n; ++i)
-            scratch.numbers[i] = part (scratch.efforts[i]);
-        return plan::sum (scratch.numbers.data(), static_cast<int> (n));
-    };
-    Effort all;
-    for (int c = 0; c < 3; ++c)
-    {
-        all.force[c] = sum ([c] (const Effort& e) { return e.force[c]; });
-        all.torque[c] = sum ([c] (const Effort& e) { return e.torque[c]; });
-    }
-    for (int i = 0; i < axes; ++i)
-        all.axes.set (i, sum ([i] (const Effort& e) { return e.axes[i]; }));
-    for (int i = 0; i < signals; ++i)
-        all.signals.set (i, sum ([i] (const Effort& e) { return e.signals[i]; }));
-    return all;
+        scratch.efforts[n++] = sink.effort (sink.node);
+    return sumOfEfforts (std::span (scratch.efforts).first (n), scratch.numbers.data());
 }
 
 Engine::Engine (std::shared_ptr<Plan> p) : rate_hz (p->rateHz()), plans (makeRunning (std::move (p))), running (&plans.newest()) {}
