@@ -7,7 +7,9 @@
 #include <tactus/plan/find_param.hpp>
 
 #include <algorithm>
+#include <new>
 #include <stdexcept>
+#include <type_traits>
 
 namespace tactus
 {
@@ -260,6 +262,7 @@ void Engine::turnKnobs() noexcept
 
 void Engine::beforePlan() noexcept
 {
+    static_assert (std::is_trivially_destructible_v<Reading>, "a new reading replaces the last one in place");
     takeSubmitted();
     if (ticks < settled_at) fadeAgain();
     if (fresh || touched.load (std::memory_order_relaxed)) turnKnobs();
@@ -269,7 +272,7 @@ void Engine::beforePlan() noexcept
         if (used[i]->device)
         {
             auto& [reading, applied, layout] = *plan->roles()[i].state;
-            reading = used[i]->device->read();
+            new (&reading) Reading (used[i]->device->read());   // in place, because most of a reading is rarely in use but always copied
             reading.valid = reading.valid && ! readings_invalid;
             applied.force -= reading.unrendered_force;
             applied.torque -= reading.unrendered_torque;
