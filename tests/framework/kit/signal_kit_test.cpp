@@ -22,9 +22,8 @@ TEST_CASE ("lattice: the same filter as the recursion it was derived from", "[fr
 
     Lattice lattice;
     lattice.start (3, [] { return 0.0; });
-    double gain = 1.0;   // the y of the lattice is sqrt (prod (1 - k^2)) times the y of the recursion
-    for (std::size_t i = 0; i < 3; ++i)
-        gain *= std::sqrt (lattice.set (i, reflections[i]));
+    // The y of the lattice is sqrt (prod (1 - k^2)) times the y of the recursion.
+    const double gain = std::sqrt (lattice.set ([&reflections] (std::size_t i) { return reflections[i]; }));
 
     double y[3] {};
     Random random { 1 };
