@@ -106,14 +106,13 @@ struct Modal
     {
         const double v = in.hit > 0.0 && isFinite (in.hit) ? in.hit : 0.0;
         double sum = 0.0;
-        for (std::size_t i = 0; i < voices.size(); ++i)
+        for (auto& [z, factor] : voices)
         {
-            auto& [z, factor] = voices[i];
             z = times (z, factor);
             if (std::norm (z) < flush * flush) z = {};   // before a new hit is added
-            if (factor != Phasor {}) z += settings.modes[i].amplitude * v;
             sum += z.imag();
         }
+        if (v > 0.0) strike (v);
 
         const double value = params.gain * sum;
         if (isFinite (value)) return { .value = value };
@@ -132,6 +131,13 @@ private:
     };
 
     static constexpr double flush = 1e-18;   // N; a weaker ring cannot be felt, and is set to 0 before it ends in slow denormal numbers
+
+    /// A hit does not sound on its own tick: it changes only the real parts.
+    void strike (double v) noexcept
+    {
+        for (std::size_t i = 0; i < voices.size(); ++i)
+            if (voices[i].factor != Phasor {}) voices[i].z += settings.modes[i].amplitude * v;
+    }
 
     /// The product, without the special cases of std::complex for infinities.
     static Phasor times (Phasor a, Phasor b) noexcept
