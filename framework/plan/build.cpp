@@ -6,6 +6,7 @@
 #include "grouped.hpp"
 #include "lateness.hpp"
 #include "make_node.hpp"
+#include "owned_records.hpp"
 #include "plan_diff.hpp"
 #include "rate_conversions.hpp"
 #include "slots.hpp"
@@ -23,25 +24,6 @@ namespace tactus::plan
 namespace
 {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-/// Records in running order, and for each record the number of the node that it belongs to.
-struct Owned
-{
-    std::vector<Record> records;
-    std::vector<std::uint32_t> owners;
-
-    void add (const Record& r, int node)
-    {
-        records.push_back (r);
-        owners.push_back (static_cast<std::uint32_t> (node));
-    }
-
-    void append (const Owned& more)
-    {
-        records.insert (records.end(), more.records.begin(), more.records.end());
-        owners.insert (owners.end(), more.owners.begin(), more.owners.end());
-    }
-};
 
 /// Something that drives one component of an input or parameter.
 struct Driver
@@ -100,7 +82,7 @@ public:
 private:
     struct Steps
     {
-        Owned peeks, body, writes;
+        OwnedRecords peeks, body, writes;
     };
 
     Flat& flat;
@@ -152,7 +134,7 @@ private:
 
     /// The records of a section, in order: delayed wires and peeking nodes deliver their outputs, nodes run, delayed wires read
     /// their inputs.
-    Owned recordsOf (int section)
+    OwnedRecords recordsOf (int section)
     {
         auto& [peeks, body, writes] = steps[at (section)];
         body.records.reserve (order[at (section)].size());
@@ -171,7 +153,7 @@ private:
     }
 
     /// The owner of a section's record is the first node that runs in it.
-    void addSection (int section, Owned& around)
+    void addSection (int section, OwnedRecords& around)
     {
         auto& running = storage->sections[at (section)];
         auto inside = recordsOf (section);
@@ -348,7 +330,7 @@ private:
         for (const auto& d : all)
             if (is_meant (d)) s.terms.push_back (d.term);
         s.scratch.resize (s.terms.size());
-        stepsOf (node).body.add ({ &Sum::step, &s, nullptr, nullptr }, node);
+        stepsOf (node).body.addSum (s, node, storage->vector_sums);
         return &s.out;
     }
 

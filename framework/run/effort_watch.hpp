@@ -80,6 +80,8 @@ private:
 class MeanEffort
 {
 public:
+    bool isEmpty() const noexcept { return count == 0.0; }   ///< nothing has been added [tick thread]
+
     /// Adds an effort that was on the device for this many ticks, as the motors rendered it. [tick thread]
     void add (const Effort& effort, const Reading& reading, double ticks, bool with_axes) noexcept
     {

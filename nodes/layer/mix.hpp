@@ -133,6 +133,7 @@ private:
         double duck = 1.0;    // d_i
     };
 
+    bool mix (const InputList<double>& in, Outputs&) noexcept;
     bool isOpen (int i) const noexcept { return ! (params.mute[i] > 0.5) && (! any_solo || params.solo[i] > 0.5); }
     bool isDucked (int i, int size) const noexcept;
 
@@ -161,15 +162,22 @@ private:
 
 inline LayerMix::Outputs LayerMix::tick (const Inputs& in) noexcept
 {
-    const int size = in.in.size();
-    const auto fault = [this]() -> Outputs {
+    Outputs out { .level = { 0.0, in.in.size() } };   // the only result that is returned, so that its list is not copied
+    if (! mix (in.in, out))
+    {
         forget();
-        return {};
-    };
-    if (! isFinite (in.in)) return fault();
+        out = {};
+    }
+    return out;
+}
 
+/// Returns false if something is not finite.
+inline bool LayerMix::mix (const InputList<double>& in, Outputs& out) noexcept
+{
+    if (! isFinite (in)) return false;
+
+    const int size = in.size();
     std::array<double, list_capacity> heard;
-    Outputs out;
     loudest = fall (loudest, fading);
     for (int i = 0; i < size; ++i)
     {
@@ -177,12 +185,12 @@ inline LayerMix::Outputs LayerMix::tick (const Inputs& in) noexcept
         const double target = isOpen (i) ? 1.0 : 0.0;
         c.open = started ? std::clamp (target, c.open - ramp, c.open + ramp) : target;
 
-        const double x = c.open * (params.gain[i] * in.in[i]);
+        const double x = c.open * (params.gain[i] * in[i]);
         heard[at (i)] = x;
         c.level = std::max (std::abs (x), fall (c.level, decay));
         loudest = std::max (loudest, c.level);
         out.level[i] = c.level;
-        if (! isFinite (x)) return fault();
+        if (! isFinite (x)) return false;
     }
 
     double sum = 0.0;
@@ -194,7 +202,7 @@ inline LayerMix::Outputs LayerMix::tick (const Inputs& in) noexcept
         if (std::abs (target - c.duck) < 1e-9) c.duck = target;
         sum += c.duck * heard[at (i)];
     }
-    if (! isFinite (sum)) return fault();
+    if (! isFinite (sum)) return false;
 
     started = true;
     out.out = sum;
@@ -203,7 +211,7 @@ inline LayerMix::Outputs LayerMix::tick (const Inputs& in) noexcept
         out.out = std::copysign (params.ceiling, sum);
         out.reduction = 20.0 / std::numbers::ln10 * math::log (std::abs (sum) / params.ceiling);
     }
-    return out;
+    return true;
 }
 
 /// True if a layer of higher priority sounds.

@@ -166,9 +166,8 @@ private:
         const Shape &a = corner (s.below, f.below), &b = corner (s.above, f.below), &c = corner (s.below, f.above), &d = corner (s.above, f.above);
         const double wa = (1.0 - s.part) * (1.0 - f.part), wb = s.part * (1.0 - f.part), wc = (1.0 - s.part) * f.part, wd = s.part * f.part;
 
-        double left = 1.0;   // product of 1 - k^2 over all stages
-        for (std::size_t i = 0; i < lattice.order(); ++i)
-            left *= lattice.set (i, wa * a.reflections[i] + wb * b.reflections[i] + wc * c.reflections[i] + wd * d.reflections[i]);
+        const double *ka = a.reflections.data(), *kb = b.reflections.data(), *kc = c.reflections.data(), *kd = d.reflections.data();
+        const double left = lattice.set ([=] (std::size_t i) noexcept { return wa * ka[i] + wb * kb[i] + wc * kc[i] + wd * kd[i]; });
         const double log_variance = wa * a.log_variance + wb * b.log_variance + wc * c.log_variance + wd * d.log_variance;
         const double fade = std::min (1.0, speed / full_speed) * std::min (1.0, force / full_force);
         now = { speed, force, fade * math::exp (0.5 * log_variance) / std::sqrt (left) };
