@@ -2,6 +2,7 @@
 #pragma once
 
 #include "clip.hpp"
+#include "math/math.hpp"
 
 #include <algorithm>
 #include <array>
@@ -113,7 +114,7 @@ private:
         return hint = tactus::at (after - all.begin()) - 1;
     }
 
-    static double sine (double cycles) noexcept { return std::sin (2.0 * std::numbers::pi * (cycles - std::floor (cycles))); }
+    static double sine (double cycles) noexcept { return math::sin (2.0 * std::numbers::pi * (cycles - std::floor (cycles))); }
 
     /// How far a transient has taken over, 0…1: up and down within a quarter of its length.
     static double grip (double through) noexcept
@@ -214,7 +215,8 @@ private:
             const double hertz = voice.tap_lowest + taps[i].sharpness * (voice.tap_highest - voice.tap_lowest);
             double length = 2.0 / hertz;
             if (i + together < taps.size())
-                if (const double room = taps[i + together].time - taps[i].time; room < length) length = std::floor (2.0 * hertz * room + rounding) / (2.0 * hertz);
+                if (const double room = taps[i + together].time - taps[i].time; room < length)
+                    length = std::floor (2.0 * hertz * room + rounding) / (2.0 * hertz);
             bursts.push_back ({ taps[i].time, taps[i].amplitude, hertz, length });
         }
         return bursts;

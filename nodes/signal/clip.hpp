@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tactus/kit/clip_score.hpp>
+#include <tactus/kit/math/math.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
@@ -149,7 +150,7 @@ struct SignalClip
     {
         rate = setup.rate_hz;
         fade_per_tick = 1.0 / std::max (1.0, fade_s * rate);
-        calming = std::exp (-1.0 / (calm_s * rate));
+        calming = math::exp (-1.0 / (calm_s * rate));
         score = std::make_shared<const ClipScore> (calibrated(), settings.channel, settings.track);
         cursors.assign (score->size(), {});
         wanted_drive = Drive::start;
