@@ -4,7 +4,6 @@
 #include <tactus/node/mode.hpp>
 #include <tactus/node/node.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -120,8 +119,8 @@ struct Modal
         const double value = params.gain * sum;
         if (isFinite (value)) return { .value = value };
 
-        std::ranges::fill (real, 0.0);
-        std::ranges::fill (imaginary, 0.0);
+        real.assign (voices.size(), 0.0);   // as many as before, so nothing is allocated
+        imaginary.assign (voices.size(), 0.0);
         return {};
     }
 
