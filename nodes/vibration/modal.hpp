@@ -5,7 +5,6 @@
 #include <tactus/node/mode.hpp>
 #include <tactus/node/node.hpp>
 
-#include <algorithm>
 #include <complex>
 #include <cstddef>
 #include <numbers>
@@ -122,8 +121,8 @@ struct Modal
         const double value = params.gain * sum;
         if (isFinite (value)) return { .value = value };
 
-        std::ranges::fill (real, 0.0);
-        std::ranges::fill (imaginary, 0.0);
+        real.assign (voices.size(), 0.0);   // as many as before, so nothing is allocated
+        imaginary.assign (voices.size(), 0.0);
         return {};
     }
 
