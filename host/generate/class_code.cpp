@@ -330,7 +330,7 @@ std::string prepare (const Exported& e, SettingCode& settings)
     std::vector<std::string> names;
     for (const auto& n : e.wiring.nodes)
         names.push_back (n.name);
-    text += wrapped ("    ", "renewAll (", names, ");");
+    text += filled (wrapped ("    ", "renewAll (", names, ");"), { { "renewAll ( ", "renewAll (" }, { " );", ");" } });
     if (! e.parameters.empty()) text += "    parameters.prepare (ticks_per_second);\n";
     if (! e.hits.empty()) text += "    hits.fill ({});\n";
     if (! e.roles.empty()) text += "    lost_s = 0.0;\n";

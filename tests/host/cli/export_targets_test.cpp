@@ -156,8 +156,8 @@ TEST_CASE ("a graph gives the same bits from C and in a simulator", "[cli][expor
             REQUIRE (k < expected.size());
             char* next = line.data();
             std::strtod (next, &next);
-            for (std::size_t c = 1; c <= 3; ++c)
-                if (std::strtod (next, &next) != expected[k][c]) ++different;
+            for (std::size_t part = 1; part <= 3; ++part)
+                if (std::strtod (next, &next) != expected[k][part]) ++different;
         }
         CHECK (k == 1000);
         CHECK (different == 0);
