@@ -64,7 +64,7 @@ ClipTrack envelopeOf (const ClipTrack& wave, const ClipVoice& voice)
 }
 
 /// A reader of an envelope at times that do not go back.
-struct Reader
+struct EnvelopeReader
 {
     const std::vector<ClipPoint>& points;
     std::size_t next = 0;
@@ -110,7 +110,7 @@ void addEnvelopes (const std::vector<ClipTrack>& tracks, ClipTrack& sum, bool& c
     const auto times = timesOf (tracks);
     struct Readers
     {
-        Reader before, after;
+        EnvelopeReader before, after;
         const std::vector<ClipPoint>& sharpness;
         std::size_t next = 0;
     };
