@@ -63,7 +63,8 @@ Clip randomClip()
         time += 0.001 * *rc::gen::inRange (5, 200);
     }
     for (const auto& p : track.amplitude)
-        if (*rc::gen::inRange (0, 4) == 0) track.taps.push_back ({ p.time, std::max (p.value, 0.8), *rc::gen::inRange (0, 111) / 110.0 });   // whole Hz, as in HJIF
+        if (*rc::gen::inRange (0, 4) == 0)
+            track.taps.push_back ({ p.time, std::max (p.value, 0.8), *rc::gen::inRange (0, 111) / 110.0 });   // whole Hz, as in HJIF
     return clip;
 }
 

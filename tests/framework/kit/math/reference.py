@@ -88,7 +88,8 @@ def powers(dice):
 FUNCTIONS = {
     "exp": (mpmath.exp, exponents), "exp2": (lambda x: mpf(2) ** x, exponents), "expm1": (mpmath.expm1, exponents), "log": (mpmath.log, positive),
     "log1p": (mpmath.log1p, lambda dice: (x for x in [*exponents(dice), *positive(dice)] if x > -1)),
-    "log2": (lambda x: mpmath.log(x) / mpmath.log(2), positive), "log10": (mpmath.log10, positive), "pow": (mpmath.power, powers), "sin": (mpmath.sin, angles), "cos": (mpmath.cos, angles), "tan": (mpmath.tan, angles),
+    "log2": (lambda x: mpmath.log(x) / mpmath.log(2), positive), "log10": (mpmath.log10, positive), "pow": (mpmath.power, powers),
+    "sin": (mpmath.sin, angles), "cos": (mpmath.cos, angles), "tan": (mpmath.tan, angles),
     "asin": (mpmath.asin, sines), "acos": (mpmath.acos, sines), "atan": (mpmath.atan, lambda dice: [*sines(dice), *positive(dice)]),
     "atan2": (mpmath.atan2, points), "hypot": (mpmath.hypot, points),
 }
