@@ -209,7 +209,7 @@ inline bool LayerMix::mix (const InputList<double>& in, Outputs& out) noexcept
     if (params.ceiling > 0.0 && std::abs (sum) > params.ceiling)
     {
         out.out = std::copysign (params.ceiling, sum);
-        out.reduction = 20.0 / std::numbers::ln10 * math::log (std::abs (sum) / params.ceiling);
+        out.reduction = 20.0 / std::numbers::ln10 * (math::log (std::abs (sum)) - math::log (params.ceiling));   // their quotient may be infinite
     }
     return true;
 }
