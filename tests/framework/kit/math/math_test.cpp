@@ -53,7 +53,7 @@ const TwoFunction exact[] { TWO (fmod, 0.0), TWO (remainder, 0.0) };
 
 double unitOf (double value)
 {
-    return std::ldexp (1.0, std::max (std::ilogb (value) - 52, -1074));
+    return value == 0.0 ? 0x1p-1074 : std::ldexp (1.0, std::max (std::ilogb (value) - 52, -1074));
 }
 
 /// Any double that is a number or infinite, with every exponent alike.
