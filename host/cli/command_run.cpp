@@ -262,6 +262,7 @@ void CommandRun::decideLength (Pace pace)
     }
 
     if (feed) count = feed->ticks();
+    if (options.watch && options.duration_s == 0.0) return;
     if (options.duration_s > 0.0 || (! feed && seconds > 0.0))
     {
         const double wanted = std::ceil (seconds * rate() - 1e-6);

@@ -54,7 +54,7 @@ void draw (const Shape& shape, const Law& law, double depth, const std::string& 
     const Law fine = tableOf (law, depth, points);
     const Axes panel { .x = { "depth", "m" }, .y = { "force", "N" }, .series = { { .x = fine.table.x, .y = fine.table.y } } };
     const Figure figure { .title = shape.formula, .panels = { panel } };
-    orFail (writePng (figure, file));
+    orFail (writeFigure (figure, file));
 }
 
 void compute (const Shape& shape, const Options& options)

@@ -114,7 +114,7 @@ void draw (const ShockFit& fit, const std::string& name, const std::string& file
                                         .y = { "force", "N" },
                                         .series = { { .label = "recorded", .x = fit.depth, .y = fit.recorded },
                                                     { .label = "fitted, with the same area", .x = fit.depth, .y = fit.fitted } } } } };
-    orFail (writePng (figure, file));
+    orFail (writeFigure (figure, file));
 }
 
 void fitShock (const Options& options)

@@ -76,7 +76,7 @@ void draw (const CurveFit& fit, const std::string& name, const std::string& file
     x.insert (x.begin(), 0.0);
     y.insert (y.begin(), 0.0);
     axes.series.push_back ({ .label = "curve", .x = x, .y = y });
-    orFail (writePng ({ .title = name, .panels = { axes } }, file));
+    orFail (writeFigure ({ .title = name, .panels = { axes } }, file));
 }
 
 void fitCurve (const Options& options)

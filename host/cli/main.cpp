@@ -16,6 +16,7 @@ namespace
 constexpr auto examples =
     "Examples:\n"
     "  tactus nodes                                   all node types\n"
+    "  tactus nodes friction                          those of a family\n"
     "  tactus nodes friction.elasto_plastic           one datasheet\n"
     "  tactus validate graphs/*.json                  all problems in all files\n"
     "  tactus check graphs/dry_wood.json              can its devices render the graph?\n"

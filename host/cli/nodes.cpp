@@ -119,7 +119,10 @@ void printDatasheet (const NodeType& t)
     section ("outputs", t.outputs, false);
 }
 
-void listAll()
+std::string familyOf (const NodeType& t) { return std::string (t.info.id.substr (0, t.info.id.find ('.'))); }
+
+/// Lists the node types of a family; "": of all families.
+void list (const std::string& wanted_family)
 {
     std::string family;
     std::vector<std::vector<std::string>> rows;
@@ -130,7 +133,8 @@ void listAll()
     };
     for (const auto& t : catalogue())
     {
-        const std::string id (t.info.id), its_family = id.substr (0, id.find ('.'));
+        const std::string id (t.info.id), its_family = familyOf (t);
+        if (! wanted_family.empty() && its_family != wanted_family) continue;
         if (its_family != family)
         {
             flush();
@@ -144,27 +148,31 @@ void listAll()
 
 void run (const std::string& wanted, bool json)
 {
-    if (! wanted.empty())
+    const auto isInFamily = [&] (const NodeType& t) { return wanted.empty() || familyOf (t) == wanted; };
+    if (std::ranges::any_of (catalogue(), isInFamily))
     {
-        const auto* type = catalogue().find (wanted);
-        if (type == nullptr)
-        {
-            std::vector<std::string> ids;
-            for (const auto& t : catalogue())
-                ids.emplace_back (t.info.id);
-            fail ("node/unknown_type", "there is no node type " + quote (wanted) + didYouMean (wanted, ids), "`tactus nodes` lists them all");
-        }
-        if (json)
-            std::cout << datasheetJson (*type).dump (2) << '\n';
-        else
-            printDatasheet (*type);
+        if (! json) return list (wanted);
+        Json all = Json::array();
+        for (const auto& t : catalogue())
+            if (isInFamily (t)) all.push_back (datasheetJson (t));
+        std::cout << all.dump (2) << '\n';
         return;
     }
-    if (! json) return listAll();
-    Json all = Json::array();
-    for (const auto& t : catalogue())
-        all.push_back (datasheetJson (t));
-    std::cout << all.dump (2) << '\n';
+    const auto* type = catalogue().find (wanted);
+    if (type == nullptr)
+    {
+        std::vector<std::string> known;
+        for (const auto& t : catalogue())
+        {
+            known.emplace_back (t.info.id);
+            known.push_back (familyOf (t));
+        }
+        fail ("node/unknown_type", "there is no node type and no family " + quote (wanted) + didYouMean (wanted, known), "`tactus nodes` lists them all");
+    }
+    if (json)
+        std::cout << datasheetJson (*type).dump (2) << '\n';
+    else
+        printDatasheet (*type);
 }
 }   // namespace
 
@@ -176,12 +184,13 @@ void addNodes (const Command& app)
         bool json = false;
     };
     const auto options = std::make_shared<Options>();
-    const auto command = app.add ("nodes", "List the node types, or show the datasheet of one");
-    command.addOption ("type", options->type, "The id of a node type, such as friction.elasto_plastic");
+    const auto command = app.add ("nodes", "List the node types of all families or of one, or show the datasheet of a type");
+    command.addOption ("type", options->type, "A family, such as friction, or the id of a node type, such as friction.elasto_plastic");
     command.addFlag ("--json", options->json, "Print JSON, for use by programs");
     addPlugins (command);
     command.footer ("Examples:\n"
                     "  tactus nodes\n"
+                    "  tactus nodes friction\n"
                     "  tactus nodes deform.plane\n"
                     "  tactus nodes --json | jq '.[].id'");
     command.callback ([options] { run (options->type, options->json); });

@@ -32,7 +32,7 @@ namespace
 {
 struct Options : RunOptions
 {
-    bool watch = false, costs = false;
+    bool costs = false;
     std::vector<std::string> live;   ///< headers of nodes
     std::string osc = std::to_string (OscPort::usual), osc_answer;
     bool osc_asked_for = false;
@@ -189,7 +189,7 @@ private:
         health.look (command.realDevices());
         if (terminal)
             printStatus (command.run().live(), command.rate(), true,
-                         (statusOf (health.health(), device_clock.get()) + statusOf (command.audio().status())).c_str());
+                         statusOf (health.health(), device_clock.get()) + statusOf (command.audio().status()), false);
     }
 
     void reload()
@@ -240,7 +240,7 @@ private:
         if (const auto ended = command.audio().end(); ! ended) warnOfCapture (options.capture, ended.error());
         const auto logged = command.run().finish();
         auto& runner = command.run().live();
-        printStatus (runner, command.rate(), terminal, "\n");
+        printStatus (runner, command.rate(), terminal, "", true);
 
         std::fputs (accountOf (command.realDevices(), health.health(), device_clock.get()).c_str(), stderr);
         std::fputs (accountOf (sound).c_str(), stderr);
@@ -291,7 +291,8 @@ void addPlay (const Command& app)
     const auto command = app.add ("play", "Run a graph in real time until its gesture or trace ends, --duration is over, or you press Ctrl-C");
     options->addTo (command);
     command.addFlag ("--watch", options->watch,
-                     "Reload the graph file whenever it is edited, and compile plugins whose code is edited; unchanged parts keep running");
+                     "Play until Ctrl-C, repeating gestures; reload the graph file whenever it is edited, and compile plugins whose code is edited. "
+                     "Unchanged parts keep running");
     command.addOption ("--live", options->live,
                        "The header of a node: compile it, and again whenever it is edited (docs/plugins.md); may be given more than once")
         .oneValueEach();

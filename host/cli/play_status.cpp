@@ -1,28 +1,47 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "play_status.hpp"
 
+#include <host/platform/status_line.hpp>
+#include <host/platform/terminal.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace tactus::host
 {
 
-void printStatus (const Runner& run, double rate_hz, bool over_the_last, const char* end)
+namespace
+{
+template <typename... Values>
+std::string formatted (const char* format, Values... values)
+{
+    std::array<char, 160> text;
+    std::snprintf (text.data(), text.size(), format, values...);
+    return text.data();
+}
+}   // namespace
+
+void printStatus (const Runner& run, double rate_hz, bool over_the_last, const std::string& hardware, bool is_last)
 {
     const auto now = run.status();
     const auto& late = run.account().lateness();
-    std::string stops;
+    std::vector<StatusPart> parts {
+        { formatted ("%8.2f s   force %6.3f N", static_cast<double> (now.ticks) / rate_hz, now.force), 0 },
+        { formatted (", peak %6.3f N", now.peak), 3 },
+        { formatted ("   late p50 %.1f us, p99 %.1f us, max %.0f us", 1e6 * late.quantile (0.5), 1e6 * late.quantile (0.99), 1e6 * late.longest()), 4 },
+        { formatted (", missed %zu of %zu ticks", static_cast<std::size_t> (now.misses), static_cast<std::size_t> (now.ticks)), 2 },
+    };
     if (now.phase == RunStatus::Phase::running)
         for (const auto& role : now.shown())
-            if (role.stop != Guard::Stop::none) stops += "   " + printableName (role.name) + " stopped: " + describe (role.latestEvent());
-    std::fprintf (stderr, "%s%8.2f s   force %6.3f N, peak %6.3f N   "
-                          "late p50 %.1f us, p99 %.1f us, max %.0f us, missed %zu of %zu ticks%s%s",
-                  over_the_last ? "\r\033[K" : "", static_cast<double> (now.ticks) / rate_hz, now.force, now.peak,
-                  1e6 * late.quantile (0.5), 1e6 * late.quantile (0.99), 1e6 * late.longest(),
-                  static_cast<std::size_t> (now.misses), static_cast<std::size_t> (now.ticks), stops.c_str(), end);
+            if (role.stop != Guard::Stop::none) parts.push_back ({ "   " + printableName (role.name) + " stopped: " + describe (role.latestEvent()), 0 });
+    parts.push_back ({ hardware, 1 });
+    const auto line = statusLine (std::move (parts), over_the_last && ! is_last ? stderrColumns() : 0);
+    std::fprintf (stderr, "%s%s%s", over_the_last ? "\r\033[K" : "", line.c_str(), is_last ? "\n" : "");
     std::fflush (stderr);
 }
 

@@ -14,7 +14,7 @@ namespace
 /// The label of an axis: the quantity, or the tap's name if its quantity is unknown.
 Quantity axisOf (const Tap& tap)
 {
-    return { tap.quantity == tactus::Quantity::any ? tap.name : std::string (name (tap.quantity)), tap.unit };
+    return { tap.quantity == tactus::Quantity::any ? tap.name : std::string (name (tap.quantity)), tap.unit, tap.quantity == tactus::Quantity::state };
 }
 
 bool isSilent (const Axes& panel)
@@ -23,29 +23,30 @@ bool isSilent (const Axes& panel)
 }
 }   // namespace
 
-Plotter::Plotter (std::string f, const std::vector<Tap>& t, const std::string& over_name, double rate, bool silent)
-    : file (std::move (f)), taps (t), rate_hz (rate), leave_out_silent (silent), columns (t.size())
+Plotter::Plotter (const PlotOptions& o, const std::vector<Tap>& t, double rate, bool silent)
+    : options (o), taps (t), rate_hz (rate), leave_out_silent (silent), columns (t.size())
 {
     if (taps.empty()) fail ("record/nothing", "there is nothing to plot: the graph has no sink", "name ports with --record, as in --record drag.force");
-    if (over_name.empty()) return;
-    const auto found = std::ranges::find (taps, over_name, &Tap::name);
+    if (options.over.empty()) return;
+    const auto found = std::ranges::find (taps, options.over, &Tap::name);
     if (found == taps.end())
-        fail ("plot/not_recorded", "'" + over_name + "', which --over names, is not recorded", "add it to --record, or name a recorded port");
+        fail ("plot/not_recorded", "'" + options.over + "', which --over names, is not recorded", "add it to --record, or name a recorded port");
     over = found - taps.begin();
 }
 
 void Plotter::frame (std::span<const double> values)
 {
+    const double time = static_cast<double> (ticks++) / rate_hz;
+    if (time < options.from_s || time > options.until_s) return;
+    times.push_back (time);
     for (std::size_t i = 0; i < columns.size(); ++i)
         columns[i].push_back (values[i]);
 }
 
 void Plotter::draw (const std::string& title)
 {
-    Figure figure { .title = title };
-    std::vector<double> times (columns[0].size());
-    for (std::size_t k = 0; k < times.size(); ++k)
-        times[k] = static_cast<double> (k) / rate_hz;
+    if (times.empty()) fail ("plot/no_ticks", "there is nothing to plot: the run ends before --from", "choose a smaller --from, or a longer --duration");
+    Figure figure { .title = title, .width = options.width, .height = options.height, .dpi = options.dpi };
     const auto& x = over < 0 ? times : columns[static_cast<std::size_t> (over)];
     Quantity x_axis { "time", "s" };
     if (over >= 0) x_axis = { taps[static_cast<std::size_t> (over)].name, taps[static_cast<std::size_t> (over)].unit };
@@ -63,7 +64,7 @@ void Plotter::draw (const std::string& title)
         panel->series.push_back ({ .label = taps[i].name, .x = x, .y = columns[i] });
     }
     if (leave_out_silent && ! std::ranges::all_of (figure.panels, isSilent)) std::erase_if (figure.panels, isSilent);
-    orFail (writePng (figure, file));
+    orFail (writeFigure (figure, options.file));
 }
 
 }   // namespace tactus::host

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "plot_options.hpp"
+
 #include <tactus/plan/plan.hpp>
 
 #include <span>
@@ -14,19 +16,22 @@ namespace tactus::host
 class Plotter
 {
 public:
-    /// `over` names the tap for the x axis; empty: time. The command ends if that tap is not recorded. With
-    /// `leave_out_silent`, quantities that are 0 throughout, such as the torque of a sink without a wire, are left out.
-    Plotter (std::string file, const std::vector<Tap>&, const std::string& over, double rate_hz, bool leave_out_silent);
+    /// The command ends if the tap of the x axis is not recorded. With `leave_out_silent`, quantities that are 0 throughout, such as the
+    /// torque of a sink without a wire, are left out.
+    Plotter (const PlotOptions&, const std::vector<Tap>&, double rate_hz, bool leave_out_silent);
 
+    /// Adds the values of the next tick.
     void frame (std::span<const double> values);
     void draw (const std::string& title);
 
 private:
-    std::string file;
+    const PlotOptions& options;
     const std::vector<Tap>& taps;
     std::ptrdiff_t over = -1;   // index of the tap; -1: time
     double rate_hz;
     bool leave_out_silent;
+    std::size_t ticks = 0;
+    std::vector<double> times;   // of the values in the columns
     std::vector<std::vector<double>> columns;
 };
 

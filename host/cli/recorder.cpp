@@ -42,7 +42,8 @@ void giveUpWhere (std::vector<File>& files, std::vector<Message>& failed, Do&& w
 bool isWave (const std::string& file) { return std::filesystem::path (file).extension() == ".wav"; }
 }   // namespace
 
-Recorder::Recorder (const std::vector<std::string>& files, const std::vector<Tap>& all, double rate, bool to_standard_output, IfKilled if_killed)
+Recorder::Recorder (const std::vector<std::string>& files, const std::vector<Tap>& all, double rate, bool to_standard_output, IfKilled if_killed,
+                    bool all_samples)
     : rate_hz (rate), taps (all.size()), print (to_standard_output && files.empty())
 {
     if (all.empty() && (print || ! files.empty()))
@@ -54,7 +55,7 @@ Recorder::Recorder (const std::vector<std::string>& files, const std::vector<Tap
     row.resize (columns.size());
     held.resize (taps);
     const bool alike = ! all.empty() && std::ranges::all_of (all, [&] (const Tap& tap) { return tap.per_tick == all[0].per_tick; });
-    if (alike && std::ranges::any_of (files, isWave)) per_tick = static_cast<std::size_t> (all[0].per_tick);
+    if (alike && (all_samples || std::ranges::any_of (files, isWave))) per_tick = static_cast<std::size_t> (all[0].per_tick);
 
     for (const auto& file : files)
     {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command_run.hpp"
 #include "commands.hpp"
+#include "listening.hpp"
 #include "overwriting.hpp"
+#include "plot_options.hpp"
 #include "plotter.hpp"
 #include "progress.hpp"
 #include "recorder.hpp"
@@ -13,7 +15,9 @@
 #include <tactus/file/atomic_file.hpp>
 #include <tactus/run/replay.hpp>
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,7 +29,16 @@ namespace
 {
 struct Options : RunOptions
 {
-    std::string plot, over, replay;
+    std::string replay, listen;
+    PlotOptions plot;
+
+    /// The files that --plot and --listen name.
+    std::vector<std::string> pictures() const
+    {
+        std::vector<std::string> files { plot.file, listen };
+        std::erase (files, "");
+        return files;
+    }
 };
 
 void failIfAny (const std::vector<Message>& failed)
@@ -38,17 +51,23 @@ class Output
 {
 public:
     Output (const Options& o, const std::vector<Tap>& taps, double rate_hz)
-        : options (o), recorder (o.outputs, taps, rate_hz, o.plot.empty()), values (recorder.width())
+        : options (o), recorder (o.outputs, taps, rate_hz, o.pictures().empty(), IfKilled::removed, ! o.listen.empty()), values (recorder.width())
     {
-        if (options.plot.empty()) return;
-        orFail (AtomicFile::create (options.plot));   // fails now rather than after an hour of rendering
-        plotter.emplace (options.plot, taps, options.over, rate_hz, options.records.empty());
+        if (! options.listen.empty())
+        {
+            orFail (Listening::check (options.listen));
+            listening.emplace (options.listen, taps, rate_hz, recorder.samplesPerTick());
+        }
+        if (options.plot.file.empty()) return;
+        orFail (AtomicFile::create (options.plot.file));   // fails now rather than after an hour of rendering
+        plotter.emplace (options.plot, taps, rate_hz, options.records.empty());
     }
 
     void frame (const Plan& plan)
     {
         recorder.note (plan.taps(), values);
         failIfAny (recorder.frame (ticks++, values));
+        if (listening) listening->frame (values);
         if (plotter) plotter->frame (std::span (values).last (plan.taps().size()));
         if (stopRequested())
             fail ("run/interrupted", "stopped after " + std::to_string (ticks) + " ticks; nothing was written", "run it again, or with a shorter --duration");
@@ -58,12 +77,18 @@ public:
     {
         failIfAny (recorder.commit());
         if (plotter) plotter->draw (name);
+        if (! listening) return;
+        Messages warnings;
+        orFail (listening->write (warnings));
+        for (const auto& m : warnings)
+            warn (m.where, m);
     }
 
 private:
     const Options& options;
     Recorder recorder;
     std::optional<Plotter> plotter;
+    std::optional<Listening> listening;
     std::vector<double> values;
     std::uint64_t ticks = 0;
 };
@@ -75,7 +100,9 @@ void render (const Options& options)
         fail ("run/no_length", "the length of the run is unknown: there is no feed, trace or gesture",
               "give --duration S, --feed IN.csv, or --device ROLE=gesture:NAME");
 
-    if (! options.plot.empty()) refuseOverwriting ({ options.plot }, command.inputs());
+    auto outputs = options.outputs;
+    std::ranges::copy (options.pictures(), std::back_inserter (outputs));
+    refuseOverwriting (outputs, command.inputs());
     watchForStop();
     auto& run = command.run();
     Output output { options, run.engine().plan().taps(), run.rate() };
@@ -93,7 +120,7 @@ void render (const Options& options)
 void replay (const Options& options)
 {
     auto outputs = options.outputs;
-    if (! options.plot.empty()) outputs.push_back (options.plot);
+    std::ranges::copy (options.pictures(), std::back_inserter (outputs));
     refuseOverwriting (outputs, { options.replay, options.graph });
 
     FileAssets assets;
@@ -124,10 +151,9 @@ void replay (const Options& options)
     if (const auto why = replayed->end()) warn (why->where, *why);
 }
 
-void run (const Options& options)
+void run (Options& options)
 {
-    if (! options.plot.empty() && ! options.plot.ends_with (".png"))
-        throw UsageError ("--plot", "'" + options.plot + "' should end in .png");
+    options.plot.finish();
     if (options.graph.empty() && options.replay.empty()) throw UsageError ("graph is required");
     options.replay.empty() ? render (options) : replay (options);
 }
@@ -143,15 +169,17 @@ void addRender (const Command& app)
                                              "Repeat a run from a log written by `tactus play --log`; uses the graph of the log unless one is given");
     for (const auto* other : { "--feed", "--device", "--rate" })
         replayed.excludes (command.get (other));
-    command.addOption ("--plot", options->plot, "Plot the recording into a .png");
-    command.addOption ("--over", options->over, "Plot against this recorded port instead of against time").needs (command.get ("--plot"));
-    command.footer ("Without --out and --plot, CSV goes to the standard output.\n\n"
+    options->plot.addTo (command);
+    command.addOption ("--listen", options->listen, "Write what is recorded as a sound for loudspeakers: a mono .wav at 48 kHz, high-passed at 20 Hz, at -3 dBFS");
+    command.footer ("Without --out, --plot and --listen, CSV goes to the standard output.\n\n"
                     "Examples:\n"
                     "  tactus render graphs/dry_wood.json --out wood.csv --plot wood.png\n"
                     "  tactus render graphs/dry_wood.json --device stylus=gesture:circle --out wood.wav\n"
                     "  tactus render graphs/dry_wood.json --device stylus=trace:pen.csv --record drag.force,drag.state\n"
                     "  tactus render rub.json --feed positions.csv --record drag.force --set drag.mu=0.3 --set drag.d_max=\"20 um\"\n"
                     "  tactus render rub.json --feed loop.csv --record drag.position.x,drag.force.x --plot loop.png --over drag.position.x\n"
+                    "  tactus render graphs/dry_wood.json --record drag.force --plot wood.pdf --size 85x60 --from 1 --until 2\n"
+                    "  tactus render graphs/steel_bar.json --record bar.value --listen bar.wav\n"
                     "  tactus render --replay wood.jsonl --record drag.force,drag.state --out wood.csv");
     command.callback ([options] { run (*options); });
 }

@@ -18,6 +18,7 @@ struct RunOptions
     std::string log;       ///< the run log to write; "": none
     std::string clock;     ///< the role whose device ticks the run, "timer" or "audio"; "": the session's choice, or the first device that can tick the run
     std::string session;   ///< for a live run, the session that binds its roles to devices: a file, or "off"; "": the user's session
+    bool watch = false;    ///< files are read again when they are edited, and without --duration, the run lasts until it is stopped
     bool strict = false;   ///< true: a missing device of the session ends the run
     std::vector<std::string> routes;
     std::string card;      ///< the sound card: TYPE:NAME, TYPE or NAME; "": the session's choice, or else any card

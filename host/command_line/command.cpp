@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.hpp"
 
+#include <tactus/text/closest_match.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -19,14 +20,40 @@ Check checkOf (const CLI::Validator& v)
              v.get_description() };
 }
 
+/// The command, or the program if no command was given.
+const CLI::App& givenCommand (const CLI::App& program)
+{
+    const auto given = program.get_subcommands();
+    return given.empty() ? program : *given.front();
+}
+
+/// What may have been meant by an argument that the command does not know.
+std::string suggestionFor (const CLI::App& program)
+{
+    const auto& command = givenCommand (program);
+    std::vector<std::string> known;
+    for (const auto* sub : command.get_subcommands ([] (const CLI::App*) { return true; }))
+        known.push_back (sub->get_name());
+    for (const auto* option : command.get_options())
+        for (const auto& name : option->get_lnames())
+            known.push_back ("--" + name);
+    for (const auto& argument : program.remaining (true))
+        if (const auto meant = didYouMean (argument.substr (0, argument.find ('=')), known); ! meant.empty()) return meant;
+    return "";
+}
+
 /// CLI11 repeats arguments as they are: escapes what could disturb a terminal, and line ends, which could forge a message.
 std::string usageMessage (const CLI::App* app, const CLI::Error& error)
 {
-    const std::string what = error.what(), whole = CLI::FailureMessage::simple (app, error);
+    std::string what = error.what();
+    const std::string help = CLI::FailureMessage::simple (app, error).substr (what.size());   // how to ask for help
+    if (const auto unknown = app->remaining(); app->get_subcommands().empty() && ! unknown.empty() && error.get_name() == "RequiredError")
+        what = "There is no command " + quote (unknown.front());
+    what += suggestionFor (*app);
     std::string shown;
     for (const char c : printable (what))
         shown += c == '\n' ? "\\x0A" : std::string (1, c);
-    return shown + whole.substr (what.size());   // the rest says how to ask for help
+    return shown + help;
 }
 
 template <typename Parse>

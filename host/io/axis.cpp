@@ -212,9 +212,9 @@ AxisScale axisScale (const Extent& values, std::string_view name, std::string_vi
     return scale;
 }
 
-std::vector<Tick> ticksWithin (const Extent& extent, int at_most)
+std::vector<Tick> ticksWithin (const Extent& extent, int at_most, double least_step)
 {
-    const double step = stepFor (extent, at_most);
+    const double step = std::max (stepFor (extent, at_most), least_step);
     const int decimals = std::max (0, -static_cast<int> (std::floor (std::log10 (step) + 1e-9)));
     constexpr double slack = 1e-9;   // a tick at the very end counts as inside
 

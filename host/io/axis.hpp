@@ -51,7 +51,7 @@ struct Tick
     std::string text;   // the same number of decimals along an axis, and a true minus sign
 };
 
-/// At most this many ticks within the extent, at multiples of 1, 2 or 5 times a power of ten.
-std::vector<Tick> ticksWithin (const Extent& extent, int at_most);
+/// At most this many ticks within the extent, at multiples of 1, 2 or 5 times a power of ten. `least_step` must be such a number, or 0.
+std::vector<Tick> ticksWithin (const Extent& extent, int at_most, double least_step = 0.0);
 
 }   // namespace tactus::host

@@ -34,6 +34,7 @@ Panel measured (const Axes& axes)
     panel.has_data = ! panel.x_values.isEmpty();
     panel.y_scale = axisScale (panel.y_values, axes.y.name, axes.y.unit);
     panel.y_range = widened (panel.y_scale.shown (panel.y_values), 0.05);
+    panel.least_y_step = axes.y.whole && panel.y_scale.origin == 0.0 ? 1.0 : 0.0;
     return panel;
 }
 
@@ -70,8 +71,8 @@ void alignX (std::vector<Panel>& panels)
 }
 }   // namespace
 
-FigureStyle::FigureStyle (int width)
-    : scale (static_cast<float> (width) / 800.0f),
+FigureStyle::FigureStyle (float s)
+    : scale (s),
       small (regularTypeface(), 14.0f * scale),
       label (regularTypeface(), 15.0f * scale),
       panel_title (boldTypeface(), 15.0f * scale),
@@ -85,7 +86,7 @@ float FigureStyle::hairline() const noexcept
 }
 
 FigureLayout::FigureLayout (const Figure& figure_to_arrange)
-    : style (figure_to_arrange.width), width (figure_to_arrange.width), figure (figure_to_arrange)
+    : style (figure_to_arrange.dpi > 0.0 ? static_cast<float> (figure_to_arrange.dpi / 96.0) : static_cast<float> (figure_to_arrange.width) / 800.0f), width (figure_to_arrange.width), figure (figure_to_arrange)
 {
     for (const auto& axes : figure.panels)
         panels.push_back (measured (axes));
@@ -94,7 +95,7 @@ FigureLayout::FigureLayout (const Figure& figure_to_arrange)
 
 bool FigureLayout::arrange()
 {
-    constexpr float lowest_plot = 40, highest_figure = 8192;   // in pixels, at a width of 800
+    constexpr float lowest_plot = 40, highest_figure = 8192;   // in pixels, at 96 dpi
     const auto n = static_cast<float> (panels.size());
 
     // Heights depend on widths (legends wrap) and widths on heights (ticks differ): two passes are enough.
@@ -174,9 +175,9 @@ void FigureLayout::arrangeY()
     {
         // There are at least two ticks, because a single one would not show the scale.
         auto at_most = std::max (2, static_cast<int> (panel.plot.getHeight() / style.px (34)));
-        panel.y_ticks = ticksWithin (panel.y_range, at_most);
+        panel.y_ticks = ticksWithin (panel.y_range, at_most, panel.least_y_step);
         while (panel.y_ticks.size() < 2 && at_most < 10)
-            panel.y_ticks = ticksWithin (panel.y_range, ++at_most);
+            panel.y_ticks = ticksWithin (panel.y_range, ++at_most, panel.least_y_step);
 
         panel.y_label = style.label.wrapped (textOf (panel.y_scale.label), panel.plot.getHeight() + 0.5f * panel.header, most_label_lines);
         labels = std::max (labels, static_cast<float> (panel.y_label.size()) * style.label.height());

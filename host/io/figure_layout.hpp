@@ -12,12 +12,12 @@
 namespace tactus::host
 {
 
-/// The sizes of a figure's parts in pixels. They scale with the width; the values are for a width of 800.
+/// The sizes of a figure's parts in pixels. The values are for 96 pixels per inch.
 struct FigureStyle
 {
-    explicit FigureStyle (int width);
+    explicit FigureStyle (float scale);
 
-    float px (float at_800) const noexcept { return at_800 * scale; }
+    float px (float at_96_dpi) const noexcept { return at_96_dpi * scale; }
     float hairline() const noexcept;
     float stroke() const noexcept { return px (1.4f); }
     float dot() const noexcept { return px (4.4f); }
@@ -48,8 +48,9 @@ struct Panel
     AxisScale x_scale, y_scale;
     Extent x_range, y_range;   // in the units that the axes show
     std::vector<Tick> x_ticks, y_ticks;
-    bool has_x = false;    // true if the panel has ticks along x, perhaps shared with its neighbours
-    bool shows_x = true;   // true if the panel shows numbers at the ticks along x
+    double least_y_step = 0.0;   // between ticks
+    bool has_x = false;          // true if the panel has ticks along x, perhaps shared with its neighbours
+    bool shows_x = true;         // true if the panel shows numbers at the ticks along x
     std::vector<juce::String> y_label;
     std::vector<std::vector<LegendEntry>> legend;   // rows
     std::size_t not_in_legend = 0;

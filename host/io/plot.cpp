@@ -2,7 +2,9 @@
 #include "plot.hpp"
 
 #include "figure_layout.hpp"
+#include "png_density.hpp"
 #include "polyline.hpp"
+#include "vector_canvas.hpp"
 #include <tactus/file/atomic_file.hpp>
 
 #include <juce_events/juce_events.h>
@@ -38,11 +40,10 @@ class Painter
 public:
     explicit Painter (const FigureLayout& arranged) : layout (arranged), style (arranged.style) {}
 
-    juce::Image paint()
+    void paint (juce::Graphics& graphics)
     {
-        juce::Image image (juce::Image::RGB, layout.width, juce::roundToInt (layout.height), true, juce::SoftwareImageType());
-        juce::Graphics graphics (image);
-        graphics.fillAll (juce::Colours::white);
+        graphics.setColour (juce::Colours::white);
+        graphics.fillRect (0, 0, layout.width, juce::roundToInt (layout.height));
 
         graphics.setColour (ink::text);
         float y = style.px (21);
@@ -60,7 +61,6 @@ public:
             drawAxes (graphics, panel);
             drawSeries (graphics, panel);
         }
-        return image;
     }
 
 private:
@@ -243,6 +243,15 @@ private:
         graphics.fillEllipse (juce::Rectangle<float> (style.dot(), style.dot()).withCentre (at));
     }
 
+    static juce::Path pathThrough (std::span<const PixelPoint> line)
+    {
+        juce::Path path;
+        path.startNewSubPath (line[0].x, line[0].y);
+        for (const auto& [x, y] : line.subspan (1))
+            path.lineTo (x, y);
+        return path;
+    }
+
     void drawLine (juce::Graphics& graphics, std::span<const PixelPoint> line) const
     {
         if (line.size() == 1)
@@ -250,15 +259,14 @@ private:
             drawDot (graphics, { line[0].x, line[0].y });   // a single point between gaps: a line through it would be invisible
             return;
         }
+        if (auto* canvas = dynamic_cast<VectorCanvas*> (&graphics.getInternalContext()))
+            return canvas->stroke (pathThrough (line), style.stroke());
 
         // Drawn in pieces, because the time to fill a path grows faster than its length.
         constexpr std::size_t piece = 256;
         for (std::size_t begin = 0; begin + 1 < line.size(); begin += piece)
         {
-            juce::Path path;
-            path.startNewSubPath (line[begin].x, line[begin].y);
-            for (const auto& [x, y] : line.subspan (begin + 1, std::min (piece, line.size() - begin - 1)))
-                path.lineTo (x, y);
+            const auto path = pathThrough (line.subspan (begin, std::min (piece + 1, line.size() - begin)));
             graphics.strokePath (path, { style.stroke(), juce::PathStrokeType::curved, juce::PathStrokeType::rounded });
         }
     }
@@ -270,6 +278,9 @@ private:
 Result<> check (const Figure& figure, const std::filesystem::path& path)
 {
     constexpr int smallest = 200, largest = 16'384;
+
+    if (! isFigureFile (path))
+        return Message::error ("plot/kind", path.string(), "a figure cannot be written as this kind of file", std::string ("end its name in ") + figure_kinds);
 
     if (figure.panels.empty())
         return Message::error ("plot/no_panels", path.string(), "the figure has no panels", "record something to plot");
@@ -288,9 +299,36 @@ Result<> check (const Figure& figure, const std::filesystem::path& path)
                                        "give one y value per x value");
     return {};
 }
+
+/// The figure as a file of this kind.
+std::string contentOf (const FigureLayout& layout, const std::string& title, const std::filesystem::path& kind)
+{
+    const double dpi = 96.0 * double { layout.style.scale };
+    if (kind != ".png")
+    {
+        VectorCanvas canvas (static_cast<float> (layout.width), std::round (layout.height));
+        juce::Graphics graphics (canvas);
+        Painter (layout).paint (graphics);
+        return kind == ".svg" ? canvas.svg (title, dpi) : canvas.pdf (title, dpi);
+    }
+    juce::Image image (juce::Image::RGB, layout.width, juce::roundToInt (layout.height), true, juce::SoftwareImageType());
+    {
+        juce::Graphics graphics (image);
+        Painter (layout).paint (graphics);
+    }
+    juce::MemoryOutputStream png;
+    juce::PNGImageFormat().writeImageToStream (image, png);
+    return withDensity ({ static_cast<const char*> (png.getData()), png.getDataSize() }, dpi);
+}
 }   // namespace
 
-Result<> writePng (const Figure& figure, const std::filesystem::path& path)
+bool isFigureFile (const std::filesystem::path& path)
+{
+    const auto kind = path.extension();
+    return kind == ".png" || kind == ".svg" || kind == ".pdf";
+}
+
+Result<> writeFigure (const Figure& figure, const std::filesystem::path& path)
 {
     if (const auto checked = check (figure, path); ! checked)
         return checked;
@@ -303,13 +341,11 @@ Result<> writePng (const Figure& figure, const std::filesystem::path& path)
         return Message::error ("plot/size", path.string(), "the figure is too small for " + std::to_string (figure.panels.size()) + " panels",
                                "plot fewer panels, make the figure taller, or leave out its height");
 
-    juce::MemoryOutputStream png;
-    juce::PNGImageFormat().writeImageToStream (Painter (layout).paint(), png);
-
+    const auto bytes = contentOf (layout, figure.title, path.extension());
     auto file = AtomicFile::create (path);
     if (! file)
         return file.error();
-    if (! file->stream().write (static_cast<const char*> (png.getData()), static_cast<std::streamsize> (png.getDataSize())))
+    if (! file->stream().write (bytes.data(), static_cast<std::streamsize> (bytes.size())))
         return file->writeError();
     return file->commit();
 }

@@ -19,6 +19,7 @@ struct Quantity
 {
     std::string name {};
     std::string unit {};   // "m", "N*s/m"; "" or "1" for ratios
+    bool whole = false;    // only whole numbers have a meaning, as for states: no ticks between them
 };
 
 struct Series
@@ -49,14 +50,20 @@ struct Figure
 {
     std::string title {};
     std::vector<Axes> panels {};
-    int width = 1600;   // pixels; text and lines scale with it, as if printed 800 points wide
-    int height = 0;     // 0: depends on the number of panels
+    int width = 1600;   // pixels
+    int height = 0;     // pixels; 0: depends on the number of panels
+    double dpi = 0.0;   // pixels per inch. Text is 10.5 points high on paper. 0: 800 units of 1/96 inch fit into the width
 };
 
-/// Draws the figure in print quality on white and writes it as PNG, completely or not at all. Needs no display. [main
-/// thread], or any thread while a juce::ScopedJuceInitialiser_GUI exists.
+/// The kinds of file that writeFigure can write.
+inline constexpr const char* figure_kinds = ".png, .svg or .pdf";
+bool isFigureFile (const std::filesystem::path& path);
+
+/// Draws the figure on white and writes it as PNG, SVG or PDF, as the name of the file ends, completely or not at all. The file states the size on
+/// paper. SVG and PDF hold lines and outlines, and no fonts. Needs no display. [main thread], or any thread while a
+/// juce::ScopedJuceInitialiser_GUI exists.
 ///
-/// Error ids: plot/no_panels, plot/ragged_series, plot/size, output/unwritable.
-[[nodiscard]] Result<> writePng (const Figure& figure, const std::filesystem::path& path);
+/// Error ids: plot/kind, plot/no_panels, plot/ragged_series, plot/size, output/unwritable.
+[[nodiscard]] Result<> writeFigure (const Figure& figure, const std::filesystem::path& path);
 
 }   // namespace tactus::host

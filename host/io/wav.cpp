@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wav.hpp"
+#include "wav_header.hpp"
 #include "wav_samples.hpp"
 
 #include <tactus/file/atomic_file.hpp>
@@ -8,9 +9,11 @@
 
 #include <juce_audio_formats/juce_audio_formats.h>
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -27,29 +30,6 @@ constexpr std::size_t largest_frame_bytes = 480 * 3 * 4;
 constexpr std::size_t most_channels = largest_frame_bytes / sizeof (float);
 
 constexpr std::size_t frames_per_block = 1024;
-
-/// Lets JUCE write to a standard stream that it neither owns nor closes.
-class StandardOutput final : public juce::OutputStream
-{
-public:
-    explicit StandardOutput (std::ostream& stream) : out (stream) {}
-
-    void flush() override { out.flush(); }
-    bool setPosition (juce::int64 position) override
-    {
-        // JUCE fills in the header even if it could not write the file; such a file is discarded.
-        const bool is_given_up = ! out;
-        return is_given_up || out.seekp (position);
-    }
-    juce::int64 getPosition() override { return out.tellp(); }
-    bool write (const void* data, std::size_t size) override
-    {
-        return static_cast<bool> (out.write (static_cast<const char*> (data), static_cast<std::streamsize> (size)));
-    }
-
-private:
-    std::ostream& out;
-};
 
 std::string inWords (double number)
 {
@@ -129,26 +109,34 @@ Result<Signal> readWav (const std::filesystem::path& path)
 
 struct WavWriter::Impl
 {
-    Impl (AtomicFile opened, std::size_t channels)
-        : file (std::move (opened)), block (channels, std::vector<float> (frames_per_block))
-    {
-    }
-
     AtomicFile file;
-    std::unique_ptr<juce::AudioFormatWriter> writer;   // declared after the file it writes to
-    std::vector<std::vector<float>> block;             // one vector per channel
-    std::size_t filled = 0;
+    double rate_hz;
+    std::size_t channels;
+    std::uint64_t frames = 0;
+    std::string block {};
+
+    Result<> write (const std::string& bytes)
+    {
+        errno = 0;
+        if (! file.stream().write (bytes.data(), static_cast<std::streamsize> (bytes.size()))) return file.writeError();
+        return {};
+    }
 
     Result<> writeBlock()
     {
-        std::vector<const float*> pointers;
-        for (const auto& channel : block)
-            pointers.push_back (channel.data());
+        auto written = write (block);
+        block.clear();
+        return written;
+    }
 
-        const bool written = writer->writeFromFloatArrays (pointers.data(), static_cast<int> (block.size()), static_cast<int> (filled));
-        filled = 0;
-        if (! written)
-            return file.writeError();
+    /// Writes what is left, and the header with the sizes so far.
+    Result<> complete()
+    {
+        if (auto written = writeBlock(); ! written) return written;
+        auto& stream = file.stream();
+        stream.seekp (0);
+        if (auto written = write (wavHeader (rate_hz, channels, frames)); ! written) return written;
+        if (! stream.seekp (0, std::ios::end)) return file.writeError();
         return {};
     }
 };
@@ -173,16 +161,8 @@ Result<WavWriter> WavWriter::create (const std::filesystem::path& path, double s
                                "cannot be written: the header of a WAV is completed at the end, which a pipe does not allow",
                                "write to a file");
 
-    auto impl = std::make_unique<Impl> (std::move (*file), channels);
-
-    // Discrete channels: the components of a force are not loudspeakers, but beyond stereo any other layout would label
-    // them as such. Beyond the 128th channel, JUCE counts past the end of its enum; this is harmless, but UBSan's `enum`
-    // check reports it.
-    auto output = std::make_unique<StandardOutput> (impl->file.stream());
-    const auto layout = juce::AudioChannelSet::discreteChannels (static_cast<int> (channels));
-    impl->writer.reset (juce::WavAudioFormat().createWriterFor (output.release(), sample_rate_hz, layout, 32, {}, 0));
-    jassert (impl->writer != nullptr);   // discrete channels and 32 bits are always supported
-
+    auto impl = std::make_unique<Impl> (Impl { std::move (*file), sample_rate_hz, channels });
+    if (auto written = impl->write (wavHeader (sample_rate_hz, channels, 0)); ! written) return written.error();
     return WavWriter (std::move (impl));
 }
 
@@ -193,35 +173,33 @@ WavWriter::~WavWriter() = default;
 
 Result<> WavWriter::frame (std::span<const double> samples)
 {
-    if (samples.size() != impl->block.size())
+    if (samples.size() != impl->channels)
         return Message::error ("wav/channels", "the frame to write",
-                               "it has " + std::to_string (samples.size()) + " samples for " + std::to_string (impl->block.size()) + " channels",
+                               "it has " + std::to_string (samples.size()) + " samples for " + std::to_string (impl->channels) + " channels",
                                "give one sample per channel");
 
-    for (std::size_t channel = 0; channel < samples.size(); ++channel)
-        impl->block[channel][impl->filled] = static_cast<float> (samples[channel]);
+    for (const double s : samples)
+        appendInteger (impl->block, std::bit_cast<std::uint32_t> (static_cast<float> (s)), 4);
 
-    if (++impl->filled == frames_per_block)
+    if (++impl->frames % frames_per_block == 0)
         return impl->writeBlock();
     return {};
 }
 
 Result<> WavWriter::flush()
 {
-    if (auto written = impl->writeBlock(); ! written)
+    if (auto written = impl->complete(); ! written)
         return written;
     errno = 0;
-    if (! impl->writer->flush() || ! impl->file.stream().flush())
+    if (! impl->file.stream().flush())
         return impl->file.writeError();
     return {};
 }
 
 Result<> WavWriter::commit()
 {
-    if (auto written = impl->writeBlock(); ! written)
+    if (auto written = impl->complete(); ! written)
         return written;
-
-    impl->writer.reset();   // fills in the header
     return impl->file.commit();
 }
 

@@ -44,7 +44,7 @@ private:
     struct Impl;
     explicit WavWriter (std::unique_ptr<Impl> opened) noexcept;
 
-    std::unique_ptr<Impl> impl;   // keeps JUCE out of this header
+    std::unique_ptr<Impl> impl;
 };
 
 }   // namespace tactus::host

@@ -3,8 +3,10 @@
 
 #if defined(_WIN32)
 #include <io.h>
+#include <windows.h>
 #else
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 #endif
@@ -18,6 +20,17 @@ bool stderrIsTerminal() noexcept
     return _isatty (2) != 0;
 #else
     return isatty (2) != 0;
+#endif
+}
+
+int stderrColumns() noexcept
+{
+#if defined(_WIN32)
+    CONSOLE_SCREEN_BUFFER_INFO screen;
+    return GetConsoleScreenBufferInfo (GetStdHandle (STD_ERROR_HANDLE), &screen) ? screen.srWindow.Right - screen.srWindow.Left + 1 : 0;
+#else
+    winsize size {};
+    return ioctl (2, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
 #endif
 }
 

@@ -10,6 +10,9 @@ namespace tactus::host
 /// True if stderr is a terminal.
 bool stderrIsTerminal() noexcept;
 
+/// The number of characters in a row of the terminal of stderr; 0 if it is unknown or no terminal.
+int stderrColumns() noexcept;
+
 /// Reads single key presses while it exists; Ctrl-C still works. The destructor restores the terminal (not after a crash).
 /// There are no keys if stdin is not a terminal, if it belongs to another program, or without termios. [main thread]
 class Keys

@@ -245,7 +245,7 @@ TEST_CASE ("three key switches, measured both ways, are felt as measured whereve
         panel.series.push_back ({ .label = "deform.plane + friction.elasto_plastic", .x = depth, .y = force });
         picture.panels.push_back (panel);
     }
-    REQUIRE (host::writePng (picture, figure ("key_switches.png")));
+    REQUIRE (host::writeFigure (picture, figure ("key_switches.png")));
 }
 
 TEST_CASE ("a measured key releases no energy, whatever the finger does", "[data]")

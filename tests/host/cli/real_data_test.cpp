@@ -112,7 +112,7 @@ TEST_CASE ("presliding friction measured under 5 N is reproduced: loop energy wi
     picture.panels.push_back ({ .title = {}, .x = { "displacement", "m" }, .y = { "friction force", "N" }, .series = {} });
     picture.panels[0].series.push_back ({ .label = "measured", .x = after (measured.position, middle), .y = after (measured.friction, 0.0) });
     picture.panels[0].series.push_back ({ .label = "friction.elasto_plastic", .x = after (measured.position, middle), .y = after (made, 0.0) });
-    REQUIRE (host::writePng (picture, figure ("presliding.png")));
+    REQUIRE (host::writeFigure (picture, figure ("presliding.png")));
 }
 
 TEST_CASE ("strokes drawn on a tablet drive the wood preset with position and pressure", "[data]")

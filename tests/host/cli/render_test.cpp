@@ -245,3 +245,47 @@ TEST_CASE ("a WAV has the rate of a faster section if all its ports are in that 
     CHECK (slow.rate_hz == 1000.0);
     CHECK (slow.channels[0] == std::vector { 0.0, 8.0, 0.0 });
 }
+
+TEST_CASE ("a plot has the kind, the size and the time window that were asked for", "[cli]")
+{
+    const Scratch scratch;
+    const auto plot = [&] (const std::string& file, std::vector<std::string> more) {
+        std::vector<std::string> arguments { "render", wood, "--duration", "0.8", "--record", "drag.force", "--plot", scratch.path (file) };
+        arguments.insert (arguments.end(), more.begin(), more.end());
+        return runTactus (arguments);
+    };
+    REQUIRE (plot ("p.svg", { "--size", "120x80", "--from", "0.2", "--until", "0.6" }).status == 0);
+    CHECK (test::textOf (scratch.path ("p.svg")).find (R"(width="119.99mm" height="80.04mm")") != std::string::npos);   // whole pixels at 192 dpi
+    REQUIRE (plot ("p.pdf", { "--size", "85" }).status == 0);
+    CHECK (test::textOf (scratch.path ("p.pdf")).starts_with ("%PDF-"));
+    REQUIRE (plot ("p.png", { "--size", "101.6x76.2", "--dpi", "300" }).status == 0);
+    const auto png = test::textOf (scratch.path ("p.png"));
+    CHECK (png.substr (16, 8) == std::string ("\0\0\x04\xb0\0\0\x03\x84", 8));   // 1200 by 900 pixels
+
+    CHECK (plot ("p.gif", {}).err.find (".png, .svg or .pdf") != std::string::npos);
+    CHECK (plot ("p.png", { "--size", "10by20" }).err.find ("'10by20' is not a size in mm") != std::string::npos);
+    CHECK (plot ("p.png", { "--size", "0x5" }).status != 0);
+    CHECK (plot ("p.png", { "--from", "0.5", "--until", "0.5" }).err.find ("must be after --from") != std::string::npos);
+    CHECK (plot ("p.png", { "--from", "3" }).err.find ("plot/no_ticks") != std::string::npos);
+}
+
+TEST_CASE ("a mistyped command, option or node type gets a suggestion", "[cli]")
+{
+    CHECK (runTactus ({ "rendr", wood }).err.find ("There is no command 'rendr' (did you mean 'render'?)") != std::string::npos);
+    CHECK (runTactus ({ "render", wood, "--durration", "1" }).err.find ("did you mean '--duration'?") != std::string::npos);
+    CHECK (runTactus ({ "render", wood, "--durration=1" }).err.find ("did you mean '--duration'?") != std::string::npos);
+    CHECK (runTactus ({ "nodes", "fricton" }).err.find ("did you mean 'friction'?") != std::string::npos);
+    CHECK (runTactus ({ "xyzzy" }).err.find ("There is no command 'xyzzy'") != std::string::npos);
+}
+
+TEST_CASE ("the node types of a family are listed by its name", "[cli]")
+{
+    const auto listed = runTactus ({ "nodes", "texture" });
+    CHECK (listed.status == 0);
+    CHECK (listed.out.find ("texture.grating") != std::string::npos);
+    CHECK (listed.out.find ("friction.") == std::string::npos);
+    const auto json = runTactus ({ "nodes", "texture", "--json" });
+    CHECK (json.status == 0);
+    CHECK (json.out.find ("\"id\": \"texture.grating\"") != std::string::npos);
+    CHECK (json.out.find ("\"id\": \"friction.elasto_plastic\"") == std::string::npos);
+}

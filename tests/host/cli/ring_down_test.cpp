@@ -313,5 +313,5 @@ TEST_CASE ("a board that rang after a shock matches one mode of vibration.modal"
                                          series ("vibration.modal", first, first + cycles, first, made) };
         picture.panels.back().series[0].style = host::Series::Style::points;
     }
-    REQUIRE (host::writePng (picture, figure ("ring_down.png")));
+    REQUIRE (host::writeFigure (picture, figure ("ring_down.png")));
 }

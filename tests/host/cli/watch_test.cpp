@@ -7,7 +7,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 using namespace tactus;
 using test::Running;
@@ -169,4 +171,18 @@ TEST_CASE ("a file included by the graph is watched too", "[cli][watch]")
     const auto table = readTable (std::filesystem::path (scratch.path ("p.csv")));
     REQUIRE (table);
     CHECK (table->at (table->rows() - 1, 1) == 3.0);
+}
+
+TEST_CASE ("with --watch, play outlasts the trace of its device", "[cli][watch]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("g.json", counter()), trace = scratch.write ("t.csv", "t,x,y,z\n0,0,0,0\n0.1,0.01,0,0\n");
+    Running play { { "play", file, "--watch", "--device", "tip=trace:" + trace, "--record", "count.out", "--out", scratch.path ("p.csv") } };
+    REQUIRE (play.says ("Ctrl-C stops"));
+    scratch.write ("g.json", counter (R"("idle": { "type": "signal.abs" },)"));
+    REQUIRE (play.says (": reloaded"));
+    std::this_thread::sleep_for (std::chrono::milliseconds (200));   // longer than the trace
+    scratch.write ("g.json", counter());
+    REQUIRE (play.says (": reloaded", 2));
+    CHECK (play.stop().status == 0);
 }

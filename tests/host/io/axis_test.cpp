@@ -67,6 +67,8 @@ TEST_CASE ("axis: ticks are at multiples of 1, 2 or 5, with the same number of d
     CHECK (textOf (ticksWithin ({ 0.0, 1.0 }, 5)) == "0.0 0.2 0.4 0.6 0.8 1.0 ");
     CHECK (textOf (ticksWithin ({ -1.2, 1.2 }, 4)) == "−1 0 1 ");
     CHECK (textOf (ticksWithin ({ 0.0, 0.3 }, 3)) == "0.0 0.1 0.2 0.3 ");
+    CHECK (textOf (ticksWithin ({ -0.05, 1.05 }, 10, 1.0)) == "0 1 ");
+    CHECK (textOf (ticksWithin ({ -0.2, 12.2 }, 5, 1.0)) == "0 5 10 ");
     CHECK (textOf (ticksWithin ({ 0.0, 60.0 }, 3)) == "0 20 40 60 ");
     CHECK (textOf (ticksWithin ({ -0.06, 0.0 }, 3)) == "−0.06 −0.04 −0.02 0.00 ");
 }

@@ -38,7 +38,7 @@ Axes forceOverTime (std::vector<Series> series)
 juce::Image draw (const Figure& figure)
 {
     const TemporaryFolder folder;
-    const auto written = writePng (figure, folder / "plot.png");
+    const auto written = writeFigure (figure, folder / "plot.png");
     INFO ((written ? "" : describe (written.error())));
     REQUIRE (written.has_value());
     return juce::PNGImageFormat::loadFrom (juce::File ((folder / "plot.png").string()));
@@ -56,7 +56,7 @@ int pixelsOf (const juce::Image& image, Colour colour)
 
 std::string errorOf (const Figure& figure, const std::filesystem::path& path)
 {
-    const auto written = writePng (figure, path);
+    const auto written = writeFigure (figure, path);
     return written ? "" : written.error().id;
 }
 }   // namespace
@@ -112,8 +112,8 @@ TEST_CASE ("plot: equal figures give equal files", "[host][io][plot]")
 {
     const TemporaryFolder folder;
     const Figure figure { .title = "Twice", .panels = { forceOverTime ({ sine ("x", 1.0) }) } };
-    REQUIRE (writePng (figure, folder / "one.png").has_value());
-    REQUIRE (writePng (figure, folder / "two.png").has_value());
+    REQUIRE (writeFigure (figure, folder / "one.png").has_value());
+    REQUIRE (writeFigure (figure, folder / "two.png").has_value());
 
     CHECK (folder.textOf ("one.png") == folder.textOf ("two.png"));
 }
@@ -184,7 +184,7 @@ TEST_CASE ("plot: any values can be drawn", "[host][io][plot]")
             series.x.push_back (std::bit_cast<double> (x));
             series.y.push_back (std::bit_cast<double> (y));
         }
-        RC_ASSERT (writePng ({ .panels = { forceOverTime ({ series }) }, .width = 200 }, folder / "plot.png").has_value());
+        RC_ASSERT (writeFigure ({ .panels = { forceOverTime ({ series }) }, .width = 200 }, folder / "plot.png").has_value());
     };
     rc::prop ("any bit pattern", drawn);
 }
@@ -204,4 +204,36 @@ TEST_CASE ("plot: invalid figures are refused, each error with its id", "[host][
     CHECK (errorOf ({ .panels = std::vector (200, axes) }, folder / "plot.png") == "plot/size");
     CHECK (errorOf ({ .panels = { axes } }, folder / "missing/plot.png") == "output/unwritable");
     CHECK (folder.isEmpty());
+}
+
+TEST_CASE ("plot: a PNG states its size on paper, and text has the same size on paper at any resolution", "[host][io][plot]")
+{
+    const TemporaryFolder folder;
+    const auto axes = forceOverTime ({ sine ("x", 1.0) });
+    const auto pixelsPerMetre = [&] (double dpi) {
+        Figure figure { .panels = { axes }, .width = static_cast<int> (4.0 * dpi), .dpi = dpi };
+        REQUIRE (writeFigure (figure, folder / "plot.png").has_value());
+        const auto bytes = folder.textOf ("plot.png");
+        const auto at = bytes.find ("pHYs");
+        REQUIRE (at != std::string::npos);
+        std::uint32_t value = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            value = value << 8 | static_cast<unsigned char> (bytes[at + 4 + i]);
+        return value;
+    };
+    CHECK (pixelsPerMetre (96.0) == 3780);
+    CHECK (pixelsPerMetre (300.0) == 11811);
+    draw ({ .panels = { axes }, .width = 1200, .dpi = 300.0 });   // the picture can be read
+}
+
+TEST_CASE ("plot: the name of the file decides whether it is a PNG, an SVG or a PDF", "[host][io][plot]")
+{
+    const TemporaryFolder folder;
+    const Figure figure { .title = "a title", .panels = { forceOverTime ({ sine ("x", 1.0) }) } };
+    for (const auto& [name, start] : { std::pair { "a.png", "\x89PNG" }, { "a.svg", "<?xml" }, { "a.pdf", "%PDF-" } })
+    {
+        REQUIRE (writeFigure (figure, folder / name).has_value());
+        CHECK (folder.textOf (name).starts_with (start));
+    }
+    CHECK (errorOf (figure, folder / "a.gif") == "plot/kind");
 }

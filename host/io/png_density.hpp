@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+namespace tactus::host
+{
+
+/// Adds the number of pixels per inch to a PNG that states none, so that programs know its size on paper (chunk pHYs, PNG specification, 11.3.5.3).
+std::string withDensity (std::string png, double dpi);
+
+}   // namespace tactus::host

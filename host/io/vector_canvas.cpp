@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vector_canvas.hpp"
+
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <string_view>
+
+namespace tactus::host
+{
+
+namespace
+{
+/// A number with so many decimals at most, and never in the user's locale.
+std::string number (double value, int decimals = 2)
+{
+    std::array<char, 64> text;
+    std::string out (text.data(), std::to_chars (text.data(), text.data() + text.size(), value, std::chars_format::fixed, decimals).ptr);
+    out.erase (out.find_last_not_of ('0') + 1);
+    if (out.back() == '.') out.pop_back();
+    return out == "-0" ? "0" : out;
+}
+
+std::string pair (double x, double y) { return number (x) + ' ' + number (y); }
+
+/// Writes the outline in the letters of SVG.
+std::string pathData (const juce::Path& path)
+{
+    std::string out;
+    for (juce::Path::Iterator i (path); i.next();)
+        switch (i.elementType)
+        {
+        case juce::Path::Iterator::startNewSubPath:
+            out += 'M' + pair (i.x1, i.y1);
+            break;
+        case juce::Path::Iterator::lineTo:
+            out += 'L' + pair (i.x1, i.y1);
+            break;
+        case juce::Path::Iterator::quadraticTo:
+            out += 'Q' + pair (i.x1, i.y1) + ' ' + pair (i.x2, i.y2);
+            break;
+        case juce::Path::Iterator::cubicTo:
+            out += 'C' + pair (i.x1, i.y1) + ' ' + pair (i.x2, i.y2) + ' ' + pair (i.x3, i.y3);
+            break;
+        case juce::Path::Iterator::closePath:
+            out += 'Z';
+            break;
+        }
+    return out;
+}
+
+/// Writes the outline in the operators of PDF, which has no quadratic curves.
+std::string pathOperators (const juce::Path& path)
+{
+    std::string out;
+    double x = 0.0, y = 0.0;
+    const auto towards = [] (double from, double to) { return from + 2.0 / 3.0 * (to - from); };
+    for (juce::Path::Iterator i (path); i.next();)
+        switch (i.elementType)
+        {
+        case juce::Path::Iterator::startNewSubPath:
+            out += pair (i.x1, i.y1) + " m\n";
+            x = i.x1, y = i.y1;
+            break;
+        case juce::Path::Iterator::lineTo:
+            out += pair (i.x1, i.y1) + " l\n";
+            x = i.x1, y = i.y1;
+            break;
+        case juce::Path::Iterator::quadraticTo:
+            out += pair (towards (x, i.x1), towards (y, i.y1)) + ' ' + pair (towards (i.x2, i.x1), towards (i.y2, i.y1)) + ' ' + pair (i.x2, i.y2) + " c\n";
+            x = i.x2, y = i.y2;
+            break;
+        case juce::Path::Iterator::cubicTo:
+            out += pair (i.x1, i.y1) + ' ' + pair (i.x2, i.y2) + ' ' + pair (i.x3, i.y3) + " c\n";
+            x = i.x3, y = i.y3;
+            break;
+        case juce::Path::Iterator::closePath:
+            out += "h\n";
+            break;
+        }
+    return out;
+}
+
+std::string hex (juce::Colour colour)
+{
+    std::array<char, 8> text;
+    std::snprintf (text.data(), text.size(), "#%02x%02x%02x", unsigned { colour.getRed() }, unsigned { colour.getGreen() }, unsigned { colour.getBlue() });
+    return text.data();
+}
+
+std::string escapedForXml (const std::string& text)
+{
+    std::string out;
+    for (const char c : text)
+        switch (c)
+        {
+        case '&':
+            out += "&amp;";
+            break;
+        case '<':
+            out += "&lt;";
+            break;
+        case '>':
+            out += "&gt;";
+            break;
+        default:
+            out += static_cast<unsigned char> (c) < 0x20 ? ' ' : c;
+        }
+    return out;
+}
+
+/// A text string of PDF: UTF-16, in hexadecimal digits.
+std::string hexText (const std::string& text)
+{
+    std::string out = "<FEFF";
+    for (auto utf16 = juce::String::fromUTF8 (text.c_str()).toUTF16(); ! utf16.isEmpty();)
+    {
+        const auto add = [&out] (unsigned unit) {
+            std::array<char, 8> digits;
+            std::snprintf (digits.data(), digits.size(), "%04X", unit);
+            out += digits.data();
+        };
+        const auto c = static_cast<unsigned> (utf16.getAndAdvance());
+        if (c < 0x10000)
+            add (c);
+        else
+        {
+            add (0xd800 + ((c - 0x10000) >> 10));
+            add (0xdc00 + ((c - 0x10000) & 0x3ff));
+        }
+    }
+    return out + '>';
+}
+
+std::string compressed (const std::string& text)
+{
+    juce::MemoryOutputStream out;
+    {
+        juce::GZIPCompressorOutputStream zip (out, 9);   // zlib's format, as PDF wants it
+        zip.write (text.data(), text.size());
+    }
+    return { static_cast<const char*> (out.getData()), out.getDataSize() };
+}
+
+/// A PDF from its objects, which are numbered from 1. The first one is the catalogue, the last one the information on the document.
+std::string pdfFile (const std::vector<std::string>& objects)
+{
+    std::string file = "%PDF-1.4\n%\xe2\xe3\xcf\xd3\n", table;
+    for (std::size_t i = 0; i < objects.size(); ++i)
+    {
+        std::array<char, 32> row;
+        std::snprintf (row.data(), row.size(), "%010zu 00000 n \n", file.size());
+        table += row.data();
+        file += std::to_string (i + 1) + " 0 obj\n" + objects[i] + "\nendobj\n";
+    }
+    const auto at = file.size(), count = objects.size() + 1;
+    file += "xref\n0 " + std::to_string (count) + "\n0000000000 65535 f \n" + table;
+    return file + "trailer\n<< /Size " + std::to_string (count) + " /Root 1 0 R /Info " + std::to_string (objects.size()) + " 0 R >>\nstartxref\n"
+           + std::to_string (at) + "\n%%EOF\n";
+}
+}   // namespace
+
+std::string VectorCanvas::svg (const std::string& title, double units_per_inch) const
+{
+    std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number (25.4 * width / units_per_inch)
+                      + "mm\" height=\"" + number (25.4 * height / units_per_inch) + "mm\" viewBox=\"0 0 " + pair (width, height) + "\">\n";
+    if (! title.empty()) out += "<title>" + escapedForXml (title) + "</title>\n";
+
+    auto clip = picture();
+    int clips = 0;
+    for (const auto& shape : shapes)
+    {
+        if (shape.clip != clip)
+        {
+            if (clip != picture()) out += "</g>\n";
+            clip = shape.clip;
+            if (clip != picture())
+            {
+                const auto id = "clip" + std::to_string (++clips);
+                out += "<clipPath id=\"" + id + "\"><rect x=\"" + number (clip.getX()) + "\" y=\"" + number (clip.getY()) + "\" width=\""
+                       + number (clip.getWidth()) + "\" height=\"" + number (clip.getHeight()) + "\"/></clipPath>\n<g clip-path=\"url(#" + id + ")\">\n";
+            }
+        }
+        out += "<path d=\"" + pathData (shape.outline) + '"';
+        if (shape.thickness > 0.0f)
+            out += " fill=\"none\" stroke=\"" + hex (shape.colour) + "\" stroke-width=\"" + number (shape.thickness)
+                   + "\" stroke-linejoin=\"round\" stroke-linecap=\"round\"/>\n";
+        else
+            out += " fill=\"" + hex (shape.colour) + (shape.outline.isUsingNonZeroWinding() ? "\"/>\n" : "\" fill-rule=\"evenodd\"/>\n");
+    }
+    if (clip != picture()) out += "</g>\n";
+    return out + "</svg>\n";
+}
+
+std::string VectorCanvas::pdf (const std::string& title, double units_per_inch) const
+{
+    const double point = 72.0 / units_per_inch;
+    const auto scale = number (point, 6);
+    std::string page = scale + " 0 0 -" + scale + " 0 " + number (point * height) + " cm 1 j 1 J\n";
+
+    auto clip = picture();
+    for (const auto& shape : shapes)
+    {
+        if (shape.clip != clip)
+        {
+            if (clip != picture()) page += "Q\n";
+            clip = shape.clip;
+            if (clip != picture())
+                page += "q " + pair (clip.getX(), clip.getY()) + ' ' + pair (clip.getWidth(), clip.getHeight()) + " re W n\n";
+        }
+        const bool is_line = shape.thickness > 0.0f;
+        for (const auto part : { shape.colour.getFloatRed(), shape.colour.getFloatGreen(), shape.colour.getFloatBlue() })
+            page += number (part, 4) + ' ';
+        page += is_line ? "RG " + number (shape.thickness) + " w\n" : "rg\n";
+        page += pathOperators (shape.outline) + (is_line ? "S\n" : shape.outline.isUsingNonZeroWinding() ? "f\n"
+                                                                                                         : "f*\n");
+    }
+    if (clip != picture()) page += "Q\n";
+
+    const auto data = compressed (page);
+    return pdfFile ({ "<< /Type /Catalog /Pages 2 0 R >>",
+                      "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
+                      "<< /Type /Page /Parent 2 0 R /MediaBox [0 0 " + pair (point * width, point * height) + "] /Resources << >> /Contents 4 0 R >>",
+                      "<< /Length " + std::to_string (data.size()) + " /Filter /FlateDecode >>\nstream\n" + data + "\nendstream",
+                      "<< /Title " + hexText (title) + " /Creator (Tactus) >>" });
+}
+
+void VectorCanvas::add (juce::Path path, float thickness)
+{
+    path.applyTransform (now.transform);
+    if (! path.isEmpty()) shapes.push_back ({ std::move (path), now.colour, now.clip, thickness });
+}
+
+void VectorCanvas::stroke (const juce::Path& line, float thickness) { add (line, thickness); }
+
+void VectorCanvas::setOrigin (juce::Point<int> at) { addTransform (juce::AffineTransform::translation (at.toFloat())); }
+void VectorCanvas::addTransform (const juce::AffineTransform& inner) { now.transform = inner.followedBy (now.transform); }
+
+bool VectorCanvas::clipToRectangle (const juce::Rectangle<int>& area)
+{
+    now.clip = now.clip.getIntersection (area.toFloat().transformedBy (now.transform));
+    return ! isClipEmpty();
+}
+
+bool VectorCanvas::clipToRectangleList (const juce::RectangleList<int>& areas) { return clipToRectangle (areas.getBounds()); }
+void VectorCanvas::clipToPath (const juce::Path& path, const juce::AffineTransform& t)
+{
+    clipToRectangle (path.getBoundsTransformed (t).getSmallestIntegerContainer());
+}
+
+juce::Rectangle<int> VectorCanvas::getClipBounds() const { return now.clip.transformedBy (now.transform.inverted()).getSmallestIntegerContainer(); }
+
+void VectorCanvas::restoreState()
+{
+    if (saved.empty()) return;
+    now = saved.back();
+    saved.pop_back();
+}
+
+void VectorCanvas::fillRect (const juce::Rectangle<int>& area, bool) { fillRect (area.toFloat()); }
+
+void VectorCanvas::fillRect (const juce::Rectangle<float>& area)
+{
+    juce::Path path;
+    path.addRectangle (area);
+    add (std::move (path), 0.0f);
+}
+
+void VectorCanvas::fillRectList (const juce::RectangleList<float>& areas)
+{
+    for (const auto& area : areas)
+        fillRect (area);
+}
+
+void VectorCanvas::fillPath (const juce::Path& path, const juce::AffineTransform& t)
+{
+    auto moved = path;
+    moved.applyTransform (t);
+    add (std::move (moved), 0.0f);
+}
+
+void VectorCanvas::drawLine (const juce::Line<float>& line)
+{
+    juce::Path path;
+    path.addLineSegment (line, 1.0f);
+    add (std::move (path), 0.0f);
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <juce_graphics/juce_graphics.h>
+
+#include <string>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// Collects what juce::Graphics draws, as outlines, and writes it as SVG or PDF. Handles solid colours, paths, rectangles and rectangular
+/// clips, which is what figures need; images and text in fonts are not drawn. (Lettering draws text as outlines.)
+class VectorCanvas : public juce::LowLevelGraphicsContext
+{
+public:
+    /// The size of the picture, in the unit of the coordinates.
+    VectorCanvas (float picture_width, float picture_height) : width (picture_width), height (picture_height) {}
+
+    /// Draws a line that stays a line in the file. juce::Graphics would turn it into an outline with many more points.
+    void stroke (const juce::Path& line, float thickness);
+
+    /// The picture as a file. `units_per_inch` gives its size on paper.
+    std::string svg (const std::string& title, double units_per_inch) const;
+    std::string pdf (const std::string& title, double units_per_inch) const;
+
+    bool isVectorDevice() const override { return true; }
+    void setOrigin (juce::Point<int>) override;
+    void addTransform (const juce::AffineTransform&) override;
+    float getPhysicalPixelScaleFactor() override { return 1.0f; }
+    bool clipToRectangle (const juce::Rectangle<int>&) override;
+    bool clipToRectangleList (const juce::RectangleList<int>&) override;
+    void excludeClipRectangle (const juce::Rectangle<int>&) override {}
+    void clipToPath (const juce::Path&, const juce::AffineTransform&) override;
+    void clipToImageAlpha (const juce::Image&, const juce::AffineTransform&) override {}
+    bool clipRegionIntersects (const juce::Rectangle<int>&) override { return true; }
+    juce::Rectangle<int> getClipBounds() const override;
+    bool isClipEmpty() const override { return now.clip.isEmpty(); }
+    void saveState() override { saved.push_back (now); }
+    void restoreState() override;
+    void beginTransparencyLayer (float) override {}
+    void endTransparencyLayer() override {}
+    void setFill (const juce::FillType& fill) override { now.colour = fill.colour; }
+    void setOpacity (float) override {}
+    void setInterpolationQuality (juce::Graphics::ResamplingQuality) override {}
+    void fillRect (const juce::Rectangle<int>&, bool) override;
+    void fillRect (const juce::Rectangle<float>&) override;
+    void fillRectList (const juce::RectangleList<float>&) override;
+    void fillPath (const juce::Path&, const juce::AffineTransform&) override;
+    void drawImage (const juce::Image&, const juce::AffineTransform&) override {}
+    void drawLine (const juce::Line<float>&) override;
+    void setFont (const juce::Font& chosen) override { font = chosen; }
+    const juce::Font& getFont() override { return font; }
+    void drawGlyph (int, const juce::AffineTransform&) override {}
+
+private:
+    struct State
+    {
+        juce::AffineTransform transform;
+        juce::Rectangle<float> clip;
+        juce::Colour colour;
+    };
+
+    struct Shape
+    {
+        juce::Path outline;
+        juce::Colour colour;
+        juce::Rectangle<float> clip;
+        float thickness;   // of the line; 0: the shape is filled
+    };
+
+    void add (juce::Path, float thickness);
+    juce::Rectangle<float> picture() const { return { width, height }; }
+
+    float width, height;
+    State now { {}, picture(), juce::Colours::black };
+    std::vector<State> saved;
+    std::vector<Shape> shapes;
+    juce::Font font;
+};
+
+}   // namespace tactus::host

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/io/vector_canvas.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <juce_events/juce_events.h>
+
+#include <sstream>
+
+using tactus::host::VectorCanvas;
+
+namespace
+{
+/// A filled rectangle, a clipped line, and a triangle that is moved by a transform.
+void drawOn (VectorCanvas& canvas)
+{
+    juce::Graphics graphics (canvas);
+    graphics.setColour (juce::Colour (0xff102030));
+    graphics.fillRect (juce::Rectangle<float> (10.0f, 20.0f, 30.0f, 40.0f));
+    {
+        const juce::Graphics::ScopedSaveState restore (graphics);
+        graphics.reduceClipRegion ({ 0, 0, 50, 25 });
+        juce::Path line;
+        line.startNewSubPath (0.0f, 0.0f);
+        line.lineTo (100.0f, 50.5f);
+        canvas.stroke (line, 1.5f);
+    }
+    juce::Path triangle;
+    triangle.addTriangle (0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 1.0f);
+    graphics.setColour (juce::Colours::red);
+    graphics.fillPath (triangle, juce::AffineTransform::translation (60.0f, 5.0f));
+}
+
+std::string inflated (const std::string& data)
+{
+    juce::MemoryInputStream compressed (data.data(), data.size(), false);
+    juce::GZIPDecompressorInputStream stream (&compressed, false, juce::GZIPDecompressorInputStream::zlibFormat);
+    return stream.readEntireStreamAsString().toStdString();
+}
+}   // namespace
+
+TEST_CASE ("vector canvas: an SVG has the size on paper\\, each shape, its colour and its clip", "[host][io][plot]")
+{
+    const juce::ScopedJuceInitialiser_GUI juce_is_up;   // its fonts exist only meanwhile
+    VectorCanvas canvas (200.0f, 100.0f);
+    drawOn (canvas);
+    const auto text = canvas.svg ("a < b & c", 96.0);
+    const auto svg = juce::parseXML (juce::String::fromUTF8 (text.c_str()));
+    REQUIRE (svg != nullptr);
+    CHECK (svg->getStringAttribute ("width") == "52.92mm");
+    CHECK (svg->getStringAttribute ("height") == "26.46mm");
+    CHECK (svg->getStringAttribute ("viewBox") == "0 0 200 100");
+    REQUIRE (svg->getChildByName ("title") != nullptr);
+    CHECK (svg->getChildByName ("title")->getAllSubText() == "a < b & c");
+
+    const auto* rectangle = svg->getChildByName ("path");
+    REQUIRE (rectangle != nullptr);
+    CHECK (rectangle->getStringAttribute ("fill") == "#102030");
+    const auto* clipped = svg->getChildByName ("g");
+    REQUIRE (clipped != nullptr);
+    const auto* line = clipped->getChildByName ("path");
+    REQUIRE (line != nullptr);
+    CHECK (line->getStringAttribute ("d") == "M0 0L100 50.5");
+    CHECK (line->getStringAttribute ("stroke-width") == "1.5");
+    const auto* clip = svg->getChildByName ("clipPath");
+    REQUIRE (clip != nullptr);
+    CHECK (clip->getChildByName ("rect")->getStringAttribute ("height") == "25");
+    const auto* triangle = clipped->getNextElementWithTagName ("path");
+    REQUIRE (triangle != nullptr);
+    CHECK (triangle->getStringAttribute ("fill") == "#ff0000");
+    CHECK (triangle->getStringAttribute ("d").startsWith ("M60 5"));
+}
+
+TEST_CASE ("vector canvas: the table of a PDF points to its objects\\, and the page has the same shapes", "[host][io][plot]")
+{
+    const juce::ScopedJuceInitialiser_GUI juce_is_up;   // its fonts exist only meanwhile
+    VectorCanvas canvas (200.0f, 100.0f);
+    drawOn (canvas);
+    const auto file = canvas.pdf ("Größe", 96.0);
+    CHECK (file.starts_with ("%PDF-1.4\n"));
+    CHECK (file.ends_with ("%%EOF\n"));
+    CHECK (file.find ("/MediaBox [0 0 150 75]") != std::string::npos);
+    CHECK (file.find ("/Title <FEFF0047007200F600DF0065>") != std::string::npos);
+
+    const auto start = file.rfind ("startxref\n");
+    REQUIRE (start != std::string::npos);
+    std::istringstream table (file.substr (std::stoul (file.substr (start + 10))));
+    std::string word;
+    std::size_t first = 0, count = 0;
+    table >> word >> first >> count;
+    REQUIRE (word == "xref");
+    REQUIRE (count == 6);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        std::size_t at = 0;
+        std::string generation, kind;
+        table >> at >> generation >> kind;
+        CHECK (kind == (i == 0 ? "f" : "n"));
+        if (i > 0) CHECK (file.substr (at).starts_with (std::to_string (i) + " 0 obj\n"));
+    }
+
+    const auto begin = file.find ("stream\n") + 7, end = file.find ("\nendstream");
+    const auto page = inflated (file.substr (begin, end - begin));
+    INFO (page);
+    CHECK (page.starts_with ("0.75 0 0 -0.75 0 75 cm"));
+    CHECK (page.find ("0.0627 0.1255 0.1882 rg\n10 60 m\n10 20 l\n40 20 l\n40 60 l\nh\nf\n") != std::string::npos);
+    CHECK (page.find ("q 0 0 50 25 re W n\n") != std::string::npos);
+    CHECK (page.find ("1.5 w\n0 0 m\n100 50.5 l\nS\nQ\n") != std::string::npos);
+    CHECK (page.find ("1 0 0 rg\n60 5 m\n") != std::string::npos);
+}
