@@ -57,8 +57,20 @@ struct VectorSum
     template <std::size_t n>
     static void step (void* self, const double* const*, void*) noexcept
     {
-        for (auto* part : static_cast<VectorSum*> (self)->parts)
-            part->add<n>();
+        auto& [x, y, z] = static_cast<VectorSum*> (self)->parts;
+#ifdef __SSE2__
+        const auto values = [a = x->terms.data(), b = y->terms.data()] (std::size_t i) noexcept {
+            return Two { a[i].gain, b[i].gain } * Two { *a[i].from, *b[i].from };
+        };
+        const Two sums = [&]<std::size_t... i> (std::index_sequence<i...>) noexcept { return sumOf (values (i)...); }
+        (std::make_index_sequence<n>());
+        x->out = sums[0];
+        y->out = sums[1];
+#else
+        x->add<n>();
+        y->add<n>();
+#endif
+        z->add<n>();
     }
 };
 
