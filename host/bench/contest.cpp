@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contest.hpp"
+#include "dry_wood.hpp"
+#include "exported.hpp"
 #include "faust_chain.hpp"
 #include "handwritten.hpp"
 #include "juce_variants.hpp"
+#include "light.hpp"
 #include "one_poles.hpp"
 #include "planned.hpp"
 #include "reference.hpp"
@@ -16,10 +19,10 @@ namespace tactus::bench
 
 namespace
 {
-std::vector<Contest::Row> stroke()
+std::vector<Contest::Row> strokeRows (const graph::Graph& g)
 {
     std::vector<Contest::Row> rows;
-    for (const auto& p : strokeOver (reference()))
+    for (const auto& p : strokeOver (g))
         rows.push_back ({ p.x(), p.y(), p.z() });
     return rows;
 }
@@ -46,13 +49,20 @@ std::vector<Contest> contests()
 {
     constexpr int poles = 100;
     const auto tree = treeOfOnePoles (poles), chain = chainOfOnePoles (poles);
-    const std::string juce = "JUCE AudioProcessorGraph", plan = "plan";
+    const std::string juce = "JUCE AudioProcessorGraph", plan = "plan", hand = "hand-written", exported = "export";
+    const auto stroke = strokeRows (reference());
+    const auto lightPlan = [] { return std::make_unique<Planned> (lightGraph(), CompileOptions {}, lightTypes()); };
     return {
-        { "plan/hand", plan, "hand-written", "reference graph", planOf (reference()), handwritten, stroke() },
-        { "juce/plan", juce, plan, "reference graph", juceReference, planOf (reference()), stroke() },
+        { "plan/hand", plan, hand, "reference graph", planOf (reference()), handwritten, stroke },
+        { "light_plan/hand", plan, hand, "reference graph with light kernels", lightPlan, lightByHand, stroke },
+        { "dry_wood_plan/hand", plan, hand, "dry wood", planOf (dryWood()), dryWoodByHand, strokeRows (dryWood()), 1e-12 },
+        { "export/hand", exported, hand, "reference graph and guard", exportedReference, handwrittenWithGuard, stroke },
+        { "juce/plan", juce, plan, "reference graph", juceReference, planOf (reference()), stroke },
         { "juce_tree100/plan", juce, plan, "tree of 100 one-poles", [tree] { return juceOnePoles (tree); },
           planOf (tree), chirp() },
         { "plan/faust_chain100", plan, "Faust", "chain of 100 one-poles", planOf (chain), [] { return std::make_unique<FaustVariant>(); },
+          chirp(), 1e-12 },
+        { "export/faust_chain100", exported, "Faust", "chain of 100 one-poles", exportedChain, [] { return std::make_unique<FaustVariant>(); },
           chirp(), 1e-12 },
     };
 }

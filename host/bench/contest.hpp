@@ -25,7 +25,7 @@ struct Contest
     double tolerance = 0.0;   ///< largest allowed difference between outputs; 0 means bit for bit
 };
 
-/// The reference graph, the tree and the chain (docs/bench.md). [message thread]
+/// The reference graph, as it is and with light kernels, dry wood, the tree and the chain (docs/bench.md). [message thread]
 std::vector<Contest> contests();
 
 struct Agreement

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Writes a C++ file with the text of a graph: cmake -D input=FILE -D output=FILE.cpp -P embed.cmake
+# Writes a C++ file with the text of a graph: cmake -D name=FUNCTION -D input=FILE -D output=FILE.cpp -P embed.cmake
 file (READ ${input} bytes HEX)
 string (REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
 file (WRITE ${output}
@@ -7,6 +7,6 @@ file (WRITE ${output}
 namespace tactus::bench
 {
 static constexpr unsigned char bytes[] { ${bytes} };
-std::string_view referenceText() noexcept { return { reinterpret_cast<const char*> (bytes), sizeof bytes }; }
+std::string_view ${name}() noexcept { return { reinterpret_cast<const char*> (bytes), sizeof bytes }; }
 }
 ")

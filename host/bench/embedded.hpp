@@ -6,7 +6,8 @@
 namespace tactus::bench
 {
 
-/// The text of graphs/padded_bench.json, which the build embeds.
-std::string_view referenceText() noexcept;
+// The texts of presets, which the build embeds.
+std::string_view referenceText() noexcept;   ///< graphs/padded_bench.json
+std::string_view dryWoodText() noexcept;     ///< graphs/dry_wood.json
 
 }   // namespace tactus::bench

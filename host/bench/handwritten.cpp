@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "handwritten.hpp"
 #include "kernels.hpp"
+#include "reference.hpp"
+
+#include <tactus/run/device/make_device.hpp>
+#include <tactus/run/guard.hpp>
 
 namespace tactus::bench
 {
 
 namespace
 {
-class Handwritten final : public Variant
+class Handwritten : public Variant
 {
 public:
     Handwritten() : k (device) {}
@@ -20,9 +24,31 @@ public:
         return { f.x(), f.y(), f.z() };
     }
 
-private:
+protected:
     DeviceState device;
     Kernels k;
+};
+
+class Guarded final : public Handwritten
+{
+public:
+    Guarded()
+    {
+        const auto made = makeDevice (reference().devices.front().second, {});
+        guard.prepare (made.limits, kernel_setup.dt_s(), made.device->layout());
+    }
+
+    void tick (const double* in) noexcept override
+    {
+        Handwritten::tick (in);
+        given = guard (k.motor.effort(), device.reading);
+    }
+
+    std::vector<double> outputs() const override { return { given.force.x(), given.force.y(), given.force.z() }; }
+
+private:
+    Guard guard;
+    Effort given;
 };
 
 void Handwritten::tick (const double* in) noexcept
@@ -49,5 +75,6 @@ void Handwritten::tick (const double* in) noexcept
 }   // namespace
 
 std::unique_ptr<Variant> handwritten() { return std::make_unique<Handwritten>(); }
+std::unique_ptr<Variant> handwrittenWithGuard() { return std::make_unique<Guarded>(); }
 
 }   // namespace tactus::bench

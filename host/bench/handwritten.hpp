@@ -12,4 +12,7 @@ namespace tactus::bench
 /// in local variables, and sums and products are computed where they are needed.
 std::unique_ptr<Variant> handwritten();
 
+/// The same, followed by the guard of the preset's device, which exported code contains.
+std::unique_ptr<Variant> handwrittenWithGuard();
+
 }   // namespace tactus::bench

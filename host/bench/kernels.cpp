@@ -9,7 +9,6 @@ namespace tactus::bench
 
 namespace
 {
-const Setup setup { .rate_hz = 4000.0 };
 constexpr double degree = std::numbers::pi / 180.0;
 
 /// A cushion of 8 by 8 points, 10 mm apart, firmer towards its seams.
@@ -39,20 +38,13 @@ std::shared_ptr<const Surface> cushion()
 
 std::vector<nodes::TextureNoise::Model> weave()
 {
-    const double rate = setup.rate_hz;
+    const double rate = kernel_setup.rate_hz;
     return {
         { 0.02, 0.2, rate, { 1.08, -0.729, 0.3645, -0.19683, 0.118098, -0.063773, 0.038264, -0.021523, 0.011623, -0.006974 }, 2e-05 },
         { 0.15, 0.2, rate, { 1.14, -0.81225, 0.428687, -0.244352, 0.154756, -0.088211, 0.055867, -0.033171, 0.018907, -0.011975 }, 0.0001 },
         { 0.02, 2.0, rate, { 1.104, -0.76176, 0.389344, -0.214918, 0.131816, -0.072763, 0.044628, -0.025661, 0.014165, -0.008688 }, 6e-05 },
         { 0.15, 2.0, rate, { 1.2, -0.9, 0.5, -0.3, 0.2, -0.12, 0.08, -0.05, 0.03, -0.02 }, 0.0004 },
     };
-}
-
-template <typename N>
-void start (N& node)
-{
-    if constexpr (Preparable<N>) node.prepare (setup);
-    if constexpr (Updatable<N>) node.update();
 }
 }   // namespace
 

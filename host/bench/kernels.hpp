@@ -21,6 +21,16 @@
 namespace tactus::bench
 {
 
+inline const Setup kernel_setup { .rate_hz = 4000.0 };
+
+/// Runs the hooks of a node that follow its params and settings.
+template <typename N>
+void start (N& node)
+{
+    if constexpr (Preparable<N>) node.prepare (kernel_setup);
+    if constexpr (Updatable<N>) node.update();
+}
+
 /// The twenty nodes of graphs/padded_bench.json, under the same names and with the same settings as in the file, for the variants
 /// that do not use the framework.
 struct Kernels

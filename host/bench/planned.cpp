@@ -6,9 +6,9 @@
 namespace tactus::bench
 {
 
-Planned::Planned (const graph::Graph& g, const CompileOptions& options)
+Planned::Planned (const graph::Graph& g, const CompileOptions& options, const Catalogue& types)
 {
-    auto compiled = compile (g, catalogue(), options);
+    auto compiled = compile (g, types, options);
     if (! compiled.plan) throw std::logic_error (compiled.messages.empty() ? "no plan" : compiled.messages.front().text);
     plan = std::move (compiled.plan);
     if (! plan->roles().empty()) device = plan->roles().front().state.get();

@@ -14,7 +14,7 @@ class Planned : public Variant
 {
 public:
     /// Throws if the graph does not compile.
-    explicit Planned (const graph::Graph&, const CompileOptions& = {});
+    explicit Planned (const graph::Graph&, const CompileOptions& = {}, const Catalogue& = catalogue());
 
     void tick (const double* in) noexcept override;
     std::vector<double> outputs() const override;   ///< the force on the device, or the recorded ports if there is no device

@@ -18,6 +18,12 @@ const graph::Graph& reference()
     return g;
 }
 
+const graph::Graph& dryWood()
+{
+    static const graph::Graph g = readGraph (dryWoodText()).graph;
+    return g;
+}
+
 std::vector<Vec3> strokeOver (const graph::Graph& g)
 {
     Engine engine { compile (g, catalogue()).plan };

@@ -12,7 +12,10 @@ namespace tactus::bench
 /// The preset graphs/padded_bench.json, as it was at build time.
 const graph::Graph& reference();
 
-/// The tool position on each tick while the preset's simulated hand strokes. All variants get the same path.
+/// The preset graphs/dry_wood.json, likewise.
+const graph::Graph& dryWood();
+
+/// The tool position on each tick while the graph's simulated hand strokes. All variants get the same path.
 std::vector<Vec3> strokeOver (const graph::Graph&);
 
 }   // namespace tactus::bench

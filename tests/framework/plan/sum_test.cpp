@@ -42,8 +42,8 @@ rc::Gen<double> anyNumber()
     const auto special = rc::gen::element (0.0, -0.0, 1.0, -1.0, 1e-16, 3.0, -3.0, 1e300, -1e300, 5e-324, inf, -inf, std::nan (""), -std::nan ("7"));
     return rc::gen::oneOf (special, rc::gen::arbitrary<double>(), rc::gen::map (rc::gen::inRange (-3, 4), [] (int n) { return 0.1 * n; }));
 }
-/// Of the w-th wire, and never 1: a single wire without a gain needs no sum.
-double gainOf (std::size_t w) { return 0.7 + 0.4 * static_cast<double> (w); }
+/// Of the w-th wire. With gains, it is never 1: a single wire without a gain needs no sum.
+double gainOf (std::size_t w, bool with_gains) { return with_gains ? 0.7 + 0.4 * static_cast<double> (w) : 1.0; }
 }   // namespace
 
 TEST_CASE ("a sum of wires has the bits of the sum in order of value, whatever the values and their order", "[plan][property]")
@@ -83,9 +83,10 @@ TEST_CASE ("every order of three and of four special values has the same sum, to
 
 TEST_CASE ("the sums of the components of a vector are one record for up to four wires, with the bits of the definition", "[plan]")
 {
-    for (const std::size_t wires : { 1u, 2u, 3u, 4u, 5u, 7u })
+    const auto with_gains = GENERATE (true, false);
+    for (const std::size_t wires : { with_gains ? 1u : 2u, 2u, 3u, 4u, 5u, 7u })
     {
-        INFO (wires << " wires");
+        INFO (wires << " wires" << (with_gains ? " with gains" : ""));
         test::Sketch sketch;
         sketch.node ("motor", "device.force");
         CompileOptions options { .records = { "motor.force" } };
@@ -100,7 +101,7 @@ TEST_CASE ("the sums of the components of a vector are one record for up to four
                 sketch.wire (noise + ".out -> " + vector + "." + component);
             }
             sketch.wire (vector + ".out -> motor.force");
-            sketch.graph.root.wires.back().gain = gainOf (w);
+            sketch.graph.root.wires.back().gain = gainOf (w, with_gains);
             options.records.push_back (vector + ".out");
         }
         const auto plan = sketch.compile (options).plan;
@@ -123,7 +124,7 @@ TEST_CASE ("the sums of the components of a vector are one record for up to four
             {
                 std::vector<double> terms;
                 for (std::size_t w = 0; w < wires; ++w)
-                    terms.push_back (gainOf (w) * *plan->taps()[3 * (w + 1) + c].value);
+                    terms.push_back (gainOf (w, with_gains) * *plan->taps()[3 * (w + 1) + c].value);
                 wrong += bits (*plan->taps()[c].value) != bits (inOrder (terms));
             }
         }
