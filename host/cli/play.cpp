@@ -316,7 +316,7 @@ void addPlay (const Command& app)
     command.addOption ("--live", options->live,
                        "The header of a node: compile it, and again whenever it is edited (docs/plugins.md); may be given more than once")
         .oneValueEach();
-    command.addFlag ("--fuse", options.fuse,
+    command.addFlag ("--fuse", options->fuse,
                      "While the graph plays, compile it to code that computes the same in less time, and let that take over (docs/fusion.md)");
     command.addFlag ("--costs", options->costs, "At the end, list the most expensive nodes");
     command.addOption ("--log", options->log, "Log all inputs, for `tactus render --replay`: see docs/replay.md");
