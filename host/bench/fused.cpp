@@ -8,6 +8,7 @@
 #include <cctype>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -51,7 +52,9 @@ std::string objectOf (const FusedCode& code, bool quick)
 {
     // Keeps the files until the program ends.
     static host::FusionCompiler compiler {
-        { .optimisation = quick ? "-O0" : "-O3", .cache = host::FusionCompiler::usualCache(), .flags = { "-I" TACTUS_BENCH_SOURCES } }
+        { .optimisation = quick ? "-O0" : "-O3",
+          .cache = quick ? std::filesystem::path {} : host::FusionCompiler::usualCache(),
+          .flags = { "-I" TACTUS_BENCH_SOURCES } }
     };
     static std::map<std::string, std::string> known;
     const auto [object, is_new] = known.try_emplace (code.text);

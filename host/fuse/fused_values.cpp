@@ -34,6 +34,7 @@ FusedValues::FusedValues (const Plan& p) : plan (p)
     for (std::size_t i = 0; i < plan.instances().size(); ++i)
     {
         const auto& instance = plan.instances()[i];
+        if (instance.node) by_node.emplace (instance.node.get(), i);
         if (plan.flat().nodes[i].type->outputs_size > 0) by_outputs.emplace (bytes (instance.outputs), i);
         if (const auto& type = *plan.flat().nodes[i].type; instance.node && type.params_size > 0)
             by_params.emplace (bytes (type.paramsOf (instance.node.get())), i);
@@ -43,10 +44,24 @@ FusedValues::FusedValues (const Plan& p) : plan (p)
         need (tap.value);
 }
 
+bool FusedValues::isStranger (const Record& r) const
+{
+    for (const auto step : { &plan::Strike::step, &plan::DelayLine::read, &plan::DelayLine::write, &plan::RunningSection::every, &plan::RunningSection::times,
+                             &plan::DrivenNode::step, &plan::Bypass::step })
+        if (r.step == step) return false;
+    bool is_sum = false;
+    plan::eachSum (r, [&is_sum] (const plan::Sum&) { is_sum = true; });
+    const auto node = by_node.find (r.self);
+    if (is_sum || node == by_node.end()) return ! is_sum;
+    const auto& type = *plan.flat().nodes[node->second].type;
+    return r.step != type.tick && r.step != type.peek;
+}
+
 void FusedValues::findChanging (std::span<const Record> records)
 {
     for (const auto& r : records)
     {
+        has_strangers = has_strangers || isStranger (r);
         plan::eachSum (r, [this] (const plan::Sum& sum) { changing.insert (&sum.out); });
         if (r.step == &plan::Strike::step) changing.insert (&static_cast<plan::Strike*> (r.self)->out);
         if (r.step == &plan::DelayLine::read) changing.insert (&static_cast<plan::DelayLine*> (r.self)->line->out);
@@ -99,7 +114,7 @@ std::string FusedValues::memberOf (const PortSheet& sheet, int slot)
 /// True for defaults of inputs, which nothing ever writes.
 bool FusedValues::isConstant (const double* value) const
 {
-    if (changing.contains (value) || ! isFinite (*value)) return false;
+    if (has_strangers || changing.contains (value) || ! isFinite (*value)) return false;
     if (const auto feeds = plan.feeds(); value >= feeds.data() && value < feeds.data() + feeds.size()) return false;
     if (const auto found = lastBefore (by_outputs, value); found != by_outputs.end())
         if (static_cast<std::size_t> (bytes (value) - found->first) < plan.flat().nodes[found->second].type->outputs_size) return false;

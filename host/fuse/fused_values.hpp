@@ -46,8 +46,8 @@ public:
     /// The same for a value that something else than fused code reads.
     void need (const double*);
 
-    bool isNeeded (const double* value) const { return needed.contains (value); }
-    bool isNeeded (std::size_t instance) const { return needed_nodes.contains (instance); }
+    bool isNeeded (const double* value) const { return has_strangers || needed.contains (value); }
+    bool isNeeded (std::size_t instance) const { return has_strangers || needed_nodes.contains (instance); }
     bool isInSight (const double* value) const;
 
     /// From here to the end of the scope, this variable has the value.
@@ -80,6 +80,7 @@ private:
     };
 
     void findChanging (std::span<const Record>);
+    bool isStranger (const Record&) const;
     std::optional<Output> outputAt (const double*) const;
     bool isConstant (const double*) const;
     const std::string* variableOf (const double*, std::string& made) const;
@@ -87,9 +88,11 @@ private:
     std::vector<Scope> scopes { 1 };
     std::vector<void*> all;
     std::unordered_map<const void*, std::size_t> by_object;
-    std::map<const std::byte*, std::size_t> by_outputs;   // the number of an instance by where its outputs begin
-    std::map<const std::byte*, std::size_t> by_params;    // by where its params begin
-    std::unordered_set<const double*> changing;           // what sums, hits, delays and rate converters write
+    std::unordered_map<const void*, std::size_t> by_node;   // the number of an instance by its node
+    std::map<const std::byte*, std::size_t> by_outputs;     // the number of an instance by where its outputs begin
+    std::map<const std::byte*, std::size_t> by_params;      // by where its params begin
+    std::unordered_set<const double*> changing;             // what sums, hits, delays and rate converters write
+    bool has_strangers = false;                             // the plan has records of an unknown kind, which may read and write anything
     std::set<const double*> needed;
     std::set<std::size_t> needed_nodes;
     std::size_t needed_before = 0;

@@ -80,13 +80,19 @@ std::string identityOf (const std::string& compiler)
     return compiler;
 }
 
-/// Makes a folder that only this user can write to. False if it cannot be, or if others can write to it.
+/// True if the folder exists, and only this user can write to it.
+bool isPrivate (const fs::path& folder)
+{
+    std::error_code failed;
+    const auto status = fs::status (folder, failed);
+    return ! failed && fs::is_directory (status) && (status.permissions() & (fs::perms::group_write | fs::perms::others_write)) == fs::perms::none;
+}
+
 bool makePrivate (const fs::path& folder)
 {
     std::error_code failed;
     if (fs::create_directories (folder, failed)) fs::permissions (folder, fs::perms::owner_all, failed);
-    const auto status = fs::status (folder, failed);
-    return ! failed && fs::is_directory (status) && (status.permissions() & (fs::perms::group_write | fs::perms::others_write)) == fs::perms::none;
+    return isPrivate (folder);
 }
 
 void removeOldest (const fs::path& folder)
@@ -195,7 +201,7 @@ Result<> FusionCompiler::start (const FusedCode& code)
     ready.clear();
     key = keyOf (code);
     std::error_code unseen;
-    if (const auto kept = options.cache / (key + ".so"); ! options.cache.empty() && makePrivate (options.cache) && fs::exists (kept, unseen))
+    if (const auto kept = options.cache / (key + ".so"); ! options.cache.empty() && isPrivate (options.cache) && fs::exists (kept, unseen))
     {
         fs::last_write_time (kept, fs::file_time_type::clock::now(), unseen);   // the oldest are removed first
         ready = kept;
