@@ -97,7 +97,9 @@ void CodeWriter::beginPart()
 {
     in_part = 0;
     ++parts;
-    line ("static inline void part" + std::to_string (parts) + " (const tactus::fused::Objects p) noexcept");
+    // A function that is called once would be inlined, and all would be one large function again.
+    const auto* kind = values.plan.records().size() > records_in_part ? "[[gnu::noinline]] static void part" : "static inline void part";
+    line (kind + std::to_string (parts) + " (const tactus::fused::Objects p) noexcept");
     line ("{");
     indent = 4;
     line ("(void) p;");

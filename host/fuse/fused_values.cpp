@@ -114,13 +114,13 @@ std::string FusedValues::memberOf (const PortSheet& sheet, int slot)
 /// True for defaults of inputs, which nothing ever writes.
 bool FusedValues::isConstant (const double* value) const
 {
-    if (has_strangers || changing.contains (value) || ! isFinite (*value)) return false;
+    if (has_strangers || changing.contains (value)) return false;
     if (const auto feeds = plan.feeds(); value >= feeds.data() && value < feeds.data() + feeds.size()) return false;
     if (const auto found = lastBefore (by_outputs, value); found != by_outputs.end())
         if (static_cast<std::size_t> (bytes (value) - found->first) < plan.flat().nodes[found->second].type->outputs_size) return false;
     if (const auto found = lastBefore (by_params, value); found != by_params.end())
         if (static_cast<std::size_t> (bytes (value) - found->first) < plan.flat().nodes[found->second].type->params_size) return false;
-    return true;
+    return isFinite (*value);   // last, because the tick thread writes what the checks above exclude
 }
 
 /// The variable that has a value, or null. If it is a member, its text is in `made`.

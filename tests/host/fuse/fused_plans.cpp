@@ -36,7 +36,7 @@ void FusedPlans::add (const Plan& plan)
     auto code = host::FusedCode::of (plan);
     REQUIRE_FALSE (code.text.empty());
     const auto number = std::to_string (objects.size());
-    const auto body = code.text.find ("static inline");
+    const auto body = code.text.find ("\n\n");   // after the includes
     bodies += "namespace plan_" + number + "\n{\n"
               + host::filled (code.text.substr (body), { { std::string (host::FusedCode::function) + " ", "fused_" + number + " " } }) + "}\n";
     all.headers.insert (code.headers.begin(), code.headers.end());
