@@ -4,6 +4,13 @@
 namespace tactus
 {
 
+void Plan::fuse (std::shared_ptr<const FusedTick> code)
+{
+    const auto* next = code.get();
+    if (code && std::ranges::find (fused_kept, code) == fused_kept.end()) fused_kept.push_back (std::move (code));
+    fused_now.store (next, std::memory_order_release);
+}
+
 void Plan::forgetGraph()
 {
     parts.flat = {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "fused_tick.hpp"
 #include "order.hpp"
 #include "ramps.hpp"
 #include "sum.hpp"
@@ -9,6 +10,7 @@
 #include <tactus/node/catalogue.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -148,15 +150,25 @@ public:
         parts.ramps.step();
     }
 
-    /// Runs all records once. [tick thread]
+    /// Runs all records once, or the code that replaces them (see fuse). [tick thread]
     void tick() noexcept
     {
-        for (const auto& r : parts.records)
-            r.step (r.self, r.sources, r.outputs);
+        if (const auto* code = fused_now.load (std::memory_order_acquire))
+            code->tick (code->objects.data());
+        else
+            for (const auto& r : parts.records)
+                r.step (r.self, r.sources, r.outputs);
         ++parts.number;
     }
 
-    /// Runs the same tick with bit-identical results, for measuring: calls `around (i, step)` for each record in running order,
+    /// From the next tick on, tick() calls this code in place of the records; null: the records again. The plan keeps all code that it has
+    /// been given, because a tick may be running it. A plan that takes over from this one starts with its own records. [main thread]
+    void fuse (std::shared_ptr<const FusedTick>);
+
+    /// True if tick() calls compiled code. [any thread]
+    bool isFused() const noexcept { return fused_now.load (std::memory_order_relaxed) != nullptr; }
+
+    /// Runs the same tick with bit-identical results, by its records, for measuring: calls `around (i, step)` for each record in running order,
     /// and `around` calls `step()` exactly once. [tick thread]
     template <typename Around>
     void tick (Around&& around) noexcept
@@ -216,6 +228,8 @@ private:
 
     std::uint64_t own_serial = plan::newSerial();
     plan::PlanParts parts;
+    std::vector<std::shared_ptr<const FusedTick>> fused_kept;   // [main thread]
+    std::atomic<const FusedTick*> fused_now = nullptr;
 };
 
 }   // namespace tactus

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bench.hpp"
+#include "fused.hpp"
 #include "juce_variants.hpp"
 #include "one_poles.hpp"
 
@@ -38,9 +39,9 @@ bool Results::agree() const
     return std::ranges::all_of (agreements, [] (const Agreed& a) { return a.found.agree; });
 }
 
-void agree (Results& results)
+void agree (Results& results, bool quick)
 {
-    for (auto& contest : contests())
+    for (auto& contest : withFused (contests(), quick))
     {
         const auto found = compare (contest);
         results.agreements.push_back ({ std::move (contest), found });

@@ -26,8 +26,8 @@ struct Results
     bool agree() const;
 };
 
-/// Compares the outputs of all variants. Runs before anything is timed. [message thread]
-void agree (Results&);
+/// Compares the outputs of all variants. Runs before anything is timed. `quick` compiles fused code without optimisation. [message thread]
+void agree (Results&, bool quick);
 
 /// Times the variants (docs/bench.md). `quick` runs only a few rounds, enough to see that it works. [message thread]
 void time (Results&, bool quick, bool quiet);

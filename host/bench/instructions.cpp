@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "instructions.hpp"
 #include "contest.hpp"
+#include "fused.hpp"
 
 #include <juce_core/juce_core.h>
 
@@ -51,7 +52,7 @@ std::optional<double> totalOf (const juce::File& dump)
 
 void runToBeCounted()
 {
-    for (const auto& contest : contests())
+    for (const auto& contest : withFused (contests()))
         for (const auto& make : { contest.make_first, contest.make_second })
         {
             tactus_bench_counted (*make(), contest.inputs);
@@ -71,7 +72,7 @@ std::variant<std::map<std::string, Counted>, std::string> countInstructions()
 
     std::map<std::string, Counted> all;
     int dump = 0;
-    for (const auto& contest : contests())
+    for (const auto& contest : withFused (contests()))
     {
         const auto first = totalOf (folder.path.getChildFile ("out." + juce::String (++dump)));
         const auto second = totalOf (folder.path.getChildFile ("out." + juce::String (++dump)));

@@ -102,7 +102,7 @@ int run (const Options& options)
     }
 
     Results results;
-    agree (results);
+    agree (results, options.quick);
     if (! options.json) printAgreements (results);
     time (results, options.quick, options.json);
 

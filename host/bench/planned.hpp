@@ -17,6 +17,7 @@ public:
     explicit Planned (const graph::Graph&, const CompileOptions& = {}, const Catalogue& = catalogue());
 
     void tick (const double* in) noexcept override;
+    const std::shared_ptr<Plan>& running() const noexcept { return plan; }
     std::vector<double> outputs() const override;   ///< the force on the device, or the recorded ports if there is no device
 
 private:

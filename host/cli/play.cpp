@@ -7,6 +7,7 @@
 #include "remote.hpp"
 #include "report.hpp"
 
+#include <host/fuse/fuser.hpp>
 #include <host/io/file_watch.hpp>
 #include <host/osc/osc_options.hpp>
 #include <host/platform/signals.hpp>
@@ -32,7 +33,7 @@ namespace
 {
 struct Options : RunOptions
 {
-    bool costs = false;
+    bool costs = false, fuse = false;
     std::vector<std::string> live;   ///< headers of nodes
     std::string osc = std::to_string (OscPort::usual), osc_answer;
     bool osc_asked_for = false;
@@ -108,6 +109,9 @@ std::unique_ptr<LivePlugins> openLive (const Options& options)
     return live;
 }
 
+/// Seconds since some moment.
+double seconds() { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
 constexpr double look_apart_s = 0.02;   // between two looks at the run
 
 /// A play command, from its first tick to its last.
@@ -120,6 +124,7 @@ public:
         command.run().add (emergency);
         if (! options.outputs.empty()) command.run().add (recording.emplace (command.run(), options.outputs));
         if (port) control.emplace (*port, remote, token);
+        if (options.fuse) fuser.emplace (Fuser::Options { .compiler = { .cache = FusionCompiler::usualCache() } });
         file_watch.watch (command.files());
     }
 
@@ -180,6 +185,7 @@ private:
         if (options.watch && i % 10 == 0 && file_watch.look()) reload();
         if (i % 2 == 0)
             if (auto news = live.look()) takeOver (*news);
+        if (fuser) fuse();
         if (control)
         {
             command.probes().drain ([&] (std::uint64_t tick, std::span<const double> values) { control->values (tick, values); });
@@ -188,8 +194,22 @@ private:
         if (i % 5 != 0) return;
         health.look (command.realDevices());
         if (terminal)
-            printStatus (command.run().live(), command.rate(), true,
-                         statusOf (health.health(), device_clock.get()) + statusOf (command.audio().status()), false);
+        {
+            const auto fusion = fuser ? "   " + fuser->describe() : std::string {};
+            const auto more = statusOf (health.health(), device_clock.get()) + statusOf (command.audio().status()) + fusion;
+            printStatus (command.run().live(), command.rate(), true, more, false);
+        }
+    }
+
+    /// Looks after the compiled code of the plan that runs.
+    void fuse()
+    {
+        const bool was_fused = fuser->state() == Fuser::State::fused;
+        const auto trouble = fuser->look (command.engine().newestShared(), seconds());
+        const bool is_new = ! was_fused && fuser->state() == Fuser::State::fused;
+        if ((trouble || is_new) && terminal) std::fprintf (stderr, "\r\033[K");
+        if (trouble) warn (options.graph, *trouble);
+        if (is_new) std::fprintf (stderr, "%s: fused %s\n", printableName (options.graph).c_str(), fuser->account().c_str());
     }
 
     void reload()
@@ -268,6 +288,7 @@ private:
     Remote remote { command, emergency };
     const std::string token = randomToken();
     std::optional<RemoteControl> control;
+    std::optional<Fuser> fuser;
     HealthWatch health { command.clockRole() };
     const bool terminal = stderrIsTerminal();
 
@@ -296,6 +317,8 @@ void addPlay (const Command& app)
     command.addOption ("--live", options->live,
                        "The header of a node: compile it, and again whenever it is edited (docs/plugins.md); may be given more than once")
         .oneValueEach();
+    command.addFlag ("--fuse", options->fuse,
+                     "While the graph plays, compile it to code that computes the same in less time, and let that take over (docs/fusion.md)");
     command.addFlag ("--costs", options->costs, "At the end, list the most expensive nodes");
     command.addOption ("--log", options->log, "Log all inputs, for `tactus render --replay`: see docs/replay.md");
     command.addOption ("--core", options->core, "Pin the tick thread to this CPU core").check (within (0, 1023));

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "code_writer.hpp"
+
+namespace tactus::host
+{
+
+namespace
+{
+std::size_t countOf (std::span<const Record> records)
+{
+    auto all = records.size();
+    for (const auto& r : records)
+        if (r.step == &plan::RunningSection::every || r.step == &plan::RunningSection::times)
+            all += countOf (static_cast<plan::RunningSection*> (r.self)->records);
+    return all;
+}
+}   // namespace
+
+FusedCode FusedCode::of (const Plan& plan, const Classes& more)
+{
+    if (countOf (plan.records()) > most_records) return {};
+    return CodeWriter { plan, more }.write();
+}
+
+}   // namespace tactus::host

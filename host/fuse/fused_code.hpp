@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <host/generate/sources.hpp>
+#include <tactus/plan/plan.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// A plan as one C++ function.
+struct FusedCode
+{
+    /// The function's name, without its namespace. It has C linkage and the type of FusedTick::tick.
+    static constexpr const char* function = "tactus_fused_tick";
+
+    /// The most records that are fused: a compiler takes a minute for them.
+    static constexpr std::size_t most_records = 3000;
+
+    std::string text;                ///< C++; the same for each plan of the same shape
+    std::set<std::string> headers;   ///< what it includes, as in sourceFiles()
+    std::vector<void*> objects;      ///< see FusedTick
+    std::size_t fused = 0;           ///< number of records that the code contains
+    std::size_t called = 0;          ///< number of records that it calls as the plan does: those of plugins, and of bypassed nodes
+
+    /// The classes of node types that are not in nodes/, by id. The compiler has to find their headers.
+    using Classes = std::map<std::string, NodeClass, std::less<>>;
+
+    /// Writes the code of a plan, which may be running. Empty if the plan has too many records. [main thread]
+    static FusedCode of (const Plan&, const Classes& more = {});
+};
+
+}   // namespace tactus::host

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tactus/plan/fused_tick.hpp>
+#include <tactus/plan/ops.hpp>
+#include <tactus/plan/plan.hpp>
+#include <tactus/plan/running_section.hpp>
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// Where the values of a plan are while fused code runs: in local variables where possible, else in the memory where the plan has them.
+/// [main thread]
+///
+/// What reads a value that is not in a variable, or not in one that it can see, needs it in memory. This may be known only after the
+/// value was written, so the code is written again until nothing new is needed; see settled().
+class FusedValues
+{
+public:
+    /// The plan must outlive this object.
+    explicit FusedValues (const Plan&);
+
+    const Plan& plan;
+
+    /// The number of an object in FusedTick::objects.
+    std::string number (const void*);
+
+    /// The numbers of these objects, one after another; returns the first.
+    std::string numbers (std::initializer_list<const void*>);
+
+    const std::vector<void*>& objects() const noexcept { return all; }
+
+    /// A value as an expression. Notes that it must be in memory if no variable with it is in sight.
+    std::string read (const double*);
+
+    /// The same for a value that something else than fused code reads.
+    void need (const double*);
+
+    bool isNeeded (const double* value) const { return has_strangers || needed.contains (value); }
+    bool isNeeded (std::size_t instance) const { return has_strangers || needed_nodes.contains (instance); }
+    bool isInSight (const double* value) const;
+
+    /// From here to the end of the scope, this variable has the value.
+    void name (const double* value, std::string variable) { scopes.back().values.insert_or_assign (value, std::move (variable)); }
+
+    /// From here to the end of the scope, this variable has the outputs of a node.
+    void nameOutputs (std::size_t instance, std::string variable) { scopes.back().outputs.insert_or_assign (instance, std::move (variable)); }
+
+    void openScope() { scopes.emplace_back(); }
+    void closeScope() { scopes.pop_back(); }
+
+    /// Prepares for writing the code again. True if the last time needed nothing new.
+    bool settled();
+
+    /// A component of a port as a member of its struct: "mu", "direction[2]".
+    static std::string memberOf (const PortSheet&, int slot);
+
+private:
+    struct Scope
+    {
+        std::unordered_map<const double*, std::string> values;
+        std::unordered_map<std::size_t, std::string> outputs;
+    };
+
+    struct Output
+    {
+        std::size_t instance;
+        const PortSheet* sheet;
+        int slot;
+    };
+
+    void findChanging (std::span<const Record>);
+    bool isStranger (const Record&) const;
+    std::optional<Output> outputAt (const double*) const;
+    bool isConstant (const double*) const;
+    const std::string* variableOf (const double*, std::string& made) const;
+
+    std::vector<Scope> scopes { 1 };
+    std::vector<void*> all;
+    std::unordered_map<const void*, std::size_t> by_object;
+    std::unordered_map<const void*, std::size_t> by_node;   // the number of an instance by its node
+    std::map<const std::byte*, std::size_t> by_outputs;     // the number of an instance by where its outputs begin
+    std::map<const std::byte*, std::size_t> by_params;      // by where its params begin
+    std::unordered_set<const double*> changing;             // what sums, hits, delays and rate converters write
+    bool has_strangers = false;                             // the plan has records of an unknown kind, which may read and write anything
+    std::set<const double*> needed;
+    std::set<std::size_t> needed_nodes;
+    std::size_t needed_before = 0;
+};
+
+/// A number as C++ with the same bits. The number is finite.
+std::string exactly (double);
+
+}   // namespace tactus::host

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <host/fuse/fused_code.hpp>
+#include <tactus/plan/fused_tick.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tactus::test
+{
+
+/// Waits for fused code. Returns the shared object, or fails the test with what the compiler says. Code that was compiled once in this
+/// process is not compiled again.
+std::string compiledFusion (const host::FusedCode&);
+
+/// The code of several plans as one source, because each run of the compiler spends most of its time on the headers.
+class FusedPlans
+{
+public:
+    void add (const Plan&);
+
+    /// Compiles and loads them. In the order of add().
+    std::vector<std::shared_ptr<const FusedTick>> load();
+
+private:
+    host::FusedCode all;
+    std::string bodies;
+    std::vector<std::vector<void*>> objects;
+};
+
+}   // namespace tactus::test

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fused_plans.hpp"
+
+#include <host/fuse/fuser.hpp>
+#include <support/sketch.hpp>
+#include <support/temporary_folder.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+using namespace tactus;
+using host::Fuser;
+
+namespace
+{
+namespace fs = std::filesystem;
+
+std::shared_ptr<Plan> smallPlan (double cutoff_hz = 20.0)
+{
+    const auto sketch = test::Sketch {}.node ("a", "filter.one_pole", { { "cutoff", cutoff_hz } }).node ("b", "filter.one_pole").wire ("a.out -> b.in");
+    return sketch.compile ({ .feeds = { "a.in" }, .records = { "b.out" } }).plan;
+}
+
+/// The outputs of some ticks with an input that changes.
+std::vector<double> outputs (Plan& plan, int ticks)
+{
+    std::vector<double> all;
+    for (int k = 0; k < ticks; ++k)
+    {
+        plan.feeds()[0] = k % 5 - 2.0;
+        plan.beginTick (static_cast<std::uint64_t> (k));
+        plan.tick();
+        all.push_back (*plan.taps()[0].value);
+    }
+    return all;
+}
+
+/// A program that takes the place of the compiler.
+class FakeCompiler
+{
+public:
+    explicit FakeCompiler (const std::string& script)
+    {
+        folder.write ("compiler", "#!/bin/sh\necho run >> '" + (folder / "runs").string() + "'\n" + script + "\n");
+        fs::permissions (folder / "compiler", fs::perms::owner_all);
+    }
+
+    Fuser::Options options() const { return { .compiler = { .compiler = (folder / "compiler").string(), .cache = folder / "cache" } }; }
+
+    int runs() const
+    {
+        std::ifstream in (folder / "runs");
+        int n = 0;
+        for (std::string line; std::getline (in, line);)
+            ++n;
+        return n;
+    }
+
+private:
+    TemporaryFolder folder;
+};
+
+/// Looks until the fuser has finished what it does.
+std::optional<Message> finish (Fuser& fuser, const std::shared_ptr<Plan>& plan, double now_s)
+{
+    for (;;)
+    {
+        if (auto message = fuser.look (plan, now_s)) return message;
+        if (fuser.state() != Fuser::State::compiles) return std::nullopt;
+        std::this_thread::sleep_for (std::chrono::milliseconds (2));
+    }
+}
+
+/// A compiler that puts this file where the output belongs.
+std::string copies (const std::string& object) { return "while [ $# -gt 1 ]; do [ \"$1\" = -o ] && cp '" + object + "' \"$2\"; shift; done"; }
+}   // namespace
+
+TEST_CASE ("a plan runs on by its records if the compiler fails, is killed, or makes nonsense", "[fuse]")
+{
+    const auto script = GENERATE (as<std::string> {}, "echo 'error: no' >&2; exit 1", "kill -9 $$", "exit 0", copies ("/etc/passwd"));
+    INFO (script);
+    const FakeCompiler compiler { script };
+    Fuser fuser { compiler.options() };
+    const auto plan = smallPlan(), other = smallPlan();
+    const auto said = finish (fuser, plan, 0.0);
+    REQUIRE (said);
+    CHECK (said->severity == Message::Severity::warning);
+    CHECK (said->text.find ("not fused") != std::string::npos);
+    CHECK (fuser.state() == Fuser::State::fails);
+    CHECK (fuser.describe() == "plan");
+    CHECK_FALSE (plan->isFused());
+    CHECK_FALSE (fuser.look (plan, 100.0));   // says it once, and does not try again
+    CHECK (compiler.runs() == 1);
+    CHECK (outputs (*plan, 50) == outputs (*other, 50));
+}
+
+TEST_CASE ("a compiler that hangs is ended, and the plan runs on by its records", "[fuse]")
+{
+    const FakeCompiler compiler { "while true; do sleep 1; done" };
+    Fuser fuser { compiler.options() };
+    const auto plan = smallPlan();
+    CHECK_FALSE (fuser.look (plan, 0.0));
+    CHECK (fuser.state() == Fuser::State::compiles);
+    CHECK (fuser.describe() == "plan, fusing");
+    CHECK_FALSE (fuser.look (plan, 299.0));
+    const auto said = fuser.look (plan, 301.0);
+    REQUIRE (said);
+    CHECK (said->id == "fuse/too_long");
+    CHECK (fuser.state() == Fuser::State::fails);
+    CHECK_FALSE (plan->isFused());
+}
+
+TEST_CASE ("without a compiler, no plan is fused, and this is said once", "[fuse]")
+{
+    Fuser fuser { { .compiler = { .compiler = "/no/such/compiler" } } };
+    const auto plan = smallPlan(), next = smallPlan();
+    const auto said = fuser.look (plan, 0.0);
+    REQUIRE (said);
+    CHECK (said->id == "fuse/no_compiler");
+    CHECK_FALSE (fuser.look (next, 1.0));
+    CHECK_FALSE (fuser.look (next, 100.0));
+    CHECK (fuser.state() == Fuser::State::fails);
+}
+
+TEST_CASE ("an edited plan runs by its records until there have been no edits for a while, and a known shape is not compiled again", "[fuse]")
+{
+    const auto first = smallPlan();
+    const FakeCompiler compiler { copies (test::compiledFusion (host::FusedCode::of (*first))) };
+    Fuser fuser { compiler.options() };
+    REQUIRE_FALSE (finish (fuser, first, 0.0));
+    CHECK (fuser.state() == Fuser::State::fused);
+    CHECK (fuser.describe() == "fused");
+    CHECK (first->isFused());
+    CHECK (compiler.runs() == 1);
+
+    const auto edited = smallPlan (30.0), again = smallPlan (40.0), compared = smallPlan (40.0);
+    CHECK_FALSE (fuser.look (edited, 10.0));
+    CHECK (fuser.state() == Fuser::State::rests);
+    CHECK_FALSE (fuser.look (edited, 10.4));
+    CHECK_FALSE (fuser.look (again, 10.45));   // the rest begins again
+    CHECK_FALSE (fuser.look (again, 10.9));
+    CHECK (fuser.state() == Fuser::State::rests);
+    CHECK_FALSE (edited->isFused());
+    CHECK_FALSE (again->isFused());
+    CHECK_FALSE (finish (fuser, again, 10.96));
+    CHECK_FALSE (finish (fuser, again, 10.96));
+    CHECK (again->isFused());
+    CHECK (compiler.runs() == 1);   // the code is the same: a parameter is not part of it
+    CHECK (outputs (*again, 50) == outputs (*compared, 50));
+}
