@@ -284,7 +284,8 @@ private:
 
     const double* output (const PortRef& r, int component)
     {
-        return reinterpret_cast<const double*> (static_cast<std::byte*> (outputsOf (r.node)) + flat.sheet (r).offset) + slotWithin (r, component, flat.sheet (r).width);
+        const auto& sheet = flat.sheet (r);
+        return reinterpret_cast<const double*> (static_cast<std::byte*> (outputsOf (r.node)) + sheet.offset) + slotWithin (r, component, sheet.width);
     }
 
     void connectDrivers()

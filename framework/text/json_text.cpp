@@ -298,7 +298,8 @@ private:
         const auto place = placeOf (position, ! object);
         if (frames.size() >= deepest_nesting)
         {
-            complain ("file/too_deep", pathOf (frames.size()), position, "objects and lists are nested more than " + std::to_string (deepest_nesting) + " levels deep",
+            complain ("file/too_deep", pathOf (frames.size()), position,
+                      "objects and lists are nested more than " + std::to_string (deepest_nesting) + " levels deep",
                       "a graph needs fewer than ten levels");
             return false;
         }
@@ -421,7 +422,10 @@ private:
         return quote (rest.substr (0, size));
     }
 
-    void syntax (std::string text, std::string remedy) { complain ("file/syntax", pathOf (innermost()), cursor.position(), std::move (text), std::move (remedy)); }
+    void syntax (std::string text, std::string remedy)
+    {
+        complain ("file/syntax", pathOf (innermost()), cursor.position(), std::move (text), std::move (remedy));
+    }
 
     Cursor cursor;
     JsonText& result;

@@ -103,7 +103,8 @@ struct Dice
 graph::Graph someNodes (Dice& dice, int n)
 {
     static const std::vector<std::string> types { "signal.add", "signal.gain", "signal.abs", "signal.constant", "filter.one_pole", "signal.multiply",
-                                                  "vector.add", "vector.join", "vector.length", "vector.scale", "motion.velocity", "signal.trigger", "signal.lfo" };
+                                                  "vector.add", "vector.join", "vector.length", "vector.scale",
+                                                  "motion.velocity", "signal.trigger", "signal.lfo" };
     Sketch s;
     s.node ("hand", "device.position").node ("wall", "deform.plane").node ("motor", "device.force");
     for (int i = 0; i < n; ++i)
