@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "read_turn.hpp"
 #include "transport.hpp"
 
 #include <host/hid/hid_model.hpp>
@@ -50,8 +51,8 @@ struct PortCounts
     double latency_min = 0.0, latency_mean = 0.0, latency_max = 0.0;   ///< from the arrival of a report until its answer was sent, in s
 };
 
-/// An open HID device with a reading thread and a writing thread. Incoming reports queue up until a tick takes them. Only the
-/// latest of each outgoing report is kept, so nothing ever queues up on the way out.
+/// An open HID device with a reading thread and a writing thread. If it clocks a run, the tick thread reads instead. Incoming reports
+/// queue up until a tick takes them. Only the latest of each outgoing report is kept, so nothing ever queues up on the way out.
 ///
 ///  - On opening, and when the device comes back, the port performs the profile's init steps; on closing, it sends the
 ///    neutral reports and performs the exit steps. A number that the device returns in a step (Answer) is inserted into
@@ -116,8 +117,12 @@ public:
     //==========================================================================
     // For a clock. [tick thread]
 
-    /// True as soon as a report has arrived since the last wait; false on timeout.
-    bool waitForReport (Clock::time_point until) noexcept { return arrived.wait (until); }
+    /// True as soon as a report has arrived since the last wait; false on timeout. While reports keep coming, this thread reads them
+    /// itself, so that it need not be woken by the reading thread.
+    bool waitForReport (Clock::time_point until) noexcept;
+
+    /// From now on, the reading thread reads again. Call it after the last wait.
+    void readElsewhere() noexcept;
     Nanoseconds lastArrival() const noexcept { return last_arrival.load (std::memory_order_acquire); }
 
     //==========================================================================
@@ -168,6 +173,8 @@ private:
 
     void readOn();
     void push (std::span<const std::uint8_t> report, Nanoseconds at);
+    void arrive (std::span<const std::uint8_t> report);
+    bool readUntil (Clock::time_point) noexcept;
     void lookAgain();
     void lose (Transport&, const std::string& why);
     const ConnectedDevice* sameAmong (const std::vector<ConnectedDevice>&) const;
@@ -191,6 +198,9 @@ private:
 
     SpscRing<ArrivedReport> ring;
     Doorbell arrived, something;   // `arrived`: the reading thread wakes the tick thread; `something`: any thread wakes the writing thread
+    ReadTurn turn;
+    bool has_turn = false;              // the tick thread has read since it got the turn   [tick thread]
+    std::vector<std::uint8_t> buffer;   // a report as it is read   [the thread that has the turn to read]
     std::atomic<Nanoseconds> last_arrival = 0;
     std::atomic<std::uint64_t> current_episode = 1;
     std::atomic<bool> connected = false, stopping = false;
@@ -204,7 +214,7 @@ private:
     std::mutex writing;              // protects all writing and the members below; never taken on the tick thread
     HidModel quiet;                  // encodes the neutral reports
     std::uint32_t assigned = 0;      // the number that the device returned and expects back; 0: none
-    std::uint64_t connections = 0;   // [reading thread]
+    std::uint64_t connections = 0;   // [the thread that has the turn to read]
     bool driven = false;             // true if the last report sent was not neutral
     Clock::time_point given;         // time of the latest new offer
 

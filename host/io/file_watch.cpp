@@ -23,6 +23,8 @@ std::optional<std::string> contentOf (const fs::path& file)
 
 void FileWatch::watch (std::vector<fs::path> files)
 {
+    folders.watch (files);   // before they are read, so that no edit is missed
+    is_unsettled = true;
     std::vector<Watched> next;
     for (auto& file : files)
     {
@@ -56,7 +58,15 @@ bool FileWatch::readAgain (Watched& w)
 
 bool FileWatch::look()
 {
-    bool changed = false, settled = true;
+    const bool is_news = folders.look();
+    if (! is_news && ! is_unsettled && folders.isTold() && ++quiet < most_quiet) return false;
+    quiet = 0;
+    return compare();
+}
+
+bool FileWatch::compare()
+{
+    bool changed = false, settled = ! folders.isWriting();
     for (auto& w : all)
     {
         if (! readAgain (w)) continue;
@@ -70,6 +80,7 @@ bool FileWatch::look()
         w.pending = w.latest;
         settled = false;
     }
+    is_unsettled = changed && ! settled;
     if (! changed || ! settled) return false;
     for (auto& w : all)
         if (w.latest) w.known = w.latest;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <host/platform/folder_watch.hpp>
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -22,7 +24,13 @@ public:
 
     /// True if files have changed since the last time it returned true, and have not changed since the previous look: a
     /// file that is still being written keeps changing. Call this a few times a second.
+    ///
+    /// Where the system tells which files are written, a look at files that rest costs one call into the system, and a file that is
+    /// still open is not reported. Once in a while, the files are compared all the same, for folders that another computer shares.
     bool look();
+
+    /// True if the system tells which files are written, so that more frequent looks notice an edit sooner at little cost.
+    bool isTold() const noexcept { return folders.isTold(); }
 
 private:
     struct Watched
@@ -34,9 +42,15 @@ private:
         std::optional<std::string> known, pending;   ///< known: last reported; pending: seen once but not reported yet
     };
 
+    static constexpr int most_quiet = 50;   // looks
+
     static bool readAgain (Watched&);
+    bool compare();
 
     std::vector<Watched> all;
+    FolderWatch folders;
+    bool is_unsettled = false;   // a change was seen, but not reported
+    int quiet = 0;               // looks without news since the files were compared
 };
 
 }   // namespace tactus::host

@@ -155,6 +155,12 @@ public:
         const std::lock_guard lock (mutex);
         return log;
     }
+    /// The thread that read the latest report.
+    std::thread::id reader() const
+    {
+        const std::lock_guard lock (mutex);
+        return read_by;
+    }
     int openings() const
     {
         const std::lock_guard lock (mutex);
@@ -204,6 +210,7 @@ private:
             if (board.waiting.empty()) return std::size_t { 0 };
             const auto report = std::move (board.waiting.front());
             board.waiting.pop_front();
+            board.read_by = std::this_thread::get_id();
             const auto size = std::min (report.size(), into.size());
             std::copy_n (report.begin(), size, into.begin());
             return size;
@@ -258,6 +265,7 @@ private:
     std::condition_variable changed;
     std::deque<Bytes> waiting;
     std::vector<Told> log;
+    std::thread::id read_by;
     bool plugged = true, failing = false, forbidden = false;
     int plugging = 0, opened = 0, taken = 0, beaten = 0;
 };

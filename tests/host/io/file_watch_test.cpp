@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include <filesystem>
+#include <fstream>
 
 namespace fs = std::filesystem;
 using tactus::host::FileWatch;
@@ -115,6 +116,50 @@ TEST_CASE ("any of several files may be edited, and a missing file does not affe
     scratch.write ("a.json", "again");
     CHECK (changes (watch) == 1);
 }
+
+#if defined(__linux__)
+TEST_CASE ("the system tells which files are written, wherever they are and however they are replaced", "[watch]")
+{
+    const Scratch scratch;
+    const auto a = scratch.write ("a.json", "a");
+    fs::create_directories (fs::path (a).parent_path() / "other");
+    const auto b = scratch.write ("other/b.json", "b");
+    FileWatch watch { { a, b } };
+    CHECK (watch.isTold());
+    CHECK (changes (watch) == 0);
+    scratch.write ("other/b.json", "edited");
+    CHECK (changes (watch) == 1);
+    fs::rename (scratch.write ("new", "renamed"), a);
+    CHECK (changes (watch) == 1);
+    scratch.write ("beside.json", "of no interest");
+    CHECK (changes (watch) == 0);
+
+    const auto link = fs::path (a).parent_path() / "link.json";
+    fs::create_symlink (b, link);
+    watch.watch ({ link });
+    CHECK (changes (watch) == 0);
+    scratch.write ("other/b.json", "edited through another name");
+    CHECK (changes (watch) == 1);
+
+    watch.watch ({ fs::path (a).parent_path() / "nowhere" / "c.json" });
+    CHECK_FALSE (watch.isTold());   // then the files are compared at each look
+}
+
+TEST_CASE ("a file that is still open is not reported", "[watch]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("g.json", "old");
+    FileWatch watch { { file } };
+    CHECK (changes (watch) == 0);
+    {
+        std::ofstream out (file);
+        out << "half" << std::flush;
+        CHECK (changes (watch) == 0);
+        out << " whole";
+    }
+    CHECK (changes (watch) == 1);
+}
+#endif
 
 TEST_CASE ("an old file is not read repeatedly, and an edit is still noticed", "[watch]")
 {
