@@ -37,7 +37,7 @@ render ()
 
 say "Rendering presets, each moved by a simulated hand"
 render dry_wood graphs/dry_wood.json --record hand.position.x,board.resistance,drag.force.x,grain_felt.out.x
-render potato_cut graphs/potato_cut.json --record down.out,blade.crack,blade.resistance,parting.out
+render potato_cut graphs/potato_cut.json --record down.out,blade.crack,blade.resistance,parting.hit
 render soft_pad graphs/soft_pad.json --record hand.position.z,pad.resistance
 render aluminium_bar graphs/aluminium_bar.json --record hand.position.z,bar.resistance,ring.value
 render layered_cloth graphs/layered_cloth.json --record hand.position.x,hand.position.y,drag.force,felt.out

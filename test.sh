@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 # Builds and tests everything. Works on a fresh Debian 12 and can be run repeatedly.
 #
-#   ./test.sh           runs the tests, normally and under ASan and UBSan (everything that does not need JUCE), adds a node as
-#                       a newcomer would, builds the examples against the installed library, and drives virtual HID devices in a
-#                       QEMU guest
+#   ./test.sh           runs the tests, normally and under ASan and UBSan (everything that does not need JUCE), runs the demo,
+#                       adds a node as a newcomer would, builds the examples against the installed library, and drives virtual
+#                       HID devices in a QEMU guest
 #   ./test.sh --quick   runs only the tests
 #   ./test.sh --long    adds to ./test.sh: each fuzzer for 60 s, 10 000 mutated files through the command line, the tests under
 #                       TSan (thread tests for 60 s each), the window under ASan and UBSan, the energy of elastic surfaces on
@@ -15,7 +15,8 @@
 #                       with --update, also copies the pictures used in the pages to docs/host/
 #   ./test.sh --sound   plays a ring on a virtual sound card, strokes a board in the host with the mouse, and listens to both
 #   ./test.sh --devices drives the virtual HID devices
-#   ./test.sh --export  exports all presets and 100 random graphs as C++ code, compiles it with g++ and clang++, and compares the bits
+#   ./test.sh --export  exports all presets and 500 random graphs as C++ code, compiles it with g++ and clang++, and compares the
+#                       bits; does this for the presets on a Cortex-M7 in QEMU, too; builds and loads a unit for co-simulation
 #   ./test.sh --figures redraws docs/figures/ and recounts docs/instructions.md
 #   ./test.sh --packages makes the Debian packages, and installs, uses and removes them in a clean Debian (needs root); before that,
 #                       it builds all nodes as plugins and examines them
@@ -27,9 +28,9 @@ case $mode in
     *) echo "usage: ./test.sh [--quick|--long|--screens [--update]|--sound|--devices|--export|--figures|--packages]" >&2; exit 2 ;;
 esac
 
-packages+=(python3-jsonschema xvfb xdotool)
+packages+=(python3-jsonschema python3-distributed xvfb xdotool)
 [ "$mode" = --long ] && packages+=(clang-14 libclang-rt-14-dev)
-[ "$mode" = --export ] && packages+=(clang-14)
+[ "$mode" = --export ] && packages+=(clang-14 gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
 [ "$mode" = --screens ] && packages+=(xauth imagemagick)
 [ "$mode" = --sound ] && packages+=(xauth imagemagick jackd2 jack-capture python3-numpy)
@@ -86,9 +87,17 @@ if [ "$mode" = --sound ]; then
 fi
 
 if [ "$mode" = --export ]; then
-    build release tactus_tests
+    build release tactus tactus_tests
     say "Exported graphs"
-    TACTUS_EXPORT_COMPILERS="g++ clang++-14" build/release/bin/tactus_tests "[export],[export_all]"
+    jobs=()
+    for compiler in g++ clang++-14; do
+        TACTUS_EXPORT_GRAPHS=500 TACTUS_EXPORT_COMPILERS=$compiler build/release/bin/tactus_tests "[export_all]" &
+        jobs+=($!)
+    done
+    for job in "${jobs[@]}"; do wait "$job"; done
+    build/release/bin/tactus_tests "[export],[export_targets]"
+    say "On a Cortex-M7"
+    build/release/bin/tactus_tests "[export_m7]"
     exit
 fi
 
@@ -142,6 +151,8 @@ fi
 
 build release
 if [ "$mode" != --quick ]; then
+    say "The demo"
+    ./demo.sh --offline
     say "A newcomer's node"
     tests/newcomer/run.sh
 fi

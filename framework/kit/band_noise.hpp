@@ -37,8 +37,11 @@ public:
     double operator() (double portion) noexcept
     {
         double sum = 0.0;
-        for (int i = 0; i < taps; ++i)
-            sum += recent[at ((oldest + i) % taps)] * kernel (std::abs (reach - i - 1 + phase));
+        const auto tap = [&] (int i, int place) { sum += recent[at (place)] * betweenEntries (half.data(), std::abs (reach - i - 1 + phase) * steps); };
+        for (int i = 0; i < taps - oldest; ++i)
+            tap (i, oldest + i);
+        for (int i = taps - oldest; i < taps; ++i)
+            tap (i, oldest + i - taps);
 
         phase += portion;
         if (phase < 1.0) return sum;
@@ -65,13 +68,6 @@ private:
             v /= std::sqrt (energy);
         return h;
     }();
-
-    static double kernel (double distance) noexcept
-    {
-        const double place = distance * steps;
-        const auto entry = static_cast<std::size_t> (place);
-        return std::lerp (half[entry], half[entry + 1], place - static_cast<double> (entry));
-    }
 
     Random random;
     std::array<double, at (taps)> recent {};   // ring of the last random numbers

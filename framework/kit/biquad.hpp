@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "math/math.hpp"
 #include "vec3.hpp"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ inline double usableCutoff (double cutoff_hz, double rate_hz) noexcept
 /// tan (pi cutoff / rate): the analogue frequency that the bilinear transform maps to the cutoff.
 inline double prewarped (double cutoff_hz, double rate_hz) noexcept
 {
-    return std::tan (std::numbers::pi * usableCutoff (cutoff_hz, rate_hz) / rate_hz);
+    return math::tan (std::numbers::pi * usableCutoff (cutoff_hz, rate_hz) / rate_hz);
 }
 
 /// H(z) = (b0 + b1 z^-1 + b2 z^-2) / (1 + a1 z^-1 + a2 z^-2)

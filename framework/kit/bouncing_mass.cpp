@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bouncing_mass.hpp"
 #include "held_step.hpp"
+#include "math/math.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,21 +19,23 @@ struct Swing
     Swing (double b, double square, double t) noexcept
     {
         const double z = square * t * t, w = std::sqrt (std::abs (square));
+        const auto decays = [b, t] { return b != 0.0 ? math::exp (-b * t) : 1.0; };
         if (std::abs (z) < 1e-4)   // both formulas below lose digits here; the error of this series is below 1e-15
         {
-            const double decay = std::exp (-b * t);
+            const double decay = decays();
             cosine = decay * (1.0 - z / 2.0 + z * z / 24.0);
             sine = decay * t * (1.0 - z / 6.0 + z * z / 120.0);
         }
         else if (square > 0.0)
         {
-            const double decay = std::exp (-b * t);
-            cosine = decay * std::cos (w * t);
-            sine = decay * std::sin (w * t) / w;
+            const double decay = decays();
+            const auto turn = math::sinCos (w * t);
+            cosine = decay * turn.cosine;
+            sine = decay * turn.sine / w;
         }
         else
         {
-            const double slow = std::exp ((w - b) * t), fast = std::exp (-(w + b) * t);   // w <= b, so neither overflows
+            const double slow = math::exp ((w - b) * t), fast = math::exp (-(w + b) * t);   // w <= b, so neither overflows
             cosine = 0.5 * (slow + fast);
             sine = 0.5 * (slow - fast) / w;
         }

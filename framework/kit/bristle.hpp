@@ -2,10 +2,10 @@
 #pragma once
 
 #include "curve.hpp"
+#include "math/math.hpp"
 #include "vec3.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace tactus
@@ -86,7 +86,7 @@ inline double Bristle::zeta (double r) const noexcept
     case Adhesion::dupont:
         if (r >= d_stick) return 1.0 / d_max;
         if (r <= d_ba) return 0.0;
-        return 0.5 / d_max * (1.0 + std::sin (std::numbers::pi * (r - 0.5 * (d_stick + d_ba)) / (d_stick - d_ba)));
+        return 0.5 / d_max * (1.0 + math::sin (std::numbers::pi * (r - 0.5 * (d_stick + d_ba)) / (d_stick - d_ba)));
     case Adhesion::ramp:
         return std::min (r / d_stick, 1.0) / d_max;
     case Adhesion::dahl:
@@ -124,9 +124,9 @@ inline Bristle::Step Bristle::exponential (const Vec3& d, const Vec3& dp) const 
     const double x = zeta ((d + dp).norm()) * dp.norm();
     if (! (x > 0.0)) return { .d = d + dp };
 
-    const double phi = -std::expm1 (-x) / x;
+    const double gone = -math::expm1 (-x), phi = gone / x;
     const double psi = x < 1e-3 ? 1.0 / 2.0 - x * (1.0 / 6.0 - x * (1.0 / 24.0 - x / 120.0)) : (1.0 - phi) / x;
-    const Vec3 after = std::exp (-x) * d + phi * dp;
+    const Vec3 after = (1.0 - gone) * d + phi * dp;
     const double work = (phi * d + psi * dp).dot (dp);
     return { .d = after, .loss = std::max (0.0, work - 0.5 * (after - d).dot (after + d)), .slips = true };
 }
@@ -148,7 +148,7 @@ inline Bristle::Step Bristle::drag (double from, const Vec3& d, double r, double
 inline double Bristle::afterSlip (double r) const noexcept
 {
     const double gap = d_stick - d_max;
-    return adhesion == Adhesion::stick && gap > d_max * eps_slip ? d_max + std::fmod (r - d_stick, gap) : d_max;
+    return adhesion == Adhesion::stick && gap > d_max * eps_slip ? d_max + math::fmod (r - d_stick, gap) : d_max;
 }
 
 inline bool Bristle::letGo (Vec3& d) const noexcept

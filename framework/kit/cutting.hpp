@@ -4,9 +4,10 @@
 #include "law.hpp"
 #include "vec3.hpp"
 
+#include <tactus/text/number_text.hpp>
+
 #include <algorithm>
 #include <limits>
-#include <sstream>
 #include <string>
 
 namespace tactus
@@ -155,15 +156,13 @@ inline std::string Cutting::problem (double width, double toughness, double rupt
     const double cost = width * toughness;
     const double d = law.inverse (rupture_force);
 
-    std::ostringstream text;
-    if (! law.rises() || ! cracked.rises())
-        text << (law.rises() ? "cracked_law" : "law") << " must not fall with depth";
-    else if (rupture_force < cost * (1.0 - eps_cut))
-        text << "rupture_force is " << rupture_force << " N; it must be at least width times toughness, which is " << cost << " N";
-    else if (isFinite (d) && cracked.energy (d) > law.energy (d) * (1.0 + eps_cut))
-        text << "at rupture, " << d << " m deep, cracked_law stores " << cracked.energy (d)
-             << " J; it must not store more than law does, " << law.energy (d) << " J";
-    return text.str();
+    if (! law.rises() || ! cracked.rises()) return std::string (law.rises() ? "cracked_law" : "law") + " must not fall with depth";
+    if (rupture_force < cost * (1.0 - eps_cut))
+        return "rupture_force is " + roundedText (rupture_force) + " N; it must be at least width times toughness, which is " + roundedText (cost) + " N";
+    if (isFinite (d) && cracked.energy (d) > law.energy (d) * (1.0 + eps_cut))
+        return "at rupture, " + roundedText (d) + " m deep, cracked_law stores " + roundedText (cracked.energy (d))
+               + " J; it must not store more than law does, " + roundedText (law.energy (d)) + " J";
+    return {};
 }
 
 }   // namespace tactus

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "expression.hpp"
+#include "math/math.hpp"
 
 #include <tactus/text/is_digit.hpp>
 
@@ -343,7 +344,7 @@ double Expression::result (const Step& step, const double* operands, const Input
     case Op::subtract: return *x - *y;
     case Op::multiply: return *x * *y;
     case Op::divide: return *x / *y;
-    case Op::power: return std::pow (*x, *y);
+    case Op::power: return math::pow (*x, *y);
     case Op::equal: return *x == *y ? 1.0 : 0.0;
     case Op::unequal: return *x != *y ? 1.0 : 0.0;
     case Op::less: return *x < *y ? 1.0 : 0.0;
@@ -351,22 +352,22 @@ double Expression::result (const Step& step, const double* operands, const Input
     case Op::greater: return *x > *y ? 1.0 : 0.0;
     case Op::greater_equal: return *x >= *y ? 1.0 : 0.0;
     case Op::choose: return *x != 0.0 ? *y : *z;
-    case Op::sin: return std::sin (*x);
-    case Op::cos: return std::cos (*x);
-    case Op::tan: return std::tan (*x);
-    case Op::asin: return std::asin (*x);
-    case Op::acos: return std::acos (*x);
-    case Op::atan: return std::atan (*x);
+    case Op::sin: return math::sin (*x);
+    case Op::cos: return math::cos (*x);
+    case Op::tan: return math::tan (*x);
+    case Op::asin: return math::asin (*x);
+    case Op::acos: return math::acos (*x);
+    case Op::atan: return math::atan (*x);
     case Op::sqrt: return std::sqrt (*x);
-    case Op::exp: return std::exp (*x);
-    case Op::log: return std::log (*x);
+    case Op::exp: return math::exp (*x);
+    case Op::log: return math::log (*x);
     case Op::abs: return std::abs (*x);
     case Op::floor: return std::floor (*x);
     case Op::ceil: return std::ceil (*x);
     case Op::sign:
         if (*x > 0.0) return 1.0;
         return *x < 0.0 ? -1.0 : *x;
-    case Op::atan2: return std::atan2 (*x, *y);
+    case Op::atan2: return math::atan2 (*x, *y);
     case Op::min: return *y < *x ? *y : *x;
     case Op::max: return *y > *x ? *y : *x;
     case Op::clamp:

@@ -9,7 +9,7 @@ namespace tactus
 {
 
 /// The state of a mass m in a contact: m d'' = -N (d, d'), with d' > 0 on the way in.
-struct Passage
+struct MotionState
 {
     double d = 0.0, v = 0.0;   // m, m/s
 };
@@ -27,9 +27,9 @@ namespace detail
 {
 /// One step of the classical Runge-Kutta method.
 template <typename Force>
-Passage rungeKuttaStep (const Force& N, double m, const Passage& x, double h) noexcept
+MotionState rungeKuttaStep (const Force& N, double m, const MotionState& x, double h) noexcept
 {
-    const auto slope = [&] (double d, double v) noexcept { return Passage { v, -N (d, v) / m }; };
+    const auto slope = [&] (double d, double v) noexcept { return MotionState { v, -N (d, v) / m }; };
     const auto a = slope (x.d, x.v);
     const auto b = slope (x.d + 0.5 * h * a.d, x.v + 0.5 * h * a.v);
     const auto c = slope (x.d + 0.5 * h * b.d, x.v + 0.5 * h * b.v);
@@ -48,7 +48,7 @@ double roughDuration (const Force& N, double m, double v, double longest) noexce
     for (int pass = 0; pass < passes; ++pass)
     {
         const int most = pass == 0 ? first : later;   // too long a step throws the mass back too soon, so the contact may be longer than it seemed
-        Passage x { 0.0, v };
+        MotionState x { 0.0, v };
         int n = 0;
         do
         {
@@ -65,7 +65,7 @@ double roughDuration (const Force& N, double m, double v, double longest) noexce
 }   // namespace detail
 
 /// Solves the impact of a free mass m (kg) that enters a contact at v (m/s) and leaves it within `longest` (s). N (d, v) is the force
-/// in N, 0 for d <= 0. `visit` is called with the Passage at each multiple of `grid` (s) while the mass is inside. Needs at most about
+/// in N, 0 for d <= 0. `visit` is called with the MotionState at each multiple of `grid` (s) while the mass is inside. Needs at most about
 /// 5000 evaluations of N, usually 400. Speed and duration are exact to about 1e-5 if the force at the touch rises in proportion to
 /// depth or more slowly. [any thread]
 template <typename Force, typename Visit>
@@ -76,7 +76,7 @@ Rebound freeImpact (const Force& N, double m, double v, double longest, double g
 
     constexpr int steps_per_contact = 64, most = 512;
     const double per_grid = std::max (1.0, std::ceil (steps_per_contact * grid / rough)), h = grid / per_grid;
-    Passage x { 0.0, v };
+    MotionState x { 0.0, v };
     double since_grid = 0.0;
     for (int n = 0; n < most; ++n)
     {
@@ -100,7 +100,7 @@ Rebound freeImpact (const Force& N, double m, double v, double longest, double g
 template <typename Force>
 Rebound freeImpact (const Force& N, double m, double v, double longest) noexcept
 {
-    return freeImpact (N, m, v, longest, longest, [] (const Passage&) noexcept {});
+    return freeImpact (N, m, v, longest, longest, [] (const MotionState&) noexcept {});
 }
 
 }   // namespace tactus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "law.hpp"
+#include "math/math.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -28,7 +29,7 @@ struct HalfSpace
 
     /// A cone with this angle between its axis and its side (rad, above 0, below pi/2): f = 2/pi E* tan (angle) d^2.
     /// Source: Love 1939; Sneddon 1965.
-    Law cone (double angle) const noexcept { return power (2.0 / std::numbers::pi * modulus() * std::tan (angle), 2.0); }
+    Law cone (double angle) const noexcept { return power (2.0 / std::numbers::pi * modulus() * math::tan (angle), 2.0); }
 
     /// The deflection ratio mu_c at which a tool with the friction mu slides: mu (2 - nu) / (2 (1 - nu)). The contact of a sphere slides as
     /// a whole once it has moved sideways by this much, relative to its depth; for a flat punch, this is mu times the ratio of the
@@ -46,7 +47,7 @@ inline Law acrossOf (const Law& along, double mu, double mu_c)
     switch (along.kind)
     {
     case Law::Kind::power:
-        across.a = mu * along.a / std::pow (mu_c, along.b);
+        across.a = mu * along.a / math::pow (mu_c, along.b);
         break;
     case Law::Kind::exponential:
         across.a = mu * along.a;

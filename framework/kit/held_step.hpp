@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
+#include "math/math.hpp"
 
 namespace tactus
 {
 
 namespace detail
 {
-/// (1 - e^-h)/h, accurate to the last digits even if h is tiny or 0.
-inline double firstOrder (double h) noexcept { return h == 0.0 ? 1.0 : -std::expm1 (-h) / h; }
-
-/// (h - (1 - e^-h))/h^2. The difference loses as many digits as h has leading zeros, so a small h uses the series 1/2! - h/3! +
-/// h^2/4! - ...; at h = 1/4, both forms are accurate to the second-to-last digit.
-inline double secondOrder (double h) noexcept
+/// (h - (1 - e^-h))/h^2, given `loss` = e^-h - 1. The difference loses as many digits as h has leading zeros, so a small h uses the
+/// series 1/2! - h/3! + h^2/4! - ...; at h = 1/4, both forms are accurate to the second-to-last digit.
+inline double secondOrder (double h, double loss) noexcept
 {
-    if (h > 0.25) return (h + std::expm1 (-h)) / (h * h);
+    if (h > 0.25) return (h + loss) / (h * h);
 
     double sum = 0.0;
     for (int n = 14; n >= 2; --n)
@@ -46,10 +43,11 @@ struct HeldStep
 inline HeldStep::HeldStep (double mass, double damping, double dt_s) noexcept
 {
     const double h = damping * dt_s / mass;
-    x_per_v = dt_s * detail::firstOrder (h);
-    x_per_f = dt_s * dt_s / mass * detail::secondOrder (h);
-    v_loss = std::expm1 (-h);
-    v_per_f = dt_s / mass * detail::firstOrder (h);
+    v_loss = h == 0.0 ? 0.0 : math::expm1 (-h);
+    const double first = h == 0.0 ? 1.0 : -v_loss / h;   // (1 - e^-h)/h, to the last digits even if h is tiny
+    x_per_v = dt_s * first;
+    x_per_f = dt_s * dt_s / mass * detail::secondOrder (h, v_loss);
+    v_per_f = dt_s / mass * first;
 }
 
 }   // namespace tactus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -26,52 +27,63 @@ public:
     template <typename Normal>
     void start (std::size_t order, Normal&& normal)
     {
-        stages.assign (order, {});
-        for (Stage& stage : stages)
-            stage.b = normal();
+        reflections.assign (order, 0.0);
+        rests.assign (order, 1.0);
+        cosines.assign (order, 1.0);
+        backward.assign (order, 0.0);
+        for (double& b : backward)
+            b = normal();
     }
 
-    std::size_t order() const noexcept { return stages.size(); }
+    std::size_t order() const noexcept { return backward.size(); }
 
-    /// Sets a reflection coefficient. Returns 1 - k^2. [tick thread]
-    double set (std::size_t stage, double k) noexcept
+    /// Sets all reflection coefficients: `reflection (i)` is that of stage i. Returns the product of 1 - k^2 over all stages. The loops are
+    /// separate, so that a compiler can compute several stages at once. [tick thread]
+    template <typename Reflection>
+    double set (Reflection&& reflection) noexcept
     {
-        const double rest = (1.0 - k) * (1.0 + k);
-        stages[stage].k = k;
-        stages[stage].c = std::sqrt (rest);
-        return rest;
+        const auto n = order();
+        double* const k = reflections.data();
+        double* const rest = rests.data();
+        double* const c = cosines.data();
+        for (std::size_t i = 0; i < n; ++i)
+            k[i] = reflection (i);
+        for (std::size_t i = 0; i < n; ++i)
+        {
+            rest[i] = (1.0 - k[i]) * (1.0 + k[i]);
+            c[i] = std::sqrt (rest[i]);
+        }
+        double product = 1.0;
+        for (std::size_t i = 0; i < n; ++i)
+            product *= rest[i];
+        return product;
     }
 
     /// One sample. [tick thread]
     double operator() (double e) noexcept
     {
-        double f = e, b = 0.0;
-        for (std::size_t i = stages.size(); i-- > 0;)
+        const auto n = order();
+        if (n == 0) return e;
+        const double* const k = reflections.data();
+        const double* const c = cosines.data();
+        double* const b = backward.data();
+        double f = c[n - 1] * e + k[n - 1] * b[n - 1];   // nothing reads the backward signal of the last stage
+        for (std::size_t i = n - 1; i-- > 0;)
         {
-            Stage& stage = stages[i];
-            b = stage.c * stage.b - stage.k * f;
-            f = stage.c * f + stage.k * stage.b;
-            if (i + 1 < stages.size()) stages[i + 1].b = b;
+            b[i + 1] = c[i] * b[i] - k[i] * f;
+            f = c[i] * f + k[i] * b[i];
         }
-        if (! stages.empty()) stages[0].b = f;
+        b[0] = f;
         return f;
     }
 
     /// Copies the signals of the stages that both lattices have. [tick thread]
-    void adopt (const Lattice& old) noexcept
-    {
-        for (std::size_t i = 0; i < stages.size() && i < old.stages.size(); ++i)
-            stages[i].b = old.stages[i].b;
-    }
+    void adopt (const Lattice& old) noexcept { std::copy_n (old.backward.begin(), std::min (order(), old.order()), backward.begin()); }
 
 private:
-    struct Stage
-    {
-        double k = 0.0, c = 1.0;
-        double b = 0.0;   // backward signal of the previous stage, one sample ago
-    };
-
-    std::vector<Stage> stages;
+    // By stage.
+    std::vector<double> reflections, rests, cosines;   // k, 1 - k^2, c
+    std::vector<double> backward;                      // backward signal of the previous stage, one sample ago
 };
 
 //==============================================================================

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "curve.hpp"
+#include "math/math.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,9 +45,9 @@ struct Law
         switch (kind)
         {
         case Kind::power:
-            return b == 1.0 ? a * e : a * std::pow (e, b);
+            return b == 1.0 ? a * e : a * raised (e, b);
         case Kind::exponential:
-            return a * std::expm1 (b * e);
+            return a * math::expm1 (b * e);
         case Kind::table:
             return along (e).force;
         case Kind::none:
@@ -62,9 +63,9 @@ struct Law
         switch (kind)
         {
         case Kind::power:
-            return b == 1.0 ? 0.5 * a * e * e : a * std::pow (e, b + 1.0) / (b + 1.0);
+            return b == 1.0 ? 0.5 * a * e * e : a * raised (e, b + 1.0) / (b + 1.0);
         case Kind::exponential:
-            return a * (std::expm1 (b * e) / b - e);
+            return a * (math::expm1 (b * e) / b - e);
         case Kind::table:
             return along (e).energy;
         case Kind::none:
@@ -87,7 +88,7 @@ struct Law
         {
         case Kind::exponential:
         {
-            const double rise = std::expm1 (b * e);
+            const double rise = math::expm1 (b * e);
             return { a * rise, a * (rise / b - e) };
         }
         case Kind::table:
@@ -108,9 +109,9 @@ struct Law
         switch (kind)
         {
         case Kind::power:
-            return b == 1.0 ? f / a : std::pow (f / a, 1.0 / b);
+            return b == 1.0 ? f / a : math::pow (f / a, 1.0 / b);
         case Kind::exponential:
-            return std::log1p (f / a) / b;
+            return math::log1p (f / a) / b;
         case Kind::table:
         {
             double x = 0.0, y = 0.0, slope = 0.0;
@@ -145,9 +146,9 @@ struct Law
         {
         case Kind::power:
             if (b == 1.0 || a == 0.0) return a;
-            return b > 1.0 ? a * b * std::pow (to, b - 1.0) : std::numeric_limits<double>::infinity();
+            return b > 1.0 ? a * b * math::pow (to, b - 1.0) : std::numeric_limits<double>::infinity();
         case Kind::exponential:
-            return a == 0.0 ? 0.0 : a * b * std::exp (b * to);
+            return a == 0.0 ? 0.0 : a * b * math::exp (b * to);
         case Kind::table:
         {
             double x = 0.0, y = 0.0, most = 0.0;
@@ -168,6 +169,17 @@ struct Law
     }
 
 private:
+    /// e^n for e > 0. The common powers need no logarithm: 1.5 is the force of a sphere (Hertz), 2 that of a cone, and 2.5 and 3 are their
+    /// energies.
+    static double raised (double e, double n) noexcept
+    {
+        if (n == 1.5) return e * std::sqrt (e);
+        if (n == 2.0) return e * e;
+        if (n == 2.5) return e * e * std::sqrt (e);
+        if (n == 3.0) return e * e * e;
+        return math::pow (e, n);
+    }
+
     Point along (double e) const noexcept
     {
         double x = 0.0, y = 0.0, slope = 0.0, energy = 0.0;

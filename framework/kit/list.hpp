@@ -4,6 +4,7 @@
 #include "at.hpp"
 #include "vec3.hpp"
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 
@@ -43,6 +44,10 @@ class List
 {
 public:
     List (double initial = 0.0) noexcept { values.fill (initial); }
+
+    /// Sets only the entries in use; no other entry is ever read. For outputs: to set all of them on each tick would cost more than many
+    /// nodes do.
+    List (double initial, int used) noexcept { std::fill_n (values.begin(), used, initial); }
 
     double operator[] (int i) const noexcept { return values[at (i)]; }
     double& operator[] (int i) noexcept { return values[at (i)]; }

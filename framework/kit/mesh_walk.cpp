@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "mesh_walk.hpp"
+#include "math/math.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <utility>
 
 namespace tactus
 {
@@ -13,16 +14,23 @@ namespace
 {
 std::vector<std::array<bool, 3>> rimOf (const Mesh& mesh)
 {
-    std::map<std::pair<int, int>, int> sides;   // by edge: the number of triangles that it belongs to
-    const auto edge = [] (const std::array<int, 3>& corners,
-                          std::size_t opposite) { return std::minmax (corners[(opposite + 1) % 3], corners[(opposite + 2) % 3]); };
+    using Edge = std::pair<int, int>;
+    const auto edge = [] (const std::array<int, 3>& corners, std::size_t opposite) {
+        return Edge (std::minmax (corners[(opposite + 1) % 3], corners[(opposite + 2) % 3]));
+    };
+    std::vector<std::array<bool, 3>> rim (mesh.triangles.size());
+    std::vector<Edge> sides;   // of all triangles, sorted
+    sides.reserve (3 * mesh.triangles.size());
     for (const auto& corners : mesh.triangles)
         for (std::size_t i = 0; i < 3; ++i)
-            ++sides[edge (corners, i)];
-
-    std::vector<std::array<bool, 3>> rim;
-    for (const auto& corners : mesh.triangles)
-        rim.push_back ({ sides[edge (corners, 0)] == 1, sides[edge (corners, 1)] == 1, sides[edge (corners, 2)] == 1 });
+            sides.push_back (edge (corners, i));
+    std::ranges::sort (sides);
+    for (std::size_t t = 0; t < rim.size(); ++t)
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+            const auto next = std::ranges::upper_bound (sides, edge (mesh.triangles[t], i));
+            rim[t][i] = next - sides.begin() == 1 || next[-1] != next[-2];   // the same edge is in the list only once
+        }
     return rim;
 }
 
@@ -34,6 +42,8 @@ MeshWalk::MeshWalk (Mesh m) : body (std::move (m)), rim (rimOf (body)), first (b
     double size = 0.0;
     for (const auto& point : body.points)
         size = std::max (size, point.cwiseAbs().maxCoeff());
+    boxes.reserve (body.triangles.size());
+    blocks.reserve (body.triangles.size() / block + 1);
     const Vec3 slack = Vec3::Constant (1e-12 * size);   // far more than the rounding error of a computed point
     for (int t = 0; t < body.size(); ++t)
     {
@@ -227,7 +237,7 @@ std::vector<Vec3> normalsOf (const Mesh& mesh)
         {
             const Vec3& corner = mesh.corner (t, c);
             const Vec3 u = mesh.corner (t, (c + 1) % 3) - corner, v = mesh.corner (t, (c + 2) % 3) - corner, n = u.cross (v);
-            normals[at (mesh.triangles[at (t)][at (c)])] += direction (n) * std::atan2 (n.norm(), u.dot (v));
+            normals[at (mesh.triangles[at (t)][at (c)])] += direction (n) * math::atan2 (n.norm(), u.dot (v));
         }
     for (auto& n : normals)
         n = direction (n);

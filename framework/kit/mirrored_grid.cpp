@@ -30,6 +30,7 @@ std::vector<std::vector<Tap>> tapsOf (const MirroredAxis& from, const MirroredAx
     {
         const double place = static_cast<double> (k) * to.spacing;
         double sum = 0.0;
+        all[k].reserve (at (static_cast<int> (2.0 * reach / from.spacing) + 2));
         for (int i = static_cast<int> (std::ceil ((place - reach) / from.spacing)); i * from.spacing <= place + reach; ++i)
         {
             all[k].push_back ({ from.mirrored (i), kernel (i * from.spacing - place) });

@@ -31,7 +31,7 @@ public:
     void prepare (double window_s, double dt_s)
     {
         dt = dt_s;
-        samples.assign (at (std::max (1L, std::lround (window_s / dt_s))), T {});
+        samples = std::vector<T> (at (std::max (1L, std::lround (window_s / dt_s))));
         clear();
     }
 

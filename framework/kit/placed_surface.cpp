@@ -28,6 +28,11 @@ Mat3 frameInto (const Vec3& z)
 PlacedSurface::PlacedSurface (std::shared_ptr<const Surface> s, double scale, const Vec3& origin, const Vec3& rotation)
     : surface (std::move (s)), mesh_walk (placed (*surface->mesh, scale, origin, rotationMatrix (rotation))), frames (surface->frames)
 {
+    const auto points = mesh_walk.mesh().points.size(), triangles = mesh_walk.mesh().triangles.size();
+    frames.reserve (points);
+    squared.reserve (std::max (points, frames.size()));
+    feet.reserve (triangles);
+    even.reserve (triangles);
     if (frames.empty())
         for (const auto& n : normalsOf (mesh_walk.mesh()))
             frames.push_back (frameInto (-n));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "math/math.hpp"
+
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -8,7 +10,7 @@
 namespace tactus
 {
 
-/// Random numbers for the tick. The same seed gives the same numbers, wherever std::log and std::cos give the same bits.
+/// Random numbers for the tick. The same seed gives the same numbers on all machines.
 ///
 /// Source: splitmix64 (Steele, Lea & Flood 2014), one 64-bit word of state. Normal numbers: Box & Muller 1958, only the
 /// cosine branch, so that all cost the same and none needs a second try.
@@ -33,8 +35,8 @@ public:
     /// Mean 0, standard deviation 1.
     double normal() noexcept
     {
-        const double radius = std::sqrt (-2.0 * std::log (uniform()));
-        return radius * std::cos (2.0 * std::numbers::pi * uniform());
+        const double radius = std::sqrt (-2.0 * math::log (uniform()));
+        return radius * math::cos (2.0 * std::numbers::pi * uniform());
     }
 
 private:

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "biquad.hpp"
+#include "math/math.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <vector>
@@ -24,7 +24,7 @@ inline void lowPassBothWays (std::vector<double>& samples, double cutoff_hz, dou
     };
     for (int i = 0; i < sections; ++i)
     {
-        const double damping = 2.0 * std::cos (std::numbers::pi * (2 * i + 1) / (4 * sections));   // 1 / q
+        const double damping = 2.0 * math::cos (std::numbers::pi * (2 * i + 1) / (4 * sections));   // 1 / q
         const double a0 = 1.0 + damping * K + K * K;
         const Biquad c {
             .b0 = K * K / a0,
@@ -47,7 +47,7 @@ inline void bendEndsToZero (std::vector<double>& samples, double rate_hz)
     const double at_first = samples.front(), at_last = samples.back();
     for (std::size_t i = 0; i <= last && static_cast<double> (i) < over; ++i)
     {
-        const double weight = 0.5 * (1.0 + std::cos (std::numbers::pi * static_cast<double> (i) / over));
+        const double weight = 0.5 * (1.0 + math::cos (std::numbers::pi * static_cast<double> (i) / over));
         samples[i] -= at_first * weight;
         samples[last - i] -= at_last * weight;
     }

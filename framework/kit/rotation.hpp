@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "math/math.hpp"
 #include "vec3.hpp"
 
 #include <Eigen/Geometry>
@@ -16,8 +17,14 @@ using Mat3 = Eigen::Matrix3d;
 /// The matrix of a rotation vector: right-handed about its direction, by its length in rad.
 inline Mat3 rotationMatrix (const Vec3& rotation) noexcept
 {
-    const double angle = std::hypot (rotation.x(), rotation.y(), rotation.z());
-    return Eigen::AngleAxisd { angle, direction (rotation) }.toRotationMatrix();
+    // R = cos I + sin [a]x + (1 - cos) a a^T (Rodrigues), written out because Eigen's AngleAxis calls the C library.
+    const auto [sine, cosine] = math::sinCos (math::hypot (rotation.x(), rotation.y(), rotation.z()));
+    const Vec3 a = direction (rotation), s = sine * a, c = (1.0 - cosine) * a;
+    Mat3 matrix;
+    matrix << c.x() * a.x() + cosine, c.x() * a.y() - s.z(), c.x() * a.z() + s.y(),
+        c.x() * a.y() + s.z(), c.y() * a.y() + cosine, c.y() * a.z() - s.x(),
+        c.x() * a.z() - s.y(), c.y() * a.z() + s.x(), c.z() * a.z() + cosine;
+    return matrix;
 }
 
 /// A unit vector at right angles to the unit vector v: z projected onto the plane of v, or x if v is within 45 degrees of z.

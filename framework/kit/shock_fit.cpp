@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shock_fit.hpp"
 #include "free_impact.hpp"
+#include "math/math.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -147,13 +148,13 @@ struct Candidate
     double n = 1.0, k = 0.0, c = 0.0;
     double error = inf;   // sum of squares, N^2
 
-    double force (double d, double rate) const noexcept { return std::max (0.0, std::pow (std::max (0.0, d), n) * (k + c * rate)); }
+    double force (double d, double rate) const noexcept { return std::max (0.0, math::pow (std::max (0.0, d), n) * (k + c * rate)); }
 };
 
 /// The best k and c for the power n if the force may pull. Because the law must have the given area, only k is free.
 Candidate bestOf (const Contact& x, double n, double area)
 {
-    const auto elastic = [&] (std::size_t i) { return std::pow (std::max (0.0, x.d[i]), n); };
+    const auto elastic = [&] (std::size_t i) { return math::pow (std::max (0.0, x.d[i]), n); };
     const double spring = x.work (elastic), damper = x.work ([&] (std::size_t i) { return elastic (i) * x.rate[i]; });
     double down = 0.0, across = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i)

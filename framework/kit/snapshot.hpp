@@ -29,25 +29,21 @@ public:
     /// Only the first `bytes` of the value may differ from the last one stored. [writing thread]
     void store (const T& value, std::size_t bytes = sizeof (T)) noexcept
     {
+        storeParts (value, [&] (auto part) { part (0, bytes); });
+    }
+
+    /// Stores parts of a value whose other parts are as they were last stored. `parts` calls its argument for each of them: where it begins
+    /// in the value, and how long it is, in bytes. Parts begin at multiples of 8 bytes. [writing thread]
+    template <typename Parts>
+    void storeParts (const T& value, Parts&& parts) noexcept
+    {
         const auto n = sequence.load (std::memory_order_relaxed);
         sequence.store (n + 1, std::memory_order_relaxed);
         const auto* from = reinterpret_cast<const std::byte*> (&value);
-        const auto put = [&] (std::size_t i) {
-            std::uint64_t word = 0;
-            std::memcpy (&word, from + i * sizeof word, sizeof word);
-            words[i].store (word, std::memory_order_release);
-        };
-        const auto size = std::min ((bytes + sizeof (std::uint64_t) - 1) / sizeof (std::uint64_t), words.size());
-        const auto in_fours = size - size % 4;
-        for (std::size_t i = 0; i < in_fours; i += 4)   // a run publishes its status on every tick: this takes half of the instructions
-        {
-            put (i);
-            put (i + 1);
-            put (i + 2);
-            put (i + 3);
-        }
-        for (std::size_t i = in_fours; i < size; ++i)
-            put (i);
+        parts ([&] (std::size_t begin, std::size_t bytes) noexcept {
+            const auto first = begin / sizeof (std::uint64_t);
+            put (from, first, std::min (first + (bytes + sizeof (std::uint64_t) - 1) / sizeof (std::uint64_t), words.size()));
+        });
         sequence.store (n + 2, std::memory_order_release);
     }
 
@@ -68,6 +64,25 @@ public:
     }
 
 private:
+    /// Stores some of the words of a value.
+    [[gnu::always_inline]] inline void put (const std::byte* from, std::size_t first, std::size_t end) noexcept
+    {
+        const auto one = [&] (std::size_t i) {
+            std::uint64_t word = 0;
+            std::memcpy (&word, from + i * sizeof word, sizeof word);
+            words[i].store (word, std::memory_order_release);
+        };
+        for (; first + 4 <= end; first += 4)   // a run publishes its status on every tick: this takes half of the instructions
+        {
+            one (first);
+            one (first + 1);
+            one (first + 2);
+            one (first + 3);
+        }
+        for (; first < end; ++first)
+            one (first);
+    }
+
     std::atomic<std::uint64_t> sequence = 0;
     std::array<std::atomic<std::uint64_t>, sizeof (T) / sizeof (std::uint64_t)> words {};
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "spline_surface.hpp"
+#include "math/math.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +22,7 @@ struct Reach
 Reach reach (const MirroredAxis& axis, double place) noexcept
 {
     if (axis.intervals == 0) return { .weight { 1.0 } };
-    const double u = std::fmod (place, 2.0 * axis.intervals * axis.spacing) / axis.spacing, floor = std::floor (u);
+    const double u = math::fmod (place, 2.0 * axis.intervals * axis.spacing) / axis.spacing, floor = std::floor (u);
     const double t = u - floor, s = 1.0 - t;
     const auto near = [] (double v) { return (66.0 + v * v * (-60.0 + v * v * (30.0 - 10.0 * v))) / 120.0; };
     const auto far = [] (double v) { return (26.0 + v * (-50.0 + v * (20.0 + v * (20.0 + v * (-20.0 + 5.0 * v))))) / 120.0; };
@@ -45,10 +46,10 @@ void filterBothWays (double* first, int stride, int n, double pole)
     if (n == 0) return;
     const auto c = [&] (int k) -> double& { return first[k * stride]; };
 
-    double start = c (0) + std::pow (pole, n) * c (n), forth = pole, back = std::pow (pole, 2 * n - 1);
+    double start = c (0) + math::pow (pole, n) * c (n), forth = pole, back = math::pow (pole, 2 * n - 1);
     for (int k = 1; k < n; ++k, forth *= pole, back /= pole)
         start += (forth + back) * c (k);
-    c (0) = start / (1.0 - std::pow (pole, 2 * n));
+    c (0) = start / (1.0 - math::pow (pole, 2 * n));
     for (int k = 1; k <= n; ++k)
         c (k) += pole * c (k - 1);
     c (n) = pole / (pole * pole - 1.0) * (c (n) + pole * c (n - 1));

@@ -65,13 +65,12 @@ public:
             newest = newest + 1 < recent.size() ? newest + 1 : 0;
             recent[newest] = next();
         }
+        const double last = static_cast<double> (kernel.size() - 2);
         double sum = 0.0;
         std::size_t i = newest;
         for (double distance = phase; distance < 2.0 * reach; distance += 1.0)
         {
-            const double place = std::abs (distance - reach) / reach * static_cast<double> (kernel.size() - 2);
-            const auto entry = static_cast<std::size_t> (place);
-            sum += recent[i] * std::lerp (kernel[entry], kernel[entry + 1], place - static_cast<double> (entry));
+            sum += recent[i] * betweenEntries (kernel.data(), std::abs (distance - reach) / reach * last);
             i = i > 0 ? i - 1 : recent.size() - 1;
         }
         return sum;

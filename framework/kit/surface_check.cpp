@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "surface_check.hpp"
+#include "math/math.hpp"
 #include "mesh_walk.hpp"
 
 #include <algorithm>
@@ -90,7 +91,7 @@ std::string leaning (const Surface& s)
     if (! isPatchThatLeans (s)) return {};
     const double least = mostTilted (s);
     if (least > much) return {};
-    const auto degrees = std::lround (std::acos (std::clamp (least, -1.0, 1.0)) * 180.0 / std::numbers::pi);
+    const auto degrees = std::lround (math::acos (std::clamp (least, -1.0, 1.0)) * 180.0 / std::numbers::pi);
     return "the body is flat, but its frames are tilted by up to " + std::to_string (degrees)
            + " degrees: without friction, a closed path may generate energy. Leave the frames out, or make them level";
 }

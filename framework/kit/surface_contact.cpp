@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "surface_contact.hpp"
 #include "downhill.hpp"
+#include "math/math.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace tactus
@@ -41,7 +41,7 @@ double reach (const Felt& felt, const SurfacePath& path) noexcept
     constexpr double follows = 2.0;   // relative to the move of the tool; above 1, because on a curved body the contact point is farther out
     if (path.free) return std::numeric_limits<double>::infinity();
     if (path.to == path.from) return 0.0;
-    const double depth = felt.d.z(), stretch = std::hypot (felt.d.x(), felt.d.y());
+    const double depth = felt.d.z(), stretch = math::hypot (felt.d.x(), felt.d.y());
     const double leaves = depth > 0.0 ? stretch / depth : std::numeric_limits<double>::infinity();   // this factor lets the stretch shrink with the depth
     return follows * (path.to - path.from).norm() * std::max (1.0, leaves);
 }

@@ -6,7 +6,7 @@
 namespace tactus
 {
 
-std::string lacking (std::string_view kind, std::string_view plural, const std::string& name, const std::vector<std::string>& there)
+std::string lacking (std::string_view kind, std::string_view plural, std::string_view name, const std::vector<std::string>& there)
 {
     if (partNamed (name, there) >= 0) return {};
     std::vector<std::string> named = there;

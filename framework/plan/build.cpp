@@ -7,6 +7,7 @@
 #include "grouped.hpp"
 #include "lateness.hpp"
 #include "make_node.hpp"
+#include "owned_records.hpp"
 #include "plan_diff.hpp"
 #include "rate_conversions.hpp"
 #include "slots.hpp"
@@ -146,7 +147,7 @@ private:
 
     /// The records of a section, in order: delayed wires and peeking nodes deliver their outputs, nodes run, delayed wires read
     /// their inputs.
-    Owned recordsOf (int section)
+    OwnedRecords recordsOf (int section)
     {
         auto& [peeks, body, writes] = steps[at (section)];
         body.records.reserve (order[at (section)].size());
@@ -165,7 +166,7 @@ private:
     }
 
     /// The owner of a section's record is the first node that runs in it.
-    void addSection (int section, Owned& around)
+    void addSection (int section, OwnedRecords& around)
     {
         auto& running = storage->sections[at (section)];
         auto inside = recordsOf (section);
@@ -348,7 +349,7 @@ private:
         for (const auto& d : all)
             if (is_meant (d)) s.terms.push_back (d.term);
         s.scratch.resize (s.terms.size());
-        stepsOf (node).body.add ({ &Sum::step, &s, nullptr, nullptr }, node);
+        stepsOf (node).body.addSum (s, node, storage->vector_sums);
         return &s.out;
     }
 

@@ -4,6 +4,7 @@
 /// What a plan under construction is made of.
 
 #include "ops.hpp"
+#include "owned_records.hpp"
 #include "plan.hpp"
 
 #include <cstdint>
@@ -11,25 +12,6 @@
 
 namespace tactus::plan
 {
-
-/// Records in running order, and for each record the number of the node that it belongs to.
-struct Owned
-{
-    std::vector<Record> records;
-    std::vector<std::uint32_t> owners;
-
-    void add (const Record& r, int node)
-    {
-        records.push_back (r);
-        owners.push_back (static_cast<std::uint32_t> (node));
-    }
-
-    void append (const Owned& more)
-    {
-        records.insert (records.end(), more.records.begin(), more.records.end());
-        owners.insert (owners.end(), more.owners.begin(), more.owners.end());
-    }
-};
 
 /// Something that drives one component of an input or parameter.
 struct Driver
@@ -49,7 +31,7 @@ struct Driver
 /// inputs.
 struct SectionSteps
 {
-    Owned peeks, body, writes;
+    OwnedRecords peeks, body, writes;
 };
 
 /// The nodes in running order, including those of inner sections.

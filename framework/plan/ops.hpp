@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The steps of a plan that are not nodes: sums, delayed wires, driven parameters, bypassed nodes. Each has the signature
-/// of a node's thunk, so a tick is one loop over records.
+/// The steps of a plan that are not nodes: sums (sum_step.hpp), delayed wires, driven parameters, bypassed nodes. Each has the
+/// signature of a node's thunk, so a tick is one loop over records.
 
 #include "instance.hpp"
-#include "sum.hpp"
+#include "sum_step.hpp"
 
 #include <tactus/node/catalogue.hpp>
 
@@ -15,28 +15,6 @@
 
 namespace tactus::plan
 {
-
-/// Adds up several wires, or applies the gain of one.
-struct Sum
-{
-    struct Term
-    {
-        const double* from;
-        double gain;
-    };
-
-    std::vector<Term> terms;
-    std::vector<double> scratch;   // for the values to add; same size as `terms`
-    double out = 0.0;
-
-    static void step (void* self, const double* const*, void*) noexcept
-    {
-        auto& s = *static_cast<Sum*> (self);
-        for (std::size_t i = 0; i < s.terms.size(); ++i)
-            s.scratch[i] = s.terms[i].gain * *s.terms[i].from;
-        s.out = sum (s.scratch.data(), static_cast<int> (s.terms.size()));
-    }
-};
 
 /// Adds hits from outside to what a wire or feed brings to a hit input.
 struct Strike

@@ -37,6 +37,7 @@ struct Storage
     std::vector<double> defaults;   // by input component: the value if no wire or feed drives it
     std::vector<const double*> sources;
     std::deque<Sum> sums;
+    std::deque<VectorSum> vector_sums;
     std::deque<Strike> strikes;
     std::deque<DelayLine> delays;
     std::deque<DrivenNode> driven;

@@ -2,6 +2,7 @@
 #include "plugin_library.hpp"
 #include "answer.hpp"
 #include "device_form.hpp"
+#include "hook_turn.hpp"
 #include "known.hpp"
 #include "plugin_node.hpp"
 
@@ -56,18 +57,22 @@ Result<> PluginLibrary::begin()
 
     plugin::Answer why;
     has_begun = true;
+    const auto turn = plugin::hookTurn();
     if (entry.init (&host(), why.report()) == TACTUS_PLUGIN_OK) return {};
     return Message::error ("plugin/init_failed", from.string(), "the plugin refuses to start: " + quote (why.text()), "ask its author, or remove it");
 }
 
 PluginLibrary::~PluginLibrary()
 {
-    if (has_begun) entry.deinit();
+    if (! has_begun) return;
+    const auto turn = plugin::hookTurn();
+    entry.deinit();
 }
 
 std::vector<NodeType> PluginLibrary::types (Messages& messages, const std::string& state_layout)
 {
     std::vector<NodeType> all;
+    const auto turn = plugin::hookTurn();
     for (std::size_t i = 0; i < entry.get_node_count(); ++i)
     {
         auto type = plugin::readNode (entry.get_node (i), from.string(), shared_from_this(), state_layout);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plugin_node.hpp"
 #include "answer.hpp"
+#include "hook_turn.hpp"
 #include "known.hpp"
 #include "lending.hpp"
 #include "setting_values.hpp"
@@ -34,6 +35,7 @@ struct Guest
     std::string ask (const char* name, Hook&& hook) const
     {
         const Answer answer;
+        const auto turn = hookTurn();
         if (hook (answer.report()) != TACTUS_PLUGIN_OK) failed (name, answer);
         return answer.text();
     }
@@ -47,9 +49,16 @@ struct MakeNode
     std::shared_ptr<void> operator()() const
     {
         const Answer why;
-        void* node = guest->hooks.create (why.report());
+        void* node = nullptr;
+        {
+            const auto turn = hookTurn();
+            node = guest->hooks.create (why.report());
+        }
         if (node == nullptr) guest->failed ("create", why);
-        return std::shared_ptr<void> (node, [g = guest] (void* n) { g->hooks.destroy (n); });
+        return std::shared_ptr<void> (node, [g = guest] (void* n) {
+            const auto turn = hookTurn();
+            g->hooks.destroy (n);
+        });
     }
 };
 
@@ -152,6 +161,7 @@ void addDevice (NodeType& t, const Guest* g)
     if (g->hooks.learn)
         t.learn = [learn = g->hooks.learn] (void* n, const DeviceMechanics& m) {
             const tactus_plugin_mechanics shown { sizeof shown, m.mass, m.damping };
+            const auto turn = hookTurn();
             learn (n, &shown);
         };
     if (! g->hooks.bind) return;

@@ -15,10 +15,10 @@
  *  - What the plugin describes (entry, nodes, datasheets) stays valid and unchanged from init to deinit. What the host passes to a
  *    hook is valid during the call, unless the comment says otherwise.
  *  - No C++ exception and no longjmp crosses the interface. A hook that can fail returns TACTUS_PLUGIN_FAILED and says why in `report`.
- *  - [main thread]: no two calls at the same time for the same plugin. [tick thread]: the thread that ticks the node, at the same time
- *    as calls for other nodes on other threads. A function for the tick thread does not allocate, lock, wait, call the system, read a
- *    clock or fail, and gives the same bits for the same inputs. While a node ticks, the main thread may call `announce`, and hooks that
- *    take the node as const.
+ *  - [main thread]: no two calls at the same time for the same plugin, though not always on the same thread. [tick thread]: the
+ *    thread that ticks the node, at the same time as calls for other nodes on other threads. A function for the tick thread does not
+ *    allocate, lock, wait, call the system, read a clock or fail, and gives the same bits for the same inputs. While a node ticks, the
+ *    main thread may call `announce`, and hooks that take the node as const.
  */
 
 #include <stddef.h>
@@ -381,7 +381,7 @@ typedef struct tactus_plugin_node
     /** Optional. Called instead of tick if wires or feeds set params of the node: `stored` holds the params as its file and knobs set
      *  them, in params_size bytes. [tick thread] */
     void (*tick_stored) (void* node, const void* stored, const double* const* sources, void* outputs) TACTUS_PLUGIN_NOEXCEPT;
-    int32_t (*delay) (const void* node) TACTUS_PLUGIN_NOEXCEPT; /**< optional [main thread] */
+    int32_t (*delay) (const void* node) TACTUS_PLUGIN_NOEXCEPT; /**< optional [any thread] */
     void (*update) (void* node) TACTUS_PLUGIN_NOEXCEPT;         /**< optional [tick thread] */
     /** Optional; `old` is a node of the same type, from this build of the plugin or from one with the same layout in memory.
      *  [tick thread] */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/node/device.hpp>
 
 #include <algorithm>
@@ -39,7 +40,7 @@ public:
             ++now;
             return last;   // no step at all: wanted + (last - wanted) would round
         }
-        const double w = 0.5 + 0.5 * std::cos (pi * now / length);
+        const double w = 0.5 + 0.5 * math::cos (pi * now / length);
         ++now;
         last = { wanted.force + w * difference.force, wanted.torque + w * difference.torque, sum (wanted.axes, w, difference.axes),
                  sum (wanted.signals, w, difference.signals) };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/kit/rotation.hpp>
 #include <tactus/node/device.hpp>
 
@@ -64,7 +65,7 @@ private:
         const double sine = step.vec().norm();
         if (sine == 0.0) return Vec3::Zero();
         if (! isFinite (sine)) return Vec3::Constant (std::numeric_limits<double>::infinity());   // no tool rotates by such an angle
-        return step.vec() * (2.0 * std::atan2 (std::copysign (sine, step.w()), std::abs (step.w())) / sine);
+        return step.vec() * (2.0 * math::atan2 (std::copysign (sine, step.w()), std::abs (step.w())) / sine);
     }
 
     Vec3 position = Vec3::Zero();
@@ -79,6 +80,8 @@ private:
 class MeanEffort
 {
 public:
+    bool isEmpty() const noexcept { return count == 0.0; }   ///< nothing has been added [tick thread]
+
     /// Adds an effort that was on the device for this many ticks, as the motors rendered it. [tick thread]
     void add (const Effort& effort, const Reading& reading, double ticks, bool with_axes) noexcept
     {

@@ -1,45 +1,28 @@
 // SPDX-License-Identifier: MIT
 #include "engine.hpp"
 
+#include "effort_sum.hpp"
+
 #include <tactus/plan/find_hit.hpp>
 #include <tactus/plan/find_param.hpp>
 
 #include <algorithm>
+#include <new>
 #include <stdexcept>
+#include <type_traits>
 
 namespace tactus
 {
 
-/// The sum of the efforts of all sinks of a role. The result does not depend on the order of the sinks.
+/// The sum of the efforts of all sinks of a role.
 Effort Engine::total (const Plan::RoleUse& role, Scratch& scratch) noexcept
 {
     if (role.sinks.size() == 1) return role.sinks[0].effort (role.sinks[0].node);
 
     std::size_t n = 0;
-    int axes = 0, signals = 0;
     for (const auto& sink : role.sinks)
-    {
-        const auto& e = scratch.efforts[n++] = sink.effort (sink.node);
-        axes = std::max (axes, e.axes.size());
-        signals = std::max (signals, e.signals.size());
-    }
-
-    const auto sum = [&] (auto part) {
-        for (std::size_t i = 0; i < n; ++i)
-            scratch.numbers[i] = part (scratch.efforts[i]);
-        return plan::sum (scratch.numbers.data(), static_cast<int> (n));
-    };
-    Effort all;
-    for (int c = 0; c < 3; ++c)
-    {
-        all.force[c] = sum ([c] (const Effort& e) { return e.force[c]; });
-        all.torque[c] = sum ([c] (const Effort& e) { return e.torque[c]; });
-    }
-    for (int i = 0; i < axes; ++i)
-        all.axes.set (i, sum ([i] (const Effort& e) { return e.axes[i]; }));
-    for (int i = 0; i < signals; ++i)
-        all.signals.set (i, sum ([i] (const Effort& e) { return e.signals[i]; }));
-    return all;
+        scratch.efforts[n++] = sink.effort (sink.node);
+    return sumOfEfforts (std::span (scratch.efforts).first (n), scratch.numbers.data());
 }
 
 Engine::Engine (std::shared_ptr<Plan> p) : rate_hz (p->rateHz()), plans (makeRunning (std::move (p))), running (&plans.newest()) {}
@@ -279,6 +262,7 @@ void Engine::turnKnobs() noexcept
 
 void Engine::beforePlan() noexcept
 {
+    static_assert (std::is_trivially_destructible_v<Reading>, "a new reading replaces the last one in place");
     takeSubmitted();
     if (ticks < settled_at) fadeAgain();
     if (fresh || touched.load (std::memory_order_relaxed)) turnKnobs();
@@ -288,7 +272,7 @@ void Engine::beforePlan() noexcept
         if (used[i]->device)
         {
             auto& [reading, applied, layout] = *plan->roles()[i].state;
-            reading = used[i]->device->read();
+            new (&reading) Reading (used[i]->device->read());   // in place, because most of a reading is rarely in use but always copied
             reading.valid = reading.valid && ! readings_invalid;
             applied.force -= reading.unrendered_force;
             applied.torque -= reading.unrendered_torque;

@@ -5,6 +5,7 @@
 /// the same bits as its counterpart in framework/plan and framework/run/engine.cpp. Nothing here allocates, throws or locks, and all
 /// functions are for the thread that ticks the graph.
 
+#include "effort_sum.hpp"
 #include "guard.hpp"
 
 #include <tactus/node/node.hpp>
@@ -28,8 +29,13 @@ inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 template <typename... T>
 double sumOf (T... values) noexcept
 {
-    double all[] { values... };
-    return plan::sum (all, static_cast<int> (sizeof...(T)));
+    if constexpr (sizeof...(T) <= plan::most_in_network)
+        return plan::sumOf (values...);
+    else
+    {
+        double all[] { values... };
+        return plan::sum (all, static_cast<int> (sizeof...(T)));
+    }
 }
 
 /// The sum of all sinks of a role.
@@ -37,29 +43,8 @@ template <std::size_t n>
 Effort total (const std::array<Effort, n>& efforts) noexcept
 {
     if constexpr (n == 1) return efforts[0];
-    int axes = 0, signals = 0;
-    for (const auto& e : efforts)
-    {
-        axes = std::max (axes, e.axes.size());
-        signals = std::max (signals, e.signals.size());
-    }
-    const auto sum = [&efforts] (auto part) noexcept {
-        std::array<double, n + 1> numbers;   // one more, because an array of no numbers has no data
-        for (std::size_t i = 0; i < n; ++i)
-            numbers[i] = part (efforts[i]);
-        return plan::sum (numbers.data(), static_cast<int> (n));
-    };
-    Effort all;
-    for (int c = 0; c < 3; ++c)
-    {
-        all.force[c] = sum ([c] (const Effort& e) { return e.force[c]; });
-        all.torque[c] = sum ([c] (const Effort& e) { return e.torque[c]; });
-    }
-    for (int i = 0; i < axes; ++i)
-        all.axes.set (i, sum ([i] (const Effort& e) { return e.axes[i]; }));
-    for (int i = 0; i < signals; ++i)
-        all.signals.set (i, sum ([i] (const Effort& e) { return e.signals[i]; }));
-    return all;
+    std::array<double, n + 1> numbers;   // one more, because an array of no numbers has no data
+    return sumOfEfforts (efforts, numbers.data());
 }
 
 /// Makes a node as new.

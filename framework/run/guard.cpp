@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace tactus
 {
@@ -105,15 +106,19 @@ double smallestImpulse (const GuardLimits& l) noexcept { return std::min ({ l.ma
 /// For each effort, the number of the axis that it pushes, or -1: the axis of the same name, or axisN for effortN.
 std::array<std::int8_t, Channels::most> axesOf (const DeviceLayout& layout)
 {
-    constexpr std::string_view effort = "effort";
+    constexpr std::string_view effort = "effort", axis = "axis";
     std::array<std::int8_t, Channels::most> all;
     all.fill (-1);
     for (std::size_t i = 0; i < std::min (layout.efforts.size(), all.size()); ++i)
     {
-        const auto& name = layout.efforts[i];
-        int axis = indexOf (layout.axes, name);
-        if (axis < 0 && name.starts_with (effort)) axis = indexOf (layout.axes, "axis" + name.substr (effort.size()));
-        if (axis < Channels::most) all[i] = static_cast<std::int8_t> (axis);
+        const std::string_view name = layout.efforts[i];
+        int index = indexOf (layout.axes, name);
+        for (std::size_t k = 0; index < 0 && name.starts_with (effort) && k < layout.axes.size(); ++k)
+        {
+            const std::string_view other = layout.axes[k];
+            if (other.starts_with (axis) && other.substr (axis.size()) == name.substr (effort.size())) index = static_cast<int> (k);
+        }
+        if (index < Channels::most) all[i] = static_cast<std::int8_t> (index);
     }
     return all;
 }
@@ -220,13 +225,13 @@ void Guard::loseTime (double lost_s) noexcept
     is_starved = behind > (is_starved ? 0.5 : 1.0) * limits.watchdog;
 }
 
-/// Updates the watches with the motion of the device under its last effort.
-void Guard::watch (const Reading& reading, double elapsed_s) noexcept
+/// Updates the watches with the motion of the device under its last effort. `is_usable`: see isUsable.
+void Guard::watch (const Reading& reading, bool is_usable, double elapsed_s) noexcept
 {
     const double now = static_cast<double> (static_cast<std::int64_t> (ticks++)) * dt + lost;   // a signed number converts in one instruction
-    mean_effort.add (last, reading, elapsed_s / dt, watches_axes);
-    if (! reading.valid || ! areFinite (reading.position, reading.rotation) || ! isFinite (reading.age) || hasBrokenAxes (reading))
+    if (! is_usable || ! isFinite (reading.age))
     {
+        mean_effort.add (last, reading, elapsed_s / dt, watches_axes);
         // While an effort is on the device, the distance to the next reading counts, so a device cannot hide its motion behind bad readings.
         if (! isAtRest()) return;
         motion.forget();
@@ -242,7 +247,10 @@ void Guard::watch (const Reading& reading, double elapsed_s) noexcept
         if (const double v = speed.speed(); ! (v <= limits.max_speed)) latch (Stop::speed, v);
     }
 
-    double work = mean_effort.force().dot (moved);
+    // Most devices have a new reading on each tick. The mean is then the last effort itself.
+    const bool is_new = motion.isNew (dt), is_single = is_new && mean_effort.isEmpty() && elapsed_s == dt;
+    if (! is_single) mean_effort.add (last, reading, elapsed_s / dt, watches_axes);
+    double work = (is_single ? Vec3 (last.force - reading.unrendered_force) : mean_effort.force()).dot (moved);
     if (watches_turns)
     {
         const Vec3 turned = motion.turned (reading);
@@ -251,10 +259,10 @@ void Guard::watch (const Reading& reading, double elapsed_s) noexcept
             angular_speed (turned, motion.elapsed);
             if (const double w = angular_speed.speed(); ! (w <= limits.max_angular_speed)) latch (Stop::speed, w, Event::Part::torque);
         }
-        work += mean_effort.torque().dot (turned);
+        work += (is_single ? Vec3 (last.torque - reading.unrendered_torque) : mean_effort.torque()).dot (turned);
     }
-    if (watches_axes) work += watchAxes (reading, motion.elapsed);
-    if (motion.isNew (dt)) mean_effort = {};
+    if (watches_axes) work += watchAxes (reading, motion.elapsed, is_single);
+    if (is_new && ! is_single) mean_effort = {};
     if (limits.max_energy != GuardLimits::none)
         if (const double given = energy (work, elapsed_s); ! (given <= limits.max_energy)) latch (Stop::energy, given);
     if (limits.max_still == GuardLimits::none) return;
@@ -268,8 +276,9 @@ bool Guard::isRecent (const Reading& reading) const noexcept
     return reading.age <= limits.watchdog && (reading.age >= -dt || limits.watchdog == GuardLimits::none);
 }
 
-/// The work in J that the last efforts have done on the axes that they push.
-[[gnu::noinline]] double Guard::watchAxes (const Reading& reading, double elapsed_s) noexcept
+/// The work in J that the last efforts have done on the axes that they push. `is_single`: only the last one was on the device since the
+/// last reading.
+[[gnu::noinline]] double Guard::watchAxes (const Reading& reading, double elapsed_s, bool is_single) noexcept
 {
     double work = 0.0;
     for (std::size_t i = 0; i < axis_of_effort.size(); ++i)
@@ -280,7 +289,7 @@ bool Guard::isRecent (const Reading& reading) const noexcept
         auto& velocity = axis_velocity[i];
         velocity = SpeedWatch::filtered (velocity, moved, elapsed_s);
         if (! (std::abs (velocity) <= limits.max_axis_speed)) latch (Stop::speed, std::abs (velocity), Event::Part::axis, axis);
-        work += mean_effort.axis (i) * moved;
+        work += (is_single ? last.axes[static_cast<int> (i)] : mean_effort.axis (i)) * moved;
     }
     return work;
 }
@@ -309,13 +318,18 @@ void Guard::countImpulse (double s, const Reading& reading) noexcept
     add (axis_impulse, limits.max_axis_impulse, sum, Event::Part::axis);
 }
 
-Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading) const noexcept
+/// True if the reading is valid and finite, whatever its age.
+bool Guard::isUsable (const Reading& reading) const noexcept
+{
+    return reading.valid && areFinite (reading.position, reading.rotation) && ! hasBrokenAxes (reading);
+}
+
+Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading, bool is_usable) const noexcept
 {
     if (latched == Stop::emergency) return latched;
     if (! areFinite (wanted.force, wanted.torque)) return Stop::not_finite;
     if (hasChannels (wanted) && ! channelsAreFinite (wanted)) return Stop::not_finite;
-    if (! reading.valid || ! areFinite (reading.position, reading.rotation) || ! isRecent (reading) || hasBrokenAxes (reading) || isFrozen())
-        return Stop::stale;
+    if (! is_usable || ! isRecent (reading) || isFrozen()) return Stop::stale;
     if (is_starved) return Stop::starved;
     if (latched != Stop::none) return latched;
     if (asked_to_halt) return Stop::halted;
@@ -325,18 +339,25 @@ Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading) const 
     return is_held ? Stop::none : Stop::released;
 }
 
+[[gnu::noinline]] void Guard::note (Stop why, const Effort& wanted, const Reading& reading) noexcept
+{
+    event = describeNow (why, wanted, reading);
+    ++change_count;
+}
+
 /// Here the force is limited: first a reason to stop is looked for, then the effort is faded, shortened and slowed down.
 const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, double lost_s) noexcept
 {
     const double elapsed = dt + (lost_s > 0.0 && isFinite (lost_s) ? lost_s : 0.0);
     loseTime (elapsed - dt);
+    const bool is_usable = isUsable (reading);
     if (is_watching)
     {
         if (elapsed > dt) countImpulse (elapsed - dt, reading);
         countImpulse (dt, reading);
-        watch (reading, elapsed);
+        watch (reading, is_usable, elapsed);
     }
-    const auto cause = causeOf (wanted, reading);
+    const auto cause = causeOf (wanted, reading, is_usable);
     // A stop that has begun continues during lost time. A stop that begins now, and everything that rises, advances by one tick.
     const double step_s = reason != Stop::none && cause != Stop::none ? elapsed : dt;
 
@@ -346,7 +367,7 @@ const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, d
         const bool ends_a_run = cause == Stop::halted && event.why != Stop::none;   // latest() then still reports the stop before the halt
         if ((begins && ! ends_a_run) || (latches (cause) && is_news))
         {
-            event = describeNow (cause, wanted, reading);
+            note (cause, wanted, reading);
             ++count;
         }
         if (latches (cause)) is_news = false;
@@ -358,7 +379,7 @@ const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, d
         }
     }
     else if (cause == Stop::stale && event.why == Stop::stale && reading.fault != ReadingFault::none && reading.fault != event.fault && ! isFrozen())
-        event = describeNow (cause, wanted, reading);   // not another stop, but another reason: a board that was silent is now too hot
+        note (cause, wanted, reading);   // not another stop, but another reason: a board that was silent is now too hot
     reason = cause;
 
     withheld = std::max (0.0, withheld - step_s / fade_s);

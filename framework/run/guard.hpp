@@ -179,14 +179,18 @@ public:
     /// How many stops there have been since prepare().
     std::uint64_t events() const noexcept { return count; }
 
+    /// How many times latest() has changed since prepare().
+    std::uint64_t changes() const noexcept { return change_count; }
+
     /// True while no effort is on the device, so that it can be released without a step.
     bool isAtRest() const noexcept;
 
 private:
     void forget() noexcept;
     void loseTime (double lost_s) noexcept;
-    void watch (const Reading&, double elapsed_s) noexcept;
-    double watchAxes (const Reading&, double elapsed_s) noexcept;
+    bool isUsable (const Reading&) const noexcept;
+    void watch (const Reading&, bool is_usable, double elapsed_s) noexcept;
+    double watchAxes (const Reading&, double elapsed_s, bool is_single) noexcept;
     bool isRecent (const Reading&) const noexcept;
     bool hasBrokenAxes (const Reading& reading) const noexcept { return watches_axes && ! isFinite (reading.axes); }
     bool isFrozen() const noexcept
@@ -195,9 +199,10 @@ private:
     }
     void countImpulse (double s, const Reading&) noexcept;
     void latch (Stop, double value, Event::Part = Event::Part::none, int channel = 0) noexcept;
-    Stop causeOf (const Effort& wanted, const Reading&) const noexcept;
+    Stop causeOf (const Effort& wanted, const Reading&, bool is_usable) const noexcept;
     void describeFrozen (Event&) const noexcept;
     Event describeNow (Stop, const Effort& wanted, const Reading&) const noexcept;
+    void note (Stop, const Effort& wanted, const Reading&) noexcept;
     void describeStale (Event&, const Reading&) const noexcept;
     Effort crossfaded (const Effort& wanted) const noexcept;
     double fit (Vec3& force, Vec3& torque, Channels& axes) const noexcept;
@@ -219,7 +224,7 @@ private:
     int seen_channel = 0;
     bool is_news = false;   // the latched stop has not been reported yet
     Event event;
-    std::uint64_t count = 0;
+    std::uint64_t count = 0, change_count = 0;   // of stops; of changes of `event`
     bool asked_to_halt = false;
 
     bool is_watching = false;     // at least one limit needs the watches

@@ -2,6 +2,8 @@
 // The stops of a guard in words.
 #include "guard.hpp"
 
+#include <tactus/kit/math/math.hpp>
+
 #include <charconv>
 #include <cmath>
 
@@ -31,7 +33,7 @@ std::string inWordsFrozen (const Guard::Event& event)
     const auto& f = event.wanted;
     const bool turn = event.part == Guard::Event::Part::torque, is_one = event.channel >= 0 && event.channel < 3;
     const auto at = static_cast<std::size_t> (is_one ? event.channel : 0);
-    const double effort = is_one ? std::abs (f[at]) : std::hypot (f[0], f[1], f[2]);
+    const double effort = is_one ? std::abs (f[at]) : math::hypot (f[0], f[1], f[2]);
     return std::string (turn ? "the rotation" : "the position") + (is_one ? std::string (turn ? " about " : " along ") + "xyz"[at] : "")
            + " has not changed for " + inWords (event.value) + " s while a " + (turn ? "torque of " : "force of ") + inWords (effort)
            + (turn ? " N*m turns" : " N pushes") + " the hand";

@@ -3,6 +3,7 @@
 #include "log/graph_snapshot.hpp"
 #include "turn.hpp"
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/plan/find_hit.hpp>
 #include <tactus/plan/find_param.hpp>
 #include <tactus/text/quote.hpp>
@@ -38,6 +39,11 @@ Result<> Replay::begin()
         warnings.push_back (Message::warning ("log/other_program", log.name(),
                                               "the run was recorded by " + quote (head.program) + ", but this is " + options.program
                                                   + "; only the same program is certain to reproduce the run bit for bit"));
+    else if (head.functions != math::revision)
+        warnings.push_back (Message::warning ("log/other_functions", log.name(),
+                                              "the run was recorded by a version with other bits of sin, exp and the like (revision "
+                                                  + std::to_string (head.functions) + ", here " + std::to_string (math::revision)
+                                                  + "), so the replay may differ in the last digits"));
     if (options.duration_s > 0.0) most = static_cast<std::uint64_t> (std::ceil (options.duration_s * rate() - 1e-6));
 
     if (auto fetched = fetch(); ! fetched) return fetched;

@@ -46,7 +46,8 @@ public:
     /// Runs one tick. Returns false at the end of the log, after duration_s, or where the recorded run began to halt.
     Result<bool> tick();
 
-    /// Warnings that have not been returned yet. Ids: log/other_program, log/no_role, log/not_turned, log/not_struck.
+    /// Warnings that have not been returned yet. Ids: log/other_program, log/other_functions, log/no_role, log/not_turned,
+    /// log/not_struck.
     Messages takeWarnings() { return std::exchange (warnings, {}); }
 
     /// Call it after the last tick. Returns why the log ends before the end of the run, if it does. Ids: log/broken,

@@ -5,6 +5,7 @@
 #include "included_guards.hpp"
 #include "log/graph_snapshot.hpp"
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/units.hpp>
 
@@ -145,7 +146,7 @@ void Run::openDevices (const graph::Graph& graph, Messages& messages)
 
 Result<> Run::startLog (const std::filesystem::path& path, std::string program, std::vector<std::string> sets, const graph::Graph& graph)
 {
-    RunHead head { .program = std::move (program), .rate_hz = rate(), .sets = std::move (sets), .feeds = options.feeds };
+    RunHead head { .program = std::move (program), .functions = math::revision, .rate_hz = rate(), .sets = std::move (sets), .feeds = options.feeds };
     for (const auto& [role, d] : by_role)
     {
         head.guards.emplace (role, d.limits);

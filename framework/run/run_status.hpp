@@ -34,10 +34,12 @@ struct RunStatus
     /// The effort on the device of a role since the last tick, as the limits of the guard and of the motors let it through.
     struct Role
     {
-        std::string_view name;                  ///< lives as long as the engine
         double force = 0.0, torque = 0.0;       ///< magnitudes, in N and N m
         Guard::Stop stop = Guard::Stop::none;   ///< why the guard withholds the effort now
         bool is_latched = false;                ///< a stop lasts until rearm, even if another cause is reported
+
+        // What follows rarely changes, so most ticks do not publish it.
+        std::string_view name;   ///< lives as long as the engine
 
         // The latest stop, even after it has ended.
         Guard::Stop latest = Guard::Stop::none;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cfenv>
+#include <cstddef>
 
 namespace tactus
 {
@@ -115,18 +116,29 @@ void Runner::publish() noexcept
     now.role_count = engine.roleCount();
     const bool is_released = now.phase == RunStatus::Phase::over && engine.isAtRest();
     if (is_released) now.force = 0.0;
-    for (std::size_t i = 0; i < now.role_count && i < RunStatus::most_roles; ++i)
-    {
-        const auto [name, applied, guard] = engine.role (i);
-        auto& role = now.roles[i];
-        role.name = name;
-        if (is_released) role.force = role.torque = 0.0;
-        role.stop = guard.stop();
-        role.is_latched = guard.isLatched();
-        role.event = guard.latest();
-        role.latest = role.event.why;
-    }
-    published.store (now, sizeof now - sizeof now.roles + now.shown().size_bytes());
+    constexpr std::size_t roles_at = offsetof (RunStatus, roles), often = offsetof (RunStatus::Role, name), all = sizeof (RunStatus::Role);
+    static_assert (roles_at % 8 == 0 && often % 8 == 0 && all % 8 == 0, "a snapshot stores words");
+    published.storeParts (now, [&] (auto part) {
+        part (0, roles_at);
+        for (std::size_t i = 0; i < now.shown().size(); ++i)
+        {
+            const auto [name, applied, guard] = engine.role (i);
+            auto& role = now.roles[i];
+            if (is_released) role.force = role.torque = 0.0;
+            role.stop = guard.stop();
+            role.is_latched = guard.isLatched();
+            // The name lives in the channel of the role, so a channel with another guard has another name.
+            const bool is_new = role.name.data() != name.data() || seen[i] != guard.changes();
+            if (is_new)
+            {
+                role.name = name;
+                role.event = guard.latest();
+                role.latest = role.event.why;
+                seen[i] = guard.changes();
+            }
+            part (roles_at + i * all, is_new ? all : often);
+        }
+    });
 }
 
 void Runner::attend()

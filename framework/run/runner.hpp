@@ -11,6 +11,7 @@
 
 #include <tactus/kit/snapshot.hpp>
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <future>
@@ -100,7 +101,8 @@ private:
 
     // Used by the tick thread.
     RunStatus now;
-    std::uint64_t halted_at = 0;   // tick number
+    std::array<std::uint64_t, RunStatus::most_roles> seen {};   // by role: Guard::changes() when its name and latest stop were published
+    std::uint64_t halted_at = 0;                                // tick number
 
     std::jthread thread;   // declared last: it uses the other members
 };

@@ -2,6 +2,7 @@
 #include "tick_account.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace tactus
@@ -9,6 +10,44 @@ namespace tactus
 
 namespace
 {
+constexpr int mantissa_bits = 52, piece_bits = 4;
+
+/// The octave from 1 to 2, cut into 16 pieces of equal width. A piece contains at most one of the bounds 2^(k/8), because these are more than
+/// 1/16 apart.
+struct Piece
+{
+    std::uint64_t below;   ///< number of bounds below the piece
+    std::uint64_t bound;   ///< mantissa of the bound in the piece, or one that none exceeds
+};
+
+constexpr auto pieces = [] {
+    constexpr double bounds[] { 1.0, 1.0905077326652577, 1.1892071150027211, 1.2968395546510096,   // 2^(k/8)
+                                1.4142135623730951, 1.5422108254079408, 1.6817928305074290, 1.8340080864093424 };
+    constexpr std::uint64_t mask = (std::uint64_t { 1 } << mantissa_bits) - 1;
+    std::array<Piece, 1 << piece_bits> all {};
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+        const double begin = 1.0 + static_cast<double> (i) / all.size(), end = begin + 1.0 / all.size();
+        all[i].bound = mask;
+        for (const double bound : bounds)
+            if (bound < begin)
+                ++all[i].below;
+            else if (bound < end)
+                all[i].bound = std::bit_cast<std::uint64_t> (bound) & mask;
+    }
+    return all;
+}();
+
+/// 8 log2 x, rounded up, for x from 1 up. Several times faster than std::log2, which a tick would call twice.
+std::size_t eighthsOfOctaves (double x) noexcept
+{
+    const auto bits = std::bit_cast<std::uint64_t> (x);
+    const auto octaves = (bits >> mantissa_bits) - 1023;
+    const auto mantissa = bits & ((std::uint64_t { 1 } << mantissa_bits) - 1);
+    const auto& piece = pieces[mantissa >> (mantissa_bits - piece_bits)];
+    return 8 * octaves + piece.below + (mantissa > piece.bound ? 1 : 0);
+}
+
 /// Only one thread writes, so an addition need not be atomic as a whole.
 template <typename T>
 void add (std::atomic<T>& to, T n) noexcept
@@ -19,8 +58,8 @@ void add (std::atomic<T>& to, T n) noexcept
 
 void Durations::note (double s) noexcept
 {
-    const double bin = std::ceil (per_octave * std::log2 (std::max (s, shortest) / shortest));
-    add (counts[std::min (bins - 1, static_cast<std::size_t> (bin))], std::uint64_t { 1 });
+    static_assert (per_octave == 8);
+    add (counts[std::min (bins - 1, s > shortest ? eighthsOfOctaves (s / shortest) : 0)], std::uint64_t { 1 });
     if (s > longest()) longest_s.store (s, std::memory_order_relaxed);
 }
 

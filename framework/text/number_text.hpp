@@ -15,4 +15,11 @@ inline std::string numberText (double v)
     return { buffer, std::to_chars (buffer, buffer + sizeof buffer, v).ptr };
 }
 
+/// The number with this many digits, as printf writes it with %g, in any locale.
+inline std::string roundedText (double v, int digits = 6)
+{
+    char buffer[64];
+    return { buffer, std::to_chars (buffer, buffer + sizeof buffer, v, std::chars_format::general, digits).ptr };
+}
+
 }   // namespace tactus

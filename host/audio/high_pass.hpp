@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tactus/kit/biquad.hpp>
+#include <tactus/kit/math/math.hpp>
 
 #include <numbers>
 #include <optional>
@@ -18,7 +19,7 @@ public:
     {
         if (cutoff_hz <= 0.0) return;
         const double w = 2.0 * std::numbers::pi * usableCutoff (cutoff_hz, rate_hz) / rate_hz;
-        const double c = std::cos (w), alpha = std::sin (w) / (2.0 * 0.7071), a0 = 1.0 + alpha;
+        const double c = math::cos (w), alpha = math::sin (w) / (2.0 * 0.7071), a0 = 1.0 + alpha;
         const double b0 = 0.5 * (1.0 + c), b1 = -(1.0 + c);
         filter = Biquad { b0 / a0, b1 / a0, b0 / a0, -2.0 * c / a0, (1.0 - alpha) / a0 };
     }

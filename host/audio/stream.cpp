@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stream.hpp"
 
+#include <tactus/kit/math/math.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,7 +20,7 @@ constexpr std::size_t room_frames = 512;
 std::size_t roomOf (const StreamSetup& s) { return room_frames + static_cast<std::size_t> (s.tick_side_hz * (room_s + 2.0 * s.reserve_s)); }
 
 /// Rises from 0 to 1 without a corner at either end.
-float raised (double part) noexcept { return static_cast<float> (0.5 - 0.5 * std::cos (std::numbers::pi * std::clamp (part, 0.0, 1.0))); }
+float raised (double part) noexcept { return static_cast<float> (0.5 - 0.5 * math::cos (std::numbers::pi * std::clamp (part, 0.0, 1.0))); }
 }   // namespace
 
 OutStream::OutStream (const StreamSetup& s)

@@ -23,5 +23,6 @@ void addNewNode (const Command&);
 void addCurve (const Command&);
 void addCheckPlugin (const Command&);
 void addExport (const Command&);
+void addConvert (const Command&);
 
 }   // namespace tactus::host

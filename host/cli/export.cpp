@@ -28,21 +28,24 @@ struct Options
     double rate_hz = 0.0;
 };
 
-/// Refuses targets that do not exist.
-void check (const std::string& target)
+ExportTarget targetNamed (const std::string& name)
 {
-    if (target == "cpp") return;
-    const std::vector<std::string> planned { "c-api", "arduino", "fmu" };
-    const bool is_planned = std::ranges::count (planned, target) > 0;
-    auto names = planned;
-    names.emplace_back ("cpp");
-    throw UsageError ("--to", is_planned ? "the target " + quote (target) + " does not exist yet; write --to cpp"
-                                         : "there is no target " + quote (target) + didYouMean (target, names) + "; write --to cpp");
+    const std::vector<std::string> names { "cpp", "c-api", "arduino", "fmu" };
+    const auto found = std::ranges::find (names, name);
+    if (found == names.end())
+        throw UsageError ("--to", "there is no target " + quote (name) + didYouMean (name, names) + "; write cpp, c-api, arduino or fmu");
+    return static_cast<ExportTarget> (found - names.begin());
+}
+
+std::string nextStep (ExportTarget target, const std::string& folder)
+{
+    if (target == ExportTarget::arduino) return "use it: copy " + folder + " into the folder libraries of Arduino";
+    return "try it: make -C " + folder + (target == ExportTarget::fmu ? " fmu" : " test");
 }
 
 void run (const Options& options)
 {
-    check (options.target);
+    const auto target = targetNamed (options.target);
     const auto loaded = loadGraph (options.graph);
     if (report (loaded.messages, loaded, options.graph) > 0) throw Stop {};
     if (! canWriteFolder (options.folder))
@@ -57,11 +60,11 @@ void run (const Options& options)
                              .services = { .nearest_triangle = nearestByEmbree } };
     const auto folder = exportGraph (
         loaded.graph,
-        { .file = fs::path (options.graph).filename().string(), .program = TACTUS_VERSION, .compile = std::move (compile), .open = {} });
+        { .file = fs::path (options.graph).filename().string(), .program = TACTUS_VERSION, .compile = std::move (compile), .target = target, .open = {} });
     if (report (folder.messages, loaded, options.graph) > 0) throw Stop {};
     if (auto written = writeFolder (folder, options.folder); ! written) fail (written.error());
     std::cout << options.folder << ": " << folder.class_name << " in " << folder.stem << ".hpp, " << folder.files.size() << " files\n"
-              << "try it: make -C " << options.folder << " test\n";
+              << nextStep (target, options.folder) << "\n";
 }
 }   // namespace
 
@@ -75,7 +78,9 @@ void addExport (const Command& app)
             "A graph file, such as graphs/dry_wood.json, or the name of a preset, such as dry_wood")
         .required();
     command.addOption ("-o,--out", options->folder, "The folder to write: new, empty, or an earlier export, which is replaced").required();
-    command.addOption ("--to", options->target, "What to write: cpp, a C++20 class with a self-test").type ("cpp");
+    command.addOption ("--to", options->target, "What to write: cpp, a C++20 class with a self-test; c-api, the same with a C interface; arduino, a "
+                                                "library for boards; fmu, a unit for simulators (FMI 2.0)")
+        .type ("cpp|c-api|arduino|fmu");
     command.addOption ("--input", options->inputs, "Make these ports inputs of the class, such as drag.mu or drag.position.x").separatedBy (',');
     command.addOption ("--record", options->records, "Make these ports outputs of the class; default: the inputs of every sink").separatedBy (',');
     command.addOption ("--set", options->sets, "Set a parameter: NODE.PARAM=VALUE").oneValueEach();
@@ -86,7 +91,8 @@ void addExport (const Command& app)
                     "Examples:\n"
                     "  tactus export graphs/dry_wood.json -o dry_wood\n"
                     "  tactus export dry_wood -o dry_wood --record drag.force,drag.state\n"
-                    "  make -C dry_wood test");
+                    "  make -C dry_wood test\n"
+                    "  tactus export dry_wood -o dry_wood_fmu --to fmu && make -C dry_wood_fmu fmu");
     command.callback ([options] { run (*options); });
 }
 

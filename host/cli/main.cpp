@@ -30,6 +30,7 @@ constexpr auto examples =
     "  tactus fit curve liver.csv -o liver.json       a body from an indentation\n"
     "  tactus curve hertz --young \"10 kPa\" --radius \"5 mm\"   the curve of a sphere\n"
     "  tactus export graphs/dry_wood.json -o dry_wood   C++ code for other programs\n"
+    "  tactus convert effect.haptic effect.ahap         a haptic clip in another format\n"
     "  tactus render --replay run.jsonl               repeat a run logged by `play --log run.jsonl`\n"
     "\n`tactus COMMAND --help` shows the options and more examples.";
 }   // namespace
@@ -58,6 +59,7 @@ int main (int argc, char** argv)
     addCurve (app);
     addCheckPlugin (app);
     addExport (app);
+    addConvert (app);
 
     try
     {

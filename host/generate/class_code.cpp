@@ -139,8 +139,9 @@ std::string layoutOf (const DeviceLayout& l)
 
 std::string functions (const Exported& e)
 {
-    std::string text = "    /// Makes all nodes as new, for this many ticks per second. Allocates what tables and meshes need; nothing else does.\n"
-                       "    void prepare (double ticks_per_second = rate_hz);\n\n"
+    std::string text = "    /// Makes all nodes as new, for this many ticks per second. Returns false, and does nothing, if the rate is not above 0\n"
+                       "    /// or is above max_rate_hz: the memory of the nodes is measured for that rate.\n"
+                       "    bool prepare (double ticks_per_second = rate_hz) noexcept;\n\n"
                        "    /// Computes one tick. The same inputs give the same bits as in Tactus.\n"
                        "    void tick (const Inputs&, Outputs&) noexcept;\n\n";
     if (! e.parameters.empty())
@@ -226,7 +227,7 @@ std::string members (const Exported& e)
 
 std::string header (const Exported& e)
 {
-    std::set<std::string> headers { "tactus/run/exported_graph.hpp" };
+    std::set<std::string> headers { "tactus/run/exported_graph.hpp", "tactus/run/exported_memory.hpp" };
     for (const auto& n : e.wiring.nodes)
         headers.insert (n.header);
     std::string text = std::string (license) + "// " + title (e) + "\n//\n// Written by `" + e.program + " export` from " + comment (e.file)
@@ -235,12 +236,46 @@ std::string header (const Exported& e)
         text += "#include <" + h + ">\n";
     text += "\n#include <array>\n#include <cstddef>\n#include <cstdint>\n\n/// " + title (e) + "\n///\n"
             + "/// All functions are for one thread, the one that ticks. An object must not be moved, because nodes point to their devices.\nclass "
-            + e.class_name + "\n{\npublic:\n    static constexpr double rate_hz = " + literal (e.wiring.plan.rateHz()) + ";   ///< the rate of the patch\n\n";
+            + e.class_name + " : public tactus::exported::Memory<" + std::to_string (e.memory.prepared) + ">\n{\npublic:\n"
+            + "    static constexpr double rate_hz = " + literal (e.wiring.plan.rateHz()) + ";   ///< the rate of the patch\n"
+            + "    static constexpr double max_rate_hz = rate_hz;\n\n";
     text += inputsAndOutputs (e) + enums (e);
     text += "    " + e.class_name + "() = default;\n    " + e.class_name + " (const " + e.class_name + "&) = delete;\n    " + e.class_name
             + "& operator= (const "
             + e.class_name + "&) = delete;\n\n";
     return text + functions (e) + rolesOf (e) + members (e) + "};\n";
+}
+
+/// Where the patch says that a number comes from, as a comment.
+std::string sourceOf (const Exported& e, const ExportedParameter& p)
+{
+    const auto ui = e.graph.extra.find ("ui");
+    if (ui == e.graph.extra.end() || ! ui->is_object()) return {};
+    const auto sources = ui->find ("sources");
+    if (sources == ui->end() || ! sources->is_object()) return {};
+    const auto source = sources->find (p.name);
+    return source != sources->end() && source->is_string() ? "   // " + comment (source->get<std::string>()) : std::string {};
+}
+
+/// The notes that the author has put beside the nodes of a patch.
+void addNotes (std::string& text, const Json& extra)
+{
+    if (! extra.is_object() || ! extra.contains ("ui") || ! extra.at ("ui").is_object() || ! extra.at ("ui").contains ("notes")) return;
+    const auto& notes = extra.at ("ui").at ("notes");
+    if (! notes.is_array()) return;
+    for (const auto& note : notes)
+        if (note.is_object() && note.contains ("text") && note.at ("text").is_string())
+            text += "// - " + comment (note.at ("text").get<std::string>()) + "\n";
+}
+
+std::string notesOf (const graph::Graph& graph)
+{
+    std::string text;
+    addNotes (text, graph.extra);
+    addNotes (text, graph.root.extra);
+    for (const auto& [name, patch] : graph.graphs)
+        addNotes (text, patch.extra);
+    return text.empty() ? text : "// Notes in the patch:\n" + text;
 }
 
 std::string prepareNode (const Exported& e, const ExportedNode& n, SettingCode& settings)
@@ -249,7 +284,7 @@ std::string prepareNode (const Exported& e, const ExportedNode& n, SettingCode& 
     const auto& flat = wiring.flat (n);
     const auto& type = wiring.type (n);
     const auto& instance = wiring.plan.instances()[n.instance];
-    std::string text = "\n    // " + comment (flat.path) + ": " + std::string (type.info.id) + "\n    renew (" + n.name + ");\n";
+    std::string text = "\n    // " + comment (flat.path) + ": " + std::string (type.info.id) + "\n";
     bool is_first = true;
     for (std::size_t i = n.parameters; i < e.parameters.size() && &wiring.nodes[e.parameters[i].node] == &n; ++i)
     {
@@ -262,7 +297,7 @@ std::string prepareNode (const Exported& e, const ExportedNode& n, SettingCode& 
             text += std::to_string (static_cast<int> (p.value)) + ", " + std::to_string (p.sheet->choices.size()) + ");   // "
                     + std::string (p.sheet->choices[static_cast<std::size_t> (p.value)]) + "\n";
         else
-            text += literal (p.value) + ", " + literal (p.sheet->limits.hard.min) + ", " + literal (p.sheet->limits.hard.max) + ");\n";
+            text += literal (p.value) + ", " + literal (p.sheet->limits.hard.min) + ", " + literal (p.sheet->limits.hard.max) + ");" + sourceOf (e, p) + "\n";
         if (instance.isDriven (p.knob)) text += "    parameters.drive (" + std::to_string (i) + ");\n";
     }
     for (std::size_t i = 0; i < flat.settings.size(); ++i)
@@ -288,9 +323,14 @@ std::string meet (const Exported& e, const ExportedNode& n)
 
 std::string prepare (const Exported& e, SettingCode& settings)
 {
-    std::string text = "void " + e.class_name + "::prepare (double ticks_per_second)\n{\n    using tactus::exported::renew, tactus::exported::start;\n"
+    std::string text = "bool " + e.class_name + "::prepare (double ticks_per_second) noexcept\n{\n    using tactus::exported::start;\n"
+                                                "    if (! (ticks_per_second > 0.0 && ticks_per_second <= max_rate_hz)) return false;\n"
                                                 "    ticks = 0;\n";
-    if (hasState (e)) text += "    renew (state);\n";
+    if (hasState (e)) text += "    tactus::exported::renew (state);\n";
+    std::vector<std::string> names;
+    for (const auto& n : e.wiring.nodes)
+        names.push_back (n.name);
+    text += filled (wrapped ("    ", "renewAll (", names, ");"), { { "renewAll ( ", "renewAll (" }, { " );", ");" } });
     if (! e.parameters.empty()) text += "    parameters.prepare (ticks_per_second);\n";
     if (! e.hits.empty()) text += "    hits.fill ({});\n";
     if (! e.roles.empty()) text += "    lost_s = 0.0;\n";
@@ -307,7 +347,7 @@ std::string prepare (const Exported& e, SettingCode& settings)
         text += "    " + role + ".meet();\n";
     for (const auto& n : e.wiring.nodes)
         text += meet (e, n);
-    return text + "}\n\n";
+    return text + "    return true;\n}\n\n";
 }
 
 std::string setControl (const Exported& e)
@@ -362,16 +402,24 @@ ClassFiles classFiles (const Exported& e)
     const auto prepared = prepare (e, settings);
     files.header = header (e);
     if (settings.usesData())
-        files.data = std::string (license) + "// The constant tables of " + comment (e.file) + ".\n#pragma once\n\n"
-                                                                                               "#include <tactus/run/exported_data.hpp>\n\nnamespace "
-                     + space + "\n{\n\n" + settings.data() + "}   // namespace " + space + "\n";
-    const bool needs_lists = prepared.find ("tactus::exported::listOf") != prepared.npos;
-    files.source = std::string (license) + "#include \"" + e.stem + ".hpp\"\n";
-    if (settings.usesData())
-        files.source += "#include \"" + space + ".hpp\"\n";
-    else if (needs_lists)
-        files.source += "#include <tactus/run/exported_data.hpp>\n";
-    files.source += "\n#include <memory>\n\nusing tactus::exported::sumOf;\n";
+        files.data = filled (R"(// SPDX-License-Identifier: MIT
+// The constant tables of @FILE@.
+#pragma once
+
+#include <tactus/kit/surface.hpp>
+#include <tactus/run/exported_memory.hpp>
+
+#include <array>
+
+namespace @SPACE@
+{
+
+@DATA@}   // namespace @SPACE@
+)",
+                             { { "@FILE@", comment (e.file) }, { "@SPACE@", space }, { "@DATA@", settings.data() } });
+    files.source = std::string (license) + notesOf (e.graph) + "#include \"" + e.stem + ".hpp\"\n";
+    if (settings.usesData()) files.source += "#include \"" + space + ".hpp\"\n";
+    files.source += "\nusing tactus::exported::sumOf;\n";
     files.source += "\n" + prepared + setControl (e) + tick (e, body);
     return files;
 }

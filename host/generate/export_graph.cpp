@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "export_graph.hpp"
+#include "adapted_source.hpp"
+#include "arduino_code.hpp"
+#include "c_api_code.hpp"
 #include "class_code.hpp"
+#include "fmu_code.hpp"
 #include "folder_code.hpp"
 #include "self_test_code.hpp"
 #include "self_test_run.hpp"
@@ -27,7 +31,8 @@ const std::set<std::string>& ownWords()
 {
     static const std::set<std::string> words { "prepare", "tick", "set", "get", "strike", "halt", "resume", "rearm", "loseTime", "emergencyStop", "rate_hz",
                                                "ticks_per_second", "in", "out", "hit", "hits", "state", "ticks", "lost_s", "parameters", "param", "control",
-                                               "position", "turn", "low", "high", "renew", "start", "phase", "part", "tactus", "std", "sumOf", "value" };
+                                               "position", "turn", "low", "high", "renewAll", "memoryUsed", "memory_size", "max_rate_hz",
+                                               "start", "phase", "part", "tactus", "std", "sumOf", "value" };
     return words;
 }
 
@@ -150,23 +155,53 @@ std::vector<ExportedRole> rolesOf (const Run& run)
     return all;
 }
 
-void addFiles (ExportedFolder& folder, const Exported& e, const ClassFiles& code)
+/// The files around the class, for this target. They may change what is there already.
+void addTarget (ExportedFolder& folder, const Exported& e, ExportTarget target)
 {
-    std::set<std::string> used { "tactus/run/exported_graph.hpp" };
-    if (code.source.find ("tactus/run/exported_data.hpp") != code.source.npos || ! code.data.empty()) used.insert ("tactus/run/exported_data.hpp");
+    auto& files = folder.files;
+    if (target == ExportTarget::c_api)
+    {
+        auto c = cFiles (e);
+        files.emplace_back (e.stem + ".h", std::move (c.header));
+        files.emplace_back (e.stem + "_c.cpp", std::move (c.source));
+        files.emplace_back (e.stem + "_example.c", std::move (c.example));
+    }
+    if (target == ExportTarget::fmu)
+    {
+        auto fmu = fmuFiles (e);
+        files.emplace_back ("modelDescription.xml", std::move (fmu.description));
+        files.emplace_back (e.stem + "_fmu.cpp", std::move (fmu.source));
+        files.emplace_back ("fmi2.h", fmiHeader());
+        std::ranges::find (files, "Makefile", &std::pair<std::string, std::string>::first)->second += fmu.make;
+    }
+    if (target != ExportTarget::arduino) return;
+    std::erase_if (files, [] (const auto& file) { return file.first == "Makefile" || file.first == "CMakeLists.txt"; });
+    for (auto& [path, text] : files)
+        if (path.ends_with (".hpp") || path.ends_with (".cpp")) path = "src/" + path;
+    for (auto& file : arduinoFiles (e))
+        files.push_back (std::move (file));
+}
+
+void addFiles (ExportedFolder& folder, const Exported& e, const ClassFiles& code, ExportTarget target)
+{
+    std::set<std::string> used { "tactus/run/exported_graph.hpp", "tactus/run/exported_memory.hpp" };
+    if (! code.data.empty()) used.insert ("tactus/kit/surface.hpp");
     for (const auto& node : e.wiring.nodes)
         used.insert (node.header);
     const auto sources = withIncludes (used);
+    auto compiled = sources;
+    if (target == ExportTarget::c_api) compiled.insert (e.stem + "_c.cpp");
     auto& files = folder.files;
     files = { { e.stem + ".hpp", code.header },
               { e.stem + ".cpp", code.source },
-              { "CMakeLists.txt", cmakeFile (e, sources) },
-              { "Makefile", makeFile (e, sources) },
-              { "README.md", readmeFile (e, limitsOf (e.wiring.plan)) },
+              { "CMakeLists.txt", cmakeFile (e, compiled) },
+              { "Makefile", makeFile (e, compiled) },
+              { "README.md", readmeFile (e, target, limitsOf (e.wiring.plan)) },
               { "LICENSE", std::string (findSource ("LICENSES/MIT.txt")->text) } };
     if (! code.data.empty()) files.emplace_back (e.stem + "_data.hpp", code.data);
     for (const auto& path : sources)
-        files.emplace_back (path, findSource (path)->text);
+        files.emplace_back (path, adapted (*findSource (path)));
+    addTarget (folder, e, target);
 }
 
 constexpr const char* manifest = "tactus_export.txt";
@@ -179,6 +214,8 @@ ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& opti
     folder.messages = tried.load (graph);
     if (hasErrors (folder.messages)) return folder;
     refusePlugins (tried.engine().plan(), folder.messages);
+    if (options.target == ExportTarget::arduino && tried.engine().plan().roles().empty())
+        folder.messages.push_back (Message::error ("export/role", "", "an Arduino library drives a device, but the graph has none", "write --to cpp"));
     tried.openDevices (graph, folder.messages);
     if (hasErrors (folder.messages)) return folder;
 
@@ -206,11 +243,13 @@ ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& opti
         e.hits.push_back (hits.make (name));
 
     e.roles = rolesOf (run);
+    e.memory = memoryOf (wiring);
     const auto code = classFiles (e);   // before the run, because it moves the values
-    addFiles (folder, e, code);
+    addFiles (folder, e, code, options.target);
     auto self_test = selfTestFiles (e, selfTestOf (run, e));
-    folder.files.emplace_back (e.stem + "_self_test.cpp", std::move (self_test.source));
-    folder.files.emplace_back (e.stem + "_self_test_data.hpp", std::move (self_test.data));
+    const std::string place = options.target == ExportTarget::arduino ? "extras/" : "";
+    folder.files.emplace_back (place + e.stem + "_self_test.cpp", std::move (self_test.source));
+    folder.files.emplace_back (place + e.stem + "_self_test_data.hpp", std::move (self_test.data));
     folder.stem = e.stem;
     folder.class_name = e.class_name;
     return folder;

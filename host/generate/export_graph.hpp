@@ -12,12 +12,22 @@
 namespace tactus::host
 {
 
+/// What to write: the class alone, or with something around it.
+enum class ExportTarget
+{
+    cpp,
+    c_api,
+    arduino,
+    fmu
+};
+
 struct ExportOptions
 {
     std::string file;         ///< name of the graph file, for comments; its stem names the class
     std::string program;      ///< "tactus 0.2.0"
     CompileOptions compile;   ///< feeds become inputs, and records outputs
-    Run::OpenDevice open;     ///< the devices of the self-test; empty: those that the graph describes, simulated
+    ExportTarget target = ExportTarget::cpp;
+    Run::OpenDevice open;   ///< the devices of the self-test; empty: those that the graph describes, simulated
 };
 
 /// A folder of C++ files that is not written yet.
@@ -29,7 +39,7 @@ struct ExportedFolder
 };
 
 /// Turns a graph into C++ code that computes the same bits, with a self-test. Ids of its own: export/plugin (a node whose code is not part
-/// of the program). [main thread]
+/// of the program), export/role (an Arduino library needs a device). [main thread]
 ExportedFolder exportGraph (const graph::Graph&, const ExportOptions&);
 
 /// Writes the files into a folder that is new or empty, or holds an earlier export, whose files are replaced. Errors: output/exists,

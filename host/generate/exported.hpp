@@ -3,6 +3,7 @@
 
 /// What the parts of the generator share: the graph to export, read from a plan and a run.
 
+#include "node_memory.hpp"
 #include "wiring.hpp"
 
 #include <tactus/graph/graph.hpp>
@@ -60,6 +61,7 @@ struct Exported
     std::vector<ExportedControl> controls;
     std::vector<std::string> hits;   ///< enumerators
     std::vector<ExportedRole> roles;
+    NodeMemory memory {};
 };
 
 }   // namespace tactus::host

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "export_graph.hpp"
 #include "exported.hpp"
 
 #include <set>
@@ -12,6 +13,6 @@ namespace tactus::host
 /// The build files and the page of an exported folder. `sources` are the paths of the copied files.
 std::string cmakeFile (const Exported&, const std::set<std::string>& sources);
 std::string makeFile (const Exported&, const std::set<std::string>& sources);
-std::string readmeFile (const Exported&, const std::vector<std::string>& limits);
+std::string readmeFile (const Exported&, ExportTarget, const std::vector<std::string>& limits);
 
 }   // namespace tactus::host

@@ -19,12 +19,11 @@ constexpr const char* program = R"(// SPDX-License-Identifier: MIT
 #include <new>
 
 #ifndef TACTUS_SELF_TEST_IS_INCLUDED
-static std::size_t allocations = 0, allocated = 0;
+static std::size_t allocations = 0;
 
 void* operator new (std::size_t size)
 {
     ++allocations;
-    allocated += size;
     if (void* memory = std::malloc (size > 0 ? size : 1)) return memory;
     std::abort();
 }
@@ -90,6 +89,18 @@ inline Count run (@CLASS@& graph)
     return count;
 }
 
+/// Only ticks.
+inline void repeat (@CLASS@& graph)
+{
+    @CLASS@::Inputs in;
+    @CLASS@::Outputs out;
+    for (std::size_t k = 0; k < @TICKS@; ++k)
+    {
+        read (in, k);
+        graph.tick (in, out);
+    }
+}
+
 inline int test()
 {
     static @CLASS@ graph;
@@ -104,17 +115,23 @@ inline int test()
 }   // namespace @STEM@_self_test
 
 #ifndef TACTUS_SELF_TEST_IS_INCLUDED
-int main()
+/// With a number as argument, only runs the recorded inputs that often: `make instructions` counts what that takes.
+int main (int count, char** arguments)
 {
     static @CLASS@ graph;
-    const auto before = allocated;
     graph.prepare();
-    const auto prepared = allocated - before, count = allocations;
+    if (count > 1)
+    {
+        for (int n = std::atoi (arguments[1]); n > 0; --n)
+            @STEM@_self_test::repeat (graph);
+        return 0;
+    }
     const auto result = @STEM@_self_test::run (graph);
-    const auto in_ticks = allocations - count;
-    std::printf ("@STEM@: %lu bytes, and %lu bytes allocated by prepare(); %lu allocations in %lu ticks\n", static_cast<unsigned long> (sizeof (@CLASS@)),
-                 static_cast<unsigned long> (prepared), static_cast<unsigned long> (in_ticks), @TICKS@ul);
-    return @STEM@_self_test::test() == 0 && result.different == 0 && in_ticks == 0 ? 0 : 1;
+    const auto same = @STEM@_self_test::test();
+    std::printf ("@STEM@: %lu bytes, of which prepare() uses %lu of %lu for tables; %lu allocations from the heap\n",
+                 static_cast<unsigned long> (sizeof (@CLASS@)), static_cast<unsigned long> (graph.memoryUsed()),
+                 static_cast<unsigned long> (graph.memory_size), static_cast<unsigned long> (allocations));
+    return same == 0 && result.different == 0 && allocations == 0 ? 0 : 1;
 }
 #endif
 )";

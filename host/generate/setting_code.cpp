@@ -12,6 +12,9 @@ using SettingKind = SettingSheet::Kind;
 
 std::string braced (const std::vector<std::string>& parts) { return parts.empty() ? "{}" : "{ " + listed (parts) + " }"; }
 
+const std::string groups = "tactus::exported::groupsOver";
+constexpr const char* vector_of_numbers = "tactus::exported::Vector<double>";
+
 std::string kindOf (const Law& law)
 {
     constexpr const char* names[] { "none", "power", "exponential", "table", "dissipation" };
@@ -37,9 +40,9 @@ std::string SettingCode::of (const SettingSheet& sheet, const SettingValue& valu
     case SettingKind::numbers:
         return numbers (std::get<std::vector<double>> (value), name);
     case SettingKind::curve:
-        return curve (std::get<Curve> (value), name);
+        return "tactus::Curve " + curve (std::get<Curve> (value), name);
     case SettingKind::law:
-        return law (std::get<Law> (value), name);
+        return "tactus::Law " + law (std::get<Law> (value), name);
     case SettingKind::record:
         return record (sheet, std::get<Values> (value), name);
     case SettingKind::records:
@@ -47,62 +50,63 @@ std::string SettingCode::of (const SettingSheet& sheet, const SettingValue& valu
     case SettingKind::signal:
         return signal (std::get<std::shared_ptr<const Signal>> (value).get(), name);
     case SettingKind::image:
-        return "{ " + grid (std::get<Image> (value).grid.get(), name) + " }";
+        return "tactus::Image { " + grid (std::get<Image> (value).grid.get(), name) + " }";
     case SettingKind::table:
-        return "{ " + grid (std::get<Sheet> (value).grid.get(), name) + " }";
+        return "tactus::Sheet { " + grid (std::get<Sheet> (value).grid.get(), name) + " }";
     case SettingKind::surface:
         return surface (std::get<std::shared_ptr<const Surface>> (value).get(), name);
     }
     return {};
 }
 
-/// Defines a constant array and returns its name. The lines hold as many values as fit.
-std::string SettingCode::array (const std::string& type, const std::string& name, const std::vector<std::string>& values)
+/// Defines a constant and returns its name.
+std::string SettingCode::constant (const std::string& type, const std::string& name, const std::string& value)
+{
+    const auto own = names.make (name);
+    definitions += "inline " + type + " " + own + " " + value + ";\n\n";
+    return space + "::" + own;
+}
+
+/// Defines a constant array and returns an expression for a vector over it. The lines hold as many values as fit.
+std::string SettingCode::array (const std::string& type, const std::string& name, const std::vector<std::string>& values, const std::string& view)
 {
     constexpr std::size_t most_columns = 120;
+    if (values.empty()) return "{}";
     const auto own = names.make (name);
-    arrays += "inline constexpr " + type + " " + own + "[] {";
+    definitions += "inline constexpr " + type + " " + own + "[] {";
     std::string line;
     for (const auto& value : values)
     {
         if (! line.empty() && line.size() + value.size() > most_columns)
         {
-            arrays += "\n   " + line;
+            definitions += "\n   " + line;
             line.clear();
         }
         line += " " + value + ",";
     }
-    arrays += "\n   " + line + "\n};\n\n";
-    return space + "::" + own;
+    definitions += "\n   " + line + "\n};\n\n";
+    return view + " (" + space + "::" + own + ")";
 }
 
-std::string SettingCode::numberArray (std::span<const double> numbers, const std::string& name)
+std::string SettingCode::numbers (std::span<const double> all, const std::string& name, const std::string& view)
 {
-    std::vector<std::string> all;
-    for (const double v : numbers)
-        all.push_back (literal (v));
-    return array ("double", name, all);
-}
-
-std::string SettingCode::numbers (std::span<const double> all, const std::string& name)
-{
-    constexpr std::size_t most_in_place = 12;
-    if (all.size() > most_in_place) return "tactus::exported::listOf (" + numberArray (all, name) + ")";
-    std::vector<std::string> parts;
+    std::vector<std::string> texts;
     for (const double v : all)
-        parts.push_back (literal (v));
-    return braced (parts);
+        texts.push_back (literal (v));
+    return array ("double", name, texts, view);
 }
 
 std::string SettingCode::curve (const Curve& c, const std::string& name)
 {
-    if (c.empty()) return "tactus::Curve {}";
-    return "tactus::Curve { .x = " + numbers (c.x, name + "_x") + ", .y = " + numbers (c.y, name + "_y") + " }";
+    if (c.empty()) return "{}";
+    return "{ " + numbers (c.x, name + "_x") + ", " + numbers (c.y, name + "_y") + " }";
 }
 
 std::string SettingCode::law (const Law& l, const std::string& name)
 {
-    return "tactus::Law { .kind = " + kindOf (l) + ", .a = " + literal (l.a) + ", .b = " + literal (l.b) + ", .table = " + curve (l.table, name) + " }";
+    std::vector<std::string> parts { kindOf (l), literal (l.a), literal (l.b) };
+    if (! l.table.empty()) parts.push_back (curve (l.table, name));
+    return braced (parts);
 }
 
 std::string SettingCode::record (const SettingSheet& sheet, const Values& values, const std::string& name)
@@ -127,24 +131,17 @@ std::string SettingCode::signal (const Signal* s, const std::string& name)
     if (s == nullptr) return "nullptr";
     std::vector<std::string> channels;
     for (const auto& channel : s->channels)
-        channels.push_back ("tactus::exported::listOf (" + numberArray (channel, name) + ")");
-    return "std::make_shared<const tactus::Signal> (tactus::Signal { .rate_hz = " + literal (s->rate_hz) + ", .channels = " + braced (channels) + " })";
+        channels.push_back (numbers (channel, name));
+    return pointer ("constexpr tactus::Signal", name,
+                    "{ .rate_hz = " + literal (s->rate_hz) + ", .channels = " + array (vector_of_numbers, name + "_channels", channels) + " }");
 }
 
 std::string SettingCode::grid (const Grid* g, const std::string& name)
 {
     if (g == nullptr) return "nullptr";
-    return "std::make_shared<const tactus::Grid> (tactus::Grid { .rows = " + std::to_string (g->rows) + ", .columns = " + std::to_string (g->columns)
-           + ", .values = " + (g->values.empty() ? "{}" : "tactus::exported::listOf (" + numberArray (g->values, name) + ")") + " })";
-}
-
-std::string SettingCode::lawData (const Law& l, const std::string& name)
-{
-    std::vector<std::string> parts { kindOf (l), literal (l.a), literal (l.b) };
-    if (! l.table.empty())
-        for (const auto& [numbers, suffix] : { std::pair { &l.table.x, "_x" }, { &l.table.y, "_y" } })
-            parts.push_back (numberArray (*numbers, name + suffix));
-    return braced (parts);
+    return pointer ("constexpr tactus::Grid", name + "_grid",
+                    "{ .rows = " + std::to_string (g->rows) + ", .columns = " + std::to_string (g->columns)
+                        + ", .values = " + numbers (g->values, name) + " }");
 }
 
 std::string SettingCode::curves (const Surface& s, const std::string& name)
@@ -152,54 +149,63 @@ std::string SettingCode::curves (const Surface& s, const std::string& name)
     std::vector<std::string> shapes;
     for (const auto& shape : s.curves)
     {
-        std::vector<std::string> laws;
+        std::vector<std::string> nodes;
         for (const auto& axes : shape)
+        {
+            std::vector<std::string> laws;
             for (const auto& axis : axes)
-                laws.push_back (lawData (axis, name + "_curve"));
-        shapes.push_back (laws.empty() ? "{}" : "tactus::exported::curvesOf (" + array ("tactus::exported::LawData", name + "_curves", laws) + ")");
+                laws.push_back (law (axis, name + "_curve"));
+            nodes.push_back ("{ " + braced (laws) + " }");
+        }
+        shapes.push_back (array ("tactus::Surface::Curves", name + "_curves", nodes));
     }
-    return braced (shapes);
+    return array ("tactus::exported::Vector<tactus::Surface::Curves>", name + "_shapes", shapes);
 }
 
 std::string SettingCode::ratios (const Surface& s, const std::string& name)
 {
-    if (s.mu.empty()) return "{}";
     std::vector<std::string> all;
     for (const auto& mu : s.mu)
+        all.push_back (braced ({ literal (mu.number), law (mu.law, name + "_mu_law"), curve (mu.curve, name + "_mu") }));
+    return array ("tactus::Ratio", name + "_mu", all);
+}
+
+std::string SettingCode::weights (const Surface& s, const std::string& name)
+{
+    std::vector<std::string> tools;
+    for (const auto& tool : s.weights)
     {
-        std::vector<std::string> parts { literal (mu.number), lawData (mu.law, name + "_mu_law") };
-        if (! mu.curve.empty())
-            for (const auto& [numbers, suffix] : { std::pair { &mu.curve.x, "_mu_x" }, { &mu.curve.y, "_mu_y" } })
-                parts.push_back (numberArray (*numbers, name + suffix));
-        all.push_back (braced (parts));
+        std::vector<std::string> nodes;
+        for (const auto& shares : tool)
+            nodes.push_back (numbers (shares, name + "_shares"));
+        tools.push_back (array (vector_of_numbers, name + "_weights", nodes));
     }
-    return "tactus::exported::ratiosOf (" + array ("tactus::exported::RatioData", name + "_mu", all) + ")";
+    return array ("tactus::exported::Vector<" + std::string (vector_of_numbers) + ">", name + "_tools", tools);
+}
+
+std::string SettingCode::mesh (const Mesh& m, const std::string& name)
+{
+    std::vector<double> points;
+    std::vector<std::string> triangles;
+    for (const auto& p : m.points)
+        points.insert (points.end(), p.begin(), p.end());
+    for (const auto& t : m.triangles)
+        triangles.push_back ("{ " + std::to_string (t[0]) + ", " + std::to_string (t[1]) + ", " + std::to_string (t[2]) + " }");
+    return pointer ("const tactus::Mesh", name + "_mesh",
+                    "{ .points = " + numbers (points, name + "_points", groups + "<tactus::Vec3>")
+                        + ",\n    .triangles = " + array ("std::array<int, 3>", name + "_triangles", triangles) + " }");
 }
 
 std::string SettingCode::surface (const Surface* s, const std::string& name)
 {
     if (s == nullptr) return "nullptr";
-    std::vector<double> points, frames;
-    std::vector<std::string> triangles, weights;
-    for (const auto& p : s->mesh->points)
-        points.insert (points.end(), p.begin(), p.end());
-    for (const auto& t : s->mesh->triangles)
-        for (const int corner : t)
-            triangles.push_back (std::to_string (corner));
+    std::vector<double> frames;   // column after column, as Eigen stores them
     for (const auto& frame : s->frames)
-        for (int k = 0; k < 9; ++k)
-            frames.push_back (frame (k / 3, k % 3));
-    for (const auto& tool : s->weights)
-    {
-        std::vector<std::string> nodes;
-        for (const auto& shares : tool)
-            nodes.push_back (numbers (shares, name + "_weights"));
-        weights.push_back (braced (nodes));
-    }
-    const auto mesh = "tactus::exported::meshOf (" + numberArray (points, name + "_points") + ", " + array ("int", name + "_triangles", triangles) + ")";
-    return "std::make_shared<const tactus::Surface> (tactus::Surface {\n        .mesh = " + mesh
-           + ",\n        .frames = " + (frames.empty() ? "{}" : "tactus::exported::framesOf (" + numberArray (frames, name + "_frames") + ")")
-           + ",\n        .curves = " + curves (*s, name) + ",\n        .mu = " + ratios (*s, name) + ",\n        .weights = " + braced (weights) + " })";
+        frames.insert (frames.end(), frame.data(), frame.data() + frame.size());
+    const auto shape = mesh (*s->mesh, name);
+    return pointer ("const tactus::Surface", name + "_surface",
+                    "{\n    .mesh = " + shape + ",\n    .frames = " + numbers (frames, name + "_frames", groups + "<Eigen::Matrix3d>")
+                        + ",\n    .curves = " + curves (*s, name) + ",\n    .mu = " + ratios (*s, name) + ",\n    .weights = " + weights (*s, name) + " }");
 }
 
 }   // namespace tactus::host

@@ -27,12 +27,13 @@ void TickCode::records (std::span<const Record> all, const std::string& indent, 
 
 void TickCode::record (const Record& r, const std::string& indent, const std::string& ticks)
 {
-    if (r.step == &plan::Sum::step)
-    {
-        const auto& sum = *static_cast<plan::Sum*> (r.self);
+    bool is_sum = false;
+    plan::eachSum (r, [&] (const plan::Sum& sum) {
+        is_sum = true;
         if (wiring.isRead (&sum.out)) line (indent, wiring.target (&sum.out) + " = " + sumOf (sum) + ";");
-    }
-    else if (r.step == &plan::Strike::step)
+    });
+    if (is_sum) return;
+    if (r.step == &plan::Strike::step)
     {
         const auto& strike = *static_cast<plan::Strike*> (r.self);
         const auto target = wiring.isRead (&strike.out) ? wiring.target (&strike.out) + " = " : std::string {};

@@ -190,7 +190,7 @@ void Wiring::nameRecords (std::span<const Record> records, bool is_inner)
     {
         const auto* self = r.step == &plan::DrivenNode::step ? static_cast<plan::DrivenNode*> (r.self)->node : r.self;
         if (auto* node = nodeOf (self)) node->is_inner = is_inner;
-        if (r.step == &plan::Sum::step) nameValue (&static_cast<plan::Sum*> (r.self)->out, "sum", is_inner);
+        plan::eachSum (r, [&] (const plan::Sum& sum) { nameValue (&sum.out, "sum", is_inner); });
         if (r.step == &plan::Strike::step) nameValue (&static_cast<plan::Strike*> (r.self)->out, "hit", is_inner);
         if (r.step == &plan::Bypass::step) nameBypass (*static_cast<plan::Bypass*> (r.self), is_inner);
         if (r.step == &plan::DelayLine::read)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "kinematics.hpp"
 
+#include <tactus/kit/math/math.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -61,9 +63,9 @@ Pose poseOf (const LinearMap& map, const Vec3& q) noexcept
 
 Pose poseOf (const SerialArm& arm, const Vec3& q) noexcept
 {
-    const double sa = std::sin (q[0]), ca = std::cos (q[0]);
-    const double sb = std::sin (q[1]), cb = std::cos (q[1]);
-    const double sc = std::sin (q[2]), cc = std::cos (q[2]);
+    const auto [sa, ca] = math::sinCos (q[0]);
+    const auto [sb, cb] = math::sinCos (q[1]);
+    const auto [sc, cc] = math::sinCos (q[2]);
     const double la = arm.links[0], lb = arm.links[1], lc = arm.links[2];
     const double reach = lb * sb + lc * sc;
 
@@ -83,7 +85,9 @@ Pose poseOf (const SerialArm& arm, const Vec3& q) noexcept
 Pose poseOf (const FiveBar& bar, const Vec3& q) noexcept
 {
     using Vec2 = Eigen::Vector2d;
-    const Vec2 right_way { std::cos (q[0]), std::sin (q[0]) }, left_way { std::cos (q[1]), std::sin (q[1]) };
+    const auto [right_sine, right_cosine] = math::sinCos (q[0]);
+    const auto [left_sine, left_cosine] = math::sinCos (q[1]);
+    const Vec2 right_way { right_cosine, right_sine }, left_way { left_cosine, left_sine };
     const Vec2 right = bar.links[0] * right_way;
     const Vec2 left = Vec2 { -bar.base, 0.0 } + bar.links[3] * left_way;
 

@@ -19,8 +19,9 @@ const OutputField* fieldOf (const Profile& profile, const std::string& name)
 }   // namespace
 
 MotorLimiter::MotorLimiter (const Profile& profile, const std::vector<std::string>& names, const std::vector<std::string>& units, const EffortValues& rest)
-    : at_rest (rest), last (rest)
+    : at_rest (rest), last (rest), last_asked (rest)
 {
+    Group force { {}, profile.limits.guard.max_slew }, torque { {}, profile.limits.guard.max_torque_slew };
     for (std::size_t i = 0; i < names.size(); ++i)
     {
         const auto isI = [&] (const std::string& name) { return name == names[i]; };
@@ -39,7 +40,15 @@ MotorLimiter::MotorLimiter (const Profile& profile, const std::vector<std::strin
             motor.slew = profile.limits.max_motor_slew;
         }
         motors.push_back (motor);
+        if (renders_torque)
+            torque.efforts.push_back (i);
+        else if (! renders_force)
+            groups.push_back ({ { i }, profile.limits.guard.max_axis_slew });
+        else if (std::holds_alternative<Direct> (profile.kinematics))
+            force.efforts.push_back (i);
     }
+    groups.push_back (std::move (force));
+    groups.push_back (std::move (torque));
 }
 
 /// A motor that cannot pull, for example on a string, does not reduce the others' force: its own field is clamped later.
@@ -57,20 +66,39 @@ double MotorLimiter::shrink (EffortValues& values) const noexcept
     return share;
 }
 
-MotorLimiter::Shares MotorLimiter::operator() (EffortValues& values) noexcept
+/// The factor s.
+double MotorLimiter::stepShare (const EffortValues& values, const EffortValues& asked) const noexcept
 {
-    const double size = shrink (values);
     double share = 1.0;
     for (const auto& [effort, least, most, slew] : motors)
     {
         const double step = std::abs (values[effort] - last[effort]);
         if (step > slew * dt && std::isfinite (step)) share = std::min (share, slew * dt / step);
     }
+    for (const auto& [efforts, slew] : groups)
+    {
+        double step = 0.0, own = 0.0;   // squared: of what would be sent, and of what the guard asked for
+        for (const auto i : efforts)
+        {
+            step += (values[i] - last[i]) * (values[i] - last[i]);
+            own += (asked[i] - last_asked[i]) * (asked[i] - last_asked[i]);
+        }
+        const double most = std::max (slew * dt * slew * dt, own);
+        if (step > most && std::isfinite (step)) share = std::min (share, std::sqrt (most / step));
+    }
+    return share;
+}
+
+MotorLimiter::Shares MotorLimiter::operator() (EffortValues& values) noexcept
+{
+    const auto asked = values;
+    const double size = shrink (values), share = stepShare (values, asked);
     for (const auto& motor : motors)
     {
         double& value = values[motor.effort];
         if (share < 1.0) value = last[motor.effort] + share * (value - last[motor.effort]);
         last[motor.effort] = std::isfinite (value) ? value : at_rest[motor.effort];
+        last_asked[motor.effort] = std::isfinite (asked[motor.effort]) ? asked[motor.effort] : at_rest[motor.effort];
     }
     return { size, share };
 }

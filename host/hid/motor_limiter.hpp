@@ -19,6 +19,10 @@ using EffortValues = std::array<double, most_efforts>;
 ///     size    v = k u          so that each motor stays within its field's min and max, and within max_motor
 ///     slew    w' = w + s (v - w)   so that no motor changes by more than max_motor_slew T in a tick
 ///
+/// k changes from tick to tick, so it could change a torque, an axis, or the force of a Direct device faster than the guard allows. So
+/// s also keeps these within max_torque_slew, max_axis_slew and max_slew, except where the guard itself goes faster, as it does at
+/// the end of a stop after lost time.
+///
 /// Other values, such as the frequency of a rumble motor, pass through unchanged. max_motor and max_motor_slew hold for the
 /// motors that render the force.
 class MotorLimiter
@@ -41,7 +45,7 @@ public:
     Shares operator() (EffortValues&) noexcept;
 
     /// The neutral reports are sent instead of efforts. [tick thread]
-    void forget() noexcept { last = at_rest; }
+    void forget() noexcept { last = last_asked = at_rest; }
 
 private:
     struct Motor
@@ -51,9 +55,19 @@ private:
         double slew = GuardLimits::none;                               // per s
     };
 
+    /// Efforts that are limited as one vector.
+    struct Group
+    {
+        std::vector<std::size_t> efforts;   // indices
+        double slew = GuardLimits::none;    // per s
+    };
+
+    double stepShare (const EffortValues& values, const EffortValues& asked) const noexcept;
+
     std::vector<Motor> motors;
-    EffortValues at_rest, last;
-    double dt = 1e-3;   // in s
+    std::vector<Group> groups;
+    EffortValues at_rest, last, last_asked;   // last: what was sent; last_asked: before both limits
+    double dt = 1e-3;                         // in s
 };
 
 }   // namespace tactus::host::hid

@@ -2,6 +2,7 @@
 #include "pid_device.hpp"
 #include "bits.hpp"
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/text/message.hpp>
 
 #include <algorithm>
@@ -118,7 +119,7 @@ public:
         const double counts = scaled ? static_cast<double> (f.logical_max - f.logical_min) / static_cast<double> (f.physical_max - f.physical_min) : 1.0;
         return put (what, f.logical_min
                               + static_cast<std::int64_t> (
-                                  (seconds / std::pow (10.0, exponent) - (scaled ? static_cast<double> (f.physical_min) : 0.0)) * counts + 0.5));
+                                  (seconds / math::pow (10.0, exponent) - (scaled ? static_cast<double> (f.physical_min) : 0.0)) * counts + 0.5));
     }
 
     /// Writes the first number of a collection, as a fraction of its range.

@@ -4,6 +4,8 @@
 #include "crc32.hpp"
 #include "report_decoder.hpp"
 
+#include <tactus/kit/math/math.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -28,7 +30,7 @@ double lawOf (const Encoding& e, double value) noexcept
     {
     case Encoding::Law::log2:
         if (value <= 0.0) return -std::numeric_limits<double>::infinity();
-        return std::floor (e.steps * std::log2 (value / e.reference) + 0.5);
+        return std::floor (e.steps * math::log2 (value / e.reference) + 0.5);
     case Encoding::Law::table:
         return interpolated (e.x, e.y, value);
     default:
@@ -43,7 +45,7 @@ double valueOf (const Encoding& e, double number) noexcept
     switch (e.law)
     {
     case Encoding::Law::log2:
-        return e.reference * std::exp2 (law / e.steps);
+        return e.reference * math::exp2 (law / e.steps);
     case Encoding::Law::table:
         return e.y.front() <= e.y.back() ? interpolated (e.y, e.x, law) : e.x.front();
     default:

@@ -144,6 +144,9 @@ Result<> LiveCompiler::run (const std::vector<std::string>& command)
 std::vector<std::string> LiveCompiler::commonFlags (const LiveSource& s) const
 {
     std::vector<std::string> flags { compilerOf (s), "-O3", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math" };
+#if defined(__x86_64__) || defined(__i386__)
+    flags.insert (flags.end(), { "-mno-fma", "-mno-fma4", "-mno-avx512f" });   // as in CMakeLists.txt
+#endif
     if (! s.isC()) flags.insert (flags.end(), { "-std=c++20", "-fvisibility-inlines-hidden" });
 #if defined(__linux__)
     // Unique symbols would keep the plugin loaded forever. For the other flag, see tactus_add_plugin.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
@@ -141,7 +142,7 @@ private:
     {
         if (is_exact || ! (step > rounding)) return;
         while (step > rounding)
-            common = std::exchange (step, common > 0.0 ? std::abs (std::remainder (common, step)) : 0.0);
+            common = std::exchange (step, common > 0.0 ? std::abs (math::remainder (common, step)) : 0.0);
         is_exact = ! (common > finest);
     }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace tactus::nodes
@@ -132,7 +132,8 @@ inline Scissors::Outputs Scissors::tick (const Inputs& in) noexcept
         now.params = params;
         if (! now.cut) now.front = params.pivot_distance;
     }
-    now.t = between ? std::tan (0.5 * in.angle) : -1.0;
+    const auto half = math::sinCos (0.5 * in.angle);   // costs less than the tangent, whose last digit does not matter here
+    now.t = between ? half.sine / half.cosine : -1.0;
     now.touching = between && now.squeeze() > 0.0;
 
     const bool cuts = now.touching && grow (now, plate.t);

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <tactus/kit/free_impact.hpp>
+#include <tactus/kit/math/math.hpp>
 #include <tactus/kit/past_window.hpp>
 #include <tactus/node/node.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 #include <string>
 
 namespace tactus::nodes
@@ -222,7 +222,7 @@ inline double Plane::returned (double rate_hz, double phase) const
 {
     constexpr int longest = 1000;   // in samples
     const double T = 1.0 / rate_hz, decay = tool.damping * T / tool.mass;
-    const double kept = std::exp (-decay), per_force = decay > 0.0 ? -std::expm1 (-decay) / tool.damping : T / tool.mass;
+    const double kept = math::exp (-decay), per_force = decay > 0.0 ? -math::expm1 (-decay) / tool.damping : T / tool.mass;
     const double per_speed = decay > 0.0 ? per_force * tool.mass : T, rise = decay > 0.0 ? (T - per_speed) / tool.damping : 0.5 * T * T / tool.mass;
 
     double d = phase * hard_hit * T, v = hard_hit;
@@ -264,14 +264,13 @@ inline std::string Plane::warning (const Setup& setup) const
     double needed = setup.rate_hz;
     while (needed <= highest && needed * rebound.duration < many && ! (std::abs (farthest (needed) - right) <= tolerance))
         needed *= 1.1;
-    const double digit = std::pow (10.0, std::floor (std::log10 (needed)) - 1.0);
+    const double digit = math::pow (10.0, std::floor (math::log10 (needed)) - 1.0);
 
-    std::ostringstream text;
-    text << std::setprecision (2) << "a tool of " << tool.mass << " kg that hits at " << hard_hit << " m/s comes back at " << wrong
-         << " times its speed instead of " << right << " times, because the contact lasts only " << rebound.duration * setup.rate_hz << " samples; ";
-    if (needed <= highest) text << "raise the rate to " << std::setprecision (7) << std::ceil (needed / digit) * digit << " Hz, ";
-    text << "use a softer law, or play the contact with shock.hunt_crossley";
-    return text.str();
+    auto text = "a tool of " + roundedText (tool.mass, 2) + " kg that hits at " + roundedText (hard_hit, 2) + " m/s comes back at " + roundedText (wrong, 2)
+                + " times its speed instead of " + roundedText (right, 2) + " times, because the contact lasts only "
+                + roundedText (rebound.duration * setup.rate_hz, 2) + " samples; ";
+    if (needed <= highest) text += "raise the rate to " + roundedText (std::ceil (needed / digit) * digit, 7) + " Hz, ";
+    return text + "use a softer law, or play the contact with shock.hunt_crossley";
 }
 
 }   // namespace tactus::nodes

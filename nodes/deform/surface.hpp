@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tactus/kit/async_query.hpp>
+#include <tactus/kit/math/math.hpp>
 #include <tactus/kit/patch_search.hpp>
 #include <tactus/kit/placed_surface.hpp>
 #include <tactus/kit/surface_check.hpp>
@@ -9,7 +10,6 @@
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -360,7 +360,7 @@ private:
         const Spot there = body->walk().nearestFacing (entered, in.position, in.position - last.position);
         body->choose (in.tool, there, tool);
         const Felt now = body->feel (there, in.position, tool);
-        const bool through = ! (felt.d.z() > 0.0), beside = std::hypot (now.d.x(), now.d.y()) > now.d.z();
+        const bool through = ! (felt.d.z() > 0.0), beside = math::hypot (now.d.x(), now.d.y()) > now.d.z();
         if (through && beside) return;
         spot = there;
         felt = now;

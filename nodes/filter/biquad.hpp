@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tactus/kit/biquad.hpp>
+#include <tactus/kit/math/math.hpp>
 #include <tactus/node/generic.hpp>
 
 #include <cmath>
@@ -74,10 +75,10 @@ struct BiquadFilter
     void update() noexcept
     {
         const double w = 2.0 * std::numbers::pi * usableCutoff (params.cutoff, rate) / rate;
-        const double c = std::cos (w);
-        const double rest = 2.0 * std::sin (0.5 * w) * std::sin (0.5 * w);   // 1 - cos w, without cancellation
-        const double alpha = std::sin (w) / (2.0 * params.q);
-        const double a = std::pow (10.0, params.gain_db / 40.0);
+        const double c = math::cos (w);
+        const double rest = 2.0 * math::sin (0.5 * w) * math::sin (0.5 * w);   // 1 - cos w, without cancellation
+        const double alpha = math::sin (w) / (2.0 * params.q);
+        const double a = math::pow (10.0, params.gain_db / 40.0);
         const double s = 2.0 * std::sqrt (a) * alpha;
 
         switch (params.kind)

@@ -3,11 +3,11 @@
 
 #include <tactus/kit/bouncing_mass.hpp>
 #include <tactus/kit/held_step.hpp>
+#include <tactus/kit/math/math.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace tactus::nodes
 {
@@ -125,6 +125,7 @@ struct DeadbeatHold
     void prepare (const Setup& setup) noexcept
     {
         dt = setup.dt_s();
+        learns = -math::expm1 (-dt / smoothing);
         past = {};
     }
 
@@ -203,7 +204,7 @@ private:
             double expected = now.e[0], v = speed (now.e[1], now.e[0], before + now.push);
             step (expected, v, held + now.push);
             const double per_push = step.x_per_f + step.x_per_v * step.v_per_f - (1.0 + step.v_loss) * step.x_per_f;   // depth per N
-            now.push += (e - expected) / per_push * -std::expm1 (-dt / smoothing);
+            now.push += (e - expected) / per_push * learns;
         }
         return now.known > 0 ? speed (now.e[0], e, held + now.push) : 0.0;
     }
@@ -238,6 +239,7 @@ private:
 
     Vec3 n = Vec3::UnitZ();
     double dt = 1.0 / Setup {}.rate_hz;   // s
+    double learns = 0.0;                  // the share of an error that the estimate takes up in a sample; set by prepare
     double device_mass = 0.0, device_damping = 0.0;
     Past past;
 };

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/node/generic.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace tactus::nodes
@@ -99,10 +101,10 @@ struct LayerMix
     {
         const double dt = setup.dt_s();
         ramp = dt / 10e-3;
-        attack = -std::expm1 (-dt / 5e-3);
-        release = -std::expm1 (-dt / 100e-3);
-        decay = std::exp (-dt / 50e-3);
-        fading = std::exp (-dt / 2.0);
+        attack = -math::expm1 (-dt / 5e-3);
+        release = -math::expm1 (-dt / 100e-3);
+        decay = math::exp (-dt / 50e-3);
+        fading = math::exp (-dt / 2.0);
         forget();
     }
 
@@ -111,7 +113,7 @@ struct LayerMix
         any_solo = false;
         for (int i = 0; i < settings.inputs; ++i)
             any_solo = any_solo || params.solo[i] > 0.5;
-        ducked = std::pow (10.0, -params.duck_db / 20.0);
+        ducked = math::pow (10.0, -params.duck_db / 20.0);
     }
 
     void adopt (const LayerMix& old) noexcept
@@ -131,6 +133,7 @@ private:
         double duck = 1.0;    // d_i
     };
 
+    bool mix (const InputList<double>& in, Outputs&) noexcept;
     bool isOpen (int i) const noexcept { return ! (params.mute[i] > 0.5) && (! any_solo || params.solo[i] > 0.5); }
     bool isDucked (int i, int size) const noexcept;
 
@@ -159,15 +162,22 @@ private:
 
 inline LayerMix::Outputs LayerMix::tick (const Inputs& in) noexcept
 {
-    const int size = in.in.size();
-    const auto fault = [this]() -> Outputs {
+    Outputs out { .level = { 0.0, in.in.size() } };   // the only result that is returned, so that its list is not copied
+    if (! mix (in.in, out))
+    {
         forget();
-        return {};
-    };
-    if (! isFinite (in.in)) return fault();
+        out = {};
+    }
+    return out;
+}
 
+/// Returns false if something is not finite.
+inline bool LayerMix::mix (const InputList<double>& in, Outputs& out) noexcept
+{
+    if (! isFinite (in)) return false;
+
+    const int size = in.size();
     std::array<double, list_capacity> heard;
-    Outputs out;
     loudest = fall (loudest, fading);
     for (int i = 0; i < size; ++i)
     {
@@ -175,12 +185,12 @@ inline LayerMix::Outputs LayerMix::tick (const Inputs& in) noexcept
         const double target = isOpen (i) ? 1.0 : 0.0;
         c.open = started ? std::clamp (target, c.open - ramp, c.open + ramp) : target;
 
-        const double x = c.open * (params.gain[i] * in.in[i]);
+        const double x = c.open * (params.gain[i] * in[i]);
         heard[at (i)] = x;
         c.level = std::max (std::abs (x), fall (c.level, decay));
         loudest = std::max (loudest, c.level);
         out.level[i] = c.level;
-        if (! isFinite (x)) return fault();
+        if (! isFinite (x)) return false;
     }
 
     double sum = 0.0;
@@ -192,16 +202,16 @@ inline LayerMix::Outputs LayerMix::tick (const Inputs& in) noexcept
         if (std::abs (target - c.duck) < 1e-9) c.duck = target;
         sum += c.duck * heard[at (i)];
     }
-    if (! isFinite (sum)) return fault();
+    if (! isFinite (sum)) return false;
 
     started = true;
     out.out = sum;
     if (params.ceiling > 0.0 && std::abs (sum) > params.ceiling)
     {
         out.out = std::copysign (params.ceiling, sum);
-        out.reduction = 20.0 * (std::log10 (std::abs (sum)) - std::log10 (params.ceiling));
+        out.reduction = 20.0 / std::numbers::ln10 * math::log (std::abs (sum) / params.ceiling);
     }
-    return out;
+    return true;
 }
 
 /// True if a layer of higher priority sounds.

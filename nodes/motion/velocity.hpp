@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace tactus::nodes
 {
@@ -119,6 +121,7 @@ struct Velocity
             Axis& axis = axes[at (i)];
             axis.past[at (newest)] = in.position[i];
             learn (axis);
+            axis.still = isSame (ago (axis, 0), ago (axis, 1)) ? std::min (axis.still + 1, capacity) : 0;
             v[i] = slope (axis) / dt;
         }
 
@@ -147,6 +150,7 @@ private:
     {
         std::array<double, capacity> past {};   // ring of the last positions, in m
         double quantum = inf;                   // smallest step seen, m
+        int still = 0;                          // how many of the positions before the newest one have had its bits, up to the capacity
     };
 
     double ago (const Axis& axis, int ticks) const noexcept
@@ -154,6 +158,9 @@ private:
         const int place = newest - ticks;
         return axis.past[at (place >= 0 ? place : place + capacity)];
     }
+
+    /// To the bit: the difference of 0 and -0 has a sign.
+    static bool isSame (double a, double b) noexcept { return std::bit_cast<std::uint64_t> (a) == std::bit_cast<std::uint64_t> (b); }
 
     void learn (Axis& axis) const noexcept
     {
@@ -166,7 +173,7 @@ private:
     double slope (const Axis& axis) const noexcept
     {
         const int reach = std::min (longest, known - 1);
-        if (reach < 1) return 0.0;
+        if (reach < 1 || axis.still >= reach) return 0.0;
 
         const bool is_set = params.noise > 0.0;
         const double learnt = axis.quantum < inf ? axis.quantum : 0.0;
@@ -177,9 +184,11 @@ private:
         // of these samples.
         double least = -inf, most = inf, lowest = now, highest = now;
         int fitting = 0;
+        auto place = at (newest);
         for (int n = 1; n <= reach && least <= most; ++n)
         {
-            const double then = ago (axis, n), inverse = inverses[at (n)], step = (now - then) * inverse, play = noise * inverse;
+            place = place > 0 ? place - 1 : at (capacity - 1);
+            const double then = axis.past[place], inverse = inverses[at (n)], step = (now - then) * inverse, play = noise * inverse;
             if (step >= least && step <= most) fitting = n;
             least = std::max (least, step - play);
             most = std::min (most, step + play);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace tactus::nodes
@@ -108,7 +108,8 @@ struct Handover
         if (now == Source::contact && contact == 0.0 && difference < 0.0) difference = 0.0;   // the tool has left: the surface returns to its place at once
         source = now;
 
-        last = std::max (0.0, rendered + difference * 0.5 * (1.0 + std::cos (std::numbers::pi * faded)));
+        const double left = faded < 1.0 ? 0.5 * (1.0 + math::cos (std::numbers::pi * faded)) : 0.0;
+        last = std::max (0.0, rendered + difference * left);
         if (! isFinite (last)) last = rendered;
         const bool is_open = now == Source::contact && last == 0.0 && contact == 0.0;
         return { .resistance = last, .state = now == Source::shock ? 2.0 : (is_open ? 0.0 : 1.0) };

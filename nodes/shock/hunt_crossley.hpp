@@ -3,13 +3,12 @@
 
 #include <tactus/kit/free_impact.hpp>
 #include <tactus/node/node.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iomanip>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -254,8 +253,8 @@ inline void HuntCrossley::start (Voice& voice, double speed) const noexcept
 {
     voice = { .v = speed, .m = massNow(), .sounds = true };
     Score score;
-    Passage before { 0.0, speed };
-    const auto add = [&] (const Passage& now) noexcept {
+    MotionState before { 0.0, speed };
+    const auto add = [&] (const MotionState& now) noexcept {
         if (score.length == int (score.samples.size())) return;
         const double moved = 0.5 * voice.m * (before.v - now.v) * (before.v + now.v);
         const double stored = settings.stiffness.energy (now.d) - settings.stiffness.energy (before.d);
@@ -271,18 +270,17 @@ inline void HuntCrossley::start (Voice& voice, double speed) const noexcept
 
 inline std::string HuntCrossley::warning (const Setup& setup) const
 {
-    std::ostringstream text;
-    text << std::setprecision (2);
+    std::string text;
     if (! (params.mass > 0.0) && ! (device_mass > 0.0))
-        text << "mass is 0, which means the mass of the device, but the graph does not give it; set mass, or " << usual_mass
-             << " kg is used until a device gives its mass";
+        text = "mass is 0, which means the mass of the device, but the graph does not give it; set mass, or " + roundedText (usual_mass, 2)
+               + " kg is used until a device gives its mass";
 
     const auto force = [this] (double d, double v) noexcept { return push (d, v).N; };
     const auto rebound = freeImpact (force, massNow(), 1.0, few * setup.dt_s());
     if (rebound.duration < few * setup.dt_s())
-        text << (text.tellp() > 0 ? "; " : "") << "a hit of 1 m/s lasts " << rebound.duration / setup.dt_s() << " samples, fewer than " << few
-             << "; use a softer law, a larger mass or a higher rate";
-    return text.str();
+        text += (text.empty() ? "" : "; ") + ("a hit of 1 m/s lasts " + roundedText (rebound.duration / setup.dt_s(), 2)) + " samples, fewer than "
+                + roundedText (few, 2) + "; use a softer law, a larger mass or a higher rate";
+    return text;
 }
 
 }   // namespace tactus::nodes

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/node/generic.hpp>
 
 #include <cmath>
@@ -94,7 +95,7 @@ private:
         switch (params.shape)
         {
         case Shape::sine:
-            return std::sin (2.0 * std::numbers::pi * t);
+            return math::sin (2.0 * std::numbers::pi * t);
         case Shape::triangle:
             return 4.0 * std::abs (fraction (t + 0.75) - 0.5) - 1.0;
         case Shape::square:

@@ -25,7 +25,7 @@ namespace tactus::nodes
 /// the same power over a wider band, so less of it is felt.
 ///
 /// The same seed gives the same noise on every run. Two nodes that must sound different need different seeds. The generator is
-/// Tactus's own (framework/kit/random.hpp). It gives the same bits on all machines whose std::log, std::cos and std::sin agree.
+/// Tactus's own (framework/kit/random.hpp), and gives the same bits on all machines.
 struct SignalNoise
 {
     using Inputs = Empty;

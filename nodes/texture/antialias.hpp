@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/kit/past_window.hpp>
 #include <tactus/node/node.hpp>
 
@@ -80,7 +81,7 @@ struct AntiAlias
 
     void prepare (const Setup& setup) { past.prepare (settings.window, setup.dt_s()); }
 
-    void update() noexcept { along = { std::cos (params.angle), std::sin (params.angle), 0.0 }; }
+    void update() noexcept { along = { math::cos (params.angle), math::sin (params.angle), 0.0 }; }
 
     void adopt (const AntiAlias& old) noexcept { past.adopt (old.past); }
 
@@ -103,7 +104,7 @@ private:
         const double half = 0.5 * params.f_max;
         if (f <= half) return 1.0;
         if (! (f < params.f_max)) return 0.0;
-        return 0.5 * (1.0 + std::cos (std::numbers::pi * ((f - half) / half)));
+        return 0.5 * (1.0 + math::cos (std::numbers::pi * ((f - half) / half)));
     }
 
     Vec3 along = Vec3::UnitX();

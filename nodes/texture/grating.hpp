@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/node/node.hpp>
 
-#include <cmath>
 #include <numbers>
 
 namespace tactus::nodes
@@ -67,7 +67,7 @@ struct Grating
 
     Params params;
 
-    void update() noexcept { along = { std::cos (params.angle), std::sin (params.angle), 0.0 }; }
+    void update() noexcept { along = { math::cos (params.angle), math::sin (params.angle), 0.0 }; }
 
     Claims claims() const
     {
@@ -82,7 +82,7 @@ struct Grating
     Outputs tick (const Inputs& in) noexcept
     {
         const double s = along.dot (in.position);
-        const double value = params.amplitude * std::sin (2.0 * std::numbers::pi * params.spatial_frequency * s + params.phase);
+        const double value = params.amplitude * math::sin (2.0 * std::numbers::pi * params.spatial_frequency * s + params.phase);
         if (! isFinite (value, in.position.z())) return {};
         return { .force = value * along, .value = value };
     }

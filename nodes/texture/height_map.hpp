@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/kit/spline_surface.hpp>
 #include <tactus/node/node.hpp>
 #include <tactus/node/setting.hpp>
@@ -123,7 +124,7 @@ struct HeightMap
     {
         dt = setup.dt_s();
         hold = static_cast<int> (hold_s / dt);
-        release = std::exp (-dt / release_s);
+        release = math::exp (-dt / release_s);
         last = {};
         build();
         update();
@@ -195,7 +196,7 @@ private:
         const double end = levels[fine].edge * speed / f_max;   // <= 1
         const double begin = fine == 0 ? 0.5 : levels[fine].edge / levels[fine - 1].edge;
         if (end <= begin) return a;
-        const double w = 1.0 - std::log (end) / std::log (begin);
+        const double w = 1.0 - math::log (end) / math::log (begin);
         const auto b = levels[fine + 1].surface (p.x(), p.y());
         return { std::lerp (a.height, b.height, w), std::lerp (a.slope_x, b.slope_x, w), std::lerp (a.slope_y, b.slope_y, w) };
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tactus/kit/lattice.hpp>
+#include <tactus/kit/math/math.hpp>
 #include <tactus/kit/random.hpp>
 #include <tactus/kit/stream_resampler.hpp>
 #include <tactus/node/node.hpp>
@@ -165,12 +166,11 @@ private:
         const Shape &a = corner (s.below, f.below), &b = corner (s.above, f.below), &c = corner (s.below, f.above), &d = corner (s.above, f.above);
         const double wa = (1.0 - s.part) * (1.0 - f.part), wb = s.part * (1.0 - f.part), wc = (1.0 - s.part) * f.part, wd = s.part * f.part;
 
-        double left = 1.0;   // product of 1 - k^2 over all stages
-        for (std::size_t i = 0; i < lattice.order(); ++i)
-            left *= lattice.set (i, wa * a.reflections[i] + wb * b.reflections[i] + wc * c.reflections[i] + wd * d.reflections[i]);
+        const double *ka = a.reflections.data(), *kb = b.reflections.data(), *kc = c.reflections.data(), *kd = d.reflections.data();
+        const double left = lattice.set ([=] (std::size_t i) noexcept { return wa * ka[i] + wb * kb[i] + wc * kc[i] + wd * kd[i]; });
         const double log_variance = wa * a.log_variance + wb * b.log_variance + wc * c.log_variance + wd * d.log_variance;
         const double fade = std::min (1.0, speed / full_speed) * std::min (1.0, force / full_force);
-        now = { speed, force, fade * std::exp (0.5 * log_variance) / std::sqrt (left) };
+        now = { speed, force, fade * math::exp (0.5 * log_variance) / std::sqrt (left) };
     }
 
     std::vector<std::size_t> nearestModels() const;
@@ -261,7 +261,7 @@ inline std::vector<std::size_t> TextureNoise::nearestModels() const
         for (const double force : forces)
         {
             const double wide = std::max (speeds.back() - speeds.front(), 1e-9), high = std::max (forces.back() - forces.front(), 1e-9);
-            const auto distance = [&] (const Model& m) { return std::hypot ((m.speed - speed) / wide, (m.force - force) / high); };
+            const auto distance = [&] (const Model& m) { return math::hypot ((m.speed - speed) / wide, (m.force - force) / high); };
             all.push_back (at (std::ranges::min_element (models, {}, distance) - models.begin()));
         }
     return all;
@@ -276,7 +276,7 @@ inline void TextureNoise::prepare (const Setup& setup)
     forces.clear();
     for (const Model& m : models)
     {
-        shapes.push_back ({ reflectionsOf (m.coefficients), std::log (m.variance) });
+        shapes.push_back ({ reflectionsOf (m.coefficients), math::log (m.variance) });
         speeds.push_back (m.speed);
         forces.push_back (m.force);
         order = std::max (order, m.coefficients.size());

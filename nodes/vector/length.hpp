@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/vec3.hpp>
 #include <tactus/node/generic.hpp>
-
-#include <cmath>
 
 namespace tactus::nodes
 {
@@ -27,7 +26,7 @@ struct VectorLength
     Outputs tick (const Inputs& in) const noexcept
     {
         if (! isFinite (in.in)) return {};
-        return { .amount = finiteOrZero (std::hypot (in.in.x(), in.in.y(), in.in.z())) };
+        return { .amount = finiteOrZero (length (in.in)) };
     }
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/node/mode.hpp>
 #include <tactus/node/node.hpp>
 
-#include <cmath>
 #include <complex>
 #include <cstddef>
 #include <numbers>
@@ -79,6 +79,8 @@ struct Modal
     {
         dt = setup.dt_s();
         voices.assign (settings.modes.size(), {});
+        real.assign (voices.size(), 0.0);
+        imaginary.assign (voices.size(), 0.0);
         update();
     }
 
@@ -90,7 +92,9 @@ struct Modal
             const double turn = 2.0 * std::numbers::pi * mode.frequency * params.pitch * dt;
             const double shrink = mode.decay * params.damping * dt;
             const bool sounds = turn < std::numbers::pi && shrink > 0.0;
-            voices[i].factor = sounds ? std::polar (std::exp (-shrink), turn) : Phasor {};
+            const double length = sounds ? math::exp (-shrink) : 0.0;
+            const auto [sine, cosine] = math::sinCos (sounds ? turn : 0.0);
+            voices[i].factor = { length * cosine, length * sine };
         }
     }
 
@@ -99,27 +103,26 @@ struct Modal
     {
         for (std::size_t i = 0; i < old.voices.size(); ++i)
             if (const std::size_t heir = find (old.settings.modes[i].frequency, i); heir < voices.size())
-                voices[heir].z += old.voices[i].z;
+            {
+                real[heir] += old.real[i];
+                imaginary[heir] += old.imaginary[i];
+            }
     }
 
     Outputs tick (const Inputs& in) noexcept
     {
         const double v = in.hit > 0.0 && isFinite (in.hit) ? in.hit : 0.0;
+        turn();   // before a new hit is added
         double sum = 0.0;
-        for (std::size_t i = 0; i < voices.size(); ++i)
-        {
-            auto& [z, factor] = voices[i];
-            z = times (z, factor);
-            if (std::norm (z) < flush * flush) z = {};   // before a new hit is added
-            if (factor != Phasor {}) z += settings.modes[i].amplitude * v;
-            sum += z.imag();
-        }
+        for (const double y : imaginary)
+            sum += y;
+        if (v > 0.0) strike (v);
 
         const double value = params.gain * sum;
         if (isFinite (value)) return { .value = value };
 
-        for (auto& voice : voices)
-            voice.z = {};
+        real.assign (voices.size(), 0.0);   // as many as before, so nothing is allocated
+        imaginary.assign (voices.size(), 0.0);
         return {};
     }
 
@@ -128,15 +131,31 @@ private:
 
     struct Voice
     {
-        Phasor z, factor;
+        Phasor factor;
     };
 
     static constexpr double flush = 1e-18;   // N; a weaker ring cannot be felt, and is set to 0 before it ends in slow denormal numbers
 
-    /// The product, without the special cases of std::complex for infinities.
-    static Phasor times (Phasor a, Phasor b) noexcept
+    /// A hit does not sound on its own tick: it changes only the real parts.
+    void strike (double v) noexcept
     {
-        return { a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real() };
+        for (std::size_t i = 0; i < voices.size(); ++i)
+            if (voices[i].factor != Phasor {}) real[i] += settings.modes[i].amplitude * v;
+    }
+
+    /// Multiplies each phasor by its factor. There is no branch in the loop, so that a compiler computes several modes at once.
+    void turn() noexcept
+    {
+        const Voice* const voice = voices.data();
+        double *const re = real.data(), *const im = imaginary.data();
+        for (std::size_t i = 0, n = voices.size(); i < n; ++i)
+        {
+            const double fx = voice[i].factor.real(), fy = voice[i].factor.imag();
+            const double x = re[i] * fx - im[i] * fy, y = re[i] * fy + im[i] * fx;
+            const bool is_faint = x * x + y * y < flush * flush;
+            re[i] = is_faint ? 0.0 : x;
+            im[i] = is_faint ? 0.0 : y;
+        }
     }
 
     /// Index of the mode with this frequency: `preferred` if that mode has it, the number of modes if none has it.
@@ -151,7 +170,8 @@ private:
     }
 
     std::vector<Voice> voices;
-    double dt = 1.0 / Setup {}.rate_hz;   // s
+    std::vector<double> real, imaginary;   // of the phasors, by mode
+    double dt = 1.0 / Setup {}.rate_hz;    // s
 };
 
 }   // namespace tactus::nodes

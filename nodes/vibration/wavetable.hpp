@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/kit/recording.hpp>
 #include <tactus/node/mode.hpp>
 #include <tactus/node/node.hpp>
@@ -253,9 +254,9 @@ inline std::string Wavetable::warning (const Setup& setup) const
 
     constexpr double unheard = 0.02;
     for (const Mode& m : t.modes)
-        if (m.frequency < 0.5 * setup.rate_hz && m.decay > 0.0 && std::exp (-m.decay * t.length / t.rate) > unheard)
+        if (m.frequency < 0.5 * setup.rate_hz && m.decay > 0.0 && math::exp (-m.decay * t.length / t.rate) > unheard)
         {
-            const auto enough = std::lround (std::ceil (-std::log (unheard) * t.rate / m.decay));
+            const auto enough = std::lround (std::ceil (-math::log (unheard) * t.rate / m.decay));
             return "the table ends while the mode at " + std::to_string (std::lround (m.frequency))
                    + " Hz still sounds, which clicks: set the length to at least " + std::to_string (enough);
         }
@@ -284,7 +285,7 @@ inline Wavetable::Samples Wavetable::ofModes (double below_hz) const
         for (std::size_t i = 0; i < samples.size(); ++i)
         {
             const double time = static_cast<double> (i) / t.rate;
-            samples[i] += m.amplitude * std::exp (-m.decay * time) * std::sin (2.0 * std::numbers::pi * m.frequency * time);
+            samples[i] += m.amplitude * math::exp (-m.decay * time) * math::sin (2.0 * std::numbers::pi * m.frequency * time);
         }
     }
     samples.back() = 0.0;

@@ -83,8 +83,7 @@ def main():
         "What one tick of each node costs. `./test.sh --figures` generates this page.", "",
         f"Counted by callgrind with {version}, `{flags}`. The input lasts one second at 4 kHz: the hand strokes and presses three times, a hit arrives "
         f"every 0.1 s, other inputs oscillate; parameters and settings have their defaults. The numbers are means over all ticks. They include gathering "
-        f"the inputs and writing the outputs, but not the call itself ({nothing:.0f} instructions). Functions of the C library are counted in the variant that "
-        f"the library selects for this processor.", "",
+        f"the inputs and writing the outputs, but not the call itself ({nothing:.0f} instructions).", "",
         "| family | node | instructions |", "|---|---|---:|",
     ]
     family = None

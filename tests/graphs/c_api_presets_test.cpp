@@ -52,7 +52,7 @@ TEST_CASE ("every preset has the bits of tactus render when it is played through
         ++count;
         INFO (entry.path().filename());
         const auto path = entry.path().string(), out = scratch.path ("out.csv");
-        const auto ran = runTactus ({ "render", path, "--duration", "0.5", "--out", out });
+        const auto ran = runTactus ({ "render", path, "--duration", "2", "--out", out });
         INFO (ran.err);
         REQUIRE (ran.status == 0);
         const auto theirs = readTable (fs::path (out));
@@ -88,6 +88,5 @@ TEST_CASE ("every preset has the bits of tactus render when it is played through
     }
     CHECK (count > 30);
     CHECK (pictures.count == 1);
-    CHECK (silent.size() < 15);   // presets in which the tool has not touched anything yet
-    CHECK (silent.count ("liver") == 0);
+    CHECK (silent == std::set<std::string> {});   // in each preset, the tool has touched something by then
 }

@@ -155,6 +155,7 @@ TEST_CASE ("every preset renders the same slow force and the same vibration at 1
                 INFO (rate << " Hz: vibration of " << is.vibration << " N instead of " << expected.vibration << " N");
                 CHECK (is.slow == Approx (expected.slow).epsilon (0.02));
                 CHECK (is.vibration == Approx (expected.vibration).epsilon (0.1));
+                if (rate > 2.0 * felt_below_hz) CHECK (is.felt == Approx (expected.felt).epsilon (0.1));
             }
         }
     }

@@ -61,8 +61,8 @@ cp -r graphs "$work/graphs"
 rm "$work/graphs/assets/leather.png"
 python3 -B tests/install/png_to_pgm.py graphs/assets/leather.png "$work/graphs/assets/leather.pgm"
 for preset in graphs/*.json; do
-    "$build/bin/tactus" render "$preset" --duration 0.5 --out "$work/render.csv" 2>/dev/null
-    "$work/pictures_c/pictures_c" "$work/$preset" 0.5 >"$work/preset.csv"
+    "$build/bin/tactus" render "$preset" --duration 2 --out "$work/render.csv" 2>/dev/null
+    "$work/pictures_c/pictures_c" "$work/$preset" 2 >"$work/preset.csv"
     python3 tests/install/same_bits.py "$work/render.csv" "$work/preset.csv" $(($(wc -l <"$work/render.csv") - 1)) >"$work/same.txt"
 done
 echo "all $(find graphs -maxdepth 1 -name '*.json' | wc -l) presets, read by the library: the bits of \`tactus render\`"

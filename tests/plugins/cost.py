@@ -4,7 +4,7 @@
 
     cost.py BUILD PLUGIN...     BUILD is a release build, such as build/release; the plugins together contain all nodes of the catalogue
 
-Prints each node, and the sum of all. Exit status 1 if a tick of all nodes costs more than MOST times what it costs compiled in, or if a
+Prints each node, and the sum of all. Exit status 1 if a tick of any node costs more than MOST times what it costs compiled in, or if a
 node is missing. All counts include the call, as in a run."""
 
 import pathlib
@@ -30,8 +30,8 @@ def main():
     ratio = plugin / own
     print(f"{'all':32} {own:11.1f} {plugin:10.1f} {ratio:8.3f}")
     print(f"above {MOST}: {', '.join(dear) or 'none'}")
-    if ratio > MOST:
-        sys.exit(f"a tick costs {ratio:.3f} times as much in a plugin as compiled in; at most {MOST} is allowed (docs/plugins.md)")
+    if dear:
+        sys.exit(f"a tick in a plugin may cost at most {MOST} times as much as compiled in (docs/plugins.md)")
 
 
 main()

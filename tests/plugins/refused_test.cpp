@@ -5,6 +5,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <atomic>
+#include <thread>
+
 using namespace tactus;
 using test::load;
 
@@ -81,4 +84,19 @@ TEST_CASE ("an exception in a hook of a plugin is an error of the graph", "[plug
         CHECK (made.messages[0].text.find ("bad.throwing") != std::string::npos);
         CHECK (made.messages[0].text.find (hook.ends_with ("int") ? "an unknown exception" : "thrown in " + hook) != std::string::npos);
     }
+}
+
+TEST_CASE ("graphs that are compiled on two threads never call a plugin at the same time", "[plugins]")
+{
+    const Catalogue types { load ("alone").types };
+    const auto sketch = test::Sketch {}.node ("node", "c.twice");
+    std::atomic<int> refused = 0;
+    const auto compileOften = [&] {
+        for (int i = 0; i < 50; ++i)
+            if (compile (sketch.graph, types).plan == nullptr) ++refused;
+    };
+    std::thread other (compileOften);
+    compileOften();
+    other.join();
+    CHECK (refused == 0);
 }

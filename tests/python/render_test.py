@@ -22,15 +22,14 @@ class AgainstTheProgram(TestCase):
         pictures = {"assets/leather.png": pixels(GRAPHS / "assets/leather.png")}   # only the host decodes pictures
         for path in sorted(GRAPHS.glob("*.json")):
             with self.subTest(path.stem):
-                mine = quiet(tactus.Graph(path).render, duration=0.5, assets=pictures)
-                names, rows = by_program(path, "--duration", "0.5")
+                mine = quiet(tactus.Graph(path).render, duration=2.0, assets=pictures)
+                names, rows = by_program(path, "--duration", "2")
                 my_names, my_rows = columns(mine)
                 self.assertEqual(names, my_names)
                 self.same_bits(rows, my_rows)
                 if not np.any(my_rows[:, 1:]):
                     silent.add(path.stem)
-        self.assertLess(len(silent), 15, f"nothing but zeros was compared of {silent}")   # presets in which the tool has not touched anything yet
-        self.assertFalse({"liver", "pebbled_leather"} & silent, "the presets with a mesh and a picture must touch something")
+        self.assertEqual(silent, set(), "in each preset, the tool should touch something within 2 s")
 
     def compare_feed(self, feed, *options, **arguments):
         with tempfile.TemporaryDirectory() as folder:

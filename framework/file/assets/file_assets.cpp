@@ -3,6 +3,7 @@
 #include "mesh.hpp"
 #include "table.hpp"
 
+#include <tactus/file/clips/clip_file.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/budget.hpp>
 
@@ -121,7 +122,13 @@ Assets::Loaded<Grid> FileAssets::image (const std::string& path)
 
 Assets::Loaded<Grid> FileAssets::table (const std::string& path)
 {
-    return load (tables, path, [&] { return fromBytes<Grid> (path, readGrid); });
+    const auto parse = [] (std::string_view bytes, std::string_view name) -> Result<Grid> {
+        if (! isClipName (name)) return readGrid (bytes, name);
+        auto file = readClip (bytes, name);
+        if (! file) return std::move (file).error();
+        return gridOf (file->clip);
+    };
+    return load (tables, path, [&] { return fromBytes<Grid> (path, parse); });
 }
 
 Assets::Loaded<Mesh> FileAssets::mesh (const std::string& path)

@@ -14,7 +14,7 @@
 namespace tactus::readers
 {
 
-/// Reads the files that settings name: tables and meshes. Pictures and recordings need libraries that the framework does not have, so
+/// Reads the files that settings name: tables, clips and meshes. Pictures and recordings need libraries that the framework does not have, so
 /// a class derived from this one decodes them. A file is not read again while its content is in use and it has not changed on disk.
 /// [main thread]
 ///
@@ -22,13 +22,13 @@ namespace tactus::readers
 /// same length, and the triangles of a mesh refer to its points. Files that exceed a budget are refused
 /// (framework/text/budget.hpp).
 ///
-/// Error ids: asset/unreadable, asset/signal, asset/no_decoder, and those of readGrid, readMesh and the derived class.
+/// Error ids: asset/unreadable, asset/signal, asset/no_decoder, and those of readGrid, readClip, readMesh and the derived class.
 class FileAssets : public Assets
 {
 public:
     Loaded<Signal> signal (const std::string& path) override;
     Loaded<Grid> image (const std::string& path) override;
-    Loaded<Grid> table (const std::string& path) override;
+    Loaded<Grid> table (const std::string& path) override;   ///< numbers, or a clip as rows (tactus/kit/clip.hpp)
     Loaded<Mesh> mesh (const std::string& path) override;
 
 protected:

@@ -25,7 +25,7 @@ int halvingsOf (double number, int most) noexcept
 }
 
 /// e^A - 1, accurate also where A is small: the series for A / 2^n, then n doublings, e^2x - 1 = 2 (e^x - 1) + (e^x - 1)^2.
-Square expm1 (const Square& a)
+Square exponentialMinusOne (const Square& a)
 {
     const double norm = a.cwiseAbs().rowwise().sum().maxCoeff();
     const int doublings = halvingsOf (norm / 0.25, 100);
@@ -61,7 +61,7 @@ FlexibleTool::FlexibleTool (const Properties& properties, double dt_s) : what (p
 
     const Eigen::Vector<double, 6> scale { 1.0 / w, 1.0, 1.0 / w, 1.0, m * w, e * w };
     const auto changeIn = [&] (const Square& rates, double time) -> Change {
-        const Square change = scale.asDiagonal() * expm1 (time * rates) * scale.cwiseInverse().asDiagonal();
+        const Square change = scale.asDiagonal() * exponentialMinusOne (time * rates) * scale.cwiseInverse().asDiagonal();
         return change.block<4, 5> (0, 1);
     };
     finest = what.coulomb > 0.0 ? std::max (1, halvingsOf (dt_s / finest_s, finest_level)) : 0;
@@ -87,7 +87,7 @@ void FlexibleTool::step (const Vec3& motor_force, const Vec3& hand_force) noexce
     for (int i = 0; i < 3; ++i)
     {
         auto& axis = axes[static_cast<std::size_t> (i)];
-        const Held held { motor_force[i], hand_force[i] };
+        const AppliedForces held { motor_force[i], hand_force[i] };
         if (what.coulomb > 0.0)
             most_phases_seen = std::max (most_phases_seen, stepDryAxis (axis, held));
         else
@@ -104,7 +104,7 @@ double FlexibleTool::energy() const noexcept
 }
 
 /// The state after dt / 2^level, if the phase lasts that long.
-FlexibleTool::Axis FlexibleTool::advanced (const Axis& a, Phase phase, Held held, int level) const noexcept
+FlexibleTool::Axis FlexibleTool::advanced (const Axis& a, Phase phase, AppliedForces held, int level) const noexcept
 {
     const double motor = held.motor - static_cast<int> (phase) * what.coulomb;
     const Eigen::Vector<double, 5> given { a.v, a.stretch, a.end_v, motor, held.hand };
@@ -115,7 +115,7 @@ FlexibleTool::Axis FlexibleTool::advanced (const Axis& a, Phase phase, Held held
 
 /// While the motor slips: its speed in the direction of the slip. While it sticks: the distance of the load to the Coulomb friction
 /// on one side.
-FlexibleTool::Margin FlexibleTool::margin (const Axis& a, Phase phase, Held held, int side) const noexcept
+FlexibleTool::Margin FlexibleTool::margin (const Axis& a, Phase phase, AppliedForces held, int side) const noexcept
 {
     const double elastic = k * a.stretch + c * (a.end_v - a.v);
     const int way = static_cast<int> (phase);
@@ -125,7 +125,7 @@ FlexibleTool::Margin FlexibleTool::margin (const Axis& a, Phase phase, Held held
     return { what.coulomb * (1.0 + tie) - side * (held.motor + elastic), -side * load_rate };
 }
 
-FlexibleTool::Phase FlexibleTool::phaseOf (const Axis& a, Held held) const noexcept
+FlexibleTool::Phase FlexibleTool::phaseOf (const Axis& a, AppliedForces held) const noexcept
 {
     if (a.v != 0.0) return a.v > 0.0 ? Phase::forward : Phase::backward;
     const double load = held.motor + k * a.stretch + c * a.end_v;
@@ -134,7 +134,7 @@ FlexibleTool::Phase FlexibleTool::phaseOf (const Axis& a, Held held) const noexc
 }
 
 /// Moves the axis through a tick and returns the number of phases.
-int FlexibleTool::stepDryAxis (Axis& axis, Held held) const noexcept
+int FlexibleTool::stepDryAxis (Axis& axis, AppliedForces held) const noexcept
 {
     auto left = unitsOf (finest, 0);
     int phases = 0;
@@ -152,7 +152,7 @@ int FlexibleTool::stepDryAxis (Axis& axis, Held held) const noexcept
 }
 
 /// Moves the axis to the end of the phase, but by at most `most` units of time. Returns the number of units that have passed.
-std::int64_t FlexibleTool::run (Axis& axis, Phase phase, Held held, std::int64_t most) const noexcept
+std::int64_t FlexibleTool::run (Axis& axis, Phase phase, AppliedForces held, std::int64_t most) const noexcept
 {
     std::int64_t gone = 0;
     while (gone < most)
@@ -173,7 +173,7 @@ std::int64_t FlexibleTool::run (Axis& axis, Phase phase, Held held, std::int64_t
 ///
 /// The phase ends if a margin is negative at the end of the step, or if a margin falls and rises again within the step and its lowest
 /// value is negative.
-std::int64_t FlexibleTool::unitsToEnd (Axis& axis, const Axis& next, Phase phase, Held held, int level) const noexcept
+std::int64_t FlexibleTool::unitsToEnd (Axis& axis, const Axis& next, Phase phase, AppliedForces held, int level) const noexcept
 {
     std::int64_t first = 0;
     Axis end;

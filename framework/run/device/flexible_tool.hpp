@@ -65,7 +65,7 @@ public:
     int mostPhases() const noexcept { return most_phases_seen; }   ///< the largest number of phases that an axis has had in one tick since the start
 
 private:
-    struct Held
+    struct AppliedForces
     {
         double motor = 0.0, hand = 0.0;   // N
     };
@@ -87,12 +87,12 @@ private:
         double value = 0.0, rate = 0.0;
     };
 
-    Axis advanced (const Axis&, Phase, Held, int level) const noexcept;
-    Margin margin (const Axis&, Phase, Held, int side) const noexcept;
-    Phase phaseOf (const Axis&, Held) const noexcept;
-    std::int64_t run (Axis&, Phase, Held, std::int64_t units) const noexcept;
-    std::int64_t unitsToEnd (Axis&, const Axis& next, Phase, Held, int level) const noexcept;
-    int stepDryAxis (Axis&, Held) const noexcept;
+    Axis advanced (const Axis&, Phase, AppliedForces, int level) const noexcept;
+    Margin margin (const Axis&, Phase, AppliedForces, int side) const noexcept;
+    Phase phaseOf (const Axis&, AppliedForces) const noexcept;
+    std::int64_t run (Axis&, Phase, AppliedForces, std::int64_t units) const noexcept;
+    std::int64_t unitsToEnd (Axis&, const Axis& next, Phase, AppliedForces, int level) const noexcept;
+    int stepDryAxis (Axis&, AppliedForces) const noexcept;
 
     Properties what;
     double k = 0.0, c = 0.0;

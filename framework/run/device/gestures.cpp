@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gestures.hpp"
 
-#include <cmath>
+#include <tactus/kit/math/math.hpp>
+
 #include <cstddef>
 #include <numbers>
 
@@ -86,7 +87,7 @@ Vec3 circle (double t)
     static constexpr Rest angle[] { { 0.5, 0.0 }, { 4.0, 3.0 * turn } };
     static constexpr Rest z[] { { 0.0, 10 * mm }, { 0.5, -2 * mm }, { 4.0, -2 * mm }, { 4.6, 10 * mm } };
     const double a = through (angle, t);
-    return { 15 * mm * std::cos (a), 15 * mm * std::sin (a), through (z, t) };
+    return { 15 * mm * math::cos (a), 15 * mm * math::sin (a), through (z, t) };
 }
 
 Vec3 sweep (double t)
@@ -122,7 +123,7 @@ Vec3 hold (double t)
     static constexpr Rest amount[] { { 0.0, 0.0 }, { 1.0, 1.0 }, { 5.0, 1.0 }, { 6.0, 0.0 } };
 
     // Physiological tremor: 8 to 12 Hz, tens of micrometres, not the same in each direction, never quite periodic.
-    const auto wave = [t] (double frequency, double phase) { return std::sin (turn * (frequency * t + phase)); };
+    const auto wave = [t] (double frequency, double phase) { return math::sin (turn * (frequency * t + phase)); };
     const Vec3 tremor { 30 * um * wave (8.7, 0.0) + 15 * um * wave (11.3, 0.3),
                         20 * um * wave (9.4, 0.6) + 15 * um * wave (10.9, 0.1),
                         15 * um * wave (8.3, 0.8) + 10 * um * wave (11.8, 0.5) };

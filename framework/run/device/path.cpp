@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "path.hpp"
 
+#include <tactus/kit/math/math.hpp>
+
 #include <algorithm>
-#include <cmath>
 
 namespace tactus
 {
@@ -13,7 +14,7 @@ Path::Point GesturePath::at (double t) const noexcept
     // fastest gesture. So gestures only need to define positions.
     constexpr double h = 1e-5;
 
-    const double within = std::fmod (t, gesture.duration_s);
+    const double within = math::fmod (t, gesture.duration_s);
     const Vec3 before = gesture.position (within - h), after = gesture.position (within + h);
     return { placement.offset + placement.scale * gesture.position (within), placement.scale / (2.0 * h) * (after - before) };
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "rigid_tool.hpp"
 
+#include <tactus/kit/math/math.hpp>
+
 #include <cmath>
 #include <limits>
 
@@ -14,7 +16,7 @@ double stoppingTime (double mass, double damping, double speed, double brake) no
 {
     if (! (brake > 0.0)) return std::numeric_limits<double>::infinity();
     const double z = damping * speed / brake;
-    return mass * speed / brake * (z > 0.0 ? std::log1p (z) / z : 1.0);
+    return mass * speed / brake * (z > 0.0 ? math::log1p (z) / z : 1.0);
 }
 }   // namespace
 

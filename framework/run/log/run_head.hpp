@@ -20,6 +20,7 @@ inline constexpr int run_version = 5;
 struct RunHead
 {
     std::string program;                              ///< the program and its version
+    std::uint64_t functions = 0;                      ///< math::revision of that program; 0: the functions of its C library
     double rate_hz = 0.0;                             ///< tick rate in Hz
     std::vector<std::string> sets {};                 ///< as in --set
     std::vector<std::string> feeds {};                ///< ports, as in CompileOptions::feeds

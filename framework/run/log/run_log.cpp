@@ -75,6 +75,7 @@ std::string headLine (const RunHead& head)
     return textOf ({ { "format", run_format },
                      { "version", run_version },
                      { "program", head.program },
+                     { "functions", head.functions },
                      { "rate_hz", head.rate_hz },
                      { "sets", head.sets },
                      { "feeds", head.feeds },

@@ -220,6 +220,7 @@ Result<> RunLogReader::readHead()
 
     head.read (head.json.root, "", {
                                        { "program", JsonKind::text, [&] (Json& v, const std::string&) { begin.program = v.get<std::string>(); } },
+                                       { "functions", JsonKind::any, [&] (Json& v, const std::string& where) { head.whole (v, where, begin.functions); } },
                                        { "rate_hz", JsonKind::number, [&] (Json& v, const std::string& where) {
                                             begin.rate_hz = v.get<double>();
                                             if (! (begin.rate_hz >= 1.0 && begin.rate_hz <= 1e6)) head.wrong (where, "the rate must be from 1 to 1000000 Hz");

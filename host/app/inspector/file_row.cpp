@@ -34,7 +34,7 @@ const char* patternsOf (SettingSheet::Kind kind)
     case SettingSheet::Kind::image:
         return "*.png;*.jpg;*.jpeg";
     case SettingSheet::Kind::table:
-        return "*.csv";
+        return "*.csv;*.haptic;*.ahap;*.hjif;*.json";   // a clip is a table for a node
     default:
         return "*.obj;*.off;*.ply;*.stl";
     }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/kit/snapshot.hpp>
 #include <tactus/run/device/path.hpp>
-
-#include <cmath>
 
 namespace tactus::host
 {
@@ -37,7 +36,7 @@ public:
         goal = length > most ? Vec3 (goal + most / length * way) : Vec3 (wanted.data());
         // x = (a + b t) e^(-w t) about the goal.
         const Vec3 offset = now.position - goal, b = now.velocity + follow_rate * offset;
-        const double decay = std::exp (-follow_rate * dt);
+        const double decay = math::exp (-follow_rate * dt);
         now.position = goal + decay * (offset + b * dt);
         now.velocity = decay * (b - follow_rate * (offset + b * dt));
         return now;

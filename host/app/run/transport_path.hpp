@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/run/device/path.hpp>
 
 #include <atomic>
-#include <cmath>
 #include <memory>
 
 namespace tactus::host
@@ -36,7 +36,7 @@ public:
         if (! (dt > 0.0)) return now;
 
         const double pace_wanted = plays ? speed.load (std::memory_order_relaxed) : 0.0;
-        pace = pace_wanted + (pace - pace_wanted) * std::exp (-pace_rate * dt);
+        pace = pace_wanted + (pace - pace_wanted) * math::exp (-pace_rate * dt);
         if (const double to = wanted.exchange (none, std::memory_order_relaxed); to >= 0.0)
         {
             const auto before = path->at (place), after = path->at (to);
@@ -46,7 +46,7 @@ public:
         }
         place += pace * dt;
         const Vec3 b = offset.velocity + catch_up_rate * offset.position;
-        const double decay = std::exp (-catch_up_rate * dt);
+        const double decay = math::exp (-catch_up_rate * dt);
         offset.position = decay * (offset.position + b * dt);
         offset.velocity = decay * b - catch_up_rate * offset.position;
 
@@ -54,7 +54,7 @@ public:
         now.position = on_path.position + offset.position;
         now.velocity = pace * on_path.velocity + offset.velocity;
         const double loop = path->duration();
-        reported.store (loop > 0.0 ? std::fmod (place, loop) : place, std::memory_order_relaxed);
+        reported.store (loop > 0.0 ? math::fmod (place, loop) : place, std::memory_order_relaxed);
         return now;
     }
 

@@ -113,3 +113,17 @@ TEST_CASE ("a wall that meets the conditions for quanta and damping comes to res
         RC_ASSERT (growth (sim, 0.95 * stiffest, rate_hz, 60'000) < 1e-3);
     });
 }
+
+TEST_CASE ("a wall at the limit of the conditions comes to rest, whatever the mass, the damping, the friction, the quantum, the delay, the first mode and the rate", "[check]")
+{
+    rc::prop ("all at once", [] {
+        const double rate_hz = *between (500.0, 10e3), mass = *between (0.02, 0.5), share = *between (0.005, 0.5);
+        Simulation sim { .mass = mass, .damping = share * mass * rate_hz, .delay = *rc::gen::inRange (0, 4) };
+        sim.quantum = *between (1e-7, 5e-5);
+        sim.coulomb = *between (1e-3, 0.1);
+        sim.first_mode = *between (10.0, 400.0);
+        const double stiffest = std::min (predicted (sim, rate_hz, "stiffness"), predicted (sim, rate_hz, "quantum"));
+        RC_LOG() << "stiffest " << stiffest << " N/m, growth " << growth (sim, stiffest, rate_hz, 60'000) << '\n';
+        RC_ASSERT (growth (sim, stiffest, rate_hz, 60'000) < 1e-3);
+    });
+}

@@ -44,6 +44,18 @@ TEST_CASE ("law: its inverse is the first such deflection, and infinite if there
     CHECK (Law {}.inverse (1.0) == never);
 }
 
+TEST_CASE ("law: the powers with a short cut have the values of all others", "[law]")
+{
+    for (const double n : { 0.5, 1.0, 1.5, 2.0, 2.5, 3.0 })
+        for (const double e : { 1e-9, 3e-4, 0.7, 20.0 })
+        {
+            const Law law { .kind = Law::Kind::power, .a = 3.0, .b = n };
+            INFO (n << " " << e);
+            CHECK (law (e) == Approx (3.0 * std::pow (e, n)).epsilon (1e-15));
+            CHECK (law.energy (e) == Approx (3.0 * std::pow (e, n + 1.0) / (n + 1.0)).epsilon (1e-15));
+        }
+}
+
 TEST_CASE ("law: a table may rise or fall", "[law]")
 {
     for (const Law& law : laws)

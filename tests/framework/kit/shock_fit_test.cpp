@@ -12,7 +12,7 @@
 #include <string>
 
 using tactus::fitShock;
-using tactus::Passage;
+using tactus::MotionState;
 using tactus::RecordedLoop;
 
 namespace
@@ -53,7 +53,7 @@ RecordedLoop record (const Blow& blow, int rows = 400)
     for (int i = -3; i <= 0; ++i)
         add ((i - 0.5) * step, (i - 0.5) * step * blow.v, blow.v);
     int row = 0;
-    tactus::freeImpact (force, blow.m, blow.v, 2.0 * out.duration, step, [&] (const Passage& x) noexcept { add (++row * step, x.d, x.v); });
+    tactus::freeImpact (force, blow.m, blow.v, 2.0 * out.duration, step, [&] (const MotionState& x) noexcept { add (++row * step, x.d, x.v); });
     for (int i = row + 1; i < row + 4; ++i)
         add (i * step, (out.duration - i * step) * out.speed, -out.speed);
     return loop;

@@ -9,7 +9,9 @@
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 using namespace tactus;
@@ -22,9 +24,8 @@ TEST_CASE ("lattice: the same filter as the recursion it was derived from", "[fr
 
     Lattice lattice;
     lattice.start (3, [] { return 0.0; });
-    double gain = 1.0;   // the y of the lattice is sqrt (prod (1 - k^2)) times the y of the recursion
-    for (std::size_t i = 0; i < 3; ++i)
-        gain *= std::sqrt (lattice.set (i, reflections[i]));
+    // The y of the lattice is sqrt (prod (1 - k^2)) times the y of the recursion.
+    const double gain = std::sqrt (lattice.set ([&reflections] (std::size_t i) { return reflections[i]; }));
 
     double y[3] {};
     Random random { 1 };
@@ -101,6 +102,20 @@ TEST_CASE ("recording: the forward-backward low-pass is 6 dB down at its cutoff 
     CHECK (filtered (200.0) == Approx (1.0).epsilon (1e-3));
     CHECK (filtered (1000.0) == Approx (0.5).epsilon (1e-3));
     CHECK (std::abs (filtered (1700.0)) < 1e-3);
+}
+
+TEST_CASE ("the value between two entries of a table has the bits of std::lerp", "[framework][signal]")
+{
+    rc::prop ("any entries and place", [] {
+        const auto entry = rc::gen::oneOf (rc::gen::element (0.0, -0.0, 1.0, -1.0, 1e-200, -1e-200, 5e-324), rc::gen::arbitrary<double>(),
+                                           rc::gen::map (rc::gen::inRange (-5, 6), [] (int n) { return 1.0 + 0x1p-52 * n; }));
+        const double table[] { 7.0, *entry, *entry };
+        const auto fine = rc::gen::map (rc::gen::inRange (0, 1 << 20), [] (int n) { return n * 0x1p-20; });
+        const double part = *rc::gen::oneOf (rc::gen::element (0.0, 0.5, 1.0 - 0x1p-50), fine);
+        const double expected = std::lerp (table[1], table[2], (1.0 + part) - 1.0);
+        RC_PRE (std::isfinite (expected));
+        RC_ASSERT (std::bit_cast<std::uint64_t> (betweenEntries (table, 1.0 + part)) == std::bit_cast<std::uint64_t> (expected));
+    });
 }
 
 TEST_CASE ("windowed sinc: I_0 has its tabulated values", "[framework][signal]")

@@ -37,6 +37,24 @@ TEST_CASE ("a snapshot holds the last stored value; a partial store changes only
     CHECK (now[2] == 2);
 }
 
+TEST_CASE ("a snapshot stores several parts of a value, and keeps what is between them", "[runtime]")
+{
+    constexpr std::size_t word = sizeof (std::uint64_t);
+    Snapshot<State> snapshot { allOf (1) };
+    snapshot.storeParts (allOf (2), [] (auto part) {
+        part (0, word);
+        part (3 * word, 6 * word);
+        part (12 * word, 5);           // part of a word counts as all of it
+        part (38 * word, 10 * word);   // no further than the end
+    });
+    const auto now = snapshot.load().numbers;
+    for (std::size_t i = 0; i < now.size(); ++i)
+    {
+        INFO (i);
+        CHECK (now[i] == (i == 0 || (i >= 3 && i < 9) || i == 12 || i >= 38 ? 2u : 1u));
+    }
+}
+
 TEST_CASE ("a reader sees every snapshot complete, and never one older than the previous one", "[runtime]")
 {
     Snapshot<State> snapshot;

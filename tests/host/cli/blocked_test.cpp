@@ -49,12 +49,12 @@ std::string graphWith (const std::string& more_nodes)
       "wires": [ "push.out -> motor.force.x" ] })";
 }
 
-/// A mesh of 30 MB, written once. Reading it takes more than a second.
+/// A mesh of 48 MB, written once. Reading it takes more than a second.
 std::string largeMesh()
 {
     static const Scratch folder;
     static const auto path = [] {
-        constexpr int n = 600;
+        constexpr int n = 760;
         std::string text;
         for (int i = 0; i < n * n; ++i)
             text += "v " + std::to_string (1e-3 * (i / n)) + " " + std::to_string (1e-3 * (i % n)) + " " + std::to_string (1e-5 * (i % 7)) + "\n";

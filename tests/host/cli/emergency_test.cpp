@@ -81,7 +81,9 @@ TEST_CASE ("every signal that would end or suspend a play ends it as Ctrl-C does
     const auto graph = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000,
       "nodes": { "push": { "type": "signal.constant", "params": { "value": 2.0 } }, "motor": { "type": "device.force", "role": "tip" } },
       "wires": [ "push.out -> motor.force.x" ] })");
-    for (const int number : { SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGPIPE, SIGTSTP, SIGSYS, SIGTRAP, SIGRTMIN, SIGRTMAX })
+    const auto ending = { SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGPIPE, SIGTSTP,
+                          SIGSYS, SIGTRAP, SIGIO, SIGPWR, SIGSTKFLT, SIGRTMIN, SIGRTMAX };
+    for (const int number : ending)
     {
         CAPTURE (number);
         const auto recorded = scratch.path (std::to_string (number) + ".csv");
@@ -95,6 +97,9 @@ TEST_CASE ("every signal that would end or suspend a play ends it as Ctrl-C does
         const auto ran = play.finish();
         CHECK (ran.status == 0);
         CHECK (ran.err.find ("slew limit") == std::string::npos);   // the device was not released before its force was zero
+        const auto last = ran.err.rfind ("force ");                 // of the status
+        REQUIRE (last != std::string::npos);
+        CHECK (ran.err.substr (last).starts_with ("force  0.000 N"));
         const auto table = readTable (std::filesystem::path (recorded));
         REQUIRE (table);
         CHECK (table->rows() > 0);

@@ -212,6 +212,12 @@ TEST_CASE ("a damaged log is replayed as far as possible, even with another grap
     other_program.replace (other_program.find ("tactus 9"), 8, "x\\nforged: error: \\u001b");
     CHECK (replay (other_program).err.find ("recorded by 'x\\x0Aforged: error: \\x1B") != std::string::npos);
 
+    auto other_functions = log;   // as written before Tactus had functions of its own
+    const std::string key = "\"functions\":1,";
+    REQUIRE (other_functions.find (key) != std::string::npos);
+    other_functions.erase (other_functions.find (key), key.size());
+    CHECK (replay (other_functions).err.find ("[log/other_functions]") != std::string::npos);
+
     // The logged inputs also drive another graph, which gives its own output.
     const auto wall = scratch.write ("wall.json", R"({ "format": "tactus-graph", "version": 1,
       "nodes": { "hand": { "type": "device.position", "role": "stylus" }, "wall": { "type": "deform.plane" },

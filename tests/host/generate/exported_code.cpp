@@ -3,6 +3,7 @@
 
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
+#include <host/generate/code.hpp>
 #include <support/interpreter.hpp>
 #include <support/random_graph.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -72,7 +73,7 @@ host::ExportedFolder exportedRandomGraph (unsigned seed, int size)
     return host::exportGraph (graph, options);
 }
 
-host::ExportedFolder exportedPreset (const std::string& name)
+host::ExportedFolder exportedPreset (const std::string& name, host::ExportTarget target)
 {
     const auto file = fs::path (TACTUS_SOURCE_DIR) / "graphs" / (name + ".json");
     const auto loaded = loadGraph (file);
@@ -81,6 +82,7 @@ host::ExportedFolder exportedPreset (const std::string& name)
                               { .file = file.filename().string(),
                                 .program = "tactus",
                                 .compile = { .assets = &assets, .services = { .nearest_triangle = host::nearestByEmbree } },
+                                .target = target,
                                 .open = {} });
 }
 
@@ -107,27 +109,54 @@ void ExportedProgram::add (const host::ExportedFolder& exported)
         if (path.starts_with ("tactus/") && path.ends_with (".cpp")) sources.insert (path);
     }
     stems.push_back (exported.stem);
+    classes.push_back (exported.class_name);
+}
+
+/// One program of all graphs. In `per_graph`, @S@ is the stem and @C@ the class.
+void ExportedProgram::writeMain (const std::string& head, const std::string& per_graph) const
+{
+    std::string program = "#define TACTUS_SELF_TEST_IS_INCLUDED\n", tests;
+    for (std::size_t i = 0; i < stems.size(); ++i)
+    {
+        program += "#include \"" + stems[i] + ".cpp\"\n#include \"" + stems[i] + "_self_test.cpp\"\n";
+        tests += host::filled (per_graph, { { "@S@", stems[i] }, { "@C@", classes[i] } });
+    }
+    folder.write ("all.cpp", program + head + "int main()\n{\n    int failed = 0;\n" + tests + "    return failed;\n}\n");
+}
+
+std::string ExportedProgram::compileAndRun (const std::string& compile, const std::string& run) const
+{
+    std::string files = " -std=c++20 -Wall -Wextra -Werror -fno-exceptions -fno-rtti -ffp-contract=off -fno-math-errno -fno-trapping-math -I. -isystem "
+                        "/usr/include/eigen3 all.cpp";
+    for (const auto& source : sources)
+        files += " " + source;
+    const auto there = "cd '" + folder.path().string() + "' && ";
+    const auto succeeds = [&] (const std::string& command) { return std::system ((there + command).c_str()) == 0; };
+    const bool passed = succeeds (compile + files + " > said.txt 2>&1") && succeeds (run + " >> said.txt 2>&1");
+    return (passed ? "passed\n" : "failed\n") + contentOf (folder / "said.txt");
 }
 
 std::string ExportedProgram::run (const std::string& compiler, const std::string& flags) const
 {
-    std::string program = "#define TACTUS_SELF_TEST_IS_INCLUDED\n", tests;
-    for (const auto& stem : stems)
-    {
-        program += "#include \"" + stem + ".cpp\"\n#include \"" + stem + "_self_test.cpp\"\n";
-        tests += "    failed += " + stem + "_self_test::test();\n";
-    }
-    folder.write ("all.cpp", program + "int main()\n{\n    int failed = 0;\n" + tests + "    return failed;\n}\n");
-    std::string files = "all.cpp";
-    for (const auto& source : sources)
-        files += " " + source;
-    const auto there = "cd '" + folder.path().string() + "' && ";
-    const auto compile = compiler + " -std=c++20 " + flags
-                         + " -Wall -Wextra -Werror -fno-exceptions -fno-rtti -ffp-contract=off -fno-math-errno -fno-trapping-math -I. -isystem "
-                           "/usr/include/eigen3 -o all "
-                         + files;
-    const bool passed = std::system ((there + compile + " > said.txt 2>&1").c_str()) == 0 && std::system ((there + "./all >> said.txt 2>&1").c_str()) == 0;
-    return (passed ? "passed\n" : "failed\n") + contentOf (folder / "said.txt");
+    writeMain ({}, "    failed += @S@_self_test::test();\n");
+    return compileAndRun (compiler + " " + flags + " -o all", "./all");
+}
+
+std::string ExportedProgram::runOnM7 (const std::string& flags) const
+{
+    // With shift 6, QEMU's clock moves by 64 ns per instruction, and the timer by one in 40 ns.
+    writeMain ("extern \"C\" unsigned long timer();\n",
+               "    {\n        static @C@ graph;\n        graph.prepare();\n        const auto begin = timer();\n        @S@_self_test::repeat (graph);\n"
+               "        std::printf (\"@S@: %lu bytes, %lu instructions per tick\\n\", static_cast<unsigned long> (sizeof graph),\n"
+               "                     static_cast<unsigned long> (static_cast<double> (begin - timer()) * 40.0 / 64.0 / 1200.0));\n"
+               "        failed += @S@_self_test::test();\n    }\n");
+    const std::string here = TACTUS_SOURCE_DIR "/tests/host/generate/boards/";
+    return compileAndRun ("arm-none-eabi-g++ -mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard -fno-threadsafe-statics -ffunction-sections "
+                          "-fdata-sections "
+                              + flags + " -nostartfiles -Wl,--gc-sections -T '" + here + "an500.ld' '" + here + "start.cpp' -o all.elf",
+                          "qemu-system-arm -M mps2-an500 -nographic -monitor none -serial none -chardev stdio,id=said "
+                          "-semihosting-config enable=on,target=native,chardev=said -icount shift=6 "
+                          "-kernel all.elf");
 }
 
 }   // namespace tactus::test

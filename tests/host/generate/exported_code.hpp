@@ -18,7 +18,7 @@ Run::OpenDevice randomHands (unsigned seed);
 host::ExportedFolder exportedRandomGraph (unsigned seed, int size);
 
 /// A preset as C++ code; the devices are those that it describes.
-host::ExportedFolder exportedPreset (const std::string& name);
+host::ExportedFolder exportedPreset (const std::string& name, host::ExportTarget = host::ExportTarget::cpp);
 
 /// The text of a file of an export.
 std::string& textOf (host::ExportedFolder&, const std::string& path);
@@ -36,10 +36,17 @@ public:
     /// Compiles and runs the program. Returns what the compiler and the program said, beginning with "passed" or "failed".
     std::string run (const std::string& compiler, const std::string& flags) const;
 
+    /// The same on a Cortex-M7 in QEMU: compiled with arm-none-eabi-g++. For each graph, also says how many bytes it takes and how many
+    /// instructions a tick takes on average.
+    std::string runOnM7 (const std::string& flags) const;
+
 private:
     TemporaryFolder folder;
     std::set<std::string> sources;
-    std::vector<std::string> stems;
+    std::vector<std::string> stems, classes;
+
+    void writeMain (const std::string& head, const std::string& per_graph) const;
+    std::string compileAndRun (const std::string& compile, const std::string& run) const;
 };
 
 }   // namespace tactus::test

@@ -65,9 +65,16 @@ struct Wired final : Device
     Vec3 guarded_force = Vec3::Zero();
 };
 
-std::shared_ptr<const Profile> anyProfile()
+enum class Arm
 {
-    Profile p = *test::profileOf (*rc::gen::element<std::string> ("tactus_board", "woodenhaptics_usb"));
+    shipped,   // that of a shipped profile: Direct or SerialArm
+    linear,
+    five_bars
+};
+
+std::shared_ptr<const Profile> anyProfile (Arm kind = Arm::shipped)
+{
+    Profile p = *test::profileOf (kind == Arm::shipped ? *rc::gen::element<std::string> ("tactus_board", "woodenhaptics_usb") : "woodenhaptics_usb");
     if (auto* arm = std::get_if<SerialArm> (&p.kinematics))
     {
         arm->links = { any (0.05, 0.2), any (0.1, 0.3), any (0.1, 0.3) };
@@ -76,12 +83,21 @@ std::shared_ptr<const Profile> anyProfile()
             drive.torque_constant = any (0.02, 0.1);
             drive.max_current = any (0.5, 4.0);
         }
-        if (*rc::gen::arbitrary<bool>())
+        if (kind == Arm::linear)
         {
             LinearMap map;
             for (int i = 0; i < 9; ++i)
-                map.matrix (i / 3, i % 3) = any (-0.3, 0.3) * 1e-3;
+                map.matrix (i / 3, i % 3) = any (-0.3, 0.3);
             p.kinematics = map;
+        }
+        if (kind == Arm::five_bars)   // of the size of a Pantograph; the counts of anyReports turn each driven link by up to 0.06 rad
+        {
+            FiveBar bar;
+            bar.base = 0.025;
+            bar.links = { any (0.05, 0.07), any (0.07, 0.09), any (0.07, 0.09), any (0.05, 0.07) };
+            for (std::size_t i = 0; i < 2; ++i)
+                bar.drives[i] = { .counts_per_turn = 300000, .offset = i == 0 ? 0.8 : 2.3, .torque_constant = any (0.02, 0.1), .max_current = any (0.5, 4.0) };
+            p.kinematics = bar;
         }
     }
     auto& guard = p.limits.guard;
@@ -151,9 +167,10 @@ Sketch anyGraph (const std::vector<std::string>& efforts)
 
 TEST_CASE ("no report on the wire exceeds a limit or a slew of its device, whatever the graph, the profile and the kinematics", "[hid][property]")
 {
-    int driven = 0;
-    rc::prop ("any graph and device", [&] {
-        const auto profile = anyProfile();
+    const auto kind = GENERATE (Arm::shipped, Arm::linear, Arm::five_bars);
+    int driven = 0, turned = 0;
+    rc::prop ("any graph and device " + std::to_string (static_cast<int> (kind)), [&] {   // rapidcheck runs a property once per name
+        const auto profile = anyProfile (kind);
         Wired device (profile);
         device.reports = anyReports (*profile);
         const auto sketch = anyGraph (device.model.ownEffortNames());
@@ -166,6 +183,7 @@ TEST_CASE ("no report on the wire exceeds a limit or a slew of its device, whate
         engine.attach (role, device, limits.guard);
 
         constexpr double dt = 1.0 / rate_hz, count = 1e-3;   // in the unit of the coarser device
+        constexpr double torque_count = 1e-5;                // N m
         EffortValues last = device.model.restEfforts();
         for (int k = 0; k < 40; ++k)
         {
@@ -186,11 +204,27 @@ TEST_CASE ("no report on the wire exceeds a limit or a slew of its device, whate
             }
             driven += motors.isZero (0.0) ? 0 : 1;
             if (std::holds_alternative<Direct> (profile->kinematics))
+            {
+                Vec3 torque, step, force_step;
+                for (std::size_t i = 0; i < 3; ++i)
+                {
+                    const auto at = static_cast<std::size_t> (indexOf (device.model.effortNames(), profile->torque[i]));
+                    const auto force_at = static_cast<std::size_t> (indexOf (device.model.effortNames(), profile->force[i]));
+                    torque[static_cast<int> (i)] = device.sent[at];
+                    step[static_cast<int> (i)] = device.sent[at] - last[at];
+                    force_step[static_cast<int> (i)] = device.sent[force_at] - last[force_at];
+                }
                 RC_ASSERT (motors.norm() <= limits.guard.max_force + 2.0 * count);
+                RC_ASSERT (force_step.norm() <= limits.guard.max_slew * dt + 4.0 * count);
+                RC_ASSERT (torque.norm() <= limits.guard.max_torque + 2.0 * torque_count);
+                RC_ASSERT (step.norm() <= limits.guard.max_torque_slew * dt + 4.0 * torque_count);
+                turned += torque.isZero (0.0) ? 0 : 1;
+            }
             last = device.sent;
         }
     });
     CHECK (driven > 100);
+    if (kind == Arm::shipped) CHECK (turned > 100);
 }
 
 TEST_CASE ("device.force.applied shows the force that the motors render, decoded from the wire", "[hid][property]")

@@ -5,8 +5,12 @@
 #include <rapidcheck/catch.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <random>
+#include <vector>
 
 using tactus::Vec3;
 using tactus::nodes::Velocity;
@@ -225,4 +229,54 @@ TEST_CASE ("velocity: with a window in seconds, a quantised ramp has the same no
     for (const double rate : { 1000.0, 4000.0, 20000.0 })
         CHECK (worst (rate, 0.01) <= bound);
     CHECK (worst (20000.0, 0.0) > 3.0 * bound);   // window 0: max_window, 16 ticks
+}
+
+namespace
+{
+/// The end-fit window of one axis, by its definition, in m per tick. `past`: the newest sample last.
+double endFit (const std::vector<double>& past, std::size_t longest, double noise)
+{
+    const auto ago = [&past] (std::size_t n) { return past[past.size() - 1 - n]; };
+    const auto reach = std::min (longest, past.size() - 1);
+    const double now = ago (0), play = noise * (1.0 + 1e-6);
+    double least = -tactus::inf, most = tactus::inf;
+    std::size_t fitting = 0;
+    bool is_rest = reach > 0;
+    for (std::size_t n = 1; n <= reach && least <= most; ++n)
+    {
+        const double inverse = 1.0 / static_cast<double> (n), step = (now - ago (n)) * inverse;
+        if (step >= least && step <= most) fitting = n;
+        least = std::max (least, step - play * inverse);
+        most = std::min (most, step + play * inverse);
+    }
+    for (std::size_t a = 0; a <= reach; ++a)
+        for (std::size_t b = 0; b <= reach; ++b)
+            is_rest = is_rest && ago (a) - ago (b) <= play;
+    bool is_ramp = reach >= 2;
+    for (std::size_t n = 1; n < reach; ++n)
+    {
+        const double rise = now - ago (reach), line = now - rise * static_cast<double> (n) / static_cast<double> (reach);
+        is_ramp = is_ramp && std::abs (line - ago (n)) <= 1e-6 * std::abs (rise);
+    }
+    if (fitting == 0 || (least <= most && is_rest && ! is_ramp)) return 0.0;
+    return (now - ago (fitting)) / static_cast<double> (fitting);
+}
+}   // namespace
+
+TEST_CASE ("velocity: the bits of the definition, also where positions repeat", "[nodes][motion]")
+{
+    rc::prop ("any positions of a few quanta", [] (unsigned seed) {
+        const double noise = *rc::gen::element (q, 3.0 * q);
+        const int window = *rc::gen::inRange (1, 12);
+        auto node = velocity (noise, window);
+        std::mt19937 random { seed };
+        std::vector<double> past;
+        const double some[] { 0.0, -0.0, q, -q, 2.0 * q, 5.0 * q, 0.1, 0.1 + q };
+        for (int k = 0; k < 200; ++k)
+        {
+            past.push_back (past.empty() || random() % 3 == 0 ? some[random() % std::size (some)] : past.back());
+            const double expected = endFit (past, static_cast<std::size_t> (window), noise) / T;
+            RC_ASSERT (std::bit_cast<std::uint64_t> (along (node, past.back())) == std::bit_cast<std::uint64_t> (expected));
+        }
+    });
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A plugin in C that doubles its input. Each macro BAD_… makes it wrong in one way; GROWN makes it newer than this version. */
+/* A plugin in C that doubles its input. Each macro BAD_… makes it wrong in one way; GROWN makes it newer than this version,
+   and ALONE makes it notice two calls at the same time. */
 #include <tactus/tactus_plugin.h>
 
 #include <pthread.h>
@@ -31,10 +32,36 @@ static const tactus_plugin_port in = { sizeof in, TACTUS_PLUGIN_INPUT, "in", "a 
 static const tactus_plugin_port out = { sizeof out, TACTUS_PLUGIN_OUTPUT, "out", "twice the number", &one, &any, 0, 0, 1, 0, OFFSET, { 0, 0, 0 } };
 static const tactus_plugin_port* const ports[] = { &in, &out };
 
+/* With ALONE: begins and ends a call that no other may overlap. */
+#ifdef ALONE
+static int calls;    /* running now */
+static int overlaps; /* so far */
+static void begin (void)
+{
+    if (__atomic_fetch_add (&calls, 1, __ATOMIC_SEQ_CST) != 0) __atomic_store_n (&overlaps, 1, __ATOMIC_SEQ_CST);
+    usleep (100); /* long enough for another thread to get here */
+}
+static void end (void) { __atomic_fetch_sub (&calls, 1, __ATOMIC_SEQ_CST); }
+#else
+static void begin (void)
+{
+}
+static void end (void) {}
+#endif
+
 static void* create (const tactus_plugin_report* report)
 {
     (void)report;
+    begin();
+    end();
     return malloc (1);
+}
+
+static void destroy (void* node)
+{
+    begin();
+    free (node);
+    end();
 }
 
 static int32_t set (void* node, size_t setting, const tactus_plugin_value* value, const tactus_plugin_report* report)
@@ -115,6 +142,17 @@ static int32_t prepare (void* node, const tactus_plugin_setup* setup, const tact
 }
 #endif
 
+#ifdef ALONE
+static int32_t problem (const void* node, const tactus_plugin_report* report)
+{
+    (void)node;
+    begin();
+    end();
+    if (__atomic_load_n (&overlaps, __ATOMIC_SEQ_CST)) report->put (report->context, "two calls at the same time", 26);
+    return TACTUS_PLUGIN_OK;
+}
+#endif
+
 #ifdef BAD_CLAIM
 static int32_t claims (const void* node, tactus_plugin_claims* to, const tactus_plugin_report* report)
 {
@@ -172,7 +210,7 @@ static int32_t init (const tactus_plugin_host* host, const tactus_plugin_report*
     twice.now.outputs_size = sizeof (double);
     twice.now.outputs_align = sizeof (double);
     twice.now.create = create;
-    twice.now.destroy = free;
+    twice.now.destroy = destroy;
     twice.now.set = set;
     twice.now.params = params;
     twice.now.initialise_outputs = initialise;
@@ -183,6 +221,9 @@ static int32_t init (const tactus_plugin_host* host, const tactus_plugin_report*
 #endif
 #ifdef BAD_ENDLESS
     twice.now.prepare = prepare;
+#endif
+#ifdef ALONE
+    twice.now.problem = problem;
 #endif
 #ifdef BAD_CLAIM
     twice.now.claims = claims;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/math/math.hpp>
 #include <tactus/node/node.hpp>
 
-#include <cmath>
 #include <numbers>
 #include <tuple>
 
@@ -36,9 +36,9 @@ struct Ripple
 
     Outputs tick (const Inputs& in) const noexcept
     {
-        const double r = std::hypot (in.position.x(), in.position.y());
-        if (! std::isfinite (r) || r == 0.0) return {};
-        const double f = params.amplitude * std::sin (2.0 * std::numbers::pi * params.spatial_frequency * r);
+        const double r = tactus::math::hypot (in.position.x(), in.position.y());
+        if (! tactus::isFinite (r) || r == 0.0) return {};
+        const double f = params.amplitude * tactus::math::sin (2.0 * std::numbers::pi * params.spatial_frequency * r);
         return { .force = tactus::finiteOrZero (tactus::Vec3 (f * in.position.x() / r, f * in.position.y() / r, 0.0)) };
     }
 

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+// Apple AHAP, read. Sources: developer.apple.com, "Representing haptic patterns in AHAP files"; the scale of intensity and sharpness is
+// that of Meta's converter: amplitude = intensity squared, and frequency = sharpness squared, except for transients
+// (facebook/meta-haptics-sdk, core/haptic_data, MIT).
+#include "clip_formats.hpp"
+
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tactus::readers
+{
+
+namespace
+{
+/// A value that curves and parameters move while a pattern plays. Straight between its points, held beyond them.
+struct Control
+{
+    double initial = 0.0;
+    std::vector<std::vector<ClipPoint>> curves;
+    std::vector<ClipPoint> points;
+
+    /// Joins the curves. A later one cuts off an earlier one.
+    void join()
+    {
+        std::ranges::stable_sort (curves, {}, [] (const auto& c) { return c.front().time; });
+        for (const auto& curve : curves)
+        {
+            const double start = curve.front().time, held = points.empty() ? initial : at (start);
+            while (! points.empty() && points.back().time > start)
+                points.pop_back();
+            points.push_back ({ start, held });
+            points.insert (points.end(), curve.begin(), curve.end());
+        }
+    }
+
+    double at (double t) const
+    {
+        const auto after = std::ranges::upper_bound (points, t, {}, &ClipPoint::time);
+        if (after == points.begin()) return initial;
+        if (after == points.end()) return points.back().value;
+        const auto& a = *(after - 1);
+        return a.value + (after->value - a.value) * (t - a.time) / (after->time - a.time);
+    }
+};
+
+struct Event
+{
+    double time = 0.0, duration = 0.0, intensity = 1.0, sharpness = 0.5;
+};
+
+class AhapReader
+{
+public:
+    explicit AhapReader (ClipJson& f) : file (f) { intensity.initial = 1.0; }
+
+    Clip read()
+    {
+        const auto& root = file.root();
+        const auto pattern = file.need (root, "Pattern");
+        file.list (pattern);
+        for (std::size_t i = 0; i < pattern.json->size(); ++i)
+        {
+            const auto entry = ClipJson::entry (pattern, i);
+            file.object (entry);
+            if (const auto event = file.find (entry, "Event"))
+                readEvent (*event);
+            else if (const auto parameter = file.find (entry, "Parameter"))
+                readParameter (*parameter);
+            else if (const auto curve = file.find (entry, "ParameterCurve"))
+                readCurve (*curve);
+            else
+                file.refuse (entry, "clip/missing", "it is neither an Event, nor a Parameter, nor a ParameterCurve", "correct or remove it");
+        }
+        if (const auto data = file.find (root, "Metadata"))
+            for (const auto& [key, value] : data->json->items())
+                if (value.is_string()) clip.notes.emplace_back (lower (key), value.asString());
+        intensity.join();
+        sharpness.join();
+        makeTracks();
+        return std::move (clip);
+    }
+
+private:
+    static std::string lower (std::string text)
+    {
+        for (char& c : text)
+            if (c >= 'A' && c <= 'Z') c = static_cast<char> (c - 'A' + 'a');
+        return text;
+    }
+
+    /// A number that Apple's engine limits to its range.
+    double limited (const Spot& spot, double min, double max)
+    {
+        const double v = file.number (spot), used = std::clamp (v, min, max);
+        if (used != v)
+            file.note (spot, "clip/clamped", numberText (v) + " is limited to " + numberText (used), "correct it, to be sure of what other programs do");
+        return used;
+    }
+
+    double timeOf (const Spot& spot)
+    {
+        const auto time = file.find (spot, "Time");
+        return time ? limited (*time, 0.0, longest_clip_s) : 0.0;
+    }
+
+    void readEvent (const Spot& spot)
+    {
+        const auto type = file.need (spot, "EventType");
+        const auto& kind = file.text (type);
+        const bool is_tap = kind == "HapticTransient";
+        if (! is_tap && kind != "HapticContinuous")
+        {
+            if (kind != "AudioContinuous" && kind != "AudioCustom")
+                file.refuse (type, "clip/range", "there is no event type " + quote (kind),
+                             "types are HapticTransient, HapticContinuous, AudioContinuous and AudioCustom");
+            const auto sound = file.find (spot, "EventWaveformPath");
+            return file.note (type, "clip/not_carried",
+                              "the sound " + (sound && sound->json->is_string() ? quote (sound->json->asString()) : "event")
+                                  + " is left out: a clip holds no sounds",
+                              "play it beside the clip");
+        }
+        Event event { .time = timeOf (spot) };
+        if (! is_tap)
+        {
+            const auto duration = file.need (spot, "EventDuration");
+            event.duration = limited (duration, 0.0, 30.0);
+        }
+        if (const auto list = file.find (spot, "EventParameters"))
+        {
+            file.list (*list);
+            for (std::size_t i = 0; i < list->json->size(); ++i)
+            {
+                const auto entry = ClipJson::entry (*list, i);
+                readEventParameter (entry, event);
+            }
+        }
+        (is_tap ? taps : events).push_back (event);
+    }
+
+    void readEventParameter (const Spot& spot, Event& event)
+    {
+        const auto id = file.need (spot, "ParameterID"), value = file.need (spot, "ParameterValue");
+        const auto& name = file.text (id);
+        if (name == "HapticIntensity")
+            event.intensity = limited (value, 0.0, 1.0);
+        else if (name == "HapticSharpness")
+            event.sharpness = limited (value, 0.0, 1.0);
+        else if (! (name == "Sustained" && file.number (value) == 1.0))
+            file.note (spot, "clip/not_carried", quote (name) + " of " + numberText (file.number (value)) + " is left out",
+                       "draw it into a curve of HapticIntensityControl");
+    }
+
+    Control* controlOf (const Spot& spot)
+    {
+        const auto id = file.need (spot, "ParameterID");
+        const auto& name = file.text (id);
+        if (name == "HapticIntensityControl") return &intensity;
+        if (name == "HapticSharpnessControl") return &sharpness;
+        file.note (id, "clip/not_carried", "changes of " + quote (name) + " are left out",
+                   "nothing, if it is of a sound; else draw it into a curve of HapticIntensityControl");
+        return nullptr;
+    }
+
+    double controlValue (const Spot& spot, const Control& control)
+    {
+        const auto value = file.need (spot, "ParameterValue");
+        return limited (value, &control == &intensity ? 0.0 : -1.0, 1.0);
+    }
+
+    void readParameter (const Spot& spot)
+    {
+        if (auto* control = controlOf (spot)) control->curves.push_back ({ { timeOf (spot), controlValue (spot, *control) } });
+    }
+
+    void readCurve (const Spot& spot)
+    {
+        auto* control = controlOf (spot);
+        if (control == nullptr) return;
+        const auto list = file.need (spot, "ParameterCurveControlPoints");
+        file.list (list);
+        const double start = timeOf (spot);
+        std::vector<ClipPoint> curve;
+        for (std::size_t i = 0; i < list.json->size(); ++i)
+        {
+            const auto point = ClipJson::entry (list, i);
+            const double time = start + timeOf (point);
+            if (! curve.empty() && time < curve.back().time)
+                file.refuse (point, "clip/order", "its time is before that of the previous point", "sort the points by time");
+            curve.push_back ({ time, controlValue (point, *control) });
+        }
+        if (! curve.empty()) control->curves.push_back (std::move (curve));
+    }
+
+    /// The squares of a straight line as straight pieces, off by at most 0.05 %.
+    static void addSquares (std::vector<ClipPoint>& out, double from, double to, double a, double b)
+    {
+        constexpr double off = 5e-4;
+        const int pieces = std::max (1, static_cast<int> (std::ceil (std::abs (b - a) / (2.0 * std::sqrt (off)))));
+        for (int i = 0; i <= pieces; ++i)
+        {
+            const double share = static_cast<double> (i) / pieces, v = std::lerp (a, b, share);
+            const ClipPoint p { std::lerp (from, to, share), v * v };
+            if (out.empty() || out.back() != p) out.push_back (p);
+        }
+    }
+
+    /// Calls take (from, to, value at from, value at to) for each straight stretch of a control within an event.
+    template <typename Take>
+    static void stretches (const Control& control, double from, double to, Take take)
+    {
+        const auto& points = control.points;
+        auto next = std::ranges::upper_bound (points, from, {}, &ClipPoint::time);
+        double time = from, value = control.at (from);
+        for (; next != points.end() && next->time < to; ++next)
+        {
+            if (next->time > time) take (time, next->time, value, next->value);
+            time = next->time;
+            value = next->value;
+        }
+        const bool moves = next != points.end() && next != points.begin() && next->time > time;
+        const double end = moves ? value + (next->value - value) * (to - time) / (next->time - time) : value;
+        if (to > time) take (time, to, value, end);
+    }
+
+    /// The envelope of one event.
+    void addEvent (const Event& e, ClipTrack& track) const
+    {
+        const double end = e.time + e.duration;
+        stretches (intensity, e.time, end,
+                   [&] (double from, double to, double a, double b) { addSquares (track.amplitude, from, to, e.intensity * a, e.intensity * b); });
+        stretches (sharpness, e.time, end, [&] (double from, double to, double a, double b) {
+            // The sum is limited to 0…1: corners where it reaches a limit.
+            a += e.sharpness;
+            b += e.sharpness;
+            std::array<double, 4> corners { 0.0, 1.0, 1.0, 1.0 };
+            std::size_t n = 1;
+            for (const double limit : a < b ? std::array { 0.0, 1.0 } : std::array { 1.0, 0.0 })
+                if ((a - limit) * (b - limit) < 0.0) corners[n++] = (limit - a) / (b - a);
+            for (std::size_t i = 0; i < n; ++i)
+            {
+                const double p = corners[i], q = i + 1 < n ? corners[i + 1] : 1.0;
+                const auto at = [&] (double share) { return std::clamp (a + (b - a) * share, 0.0, 1.0); };
+                addSquares (track.sharpness, std::lerp (from, to, p), std::lerp (from, to, q), at (p), at (q));
+            }
+        });
+    }
+
+    /// The first track that is free at this time, with a gap of silence before it.
+    ClipTrack& freeTrack (double time)
+    {
+        constexpr double rounding = 1e-9;   // of the sum of a time and a duration
+        for (auto& track : clip.tracks)
+            if (track.amplitude.empty() || track.amplitude.back().time <= time + rounding)
+            {
+                if (! track.amplitude.empty() && track.amplitude.back().time < time)
+                {
+                    track.amplitude.push_back ({ track.amplitude.back().time, 0.0 });
+                    track.amplitude.push_back ({ time, 0.0 });
+                }
+                return track;
+            }
+        if (clip.tracks.size() >= at (most_clip_tracks))
+            file.refuse (file.root(), "clip/too_large", "more than " + std::to_string (most_clip_tracks) + " continuous events sound together", "remove some");
+        return clip.tracks.emplace_back();
+    }
+
+    void makeTracks()
+    {
+        std::ranges::stable_sort (events, {}, &Event::time);
+        std::ranges::stable_sort (taps, {}, &Event::time);
+        for (const auto& e : events)
+        {
+            if (! (e.duration > 0.0)) continue;
+            auto& track = freeTrack (e.time);
+            auto placed = e;
+            if (! track.amplitude.empty()) placed.time = std::max (e.time, track.amplitude.back().time);
+            placed.duration -= placed.time - e.time;
+            addEvent (placed, track);
+            if (static_cast<double> (clip.events()) > budgets().numbers) tooLarge();
+        }
+        if (clip.tracks.empty()) clip.tracks.emplace_back();
+        for (const auto& e : taps)
+        {
+            const double strength = e.intensity * intensity.at (e.time);
+            clip.tracks.front().taps.push_back ({ e.time, strength * strength, std::clamp (e.sharpness + sharpness.at (e.time), 0.0, 1.0) });
+        }
+    }
+
+    [[noreturn]] void tooLarge() const
+    {
+        file.refuse (file.root(), "clip/too_large", "its events and curves make more points than the budget allows", "shorten it");
+    }
+
+    ClipJson& file;
+    Clip clip;
+    Control intensity, sharpness;
+    std::vector<Event> events, taps;
+};
+}   // namespace
+
+Clip readAhap (ClipJson& file) { return AhapReader (file).read(); }
+
+}   // namespace tactus::readers

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "clip_difference.hpp"
+#include "clip_formats.hpp"
+
+#include <tactus/kit/clip_score.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace tactus::readers
+{
+
+namespace
+{
+constexpr double rate_hz = 2000.0, longest_s = 600.0;
+constexpr double between = 0.4142;   // where in its interval a sample is taken: away from the round times at which drawn envelopes jump
+
+ChannelDifference compare (const Clip& a, const Clip& b, int channel)
+{
+    const ClipScore first (a, channel), second (b, channel);
+    std::vector<ClipScore::Cursor> at_first (first.size()), at_second (second.size());
+    ChannelDifference made { .channel = channel, .duration = std::max (first.duration(), second.duration()) };
+    const auto samples = static_cast<std::size_t> (std::ceil (std::min (made.duration, longest_s) * rate_hz));
+    double squares = 0.0, differences = 0.0, hertz = 0.0;
+    std::size_t together = 0;
+    for (std::size_t k = 0; k < samples; ++k)
+    {
+        const double t = (static_cast<double> (k) + between) / rate_hz;
+        const auto x = first (t, 0.0, at_first.data()), y = second (t, 0.0, at_second.data());
+        squares += x.amplitude * x.amplitude;
+        differences += (x.amplitude - y.amplitude) * (x.amplitude - y.amplitude);
+        if (! (x.frequency > 0.0 && y.frequency > 0.0)) continue;
+        hertz += (x.frequency - y.frequency) * (x.frequency - y.frequency);
+        ++together;
+    }
+    if (samples == 0) return made;
+    made.rms = std::sqrt (squares / static_cast<double> (samples));
+    made.difference = std::sqrt (differences / static_cast<double> (samples));
+    if (together > 0) made.frequency = std::sqrt (hertz / static_cast<double> (together));
+    return made;
+}
+}   // namespace
+
+std::vector<ChannelDifference> compareClips (const Clip& first, const Clip& second, bool mixed)
+{
+    const auto hasWave = [] (const Clip& clip) { return std::ranges::any_of (clip.tracks, &ClipTrack::is_wave); };
+    if (hasWave (first) != hasWave (second)) return compareClips (withoutWaves (first), withoutWaves (second), mixed);
+    if (mixed) return { compare (first, second, 0) };
+    std::set<int> channels;
+    for (const auto* clip : { &first, &second })
+        for (const auto& t : clip->tracks)
+            channels.insert (t.channel);
+    std::vector<ChannelDifference> all;
+    for (const int channel : channels)
+        all.push_back (compare (first, second, channel));
+    return all;
+}
+
+}   // namespace tactus::readers

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <tactus/kit/clip.hpp>
+#include <tactus/text/message.hpp>
+#include <tactus/text/result.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace tactus::readers
+{
+
+/// A clip that was read, with warnings about what the file asks for and a clip does not hold, and about habits of the file that its
+/// format does not allow. `where` is name:line:column.
+struct ClipFile
+{
+    Clip clip;
+    Messages notes;
+};
+
+/// The text of a clip file, with warnings about what it could not carry. `where` is the part of the clip.
+struct ClipText
+{
+    std::string text;
+    Messages losses;
+};
+
+/// True if the extension is one of a clip file: .haptic, .ahap, .hjif or .json. [any thread]
+bool isClipName (std::string_view name) noexcept;
+
+/// Reads a clip: Meta .haptic 1, Apple AHAP, MPEG HJIF, or a clip of Tactus (.json, "format": "tactus-clip"). The extension selects the
+/// format; a .json may also hold any of the others. The time is linear in the number of events. Accepts any text. Docs: docs/clips.md.
+/// Error ids: clip/unknown_kind, clip/syntax, clip/missing, clip/kind, clip/range, clip/order, clip/version, clip/too_few, clip/too_large.
+/// Warnings: clip/habit, clip/not_carried, clip/clamped. [main thread]
+[[nodiscard]] Result<ClipFile> readClip (std::string_view bytes, std::string_view name);
+
+/// Writes a clip in the format of the extension. Warnings: clip/not_carried, clip/changed. Error: clip/unknown_kind. [main thread]
+[[nodiscard]] Result<ClipText> writeClip (const Clip&, std::string_view name);
+
+/// Sets what 0 and 1 mean from an actuator calibration (.acf) of Meta. Returns what a clip cannot hold of it. Errors as readClip.
+/// [main thread]
+[[nodiscard]] Result<Messages> readCalibration (std::string_view bytes, std::string_view name, ClipVoice&);
+
+}   // namespace tactus::readers

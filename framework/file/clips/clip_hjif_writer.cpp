@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// MPEG HJIF (ISO/IEC 23090-31), written as profile Main, level 1. Source: MPEGGroup/HapticReferenceSoftware, source/IOHaptics.
+#include "clip_formats.hpp"
+
+#include <tactus/text/json_writer.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace tactus::readers
+{
+
+namespace
+{
+constexpr double ticks_per_second = 48000.0;   // the finest of the profile
+
+long long ticks (double time) { return std::llround (time * ticks_per_second); }
+long long whole (double hertz) { return std::llround (hertz); }
+
+Json band (const char* type, double low, double high)
+{
+    return { { "band_type", type }, { "lower_frequency_limit", whole (std::floor (low)) }, { "upper_frequency_limit", whole (std::ceil (high)) } };
+}
+
+Json effect (double time, Json keyframes)
+{
+    Json made { { "effect_type", "Basis" }, { "position", ticks (time) }, { "phase", 0.0 }, { "base_signal", "Sine" } };
+    made["keyframes"] = std::move (keyframes);
+    return made;
+}
+
+/// One keyframe for each point of the envelope and of the sharpness, in order.
+Json keyframesOf (const ClipTrack& track, const ClipVoice& voice, double start)
+{
+    Json frames = Json::array();
+    std::size_t next = 0;
+    const auto hertz = [&] (double until) {
+        for (; next < track.sharpness.size() && track.sharpness[next].time <= until; ++next)
+        {
+            const auto& p = track.sharpness[next];
+            const double f = voice.lowest + p.value * (voice.highest - voice.lowest);
+            frames.push_back (Json { { "relative_position", ticks (p.time) - ticks (start) }, { "frequency_modulation", whole (f) } });
+        }
+    };
+    for (const auto& p : track.amplitude)
+    {
+        hertz (p.time);
+        frames.push_back (Json { { "relative_position", ticks (p.time) - ticks (start) }, { "amplitude_modulation", p.value } });
+    }
+    hertz (longest_clip_s);
+    return frames;
+}
+
+void addTrack (Json& bands, const ClipTrack& track, const ClipVoice& voice)
+{
+    if (! track.amplitude.empty() && track.is_wave)
+    {
+        auto made = band ("Curve", 0.0, 1000.0);
+        made["curve_type"] = "Linear";
+        made["effects"] = Json::array ({ effect (0.0, keyframesOf (track, voice, 0.0)) });
+        bands.push_back (std::move (made));
+    }
+    else if (! track.amplitude.empty())
+    {
+        auto made = band ("VectorialWave", std::min (voice.lowest, voice.highest), std::max (voice.lowest, voice.highest));
+        auto tone = track;
+        if (tone.sharpness.empty()) tone.sharpness.push_back ({ 0.0, 0.5 });
+        made["effects"] = Json::array ({ effect (0.0, keyframesOf (tone, voice, 0.0)) });
+        bands.push_back (std::move (made));
+    }
+    if (track.taps.empty()) return;
+    auto made = band ("Transient", std::min (voice.tap_lowest, voice.tap_highest), std::max (voice.tap_lowest, voice.tap_highest));
+    Json effects = Json::array();
+    for (const auto& tap : track.taps)
+    {
+        const double f = voice.tap_lowest + tap.sharpness * (voice.tap_highest - voice.tap_lowest);
+        Json frame { { "relative_position", 0 }, { "amplitude_modulation", tap.amplitude }, { "frequency_modulation", whole (f) } };
+        effects.push_back (effect (tap.time, Json::array ({ std::move (frame) })));
+    }
+    made["effects"] = std::move (effects);
+    bands.push_back (std::move (made));
+}
+}   // namespace
+
+ClipText writeHjif (const Clip& clip)
+{
+    ClipText made;
+    std::map<int, Json> channels;
+    for (const auto& track : clip.tracks)
+    {
+        auto& channel = channels[track.channel];
+        if (channel.is_null())
+        {
+            channel = Json { { "id", track.channel - 1 }, { "description", "" }, { "gain", 1.0 }, { "mixing_coefficient", 1.0 }, { "body_part_mask", 0 } };
+            channel["bands"] = Json::array();
+        }
+        addTrack (channel["bands"], track, clip.voice);
+    }
+    Json all = Json::array();
+    for (auto& [number, channel] : channels)
+        all.push_back (std::move (channel));
+
+    std::string description;
+    for (const auto& [key, value] : clip.notes)
+        if (key == "description")
+            description = value;
+        else
+            lose (made.losses, "notes/" + key, "the note is left out: the format has no place for it", "keep the original file");
+    if (clip.voice.ducking != 1.0) lose (made.losses, "voice", "the ducking is left out: the format has none", "draw it into the envelopes");
+
+    Json file { { "version", "2023" }, { "profile", "Main" }, { "level", 1 }, { "date", "2023-01-01" }, { "description", description } };
+    file["timescale"] = whole (ticks_per_second);
+    file["avatars"] = Json::array ({ Json { { "id", 1 }, { "lod", 0 }, { "type", "Vibration" } } });
+    Json perception { { "id", 0 }, { "avatar_id", 1 }, { "description", "" }, { "perception_modality", "Vibrotactile" } };
+    perception["reference_devices"] = Json::array();
+    perception["effect_library"] = Json::array();
+    perception["channels"] = std::move (all);
+    file["perceptions"] = Json::array ({ std::move (perception) });
+    file["syncs"] = Json::array();
+    made.text = writeJson (file);
+    return made;
+}
+
+}   // namespace tactus::readers

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "adapted_source.hpp"
+#include "code.hpp"
+
+namespace tactus::host
+{
+
+namespace
+{
+/// True for "std::string axis" and "std::string text = "in0"": a setting that is a text.
+bool isTextMember (std::string_view line)
+{
+    constexpr std::string_view type = "        std::string ";
+    return line.starts_with (type) && line.ends_with (';') && line.find_first_of ("({") == line.npos;
+}
+
+/// Settings that are texts become views of literals.
+std::string withTextViews (const std::string& text)
+{
+    std::string all;
+    for (std::size_t i = 0; i < text.size();)
+    {
+        const auto end = std::min (text.find ('\n', i), text.size() - 1);
+        std::string line = text.substr (i, end - i);
+        if (isTextMember (line)) line.replace (line.find ("std::string"), 11, "std::string_view");
+        all += line + "\n";
+        i = end + 1;
+    }
+    return all;
+}
+}   // namespace
+
+std::string adapted (const SourceFile& file)
+{
+    const std::string before (file.text);
+    if (file.path == "tactus/run/exported_memory.hpp" || ! file.path.starts_with ("tactus/")) return before;
+    auto text = filled (before, { { "std::vector<std::string>", "tactus::exported::NameList" },
+                                  { "std::vector<", "tactus::exported::Vector<" },
+                                  { "std::map<", "tactus::exported::Map<" },
+                                  { "std::function<", "tactus::exported::Function<" },
+                                  { "std::unique_ptr<", "std::shared_ptr<" },
+                                  { "std::make_unique<", "tactus::exported::makeShared<" },
+                                  { "std::make_shared<", "tactus::exported::makeShared<" } });
+    if (file.path.starts_with ("tactus/nodes/")) text = withTextViews (text);
+    if (text == before) return text;
+    text = filled (text, { { "#include <vector>\n", "" } });
+    const auto place = text.find ("#include");
+    if (place != text.npos) text.insert (place, "#include <tactus/run/exported_memory.hpp>\n");
+    return text;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sources.hpp"
+
+#include <string>
+
+namespace tactus::host
+{
+
+/// A source file as exported code contains it: with the containers of framework/run/exported_memory.hpp instead of those of the C++
+/// library, which take their memory from a heap.
+std::string adapted (const SourceFile&);
+
+}   // namespace tactus::host

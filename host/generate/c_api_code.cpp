@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "c_api_code.hpp"
+
+#include <tactus/text/number_text.hpp>
+
+#include <algorithm>
+#include <cctype>
+
+namespace tactus::host
+{
+
+namespace
+{
+/// The vectors of a reading and of an effort.
+constexpr const char* reading_vectors[] { "position", "rotation", "true_position", "true_velocity", "unrendered_force", "unrendered_torque" };
+constexpr const char* effort_vectors[] { "force", "torque" };
+
+/// "DRY_WOOD" for "dry_wood".
+std::string capitals (std::string text)
+{
+    for (auto& c : text)
+        c = static_cast<char> (std::toupper (static_cast<unsigned char> (c)));
+    return text;
+}
+
+std::string cChannels (const char* name, std::size_t count, const char* about)
+{
+    return count == 0 ? std::string {} : std::string ("    double ") + name + "[" + std::to_string (count) + "];   /* " + about + " */\n";
+}
+
+std::string roleStructs (const Exported& e)
+{
+    std::string text;
+    for (std::size_t i = 0; i < e.roles.size(); ++i)
+    {
+        const auto name = e.stem + "_" + e.wiring.role_ports[i];
+        const auto& layout = e.roles[i].layout;
+        text += "/* What the device in the role " + comment (e.roles[i].name) + " reports. */\ntypedef struct " + name + "_reading\n{\n"
+                + "    double position[3];            /* of the tool, m */\n"
+                  "    double rotation[3];            /* rotation vector, rad */\n"
+                  "    double pressure;               /* N */\n"
+                  "    double age;                    /* time since the device took this reading, s */\n"
+                  "    bool valid;                    /* false while the device has nothing to report */\n"
+                  "    uint32_t buttons;              /* bit i: button i is down */\n"
+                  "    double true_position[3];       /* of a simulated device, m */\n"
+                  "    double true_velocity[3];       /* of a simulated device, m/s */\n"
+                  "    double unrendered_force[3];    /* what the motors could not do of the last force, N */\n"
+                  "    double unrendered_torque[3];   /* the same for the torque, N m */\n"
+                + cChannels ("axes", layout.axes.size(), "m, rad or 1")
+                + cChannels ("signals", static_cast<std::size_t> (layout.signal_inputs), "signal inputs")
+                + "} " + name + "_reading;\n\n/* What this device should apply. */\ntypedef struct " + name + "_effort\n{\n"
+                + "    double force[3];    /* on the tool, N */\n    double torque[3];   /* on the tool, N m */\n"
+                + cChannels ("axes", layout.efforts.size(), "N or N m")
+                + cChannels ("signals", static_cast<std::size_t> (layout.signal_outputs), "signal outputs")
+                + "} " + name + "_effort;\n\n";
+    }
+    return text;
+}
+
+std::string cStructs (const Exported& e)
+{
+    std::string text = roleStructs (e) + "typedef struct " + e.stem + "_inputs\n{\n";
+    for (const auto& role : e.wiring.role_ports)
+        text += "    " + e.stem + "_" + role + "_reading " + role + ";\n";
+    for (const auto& feed : e.wiring.feed_names)
+        text += "    double " + feed + ";\n";
+    if (e.wiring.role_ports.empty() && e.wiring.feed_names.empty()) text += "    char unused;\n";
+    text += "} " + e.stem + "_inputs;\n\ntypedef struct " + e.stem + "_outputs\n{\n";
+    for (const auto& role : e.wiring.role_ports)
+        text += "    " + e.stem + "_" + role + "_effort " + role + ";\n";
+    for (std::size_t i = 0; i < e.wiring.tap_names.size(); ++i)
+    {
+        const auto& tap = e.wiring.plan.taps()[i];
+        text += "    double " + e.wiring.tap_names[i] + (tap.samples == nullptr ? "" : "[" + std::to_string (tap.per_tick) + "]") + ";   /* "
+                + filled (comment (tap.name), { { "*/", "* /" } }) + (tap.unit.empty() ? "" : ", " + tap.unit) + " */\n";
+    }
+    if (e.wiring.role_ports.empty() && e.wiring.tap_names.empty()) text += "    char unused;\n";
+    return text + "} " + e.stem + "_outputs;\n\n";
+}
+
+std::string cEnumOf (const Exported& e, const std::string& kind, const std::vector<std::string>& names)
+{
+    if (names.empty()) return {};
+    std::vector<std::string> all;
+    for (const auto& name : names)
+        all.push_back (capitals (e.stem + "_" + kind) + "_" + name);
+    return "typedef enum " + e.stem + "_" + kind + "\n{\n    " + listed (all, ",\n    ") + "\n} " + e.stem + "_" + kind + ";\n\n";
+}
+
+/// The names of the enumerators of a kind.
+std::vector<std::string> paramNames (const Exported& e)
+{
+    std::vector<std::string> all;
+    for (const auto& p : e.parameters)
+        all.push_back (p.enumerator);
+    return all;
+}
+
+std::vector<std::string> controlNames (const Exported& e)
+{
+    std::vector<std::string> all;
+    for (const auto& c : e.controls)
+        all.push_back (c.enumerator);
+    return all;
+}
+
+/// @S@ is the stem.
+std::string cFunctions (const Exported& e)
+{
+    std::string text = R"(/* How many bytes of memory a graph needs, and a multiple of which number its address must be. */
+size_t @S@_size (void);
+size_t @S@_alignment (void);
+
+/* Makes a graph in this memory, which must last as long as the graph: static memory, or what malloc returns. Returns NULL if it is too
+   small or at a wrong address. Nothing here takes memory from a heap. */
+@S@* @S@_create (void* memory, size_t size);
+
+/* Makes all nodes as new, for this many ticks per second. False if the rate is not above 0 or is above @U@_MAX_RATE_HZ. */
+bool @S@_prepare (@S@* graph, double ticks_per_second);
+
+/* Inputs of a device that reports nothing yet, and zeros. */
+void @S@_init (@S@_inputs* inputs);
+
+/* Computes one tick. */
+void @S@_tick (@S@* graph, const @S@_inputs* inputs, @S@_outputs* outputs);
+
+/* Ends a graph. Its memory can be used for something else. */
+void @S@_destroy (@S@* graph);
+
+)";
+    if (! e.parameters.empty())
+        text += "/* Moves a parameter to a value within 20 ms; at once before the first tick. */\n"
+                "void @S@_set (@S@* graph, @S@_param param, double value);\n\n"
+                "/* The value that a parameter has or moves to. */\ndouble @S@_get (const @S@* graph, @S@_param param);\n\n";
+    if (! e.controls.empty()) text += "/* Turns a control to a position from 0 to 1. */\nvoid @S@_turn (@S@* graph, @S@_control control, double position);\n\n";
+    if (! e.hits.empty()) text += "/* Hits an input at this speed, in m/s. */\nvoid @S@_strike (@S@* graph, @S@_hit hit, double speed);\n\n";
+    if (! e.roles.empty())
+        text += "/* Stops, as those of the class: see @S@.hpp. */\nvoid @S@_halt (@S@* graph);\nvoid @S@_resume (@S@* graph);\n"
+                "void @S@_emergency_stop (@S@* graph);\nvoid @S@_rearm (@S@* graph);\nvoid @S@_lose_time (@S@* graph, double seconds);\n\n";
+    return filled (text, { { "@S@", e.stem }, { "@U@", capitals (e.stem) } });
+}
+
+std::string cHeader (const Exported& e)
+{
+    const auto guard = capitals (e.stem) + "_H";
+    return "/* SPDX-License-Identifier: MIT */\n/* " + filled (comment (e.graph.name.empty() ? e.stem : e.graph.name), { { "*/", "* /" } })
+           + " as a C interface. All functions of a graph are for one thread. */\n#ifndef " + guard + "\n#define " + guard
+           + "\n\n#include <stdbool.h>\n#include <stddef.h>\n#include <stdint.h>\n\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n#define " + capitals (e.stem)
+           + "_RATE_HZ " + literal (e.wiring.plan.rateHz()) + "\n#define " + capitals (e.stem) + "_MAX_RATE_HZ " + literal (e.wiring.plan.rateHz())
+           + "\n\ntypedef struct " + e.stem + " " + e.stem + ";\n\n" + cStructs (e) + cEnumOf (e, "param", paramNames (e))
+           + cEnumOf (e, "control", controlNames (e))
+           + cEnumOf (e, "hit", e.hits) + cFunctions (e) + "#ifdef __cplusplus\n}\n#endif\n\n#endif\n";
+}
+
+/// Statements that copy the inputs into those of the class.
+std::string readInputs (const Exported& e)
+{
+    std::string text;
+    for (std::size_t i = 0; i < e.roles.size(); ++i)
+    {
+        const auto from = "inputs->" + e.wiring.role_ports[i] + ".", to = "in." + e.wiring.role_ports[i] + ".";
+        for (const auto* name : reading_vectors)
+            text += "    " + to + name + " = vector (" + from + name + ");\n";
+        for (const auto* name : { "pressure", "age", "valid", "buttons" })
+            text += "    " + to + name + " = " + from + name + ";\n";
+        if (! e.roles[i].layout.axes.empty()) text += "    set (" + to + "axes, " + from + "axes);\n";
+        if (e.roles[i].layout.signal_inputs > 0) text += "    set (" + to + "signals, " + from + "signals);\n";
+    }
+    for (const auto& feed : e.wiring.feed_names)
+        text += "    in." + feed + " = inputs->" + feed + ";\n";
+    return text;
+}
+
+std::string writeOutputs (const Exported& e)
+{
+    std::string text;
+    for (std::size_t i = 0; i < e.roles.size(); ++i)
+    {
+        const auto from = "out." + e.wiring.role_ports[i] + ".", to = "outputs->" + e.wiring.role_ports[i] + ".";
+        for (const auto* name : effort_vectors)
+            for (int c = 0; c < 3; ++c)
+                text += "    " + to + name + "[" + std::to_string (c) + "] = " + from + name + "[" + std::to_string (c) + "];\n";
+        if (! e.roles[i].layout.efforts.empty()) text += "    get (" + from + "axes, " + to + "axes);\n";
+        if (e.roles[i].layout.signal_outputs > 0) text += "    get (" + from + "signals, " + to + "signals);\n";
+    }
+    for (std::size_t i = 0; i < e.wiring.tap_names.size(); ++i)
+    {
+        const auto& name = e.wiring.tap_names[i];
+        text += e.wiring.plan.taps()[i].samples == nullptr ? "    outputs->" + name + " = out." + name + ";\n"
+                                                           : "    std::copy (out." + name + ".begin(), out." + name + ".end(), outputs->" + name + ");\n";
+    }
+    return text;
+}
+
+std::string optionalFunctions (const Exported& e)
+{
+    std::string text;
+    if (! e.parameters.empty())
+        text += "void @S@_set (@S@* graph, @S@_param param, double value) { graph->all.set (static_cast<@C@::Param> (param), value); }\n"
+                "double @S@_get (const @S@* graph, @S@_param param) { return graph->all.get (static_cast<@C@::Param> (param)); }\n";
+    if (! e.controls.empty())
+        text += "void @S@_turn (@S@* graph, @S@_control control, double position) { graph->all.set (static_cast<@C@::Control> (control), position); }\n";
+    if (! e.hits.empty()) text += "void @S@_strike (@S@* graph, @S@_hit hit, double speed) { graph->all.strike (static_cast<@C@::Hit> (hit), speed); }\n";
+    if (! e.roles.empty())
+        text += "void @S@_halt (@S@* graph) { graph->all.halt(); }\nvoid @S@_resume (@S@* graph) { graph->all.resume(); }\n"
+                "void @S@_emergency_stop (@S@* graph) { graph->all.emergencyStop(); }\nvoid @S@_rearm (@S@* graph) { graph->all.rearm(); }\n"
+                "void @S@_lose_time (@S@* graph, double seconds) { graph->all.loseTime (seconds); }\n";
+    return text;
+}
+
+std::string cSource (const Exported& e)
+{
+    const bool reads = ! e.roles.empty() || ! e.wiring.feed_names.empty(), writes = ! e.roles.empty() || ! e.wiring.tap_names.empty();
+    return filled (R"(// SPDX-License-Identifier: MIT
+#include "@S@.h"
+#include "@S@.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+
+struct @S@
+{
+    @C@ all {};
+};
+
+namespace
+{
+[[maybe_unused]] tactus::Vec3 vector (const double (&three)[3]) noexcept { return { three[0], three[1], three[2] }; }
+
+template <std::size_t n>
+[[maybe_unused]] void set (tactus::Channels& channels, const double (&values)[n]) noexcept
+{
+    for (std::size_t i = 0; i < n; ++i)
+        channels.set (static_cast<int> (i), values[i]);
+}
+
+template <std::size_t n>
+[[maybe_unused]] void get (const tactus::Channels& channels, double (&values)[n]) noexcept
+{
+    for (std::size_t i = 0; i < n; ++i)
+        values[i] = channels[static_cast<int> (i)];
+}
+}   // namespace
+
+size_t @S@_size (void) { return sizeof (@S@); }
+size_t @S@_alignment (void) { return alignof (@S@); }
+
+@S@* @S@_create (void* memory, size_t size)
+{
+    if (memory == nullptr || size < sizeof (@S@) || reinterpret_cast<std::uintptr_t> (memory) % alignof (@S@) != 0) return nullptr;
+    auto* const graph = std::construct_at (static_cast<@S@*> (memory));
+    graph->all.prepare();
+    return graph;
+}
+
+bool @S@_prepare (@S@* graph, double ticks_per_second) { return graph->all.prepare (ticks_per_second); }
+
+void @S@_init (@S@_inputs* inputs)
+{
+    *inputs = @S@_inputs {};
+@VALID@}
+
+void @S@_tick (@S@* graph, const @S@_inputs* @INPUTS@, @S@_outputs* @OUTPUTS@)
+{
+    @C@::Inputs in;
+    @C@::Outputs out;
+@READ@    graph->all.tick (in, out);
+@WRITE@}
+
+void @S@_destroy (@S@* graph)
+{
+    if (graph != nullptr) std::destroy_at (graph);
+}
+
+@MORE@)",
+                   { { "@VALID@",
+                       [&] {
+                           std::string text;
+                           for (const auto& role : e.wiring.role_ports)
+                               text += "    inputs->" + role + ".valid = true;\n";
+                           return text;
+                       }() },
+                     { "@INPUTS@", reads ? "inputs" : "" },
+                     { "@OUTPUTS@", writes ? "outputs" : "" },
+                     { "@READ@", readInputs (e) },
+                     { "@WRITE@", writeOutputs (e) },
+                     { "@MORE@", optionalFunctions (e) },
+                     { "@C@", e.class_name },
+                     { "@S@", e.stem } });
+}
+
+std::string cExample (const Exported& e)
+{
+    std::string move, print;
+    for (const auto& role : e.wiring.role_ports)
+    {
+        move += "        inputs." + role + ".position[0] = 1e-5 * k;\n        inputs." + role + ".position[2] = 0.002 - 4e-6 * k;\n";
+        print += "        printf (\"%d %a %a %a\\n\", k, outputs." + role + ".force[0], outputs." + role + ".force[1], outputs." + role + ".force[2]);\n";
+    }
+    return filled (R"(/* SPDX-License-Identifier: MIT */
+/* Moves the tool sideways and down into the object, and prints the force on each tick. */
+#include "@S@.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+int main (void)
+{
+    void* const memory = malloc (@S@_size()); /* or static memory */
+    @S@* const graph = @S@_create (memory, @S@_size());
+    @S@_inputs inputs;
+    @S@_outputs outputs;
+    int k;
+    if (graph == NULL || ! @S@_prepare (graph, @U@_RATE_HZ)) return 1;
+    @S@_init (&inputs);
+    for (k = 0; k < 1000; ++k)
+    {
+@MOVE@        @S@_tick (graph, &inputs, &outputs);
+@PRINT@    }
+    @S@_destroy (graph);
+    free (memory);
+    return 0;
+}
+)",
+                   { { "@MOVE@", move }, { "@PRINT@", print }, { "@S@", e.stem }, { "@U@", capitals (e.stem) } });
+}
+}   // namespace
+
+CFiles cFiles (const Exported& e) { return { cHeader (e), cSource (e), cExample (e) }; }
+
+}   // namespace tactus::host

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "exported.hpp"
+
+#include <string>
+
+namespace tactus::host
+{
+
+/// The C interface of an exported class: a C99 header, the C++ file behind it, and a C program that uses it.
+struct CFiles
+{
+    std::string header, source, example;
+};
+
+CFiles cFiles (const Exported&);
+
+}   // namespace tactus::host

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fmu_code.hpp"
+#include "fmu_template.hpp"
+
+#include <tactus/text/number_text.hpp>
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+
+namespace tactus::host
+{
+
+namespace
+{
+/// A variable of the unit. Its number is its value reference, and its place among the variables of its type.
+struct Variable
+{
+    enum class Kind
+    {
+        input,
+        output,
+        parameter,
+        control,
+        hit
+    };
+
+    std::string name, about;
+    Kind kind = Kind::input;
+    std::string code;   ///< for an input, a statement in which @ is the value; for an output, its value; for others, an enumerator
+    double start = 0.0, low = -inf, high = inf;
+};
+
+struct Variables
+{
+    std::vector<Variable> reals;
+    std::vector<std::pair<std::string, std::string>> buttons, valid;   ///< name and member, per role
+};
+
+void addInput (Variables& all, const std::string& name, const std::string& code, const std::string& about, double start = 0.0)
+{
+    all.reals.push_back ({ .name = "in." + name, .about = about, .kind = Variable::Kind::input, .code = code, .start = start });
+}
+
+void addOutput (Variables& all, const std::string& name, const std::string& code, const std::string& about)
+{
+    all.reals.push_back ({ .name = name, .about = about, .kind = Variable::Kind::output, .code = code });
+}
+
+void addRoleInputs (Variables& all, const Exported& e, std::size_t i)
+{
+    const auto& role = e.wiring.role_ports[i];
+    const auto in = "in." + role + ".";
+    constexpr std::pair<const char*, const char*> vectors[] {
+        { "position", "of the tool, m" },
+        { "rotation", "rotation vector, rad" },
+        { "true_position", "of a simulated device, m" },
+        { "true_velocity", "of a simulated device, m/s" },
+        { "unrendered_force", "what the motors could not do, N" },
+        { "unrendered_torque", "what the motors could not do, N m" },
+    };
+    for (const auto& [name, about] : vectors)
+        for (const char c : { 'x', 'y', 'z' })
+            addInput (all, role + "." + name + "." + c, in + name + "." + c + "() = @;", about);
+    addInput (all, role + ".pressure", in + "pressure = @;", "N");
+    addInput (all, role + ".age", in + "age = @;", "time since the device took this reading, s");
+    for (std::size_t a = 0; a < e.roles[i].layout.axes.size(); ++a)
+        addInput (all, role + ".axes." + std::to_string (a), in + "axes.set (" + std::to_string (a) + ", @);", e.roles[i].layout.axes[a]);
+    for (int s = 0; s < e.roles[i].layout.signal_inputs; ++s)
+        addInput (all, role + ".signals." + std::to_string (s), in + "signals.set (" + std::to_string (s) + ", @);", "signal input");
+    all.buttons.emplace_back ("in." + role + ".buttons", in + "buttons");
+    all.valid.emplace_back ("in." + role + ".valid", in + "valid");
+}
+
+void addRoleOutputs (Variables& all, const Exported& e, std::size_t i)
+{
+    const auto& role = e.wiring.role_ports[i];
+    const auto out = "out." + role + ".";
+    for (const auto& [name, about] : { std::pair { "force", "on the tool, after the guard, N" }, { "torque", "on the tool, after the guard, N m" } })
+        for (const char c : { 'x', 'y', 'z' })
+            addOutput (all, "out." + role + "." + name + "." + c, out + name + "." + c + "()", about);
+    for (std::size_t a = 0; a < e.roles[i].layout.efforts.size(); ++a)
+        addOutput (all, "out." + role + ".axes." + std::to_string (a), out + "axes[" + std::to_string (a) + "]", e.roles[i].layout.efforts[a]);
+    for (int s = 0; s < e.roles[i].layout.signal_outputs; ++s)
+        addOutput (all, "out." + role + ".signals." + std::to_string (s), out + "signals[" + std::to_string (s) + "]", "signal output");
+}
+
+void addTaps (Variables& all, const Exported& e)
+{
+    for (std::size_t i = 0; i < e.wiring.tap_names.size(); ++i)
+    {
+        const auto& tap = e.wiring.plan.taps()[i];
+        const auto code = "out." + e.wiring.tap_names[i];
+        if (tap.samples == nullptr)
+            addOutput (all, "record." + tap.name, code, tap.unit);
+        else
+            for (int k = 0; k < tap.per_tick; ++k)
+                addOutput (all, "record." + tap.name + "." + std::to_string (k), code + "[" + std::to_string (k) + "]", tap.unit);
+    }
+}
+
+Variables variablesOf (const Exported& e)
+{
+    using Kind = Variable::Kind;
+    Variables all;
+    for (std::size_t i = 0; i < e.roles.size(); ++i)
+        addRoleInputs (all, e, i);
+    for (const auto& feed : e.wiring.feed_names)
+        addInput (all, feed, "in." + feed + " = @;", "drives a port of the graph");
+    for (std::size_t i = 0; i < e.roles.size(); ++i)
+        addRoleOutputs (all, e, i);
+    addTaps (all, e);
+    for (const auto& p : e.parameters)
+    {
+        const auto& hard = p.sheet->limits.hard;
+        const bool is_choice = ! p.sheet->choices.empty();
+        all.reals.push_back ({ .name = "param." + p.name,
+                               .about = std::string (p.sheet->about),
+                               .kind = Kind::parameter,
+                               .code = e.class_name + "::Param::" + p.enumerator,
+                               .start = p.value,
+                               .low = is_choice ? 0.0 : hard.min,
+                               .high = is_choice ? static_cast<double> (p.sheet->choices.size() - 1) : hard.max });
+    }
+    for (const auto& c : e.controls)
+        all.reals.push_back ({ .name = "control." + c.id,
+                               .about = c.name,
+                               .kind = Kind::control,
+                               .code = e.class_name + "::Control::" + c.enumerator,
+                               .start = c.value,
+                               .low = 0.0,
+                               .high = 1.0 });
+    for (std::size_t i = 0; i < e.hits.size(); ++i)
+        all.reals.push_back ({ .name = "hit." + e.wiring.hit_names[i],
+                               .about = "hits this input at the speed, m/s, at the start of the step",
+                               .kind = Kind::hit,
+                               .code = e.class_name + "::Hit::" + e.hits[i] });
+    return all;
+}
+
+std::string xml (std::string_view text)
+{
+    return filled (comment (text), { { "&", "&amp;" }, { "<", "&lt;" }, { ">", "&gt;" }, { "\"", "&quot;" } });
+}
+
+std::string variableTag (const std::string& name, std::size_t number, const std::string& attributes, const std::string& about, const std::string& value)
+{
+    return "    <ScalarVariable name=\"" + xml (name) + "\" valueReference=\"" + std::to_string (number) + "\" " + attributes
+           + (about.empty() ? "" : " description=\"" + xml (about) + "\"") + ">" + value + "</ScalarVariable>\n";
+}
+
+std::string attributesOf (Variable::Kind kind)
+{
+    using Kind = Variable::Kind;
+    if (kind == Kind::output) return "causality=\"output\" variability=\"discrete\" initial=\"calculated\"";
+    if (kind == Kind::input || kind == Kind::hit) return "causality=\"input\" variability=\"discrete\"";
+    return "causality=\"parameter\" variability=\"tunable\" initial=\"exact\"";
+}
+
+std::string realTag (const Variable& v)
+{
+    std::string text = "<Real";
+    if (v.low > -inf) text += " min=\"" + numberText (v.low) + "\"";
+    if (v.high < inf) text += " max=\"" + numberText (v.high) + "\"";
+    if (v.kind != Variable::Kind::output) text += " start=\"" + numberText (v.start) + "\"";
+    return text + "/>";
+}
+
+/// 128 bits that change with the text, as a GUID.
+std::string guidOf (const std::string& text)
+{
+    std::uint64_t a = 0xcbf29ce484222325, b = 0x84222325cbf29ce4;   // FNV-1a, with two starting values
+    for (const char c : text)
+    {
+        a = (a ^ static_cast<unsigned char> (c)) * 0x100000001b3;
+        b = (b ^ static_cast<unsigned char> (c)) * 0x100000001b3 + 1;
+    }
+    std::array<char, 48> buffer {};
+    std::snprintf (buffer.data(), buffer.size(), "{%08x-%04x-%04x-%04x-%012llx}", static_cast<unsigned> (a >> 32), static_cast<unsigned> (a >> 16 & 0xffff),
+                   static_cast<unsigned> (a & 0xffff), static_cast<unsigned> (b >> 48), static_cast<unsigned long long> (b & 0xffffffffffff));
+    return buffer.data();
+}
+
+std::string variableTags (const Variables& all, std::string& outputs)
+{
+    std::string text;
+    for (std::size_t i = 0; i < all.reals.size(); ++i)
+    {
+        const auto& v = all.reals[i];
+        text += variableTag (v.name, i, attributesOf (v.kind), v.about, realTag (v));
+        if (v.kind == Variable::Kind::output) outputs += "      <Unknown index=\"" + std::to_string (i + 1) + "\"/>\n";
+    }
+    for (std::size_t i = 0; i < all.buttons.size(); ++i)
+        text += variableTag (all.buttons[i].first, i, "causality=\"input\" variability=\"discrete\"", "bit i: button i is down", "<Integer start=\"0\"/>");
+    for (std::size_t i = 0; i < all.valid.size(); ++i)
+        text += variableTag (all.valid[i].first, i, "causality=\"input\" variability=\"discrete\"", "false while the device has nothing to report",
+                             "<Boolean start=\"true\"/>");
+    return text;
+}
+
+std::string description (const Exported& e, const Variables& all)
+{
+    std::string outputs;
+    const auto variables = variableTags (all, outputs);
+    const auto structure = outputs.empty() ? "  <ModelStructure/>\n"
+                                           : "  <ModelStructure>\n    <Outputs>\n" + outputs + "    </Outputs>\n    <InitialUnknowns>\n" + outputs
+                                                 + "    </InitialUnknowns>\n  </ModelStructure>\n";
+    return filled (R"(<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="2.0" modelName="@NAME@" guid="@GUID@" description="@ABOUT@" generationTool="@TOOL@"
+    variableNamingConvention="flat" numberOfEventIndicators="0">
+  <CoSimulation modelIdentifier="@S@" canHandleVariableCommunicationStepSize="true" canGetAndSetFMUstate="true" canSerializeFMUstate="false"/>
+  <DefaultExperiment startTime="0" stepSize="@STEP@"/>
+  <ModelVariables>
+@VARIABLES@  </ModelVariables>
+@STRUCTURE@</fmiModelDescription>
+)",
+                   { { "@NAME@", xml (e.graph.name.empty() ? e.stem : e.graph.name) },
+                     { "@ABOUT@", xml (e.graph.about) },
+                     { "@TOOL@", xml (e.program) },
+                     { "@GUID@", guidOf (e.program + variables) },
+                     { "@S@", e.stem },
+                     { "@STEP@", numberText (1.0 / e.wiring.plan.rateHz()) },
+                     { "@VARIABLES@", variables },
+                     { "@STRUCTURE@", structure } });
+}
+
+/// What the functions of the unit do with its variables.
+struct Access
+{
+    std::string read, write, set, strike, starts;
+    std::string parameters, controls;   ///< how many there are of which numbers
+};
+
+Access accessOf (const Variables& all)
+{
+    using Kind = Variable::Kind;
+    Access a;
+    for (std::size_t i = 0; i < all.reals.size(); ++i)
+    {
+        const auto& v = all.reals[i];
+        const auto value = "real[" + std::to_string (i) + "]";
+        if (v.start != 0.0) a.starts += "    unit." + value + " = " + literal (v.start) + ";\n";
+        if (v.kind == Kind::input) a.read += "    " + filled (v.code, { { "@", "unit." + value } }) + "\n";
+        if (v.kind == Kind::output) a.write += "    unit." + value + " = " + v.code + ";\n";
+        if (v.kind == Kind::parameter || v.kind == Kind::control)
+            a.set += "    case " + std::to_string (i) + ":\n        unit.graph.set (" + v.code + ", unit." + value + ");\n        break;\n";
+        if (v.kind == Kind::hit) a.strike += "    unit.graph.strike (" + v.code + ", unit." + value + ");\n";
+    }
+    for (std::size_t i = 0; i < all.buttons.size(); ++i)
+    {
+        a.read += "    " + all.buttons[i].second + " = static_cast<std::uint32_t> (unit.integer[" + std::to_string (i) + "]);\n";
+        a.read += "    " + all.valid[i].second + " = unit.boolean[" + std::to_string (i) + "] != fmi2False;\n";
+        a.starts += "    unit.boolean[" + std::to_string (i) + "] = fmi2True;\n";
+    }
+    return a;
+}
+
+/// By real variable: whether it is an output, which cannot be set.
+std::string kindsOf (const Variables& all)
+{
+    std::string text;
+    for (const auto& v : all.reals)
+        text += v.kind == Variable::Kind::output ? "o" : "i";
+    return text;
+}
+}   // namespace
+
+FmuFiles fmuFiles (const Exported& e)
+{
+    const auto all = variablesOf (e);
+    FmuFiles files;
+    files.description = description (e, all);
+    const auto begin = files.description.find ("guid=\"") + 6;
+    const auto guid = files.description.substr (begin, files.description.find ('"', begin) - begin);
+    const auto a = accessOf (all);
+    files.source = filled (fmuSource(), { { "@READ@", a.read },
+                                          { "@WRITE@", a.write },
+                                          { "@SET@", a.set },
+                                          { "@STRIKE@", a.strike },
+                                          { "@STARTS@", a.starts },
+                                          { "@KINDS@", kindsOf (all) },
+                                          { "@REALS@", std::to_string (all.reals.size()) },
+                                          { "@ROLES@", std::to_string (all.buttons.size()) },
+                                          { "@GUID@", guid },
+                                          { "@C@", e.class_name },
+                                          { "@S@", e.stem } });
+    files.make = filled (fmuMake(), { { "@S@", e.stem } });
+    return files;
+}
+
+}   // namespace tactus::host

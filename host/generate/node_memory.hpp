@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "wiring.hpp"
+
+namespace tactus::host
+{
+
+/// What the nodes of an exported graph need.
+struct NodeMemory
+{
+    std::size_t nodes = 0;      ///< bytes of the nodes themselves
+    std::size_t prepared = 0;   ///< bytes that they take when they are made and prepared, with some room to spare
+};
+
+/// Makes and prepares all nodes once more, as exported code does, and counts. [main thread]
+NodeMemory memoryOf (const Wiring&);
+
+}   // namespace tactus::host

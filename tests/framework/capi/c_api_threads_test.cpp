@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// The C API from five threads at once, mainly for TSan. TACTUS_LIVE_SECONDS makes the test longer.
+#include "c_handles.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+using namespace tactus::test;
+
+TEST_CASE ("C API: while a run ticks itself, one thread edits, and others push readings, read efforts, and stop and rearm", "[c_api][threads]")
+{
+    const MessageList m { tactus_messages_create() };
+    const GraphHandle g { tactus_graph_load (TACTUS_SOURCE_DIR "/graphs/dry_wood.json", m.get()) };
+    REQUIRE (g);
+    const RunHandle run { tactus_run_create (g.get(), nullptr, m.get()) };
+    REQUIRE (run);
+    tactus_device_options device = TACTUS_DEVICE_OPTIONS;
+    REQUIRE (tactus_run_pushed_device (run.get(), "stylus", &device, m.get()) == TACTUS_OK);
+    REQUIRE (tactus_run_open (run.get(), m.get()) == TACTUS_OK);
+    tactus_start_options start = TACTUS_START_OPTIONS;
+    start.buffer = 10'000;
+    REQUIRE (tactus_run_start (run.get(), &start, m.get()) == TACTUS_OK);
+
+    std::atomic<bool> stop = false;
+    std::atomic<int> broken = 0, pushed = 0, read = 0, stopped = 0;
+    std::vector<std::thread> others;
+    const auto beside = [&] (std::function<void (int)> step) {
+        others.emplace_back ([&stop, step = std::move (step)] {
+            for (int i = 0; ! stop; ++i)
+            {
+                step (i);
+                std::this_thread::yield();
+            }
+        });
+    };
+    beside ([&] (int i) {
+        tactus_reading r {};
+        r.size = sizeof r;
+        r.valid = 1;
+        r.position[0] = 1e-5 * (i % 1000);
+        r.position[2] = -1e-3;
+        broken += tactus_run_push (run.get(), "stylus", &r) != TACTUS_OK;
+        ++pushed;
+    });
+    beside ([&] (int) {
+        tactus_effort e {};
+        e.size = sizeof e;
+        tactus_status status = TACTUS_STATUS;
+        broken += tactus_run_take (run.get(), "stylus", &e) != TACTUS_OK || tactus_run_status (run.get(), &status) != TACTUS_OK;
+        broken += ! std::isfinite (e.force[0] + e.force[1] + e.force[2]) || status.peak_force < status.force;
+        ++read;
+    });
+    beside ([&] (int) {
+        broken += tactus_run_emergency_stop (run.get()) != TACTUS_OK;
+        std::this_thread::sleep_for (std::chrono::milliseconds (20));
+        broken += tactus_run_rearm (run.get()) != TACTUS_OK;
+        std::this_thread::sleep_for (std::chrono::milliseconds (20));
+        ++stopped;
+    });
+
+    const auto* wanted = std::getenv ("TACTUS_LIVE_SECONDS");
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds (wanted ? 1000 * std::atoi (wanted) : 500);
+    std::vector<double> rows (tactus_run_record_count (run.get()) * 1000);
+    size_t collected = 0;
+    int edits = 0;
+    for (; std::chrono::steady_clock::now() < end || edits < 10 || pushed < 10 || read < 10 || stopped < 2; ++edits)
+    {
+        const auto mu = std::to_string (0.2 + 0.01 * (edits % 30));
+        broken += tactus_graph_set_param (g.get(), "", "drag", "mu", mu.c_str(), m.get()) != TACTUS_OK;
+        broken += tactus_run_edit (run.get(), g.get(), m.get()) != TACTUS_OK;
+        broken += tactus_run_set (run.get(), "drag.mu", 0.5, m.get()) != TACTUS_OK;
+        broken += tactus_run_attend (run.get(), m.get()) != TACTUS_OK;
+        collected += tactus_run_collect (run.get(), rows.data(), 1000);
+    }
+    stop = true;
+    for (auto& thread : others)
+        thread.join();
+    REQUIRE (tactus_run_stop (run.get()) == TACTUS_OK);
+    INFO (said (m));
+    CHECK (broken == 0);
+    CHECK (collected > 0);
+    tactus_status status = TACTUS_STATUS;
+    tactus_run_status (run.get(), &status);
+    CHECK (status.force == 0.0);
+    CHECK (status.ticks > 100);
+}

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "program.hpp"
+
+#include <host/io/wav.hpp>
+#include <tactus/file/csv.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+using namespace tactus;
+using test::checkRefused;
+using test::runTactus;
+using test::Scratch;
+
+namespace
+{
+constexpr auto effect = R"({ "version": { "major": 1 }, "signals": { "continuous": { "envelopes": {
+    "amplitude": [ { "time": 0, "amplitude": 0.5 },
+        { "time": 0.25, "amplitude": 1, "emphasis": { "amplitude": 1, "frequency": 0.5 } }, { "time": 0.5, "amplitude": 0 } ],
+    "frequency": [ { "time": 0, "frequency": 0.5 } ], } } } })";
+
+bool has (const std::string& text, const std::string& words) { return text.find (words) != std::string::npos; }
+
+test::Ran converted (const std::vector<std::string>& arguments)
+{
+    auto all = arguments;
+    all.insert (all.begin(), "convert");
+    const auto ran = runTactus (all);
+    INFO (ran.out << ran.err);
+    CHECK (ran.status == 0);
+    return ran;
+}
+}   // namespace
+
+TEST_CASE ("convert: a clip goes through every format, and each says what it lost", "[cli][clips]")
+{
+    const Scratch scratch;
+    const auto haptic = scratch.write ("a.haptic", effect);
+    auto ran = converted ({ haptic, scratch.path ("a.json") });
+    CHECK (has (ran.err, "a.haptic:4:53: warning: the file has commas before a closing bracket"));
+    CHECK (has (ran.out, "1 track, 5 points and transients, 0.5 s"));
+    CHECK (has (ran.out, "loss: none in the rendered envelope and frequency"));
+
+    ran = converted ({ scratch.path ("a.json"), scratch.path ("a.ahap") });
+    CHECK (has (ran.err, "the envelope is 20 % lower at each"));
+    CHECK (has (ran.out, "loss: all channels: the envelope differs by "));
+    ran = converted ({ scratch.path ("a.json"), scratch.path ("a.hjif") });
+    CHECK (has (ran.out, "loss: "));
+    ran = converted ({ scratch.path ("a.json"), scratch.path ("a.csv") });
+    CHECK (has (ran.out, "loss: none"));
+    converted ({ scratch.path ("a.csv"), scratch.path ("b.json") });
+    converted ({ scratch.path ("a.hjif"), scratch.path ("b.haptic") });
+    converted ({ scratch.path ("b.json"), scratch.path ("b.csv") });
+    CHECK (test::textOf (scratch.path ("b.csv")) == test::textOf (scratch.path ("a.csv")));
+}
+
+TEST_CASE ("convert: --split keeps the curves of an AHAP off its transients", "[cli][clips]")
+{
+    const Scratch scratch;
+    const auto ran = converted ({ scratch.write ("a.haptic", effect), scratch.path ("a.ahap"), "--split" });
+    CHECK (has (test::textOf (scratch.path ("a.ahap")), "HapticContinuous"));
+    CHECK (! has (test::textOf (scratch.path ("a.ahap")), "HapticTransient"));
+    CHECK (has (test::textOf (scratch.path ("a_transients.ahap")), "HapticTransient"));
+    CHECK (! has (test::textOf (scratch.path ("a_transients.ahap")), "ParameterCurve"));
+}
+
+TEST_CASE ("convert: a WAV is the rendered clip, and comes back as it was", "[cli][clips]")
+{
+    const Scratch scratch;
+    const auto haptic = scratch.write ("a.haptic", effect);
+    const auto ran = converted ({ haptic, scratch.path ("a.wav"), "--rate", "4000" });
+    CHECK (has (ran.out, "loss: channel 1: the envelope differs by "));
+    const auto wav = host::readWav (scratch.path ("a.wav"));
+    REQUIRE (wav);
+    CHECK (wav->rate_hz == 4000.0);
+    REQUIRE (wav->channels.at (0).size() == 2000);
+    CHECK (wav->channels[0][3] == Approx (0.506 * std::sin (2.0 * 3.14159265358979 * 127.5 * 3.0 / 4000.0)).epsilon (0.01));
+
+    converted ({ scratch.path ("a.wav"), scratch.path ("wave.json") });
+    CHECK (has (converted ({ scratch.path ("wave.json"), scratch.path ("b.wav") }).out, "loss: none"));
+    const auto back = host::readWav (scratch.path ("b.wav"));
+    REQUIRE (back);
+    CHECK (back->rate_hz == 4000.0);
+    REQUIRE (back->channels.at (0).size() == 2000);
+    double peak = 0.0;
+    for (const double v : wav->channels[0])
+        peak = std::max (peak, std::abs (v));
+    const double scale = std::max (1.0, peak);   // values beyond 1 are scaled, which is said
+    for (std::size_t i = 0; i < 2000; ++i)
+        REQUIRE (back->channels[0][i] * scale == Approx (wav->channels[0][i]).margin (1e-6));
+}
+
+TEST_CASE ("convert: tables of envelopes and of samples are clips", "[cli][clips]")
+{
+    const Scratch scratch;
+    const auto envelope = scratch.write ("e.csv", "t,amplitude,sharpness,value_2\n0,0.5,0.2,1\n1,1,0.4,-3\n");
+    const auto ran = converted ({ envelope, scratch.path ("e.json") });
+    CHECK (has (ran.err, "the values are divided by 3"));
+    CHECK (has (ran.out, "2 tracks, 6 points"));
+    converted ({ scratch.path ("e.json"), scratch.path ("e2.csv"), "--rate", "1000" });
+    const auto samples = readTable (std::filesystem::path (scratch.path ("e2.csv")));
+    REQUIRE (samples);
+    CHECK (samples->rows() == 1000);
+    CHECK (samples->columns == std::vector<std::string> { "t", "value", "amplitude", "frequency", "value_2", "amplitude_2", "frequency_2" });
+}
+
+TEST_CASE ("convert: a calibration sets the frequencies of a clip", "[cli][clips]")
+{
+    const Scratch scratch;
+    const auto acf = scratch.write ("a.acf", R"({ continuous: { frequency_min: 20, frequency_max: 250 }, emphasis: {
+        frequency_min: { output_frequency: 50, duration_ms: 40, shape: 'sine' },
+        frequency_max: { output_frequency: 100, duration_ms: 20, shape: 'sine' }, }, })");
+    converted ({ scratch.write ("a.haptic", effect), scratch.path ("a.json"), "--calibration", acf });
+    CHECK (has (test::textOf (scratch.path ("a.json")), "\"lowest\": 20.0"));
+}
+
+TEST_CASE ("convert: what is wrong is refused, and nothing is written", "[cli][clips]")
+{
+    const Scratch scratch;
+    const auto haptic = scratch.write ("a.haptic", effect), broken = scratch.write ("b.haptic", "{ \"version\": { \"major\": 2 } }");
+    checkRefused ({ "convert", broken, scratch.path ("o.ahap") }, 1, "b.haptic:1:16: error: /version/major: version 2 is not known", scratch.path ("o.ahap"));
+    checkRefused ({ "convert", haptic, scratch.path ("o.xyz") }, 1, "clip/unknown_kind", scratch.path ("o.xyz"));
+    checkRefused ({ "convert", scratch.path ("none.ahap"), scratch.path ("o.ahap") }, 1, "none.ahap", scratch.path ("o.ahap"));
+    checkRefused ({ "convert", haptic, scratch.path ("o.json"), "--split" }, 2, "--split", scratch.path ("o.json"));
+    checkRefused ({ "convert", scratch.write ("c.csv", "a,b\n1,2\n"), scratch.path ("o.json") }, 1, "clip/columns", scratch.path ("o.json"));
+    const auto ran = runTactus ({ "convert", haptic, haptic });
+    CHECK (ran.status == 1);
+    CHECK (has (ran.err, "output/is_input"));
+}

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The same graph behind a C interface, as a unit for simulators and in an Arduino library.
+
+#include "program.hpp"
+
+#include "../generate/fmu.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+using namespace tactus::test;
+
+namespace
+{
+constexpr const char* graph = TACTUS_SOURCE_DIR "/graphs/dry_wood.json";
+constexpr const char* recorded[] { "board.force.z", "drag.force.x", "drag.deflection.x" };
+constexpr const char* flags = "-std=c++20 -O0 -fPIC -Wall -Wextra -Werror -ffp-contract=off -fno-math-errno -fno-trapping-math -isystem /usr/include/eigen3 ";
+constexpr double h = 1.0 / 4000.0;
+
+bool succeeds (const std::string& command, const std::string& said)
+{
+    const bool is_right = std::system ((command + " > '" + said + "' 2>&1").c_str()) == 0;
+    INFO (command << "\n"
+                  << textOf (said));
+    CHECK (is_right);
+    return is_right;
+}
+
+/// Down into the board, sideways with a turn, and out again.
+std::array<double, 3> motion (int k)
+{
+    const double t = k * h;
+    return { 0.004 * std::sin (9.0 * t), 0.0, 0.0006 - 0.0012 * std::sin (2.5 * t) };
+}
+
+std::vector<std::vector<double>> numbersOf (const std::string& csv)
+{
+    std::vector<std::vector<double>> rows;
+    std::istringstream lines (csv);
+    std::string line;
+    std::getline (lines, line);
+    while (std::getline (lines, line))
+    {
+        auto& row = rows.emplace_back();
+        std::istringstream cells (line);
+        for (std::string cell; std::getline (cells, cell, ',');)
+            row.push_back (std::stod (cell));
+    }
+    return rows;
+}
+
+/// What `render` records while the stylus moves as this trace says.
+std::vector<std::vector<double>> rendered (const Scratch& scratch, const std::string& trace, const std::string& ports)
+{
+    const auto in = scratch.write ("in.csv", trace), out = scratch.path ("out.csv");
+    const auto ran = runTactus ({ "render", graph, "--device", "stylus=trace:" + in, "--record", ports, "--out", out });
+    INFO (ran.err);
+    REQUIRE (ran.status == 0);
+    return numbersOf (textOf (out));
+}
+
+/// The same for motion(); the columns are those of `recorded`.
+std::vector<std::vector<double>> rendered (const Scratch& scratch, int ticks)
+{
+    std::ostringstream trace;
+    trace.precision (17);
+    trace << "t,x,y,z\n";
+    for (int k = 0; k < ticks; ++k)
+        trace << k * h << "," << motion (k)[0] << "," << motion (k)[1] << "," << motion (k)[2] << "\n";
+    return rendered (scratch, trace.str(), "board.force.z,drag.force.x,drag.deflection.x");
+}
+
+/// Writes the graph for this target.
+std::string exportedTo (const Scratch& scratch, const std::string& target)
+{
+    const auto folder = scratch.path (target);
+    const auto ran = runTactus ({ "export", graph, "-o", folder, "--to", target, "--record", "board.force.z,drag.force.x,drag.deflection.x" });
+    INFO (ran.err);
+    REQUIRE (ran.status == 0);
+    return folder;
+}
+
+/// Compares ticks from `first` on with what render computed.
+void checkTicks (Fmu& unit, const std::vector<std::vector<double>>& expected, int first)
+{
+    int different = 0;
+    for (int k = first; k < static_cast<int> (expected.size()); ++k)
+    {
+        for (std::size_t i = 0; i < 3; ++i)
+            REQUIRE (unit.set (std::string ("in.stylus.position.") + "xyz"[i], motion (k)[i]));
+        REQUIRE (unit.step (k * h, h));
+        for (std::size_t i = 0; i < 3; ++i)
+            if (unit.get (std::string ("record.") + recorded[i]) != expected[static_cast<std::size_t> (k)][i + 1]) ++different;
+    }
+    CHECK (different == 0);
+}
+
+void checkUnit (const std::string& description, const std::string& library, const std::vector<std::vector<double>>& expected)
+{
+    CHECK_FALSE (Fmu (description, library, "{another}").isThere());
+    Fmu unit { description, library };
+    REQUIRE (unit.isThere());
+    CHECK (unit.attribute ("fmiVersion") == "2.0");
+    CHECK (unit.variables().at ("param.drag.mu").start == "0.4");
+    CHECK (unit.variables().at ("out.stylus.force.z").causality == "output");
+    CHECK_FALSE (unit.set ("out.stylus.force.z", 1.0));
+    checkTicks (unit, expected, 0);
+
+    REQUIRE (unit.reset());
+    auto half = expected;
+    half.resize (expected.size() / 2);
+    checkTicks (unit, half, 0);
+    auto* const state = unit.state();
+    checkTicks (unit, expected, static_cast<int> (half.size()));
+    REQUIRE (unit.setState (state));
+    unit.freeState (state);
+    checkTicks (unit, expected, static_cast<int> (half.size()));
+
+    // One step for several ticks. The inputs are held.
+    REQUIRE (unit.reset());
+    REQUIRE (unit.step (0.0, 10.0 * h));
+    REQUIRE (unit.set ("param.drag.mu", 0.1));
+    REQUIRE (unit.step (10.0 * h, 2.5 * h));
+    REQUIRE (unit.step (12.5 * h, 0.5 * h));
+}
+}   // namespace
+
+TEST_CASE ("a graph gives the same bits from C and in a simulator", "[cli][export]")
+{
+    const Scratch scratch;
+    const auto c = exportedTo (scratch, "c-api"), said = scratch.path ("said");
+    REQUIRE (succeeds ("make -s -C '" + c + "' libdry_wood.a CXXFLAGS='-O0 -fPIC -Wall -Wextra -Werror'", said));
+    const std::string library = "'" + c + "/libdry_wood.a'", compile = "c++ " + std::string (flags);
+
+    {   // C
+        const auto program = scratch.path ("in_c"), object = scratch.path ("in_c.o");
+        REQUIRE (succeeds ("cc -std=c99 -Wall -Wextra -Wpedantic -Werror -I'" + c + "' -c -o '" + object + "' '" + c + "/dry_wood_example.c'", said));
+        REQUIRE (succeeds ("c++ -o '" + program + "' '" + object + "' " + library, said));
+        std::ostringstream trace;
+        trace.precision (17);
+        trace << "t,x,y,z\n";
+        for (int k = 0; k < 1000; ++k)
+            trace << k * h << "," << 1e-5 * k << ",0," << 0.002 - 4e-6 * k << "\n";
+        const auto expected = rendered (scratch, trace.str(), "motor.force");   // its guard does not act here
+        const auto from_c = runProgram (program, {});
+        CHECK (from_c.status == 0);
+        std::istringstream lines (from_c.out);
+        std::size_t different = 0, k = 0;
+        for (std::string line; std::getline (lines, line); ++k)
+        {
+            REQUIRE (k < expected.size());
+            char* next = line.data();
+            std::strtod (next, &next);
+            for (std::size_t part = 1; part <= 3; ++part)
+                if (std::strtod (next, &next) != expected[k][part]) ++different;
+        }
+        CHECK (k == 1000);
+        CHECK (different == 0);
+        CHECK (expected[999][3] > 1.0);
+    }
+
+    {   // a unit for co-simulation
+        const auto fmu = exportedTo (scratch, "fmu"), object = scratch.path ("dry_wood.so");
+        REQUIRE (succeeds (compile + "-shared -fvisibility=hidden -I'" + fmu + "' -o '" + object + "' '" + fmu + "/dry_wood_fmu.cpp' " + library, said));
+        checkUnit (textOf (fmu + "/modelDescription.xml"), object, rendered (scratch, 4000));
+    }
+}
+
+TEST_CASE ("units for simulators, libraries for boards and C interfaces build as their folders say", "[.export_targets]")
+{
+    const Scratch scratch;
+    const auto fmu = exportedTo (scratch, "fmu"), said = scratch.path ("said"), unpacked = scratch.path ("unpacked");
+    REQUIRE (succeeds ("make -s -C '" + fmu + "' fmu", said));
+    REQUIRE (succeeds ("mkdir '" + unpacked + "' && cd '" + unpacked + "' && cmake -E tar xf '" + fmu + "/dry_wood.fmu'", said));
+    CHECK (std::filesystem::exists (unpacked + "/sources/dry_wood.cpp"));
+    checkUnit (textOf (unpacked + "/modelDescription.xml"), unpacked + "/binaries/linux64/dry_wood.so", rendered (scratch, 4000));
+
+    const auto arduino = exportedTo (scratch, "arduino");
+    REQUIRE (succeeds ("cd '" + arduino + "' && c++ " + flags + "-Isrc extras/*.cpp $(find src -name '*.cpp') -o self_test && ./self_test", said));
+    const std::string boards = TACTUS_SOURCE_DIR "/tests/host/generate/boards";
+    REQUIRE (succeeds ("cd '" + arduino + "' && c++ " + flags + "-Isrc -I'" + boards + "' -DSKETCH='\"" + arduino + "/examples/Board/Board.ino\"' -o board '"
+                           + boards + "/simulated_board.cpp' $(find src -name '*.cpp')",
+                       said));
+    CHECK (runProgram (arduino + "/board", {}).status == 0);
+    const auto c = exportedTo (scratch, "c-api");
+    CHECK (succeeds ("make -s -C '" + c + "' test", said));
+}
