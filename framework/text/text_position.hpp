@@ -37,6 +37,14 @@ public:
     std::optional<TextPosition> find (std::string_view pointer) const;
     TextPosition at (std::string_view pointer) const { return find (pointer).value(); }
 
+    /// Calls `change (TextPosition&)` for each position.
+    template <typename Change>
+    void changeAll (Change change)
+    {
+        for (auto& entry : entries)
+            change (entry.position);
+    }
+
 private:
     struct Entry
     {
