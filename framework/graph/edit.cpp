@@ -443,9 +443,7 @@ private:
 
 Result<Command> apply (Graph& graph, const Command& command, Checks checks)
 {
-    auto inverse = std::visit (Editor (graph, checks), command.edit);
-    if (inverse) note (graph, command);
-    return inverse;
+    return std::visit (Editor (graph, checks), command.edit);
 }
 
 }   // namespace tactus::graph

@@ -46,27 +46,26 @@ private:
 };
 }   // namespace
 
-std::optional<std::vector<Trail::WireStep>> wiresSince (const Trail& trail, Id version)
+std::optional<std::vector<Trail::WireStep>> Trail::wiresSince (Id version) const
 {
-    const auto first = std::ranges::find (trail.steps, version, &Trail::Step::before);
-    if (first == trail.steps.end()) return std::nullopt;
-    std::vector<Trail::WireStep> wires;
-    for (auto step = first; step != trail.steps.end(); ++step)
+    const auto first = std::ranges::find (steps, version, &Step::before);
+    if (first == steps.end()) return std::nullopt;
+    std::vector<WireStep> wires;
+    for (auto step = first; step != steps.end(); ++step)
         wires.insert (wires.end(), step->wires.begin(), step->wires.end());
     return wires;
 }
 
-void note (Graph& graph, const Command& command)
+void Trail::note (const Command& command)
 {
-    auto& [version, steps] = graph.trail;
-    Trail::Step step { version };
-    version = newId();
+    Step step { own_version };
+    own_version = newId();
     if (! std::visit (Follow { step.wires }, command.edit))
     {
         steps.clear();
         return;
     }
-    if (steps.size() == Trail::most) steps.erase (steps.begin());
+    if (steps.size() == most) steps.erase (steps.begin());
     steps.push_back (std::move (step));
 }
 

@@ -19,6 +19,7 @@ struct Background
 {
     std::vector<std::string> feeds, records;   ///< as in CompileOptions
     bool is_plain = false;                     ///< no messages, overrides, sections or bypassed subgraphs
+    FileChecks files;                          ///< the files that settings name, also those of unused subgraphs
     Names names;                               ///< of the nodes of the graph itself
     std::vector<int> nodes;                    ///< by name: number of the node; -1 for a subgraph or a placeholder
     PortUnits units;                           ///< PortNumbers::flat is that of no plan

@@ -242,6 +242,7 @@ Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const Co
 {
     beginReading();
     if (auto plan = rewire (g, catalogue, options)) return { std::move (plan), {} };
+    beginReading();   // rewire may have looked at files
     auto [flat, top, used] = flatten (g, catalogue, options.overrides, options.assets);
     const double rate = options.rate_hz > 0.0 ? options.rate_hz : g.rate_hz;
     if (! (rate >= 1.0 && rate <= 1e6))
@@ -260,6 +261,7 @@ Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const Co
             std::vector<int> unneeded_rank;
             check (alone.flat, setup, g, unneeded, unneeded_rank);
             spent = spentOn (alone.flat);
+            std::ranges::move (alone.flat.files, std::back_inserter (flat.files));
             flat.messages.insert (flat.messages.end(), alone.flat.messages.begin(), alone.flat.messages.end());
         }
     auto outside = findOutside (flat, *top, options);
@@ -271,7 +273,7 @@ Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const Co
     remember (*background, *top, flat, options);
     auto made = build (flat, units, ordered, std::move (outside), setup, options, background);
     std::ranges::move (flat.messages, std::back_inserter (messages));
-    finish (*made, *background, std::move (units), g.trail.version, messages.empty());
+    finish (*made, *background, std::move (units), g.trail.version(), messages.empty());
     return { std::move (made), std::move (messages) };
 }
 }   // namespace

@@ -5,6 +5,7 @@
 /// it. compile.hpp lists all steps; flatten.hpp makes the flat graph.
 
 #include "chunks.hpp"
+#include "file_checks.hpp"
 
 #include <tactus/graph/graph.hpp>
 #include <tactus/kit/at.hpp>
@@ -158,6 +159,7 @@ struct Flat
     std::vector<Identity> scopes { { -1, 0 } };                            ///< the graph itself, then the subgraph node of each patch that was expanded
     std::vector<Section> sections { {} };                                  ///< the graph itself, then the inner sections, each after the one that encloses it
     std::unordered_map<graph::Id, std::vector<graph::Ancestor>> origins;   ///< by the id of a copy: what it was copied from
+    FileChecks files;
     Messages messages;
     Spent spent;
 

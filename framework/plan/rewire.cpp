@@ -30,7 +30,7 @@ public:
     std::shared_ptr<Plan> run (const CompileOptions& options)
     {
         if (! isPossible (options)) return nullptr;
-        const auto steps = graph::wiresSince (graph.trail, before.version);
+        const auto steps = graph.trail.wiresSince (before.version);
         if (! steps) return nullptr;
         copy();
         if (! changeWires (*steps) || ! keepsDevices() || ! std::ranges::all_of (ends_at, [this] (int n) { return rebuild (n); })) return nullptr;
@@ -56,7 +56,13 @@ private:
         if (background == nullptr || ! background->is_plain || before.rewired >= most_rewired) return false;
         if (options.withdrawn != nullptr || ! options.overrides.empty()) return false;
         const double rate = options.rate_hz > 0.0 ? options.rate_hz : graph.rate_hz;
-        return rate == before.rate_hz && options.feeds == background->feeds && options.records == background->records;
+        return rate == before.rate_hz && options.feeds == background->feeds && options.records == background->records && hasSameFiles (options.assets);
+    }
+
+    bool hasSameFiles (Assets* assets) const
+    {
+        if (background->files.empty()) return true;
+        return assets != nullptr && std::ranges::all_of (background->files, [assets] (const auto& isSame) { return isSame (*assets); });
     }
 
     void copy()
@@ -79,7 +85,7 @@ private:
         parts.ramps.prepare (parts.instances, before.ramps.sharedIndex(), parts.rate_hz);
         parts.background = before.background;
         parts.wire_ends = before.wire_ends;
-        parts.version = graph.trail.version;
+        parts.version = graph.trail.version();
         parts.rewired = before.rewired + 1;
     }
 
@@ -382,12 +388,13 @@ std::shared_ptr<Plan> rewire (const graph::Graph& g, const Catalogue& catalogue,
     return Rewirer { *options.before, g }.run (options);
 }
 
-void remember (Background& background, Scope& top, const Flat& flat, const CompileOptions& options)
+void remember (Background& background, Scope& top, Flat& flat, const CompileOptions& options)
 {
     constexpr std::size_t most_origins = 64;   // a plan that follows copies them
     background.feeds = options.feeds;
     background.records = options.records;
     background.is_plain = options.overrides.empty() && flat.sections.size() == 1 && flat.made_types.empty() && flat.origins.size() <= most_origins;
+    background.files = std::move (flat.files);
     background.names = std::move (top.names);
     background.nodes.reserve (top.members.size());
     for (const auto& member : top.members)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "edited.hpp"
 
-#include <tactus/graph/edit.hpp>
 #include <tactus/plan/compile.hpp>
 
 #include <stdexcept>
@@ -10,19 +9,19 @@
 namespace tactus::bench
 {
 
-Edited::Edited (graph::Graph g) : graph (std::move (g)), last (graph.root.wires.back())
+Edited::Edited (graph::Graph g) : history (std::move (g)), last (history.graph().root.wires.back())
 {
-    engine = std::make_unique<Engine> (compile (graph, catalogue()).plan);
+    engine = std::make_unique<Engine> (compile (history.graph(), catalogue()).plan);
     engine->tick();
-    knob = engine->param (graph.root.nodes.front().name + ".cutoff").value();
+    knob = engine->param (history.graph().root.nodes.front().name + ".cutoff").value();
 }
 
 std::shared_ptr<Plan> Edited::edited()
 {
     has_last = ! has_last;
-    const auto command = has_last ? graph::Command (graph::AddWire { "", last }) : graph::Command (graph::RemoveWire { "", last.id });
-    if (! graph::apply (graph, command)) throw std::logic_error ("the edit was refused");
-    auto compiled = compile (graph, catalogue(), { .before = &engine->newest() });
+    auto command = has_last ? graph::Command (graph::AddWire { "", last }) : graph::Command (graph::RemoveWire { "", last.id });
+    if (! history.perform (std::move (command), graph::Step::joined)) throw std::logic_error ("the edit was refused");
+    auto compiled = compile (history.graph(), catalogue(), { .before = &engine->newest() });
     if (! compiled.plan) throw std::logic_error ("no plan");
     return std::move (compiled.plan);
 }
@@ -33,7 +32,7 @@ void Edited::edit()
     engine->takeSubmitted();
 }
 
-void Edited::compileAll() { compile (graph, catalogue()); }
+void Edited::compileAll() { compile (history.graph(), catalogue()); }
 
 void Edited::prepareTakeover() { engine->submit (edited()); }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <tactus/graph/graph.hpp>
+#include <tactus/graph/history.hpp>
 #include <tactus/run/engine.hpp>
 
 #include <memory>
@@ -26,7 +26,7 @@ public:
 private:
     std::shared_ptr<Plan> edited();
 
-    graph::Graph graph;
+    graph::History history;
     graph::Wire last;
     bool has_last = true;
     std::unique_ptr<Engine> engine;

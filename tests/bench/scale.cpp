@@ -7,7 +7,7 @@
 // printed here.
 
 #include <tactus/file/graph_file.hpp>
-#include <tactus/graph/edit.hpp>
+#include <tactus/graph/history.hpp>
 #include <tactus/graph/text.hpp>
 #include <tactus/plan/compile.hpp>
 #include <tactus/run/engine.hpp>
@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <utility>
 
 using namespace tactus;
 
@@ -85,7 +86,8 @@ int main (int argc, char** argv)
 {
     if (argc != 2) return 2;
     const int n = std::atoi (argv[1]);
-    auto graph = tree (n);
+    graph::History history (tree (n));
+    const auto& graph = history.graph();
     const auto text = writeGraph (graph);
 
     planOf (counted_load (text));
@@ -105,8 +107,8 @@ int main (int argc, char** argv)
     for (int k = 0; k < 200; ++k)
         engine.tick();
 
-    const auto edit = [&] (const graph::Command& command) {
-        if (! graph::apply (graph, command)) std::exit (1);
+    const auto edit = [&] (graph::Command command) {
+        if (! history.perform (std::move (command))) std::exit (1);
         const auto withdrawn = engine.withdraw();
         auto plan = planOf (counted_compile (graph, { .before = &engine.newest(), .withdrawn = withdrawn.get() }));
         done ("edit");

@@ -4,7 +4,7 @@
 #include "support/live.hpp"
 #include "support/sketch.hpp"
 
-#include <tactus/graph/edit.hpp>
+#include <tactus/graph/history.hpp>
 #include <tactus/kit/at.hpp>
 
 #include <catch2/catch.hpp>
@@ -35,30 +35,30 @@ Sketch chain()
         .wire ("all.out -> motor.force.x");
 }
 
-/// A graph in two copies. Both get the same edits, but one forgets how it came to be, so that everything is compiled each time.
+/// A graph that runs twice. After each edit, one engine gets a plan that follows the edit, the other one a plan of a copy, whose trail is
+/// empty, so that everything is compiled.
 struct Twins
 {
-    explicit Twins (const graph::Graph& g, std::vector<std::string> records)
-        : options { .records = std::move (records) }, graph (g), quick (compile (g, catalogue(), options).plan), whole (compile (g, catalogue(), options).plan)
+    explicit Twins (const graph::Graph& g, std::vector<std::string> records, Assets* assets = nullptr)
+        : options { .records = std::move (records), .assets = assets }, history (g), quick (compile (graph, catalogue(), options).plan),
+          whole (compile (g, catalogue(), options).plan)
     {
     }
 
     /// Returns false if the edit does not compile.
-    bool edit (const graph::Command& command)
+    bool edit (graph::Command command)
     {
-        const auto before = graph;
-        if (! graph::apply (graph, command)) return false;
-        auto forgetful = graph;
-        forgetful.trail = {};
+        if (! history.perform (std::move (command))) return false;
+        const auto copy = graph;
         auto wanted = options;
         wanted.before = &quick.newest();
         auto mine = compile (graph, catalogue(), wanted);
         wanted.before = &whole.newest();
-        auto other = compile (forgetful, catalogue(), wanted);
+        auto other = compile (copy, catalogue(), wanted);
         same_messages = same_messages && test::text (mine.messages) == test::text (other.messages);
         if (mine.plan == nullptr || other.plan == nullptr || hasErrors (other.messages))
         {
-            graph = before;
+            history.undo();
             return false;
         }
         quick.submit (std::move (mine.plan));
@@ -85,7 +85,8 @@ struct Twins
     }
 
     CompileOptions options;
-    graph::Graph graph;
+    graph::History history;
+    const graph::Graph& graph = history.graph();
     Engine quick, whole;
     bool same_messages = true;
 };
@@ -192,6 +193,97 @@ TEST_CASE ("edits that are more than a wire compile everything", "[plan][live]")
     CHECK (twins.quick.newest().rewired() == 0);
     CHECK (twins.agree());
     CHECK (twins.same_messages);
+}
+
+TEST_CASE ("a graph that was changed without its history is compiled as it is", "[plan][live]")
+{
+    const auto sketch = Sketch {}
+                            .node ("a", "signal.constant", { { "value", 2.0 } })
+                            .node ("b", "signal.abs")
+                            .node ("sum", "signal.add")
+                            .wire ("a.out -> b.in")
+                            .wire ("b.out -> sum.in[0]");
+    const CompileOptions options { .records = { "sum.out" } };
+    const auto sumOf = [&options] (const graph::Graph& g, Engine& engine) {
+        auto wanted = options;
+        wanted.before = &engine.newest();
+        engine.submit (compile (g, catalogue(), wanted).plan);
+        CHECK (engine.newest().rewired() == 0);
+        for (int k = 0; k < 1000; ++k)   // a new value of a parameter is ramped
+            engine.tick();
+        return *engine.plan().taps()[0].value;
+    };
+    const auto more = graph::AddWire { "", wire ("a.out -> sum.in[1]") };
+
+    SECTION ("between two commands")
+    {
+        auto g = sketch.graph;
+        Engine engine { compile (g, catalogue(), options).plan };
+        g.root.nodes[0].params["value"] = 5.0;
+        REQUIRE (graph::apply (g, more));
+        CHECK (sumOf (g, engine) == 10.0);
+    }
+    SECTION ("after a command, in a copy")
+    {
+        graph::History history (sketch.graph);
+        Engine engine { compile (history.graph(), catalogue(), options).plan };
+        REQUIRE (history.perform (more));
+        auto g = history.graph();
+        g.root.nodes[0].params["value"] = 5.0;
+        CHECK (sumOf (g, engine) == 10.0);
+    }
+    SECTION ("a copy that was moved and became a history of its own")
+    {
+        graph::History history (sketch.graph);
+        Engine engine { compile (history.graph(), catalogue(), options).plan };
+        auto g = history.graph();
+        g.root.nodes[1].type = "signal.gain";
+        graph::History other (std::move (g));
+        REQUIRE (other.perform (graph::SetParam { "", "b", "gain", Json (3.0) }));
+        REQUIRE (other.perform (more));
+        CHECK (sumOf (other.graph(), engine) == 8.0);
+    }
+    SECTION ("an assigned graph")
+    {
+        graph::History history (sketch.graph);
+        Engine engine { compile (history.graph(), catalogue(), options).plan };
+        auto g = sketch.graph;
+        g.root.nodes[0].params["value"] = 5.0;
+        REQUIRE (history.perform (graph::ReplaceGraph { std::make_shared<graph::Graph> (std::move (g)) }));
+        REQUIRE (history.perform (more));
+        CHECK (sumOf (history.graph(), engine) == 10.0);
+    }
+}
+
+TEST_CASE ("a file that has changed is read again after an edit of a wire", "[plan][live]")
+{
+    struct OneTable final : Assets
+    {
+        std::shared_ptr<const Grid> grid = std::make_shared<const Grid> (Grid { 2, 2, { 0.0, 0.0, 0.0, 0.0 } });
+
+        Loaded<Signal> signal (const std::string& path) override { return none (path); }
+        Loaded<Grid> image (const std::string& path) override { return none (path); }
+        Loaded<Grid> table (const std::string&) override { return grid; }
+        Loaded<Mesh> mesh (const std::string& path) override { return none (path); }
+
+        static Message none (const std::string& path) { return Message::error ("asset/unreadable", path, "there is only a table"); }
+    } assets;
+    const auto sketch = Sketch {}
+                            .node ("map", "texture.height_map", Json::object(), { { "map", { { "csv", "hills.csv" }, { "pitch", 0.001 }, { "height", 1.0 } } } })
+                            .node ("half", "signal.gain", { { "gain", 0.5 } })
+                            .wire ("map.value -> half.in");
+    Twins twins { sketch.graph, { "map.value" }, &assets };
+    const auto whole = twins.quick.newest().instances()[0].node;
+    REQUIRE (twins.edit (graph::RemoveWire { "", twins.graph.root.wires[0].id }));
+    CHECK (twins.quick.newest().rewired() == 1);
+    CHECK (twins.quick.newest().instances()[0].node == whole);
+    CHECK (twins.agree());
+
+    assets.grid = std::make_shared<const Grid> (Grid { 2, 2, { 1.0, 1.0, 1.0, 1.0 } });
+    REQUIRE (twins.edit (graph::AddWire { "", wire ("map.value -> half.in") }));
+    CHECK (twins.quick.newest().rewired() == 0);
+    CHECK (twins.agree());
+    CHECK (*twins.quick.plan().taps()[0].value == Approx (1.0));
 }
 
 TEST_CASE ("moving a node on the canvas compiles nothing", "[plan][live]")
