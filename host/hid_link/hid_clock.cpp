@@ -32,7 +32,6 @@ void HidClock::drive (Ticked& ticked) noexcept
         if (! ticked.tick (std::max (0.0, std::chrono::duration<double> (since).count()))) break;
         due = came ? now + silence : std::max (due + period, now);   // missed ticks are skipped
     }
-    port.readElsewhere();
 }
 
 }   // namespace tactus::host::hid

@@ -65,8 +65,7 @@ Result<> transfer (Transport& t, Step::Kind kind, std::span<std::uint8_t> bytes)
 
 HidPort::HidPort (HidSystem& s, ConnectedDevice d, std::shared_ptr<const Profile> p, Options o)
     : system (s), wanted (std::move (d)), description (std::move (p)), options (o), longest_silence (watchdogOf (*description)),
-      has_ids (usesIds (*description)), ring (reports_waiting, 1, { .bytes = Bytes (longestInput (*description) + 1) }), buffer (longest_report + 1),
-      quiet (description)
+      has_ids (usesIds (*description)), ring (reports_waiting, 1, { .bytes = Bytes (longestInput (*description) + 1) }), quiet (description)
 {
     for (std::size_t i = 0; i < description->outputs.size(); ++i)
         outputs.push_back (std::make_unique<Output>());
@@ -225,6 +224,7 @@ PortCounts HidPort::counts() const noexcept
 void HidPort::readOn()
 {
     if (options.real_time) becomeRealTime (std::nullopt);   // if real-time priority is refused, the run reports that
+    std::vector<std::uint8_t> buffer (longest_report + 1);
     while (! isStopping())
     {
         const auto t = transport();
@@ -238,11 +238,11 @@ void HidPort::readOn()
             lose (*t, got.error().text);
         else if (*got > 0)
         {
-            arrive (std::span (buffer).first (*got));
-            const bool gives = turn.isWanted();
-            if (gives) turn.give (t);
+            const auto now = nanosecondsOf (Clock::now());
+            reports.fetch_add (1, std::memory_order_relaxed);
+            push (std::span (buffer).first (*got), now);
+            last_arrival.store (now, std::memory_order_release);
             arrived.ring();
-            if (gives && turn.await ([this] { return isStopping(); })) lose (*t, "the device could not be read any more");
         }
     }
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "read_turn.hpp"
 #include "transport.hpp"
 
 #include <host/hid/hid_model.hpp>
@@ -51,8 +50,8 @@ struct PortCounts
     double latency_min = 0.0, latency_mean = 0.0, latency_max = 0.0;   ///< from the arrival of a report until its answer was sent, in s
 };
 
-/// An open HID device with a reading thread and a writing thread. If it clocks a run, the tick thread reads instead. Incoming reports
-/// queue up until a tick takes them. Only the latest of each outgoing report is kept, so nothing ever queues up on the way out.
+/// An open HID device with a reading thread and a writing thread. Incoming reports queue up until a tick takes them. Only the
+/// latest of each outgoing report is kept, so nothing ever queues up on the way out.
 ///
 ///  - On opening, and when the device comes back, the port performs the profile's init steps; on closing, it sends the
 ///    neutral reports and performs the exit steps. A number that the device returns in a step (Answer) is inserted into
@@ -117,12 +116,8 @@ public:
     //==========================================================================
     // For a clock. [tick thread]
 
-    /// True as soon as a report has arrived since the last wait; false on timeout. While reports keep coming, this thread reads them
-    /// itself, so that it need not be woken by the reading thread.
-    bool waitForReport (Clock::time_point until) noexcept;
-
-    /// From now on, the reading thread reads again. Call it after the last wait.
-    void readElsewhere() noexcept;
+    /// True as soon as a report has arrived since the last wait; false on timeout.
+    bool waitForReport (Clock::time_point until) noexcept { return arrived.wait (until); }
     Nanoseconds lastArrival() const noexcept { return last_arrival.load (std::memory_order_acquire); }
 
     //==========================================================================
@@ -173,8 +168,6 @@ private:
 
     void readOn();
     void push (std::span<const std::uint8_t> report, Nanoseconds at);
-    void arrive (std::span<const std::uint8_t> report);
-    bool readUntil (Clock::time_point) noexcept;
     void lookAgain();
     void lose (Transport&, const std::string& why);
     const ConnectedDevice* sameAmong (const std::vector<ConnectedDevice>&) const;
@@ -198,9 +191,6 @@ private:
 
     SpscRing<ArrivedReport> ring;
     Doorbell arrived, something;   // `arrived`: the reading thread wakes the tick thread; `something`: any thread wakes the writing thread
-    ReadTurn turn;
-    bool has_turn = false;              // the tick thread has read since it got the turn   [tick thread]
-    std::vector<std::uint8_t> buffer;   // a report as it is read   [the thread that has the turn to read]
     std::atomic<Nanoseconds> last_arrival = 0;
     std::atomic<std::uint64_t> current_episode = 1;
     std::atomic<bool> connected = false, stopping = false;
@@ -214,7 +204,7 @@ private:
     std::mutex writing;              // protects all writing and the members below; never taken on the tick thread
     HidModel quiet;                  // encodes the neutral reports
     std::uint32_t assigned = 0;      // the number that the device returned and expects back; 0: none
-    std::uint64_t connections = 0;   // [the thread that has the turn to read]
+    std::uint64_t connections = 0;   // [reading thread]
     bool driven = false;             // true if the last report sent was not neutral
     Clock::time_point given;         // time of the latest new offer
 

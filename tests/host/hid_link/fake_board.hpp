@@ -155,12 +155,6 @@ public:
         const std::lock_guard lock (mutex);
         return log;
     }
-    /// The thread that read the latest report.
-    std::thread::id reader() const
-    {
-        const std::lock_guard lock (mutex);
-        return read_by;
-    }
     int openings() const
     {
         const std::lock_guard lock (mutex);
@@ -210,7 +204,6 @@ private:
             if (board.waiting.empty()) return std::size_t { 0 };
             const auto report = std::move (board.waiting.front());
             board.waiting.pop_front();
-            board.read_by = std::this_thread::get_id();
             const auto size = std::min (report.size(), into.size());
             std::copy_n (report.begin(), size, into.begin());
             return size;
@@ -265,7 +258,6 @@ private:
     std::condition_variable changed;
     std::deque<Bytes> waiting;
     std::vector<Told> log;
-    std::thread::id read_by;
     bool plugged = true, failing = false, forbidden = false;
     int plugging = 0, opened = 0, taken = 0, beaten = 0;
 };

@@ -116,67 +116,6 @@ TEST_CASE ("reports drive the ticks, a timer takes over while none arrive, then 
     CHECK (driven_again);
 }
 
-TEST_CASE ("the tick thread reads the reports that drive it, and gives that up while none arrive or the device is gone", "[hid]")
-{
-    FakeBoard board;
-    const auto device = openBoard (board);
-    HidClock clock { device->port(), 1000.0 };
-    std::uint16_t count = 0;
-    int k = 0, here = 0, later_here = 0, readings = 0;
-    enum class Phase
-    {
-        driven,
-        silent,
-        driven_again,
-        unplugged,
-        back
-    } phase = Phase::driven;
-    board.send (boardReport (++count));
-    Each each { [&] (double) {
-        ++k;
-        readings += device->read().valid;
-        const bool is_here = ! clock.isByTimer() && board.reader() == std::this_thread::get_id();
-        switch (phase)
-        {
-        case Phase::driven:
-            here += is_here;
-            if (here == 20) phase = Phase::silent;
-            break;
-        case Phase::silent:
-            if (clock.isByTimer()) phase = Phase::driven_again;
-            break;
-        case Phase::driven_again:
-            later_here += is_here;
-            if (later_here == 20)
-            {
-                phase = Phase::unplugged;
-                board.plug (false);
-            }
-            break;
-        case Phase::unplugged:
-            if (clock.isReplaced())
-            {
-                board.plug (true);
-                phase = Phase::back;
-            }
-            break;
-        case Phase::back:
-            if (is_here && device->port().isConnected()) return false;
-            break;
-        }
-        if (phase != Phase::silent && phase != Phase::unplugged) board.send (boardReport (++count));
-        return k < 100'000;
-    } };
-    clock.drive (each);
-    CHECK (phase == Phase::back);
-    CHECK (k < 100'000);
-    CHECK (readings >= 40);
-    CHECK (device->port().counts().departures == 1);
-
-    board.send (boardReport (++count));   // the reading thread reads again
-    CHECK (board.until ([&] { return board.reader() != std::thread::id {} && board.reader() != std::this_thread::get_id(); }));
-}
-
 // Long because it is one scenario: a live run, the same readings offline, and a comparison of the two.
 TEST_CASE ("a live run over dry wood sends the same forces as the offline run, bit for bit", "[hid]")
 {
