@@ -177,7 +177,7 @@ private:
         if (recording) recording->drain();
         command.attend();
         if (const auto attended = command.audio().attend(); ! attended) warnOfCapture (options.capture, attended.error());
-        if (options.watch && (file_watch.isTold() || i % 10 == 0) && file_watch.look()) reload();
+        if (options.watch && i % 10 == 0 && file_watch.look()) reload();
         if (i % 2 == 0)
             if (auto news = live.look()) takeOver (*news);
         if (control)

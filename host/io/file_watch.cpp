@@ -25,6 +25,7 @@ void FileWatch::watch (std::vector<fs::path> files)
 {
     folders.watch (files);   // before they are read, so that no edit is missed
     is_unsettled = true;
+    quiet = 0;
     std::vector<Watched> next;
     for (auto& file : files)
     {
@@ -56,17 +57,38 @@ bool FileWatch::readAgain (Watched& w)
     return w.latest.has_value();
 }
 
-bool FileWatch::look()
+/// Watches the same files again: a folder may have been made again, or a link may lead to another file.
+void FileWatch::watchFolders()
 {
-    const bool is_news = folders.look();
-    if (! is_news && ! is_unsettled && folders.isTold() && ++quiet < most_quiet) return false;
-    quiet = 0;
-    return compare();
+    std::vector<fs::path> files;
+    for (const auto& w : all)
+        files.push_back (w.file);
+    folders.watch (files);
+    is_unsettled = true;   // what happened meanwhile is not told
 }
 
-bool FileWatch::compare()
+bool FileWatch::look()
 {
-    bool changed = false, settled = ! folders.isWriting();
+    if (folders.look())
+    {
+        if (folders.isTold()) quiet = 0;
+    }
+    else if (! is_unsettled && quiet + 1 < most_quiet)
+    {
+        ++quiet;
+        return false;
+    }
+    const bool is_long_quiet = ++quiet >= most_quiet;
+    if (is_long_quiet) quiet = 0;
+    const bool is_changed = compare (folders.isWriting() && ! is_long_quiet);
+    if (is_changed || (is_long_quiet && ! folders.isTold())) watchFolders();
+    return is_changed;
+}
+
+/// True if the files have changed and rest.
+bool FileWatch::compare (bool is_writing)
+{
+    bool changed = false, settled = ! is_writing;
     for (auto& w : all)
     {
         if (! readAgain (w)) continue;

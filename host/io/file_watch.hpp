@@ -26,11 +26,14 @@ public:
     /// file that is still being written keeps changing. Call this a few times a second.
     ///
     /// Where the system tells which files are written, a look at files that rest costs one call into the system, and a file that is
-    /// still open is not reported. Once in a while, the files are compared all the same, for folders that another computer shares.
+    /// still open is not reported, unless nobody writes to it for `most_quiet` looks. As often, the files are compared all the same, for
+    /// folders that another computer shares.
     bool look();
 
-    /// True if the system tells which files are written, so that more frequent looks notice an edit sooner at little cost.
+    /// True if the system tells which files are written, so that a look at files that rest costs little.
     bool isTold() const noexcept { return folders.isTold(); }
+
+    static constexpr int most_quiet = 20;
 
 private:
     struct Watched
@@ -42,15 +45,14 @@ private:
         std::optional<std::string> known, pending;   ///< known: last reported; pending: seen once but not reported yet
     };
 
-    static constexpr int most_quiet = 50;   // looks
-
     static bool readAgain (Watched&);
-    bool compare();
+    bool compare (bool is_writing);
+    void watchFolders();
 
     std::vector<Watched> all;
     FolderWatch folders;
     bool is_unsettled = false;   // a change was seen, but not reported
-    int quiet = 0;               // looks without news since the files were compared
+    int quiet = 0;               // looks since the last news, or since the files were compared without news
 };
 
 }   // namespace tactus::host

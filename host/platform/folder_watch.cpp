@@ -5,7 +5,9 @@
 
 #if defined(__linux__)
 #include <cstring>
+#include <set>
 #include <sys/inotify.h>
+#include <system_error>
 #include <unistd.h>
 #endif
 
@@ -14,10 +16,20 @@ namespace tactus::host
 
 namespace fs = std::filesystem;
 
-FolderWatch::~FolderWatch() { close(); }
+#if defined(__linux__)
+namespace
+{
+constexpr int most_links = 40;   // on the way to a file; the system follows as many
+}
+#endif
+
+FolderWatch::~FolderWatch()
+{
+    close();
+}
 
 FolderWatch::FolderWatch (FolderWatch&& other) noexcept
-    : queue (std::exchange (other.queue, -1)), is_told (std::exchange (other.is_told, false)), names (std::move (other.names)), open (std::move (other.open))
+    : queue (std::exchange (other.queue, -1)), is_told (std::exchange (other.is_told, false)), names (std::move (other.names))
 {
 }
 
@@ -26,7 +38,6 @@ FolderWatch& FolderWatch::operator= (FolderWatch&& other) noexcept
     std::swap (queue, other.queue);
     std::swap (is_told, other.is_told);
     std::swap (names, other.names);
-    std::swap (open, other.open);
     return *this;
 }
 
@@ -40,21 +51,23 @@ void FolderWatch::close() noexcept
 
 void FolderWatch::watch (const std::vector<fs::path>& files)
 {
-    constexpr auto events = IN_MODIFY | IN_CLOSE_WRITE | IN_ATTRIB | IN_CREATE | IN_DELETE | IN_MOVED_FROM | IN_MOVED_TO | IN_DELETE_SELF | IN_MOVE_SELF;
+    constexpr auto events = IN_OPEN | IN_MODIFY | IN_CLOSE | IN_ATTRIB | IN_CREATE | IN_DELETE | IN_MOVE | IN_DELETE_SELF | IN_MOVE_SELF;
     close();
     names.clear();
-    open.clear();
     queue = ::inotify_init1 (IN_NONBLOCK | IN_CLOEXEC);
     is_told = queue >= 0;
     std::set<fs::path> folders;
     for (const auto& file : files)
     {
         std::error_code failure;
-        const auto target = fs::weakly_canonical (file, failure);   // a link leads to another folder, where the file is written
-        for (const auto& path : { fs::absolute (file), failure ? fs::absolute (file) : target })
+        auto path = fs::absolute (file, failure);
+        for (int links = 0; links < most_links; ++links)   // a link may lead to another folder, where the file is written
         {
-            names.insert (path.filename());
+            names[path.filename()];
             folders.insert (path.parent_path());
+            const auto target = fs::read_symlink (path, failure);
+            if (failure) break;
+            path = path.parent_path() / target;
         }
     }
     for (const auto& folder : folders)
@@ -70,21 +83,30 @@ bool FolderWatch::look()
         {
             inotify_event event {};
             std::memcpy (&event, bytes + at, sizeof event);
-            const fs::path name = event.len > 0 ? bytes + at + sizeof event : "";
+            const char* name = event.len > 0 ? bytes + at + sizeof event : "";
             at += static_cast<ssize_t> (sizeof event + event.len);
-            if ((event.mask & (IN_DELETE_SELF | IN_MOVE_SELF | IN_IGNORED | IN_Q_OVERFLOW | IN_UNMOUNT)) != 0)
-            {
-                is_told = (event.mask & IN_Q_OVERFLOW) != 0 && is_told;   // the folder itself is gone
-                is_news = true;
-            }
-            if (! names.contains (name)) continue;
-            is_news = true;
-            if ((event.mask & IN_MODIFY) != 0)
-                open.insert (name);
-            else
-                open.erase (name);
+            if (take (event.mask, name)) is_news = true;
         }
     return is_news;
+}
+
+/// Reading is no news: whoever looks at the files after each news would never end.
+bool FolderWatch::take (unsigned event, const char* name)
+{
+    if ((event & IN_Q_OVERFLOW) != 0)
+        for (auto& [file, use] : names)
+            use = {};
+    if ((event & (IN_DELETE_SELF | IN_MOVE_SELF | IN_IGNORED | IN_UNMOUNT)) != 0) is_told = false;   // the folder itself is gone
+    if ((event & IN_Q_OVERFLOW) != 0 || ! is_told) return true;
+
+    const auto named = names.find (name);
+    if (named == names.end()) return false;
+    auto& use = named->second;
+    if ((event & IN_OPEN) != 0) use.is_open = true;
+    if ((event & IN_MODIFY) != 0) use.is_written = use.is_open;
+    if ((event & IN_CLOSE_NOWRITE) != 0 && ! use.is_written) use.is_open = false;
+    if ((event & (IN_CLOSE_WRITE | IN_CREATE | IN_DELETE | IN_MOVE)) != 0) use = {};
+    return (event & (IN_OPEN | IN_CLOSE_NOWRITE)) == 0;
 }
 
 #else

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
-#include <set>
+#include <map>
 #include <vector>
 
 namespace tactus::host
@@ -29,15 +30,24 @@ public:
     bool look();
 
     /// True if a file has been written to, but not closed yet.
-    bool isWriting() const noexcept { return ! open.empty(); }
+    bool isWriting() const noexcept
+    {
+        return std::ranges::any_of (names, [] (const auto& named) { return named.second.is_open && named.second.is_written; });
+    }
 
 private:
+    /// What other programs do with a file. A program may set the time of a file, which looks like writing, without opening it.
+    struct Use
+    {
+        bool is_open = false, is_written = false;
+    };
+
     void close() noexcept;
+    bool take (unsigned event, const char* name);
 
     int queue = -1;   // descriptor of the system's queue of events
     bool is_told = false;
-    std::set<std::filesystem::path> names;   // of the files, without their folders
-    std::set<std::filesystem::path> open;    // names of the files that are being written
+    std::map<std::filesystem::path, Use> names;   // of the files, without their folders
 };
 
 }   // namespace tactus::host

@@ -270,17 +270,18 @@ TEST_CASE ("a file that has changed is read again after an edit of a wire", "[pl
     } assets;
     const auto sketch = Sketch {}
                             .node ("map", "texture.height_map", Json::object(), { { "map", { { "csv", "hills.csv" }, { "pitch", 0.001 }, { "height", 1.0 } } } })
-                            .node ("half", "signal.gain", { { "gain", 0.5 } })
-                            .wire ("map.value -> half.in");
+                            .node ("a", "signal.constant", { { "value", 2.0 } })
+                            .node ("sum", "signal.add", Json::object(), { { "inputs", 3 } })
+                            .wire ("a.out -> sum.in[0]");
     Twins twins { sketch.graph, { "map.value" }, &assets };
     const auto whole = twins.quick.newest().instances()[0].node;
-    REQUIRE (twins.edit (graph::RemoveWire { "", twins.graph.root.wires[0].id }));
+    REQUIRE (twins.edit (graph::AddWire { "", wire ("a.out -> sum.in[1]") }));
     CHECK (twins.quick.newest().rewired() == 1);
     CHECK (twins.quick.newest().instances()[0].node == whole);
     CHECK (twins.agree());
 
     assets.grid = std::make_shared<const Grid> (Grid { 2, 2, { 1.0, 1.0, 1.0, 1.0 } });
-    REQUIRE (twins.edit (graph::AddWire { "", wire ("map.value -> half.in") }));
+    REQUIRE (twins.edit (graph::AddWire { "", wire ("a.out -> sum.in[2]") }));
     CHECK (twins.quick.newest().rewired() == 0);
     CHECK (twins.agree());
     CHECK (*twins.quick.plan().taps()[0].value == Approx (1.0));

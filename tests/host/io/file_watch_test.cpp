@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 namespace fs = std::filesystem;
 using tactus::host::FileWatch;
@@ -145,6 +146,103 @@ TEST_CASE ("the system tells which files are written, wherever they are and howe
     CHECK_FALSE (watch.isTold());   // then the files are compared at each look
 }
 
+TEST_CASE ("editors replace a file in many ways, and each is noticed without waiting", "[watch]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("g.json", "0");
+    const auto folder = fs::path (file).parent_path();
+    FileWatch watch { { file } };
+    CHECK (changes (watch) == 0);
+    for (int k = 1; k <= 3; ++k)
+    {
+        const auto text = std::to_string (k);
+        scratch.write ("g.json", text);   // write it
+        CHECK (changes (watch) == 1);
+        fs::rename (scratch.write (".g.json.swp", text + "a"), file);   // write another one, and rename it
+        CHECK (changes (watch) == 1);
+        fs::rename (file, folder / "g.json~");   // keep the old one
+        scratch.write ("g.json", text + "b");
+        CHECK (changes (watch) == 1);
+        fs::remove (file);
+        CHECK (changes (watch) == 0);
+        scratch.write ("g.json", text + "c");
+        CHECK (changes (watch) == 1);
+        std::ofstream (file, std::ios::app) << "d";
+        CHECK (changes (watch) == 1);
+    }
+    CHECK (watch.isTold());
+}
+
+TEST_CASE ("links are followed, also when they lead to another file or through another link", "[watch]")
+{
+    const Scratch scratch;
+    const auto folder = fs::path (scratch.write ("a.json", "a")).parent_path();
+    fs::create_directories (folder / "far");
+    fs::create_directories (folder / "here");
+    scratch.write ("far/b.json", "b");
+    fs::create_symlink (folder / "a.json", folder / "middle.json");
+    fs::create_symlink ("../middle.json", folder / "here" / "link.json");
+    FileWatch watch { { folder / "here" / "link.json" } };
+    CHECK (watch.isTold());
+    CHECK (changes (watch) == 0);
+    scratch.write ("a.json", "edited");
+    CHECK (changes (watch) == 1);
+    fs::create_symlink ("far/b.json", folder / "new");
+    fs::rename (folder / "new", folder / "middle.json");
+    CHECK (changes (watch) == 1);
+    CHECK (changes (watch) == 0);
+    scratch.write ("far/b.json", "edited at its new place");
+    CHECK (changes (watch) == 1);
+}
+
+TEST_CASE ("a folder that is deleted and made again, or renamed, is watched again", "[watch]")
+{
+    const Scratch scratch;
+    const auto folder = fs::path (scratch.write ("beside", "")).parent_path() / "work";
+    fs::create_directories (folder);
+    const auto file = scratch.write ("work/g.json", "a");
+    FileWatch watch { { file } };
+    CHECK (changes (watch) == 0);
+    fs::remove_all (folder);
+    CHECK (changes (watch) == 0);
+    CHECK_FALSE (watch.isTold());
+    fs::create_directories (folder);
+    scratch.write ("work/g.json", "b");
+    CHECK (changes (watch) == 1);   // it is compared at each look
+    CHECK (watch.isTold());         // and watched again
+
+    fs::rename (folder, folder.parent_path() / "old");
+    CHECK (changes (watch) == 0);
+    CHECK_FALSE (watch.isTold());
+    fs::create_directories (folder);
+    for (int i = 0; i < FileWatch::most_quiet; ++i)
+        CHECK_FALSE (watch.look());
+    CHECK (watch.isTold());
+    scratch.write ("work/g.json", "c");
+    CHECK (changes (watch) == 1);
+}
+
+TEST_CASE ("what the system does not tell is noticed after a while", "[watch]")
+{
+    const Scratch scratch;
+    const auto folder = fs::path (scratch.write ("beside", "")).parent_path();
+    fs::create_directories (folder / "one");
+    fs::create_directories (folder / "two");
+    scratch.write ("one/g.json", "a");
+    scratch.write ("two/g.json", "another one");
+    fs::create_directory_symlink ("one", folder / "now");
+    FileWatch watch { { folder / "now" / "g.json" } };
+    CHECK (changes (watch) == 0);
+    fs::remove (folder / "now");
+    fs::create_directory_symlink ("two", folder / "now");   // one folder above those that are watched
+    int n = 0;
+    for (int i = 0; i < 2 * FileWatch::most_quiet; ++i)
+        n += watch.look();
+    CHECK (n == 1);
+    scratch.write ("two/g.json", "edited");
+    CHECK (changes (watch) == 1);
+}
+
 TEST_CASE ("a file that is still open is not reported", "[watch]")
 {
     const Scratch scratch;
@@ -158,6 +256,14 @@ TEST_CASE ("a file that is still open is not reported", "[watch]")
         out << " whole";
     }
     CHECK (changes (watch) == 1);
+
+    std::ofstream out (file);
+    out << "by a program that never closes it" << std::flush;
+    CHECK (changes (watch) == 0);
+    int n = 0;
+    for (int i = 0; i < 2 * FileWatch::most_quiet; ++i)
+        n += watch.look();
+    CHECK (n == 1);
 }
 #endif
 
