@@ -372,7 +372,7 @@ public:
         Batch back { c.name, {} };
         for (const auto& command : c.commands)
         {
-            auto inverse = apply (graph, command, checks);
+            auto inverse = std::visit (Editor (graph, checks), command.edit);
             if (! inverse)
             {
                 std::ranges::reverse (back.commands);
@@ -433,7 +433,7 @@ private:
     void takeBack (const std::vector<Command>& commands)
     {
         for (const auto& command : commands)
-            (void)apply (graph, command, Checks::none);
+            (void)std::visit (Editor (graph, Checks::none), command.edit);
     }
 
     Graph& graph;
@@ -441,6 +441,9 @@ private:
 };
 }   // namespace
 
-Result<Command> apply (Graph& graph, const Command& command, Checks checks) { return std::visit (Editor (graph, checks), command.edit); }
+Result<Command> apply (Graph& graph, const Command& command, Checks checks)
+{
+    return std::visit (Editor (graph, checks), command.edit);
+}
 
 }   // namespace tactus::graph

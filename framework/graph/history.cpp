@@ -19,7 +19,7 @@ bool merge (Command& earlier, const Command& later)
 
 Result<> History::perform (Command command, Step step)
 {
-    auto inverse = apply (edited, command);
+    auto inverse = carryOut (command, Checks::all);
     if (! inverse) return std::move (inverse).error();
 
     steps.erase (steps.begin() + static_cast<std::ptrdiff_t> (done), steps.end());
@@ -40,7 +40,7 @@ bool History::undo()
     if (done == 0) return false;
     auto& [name, commands, inverses] = steps[--done];
     for (auto i = inverses.size(); i-- > 0;)
-        commands[i] = *apply (edited, inverses[i], Checks::none);   // redoing it brings back the same ids
+        commands[i] = *carryOut (inverses[i], Checks::none);   // redoing it brings back the same ids
     return true;
 }
 
@@ -48,8 +48,15 @@ bool History::redo()
 {
     if (done == steps.size()) return false;
     for (const auto& command : steps[done++].commands)
-        (void)apply (edited, command, Checks::none);
+        (void)carryOut (command, Checks::none);
     return true;
+}
+
+Result<Command> History::carryOut (const Command& command, Checks checks)
+{
+    auto inverse = apply (edited, command, checks);
+    if (inverse) edited.trail.note (command);
+    return inverse;
 }
 
 std::vector<std::string> History::names() const

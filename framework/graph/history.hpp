@@ -39,6 +39,8 @@ private:
         std::vector<Command> commands, inverses;   ///< by edit of the step: its command and its inverse
     };
 
+    Result<Command> carryOut (const Command&, Checks);
+
     Graph edited;
     std::vector<Done> steps;
     std::size_t done = 0;

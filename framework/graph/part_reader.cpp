@@ -23,10 +23,14 @@ bool PartReader::checkId (const std::string& id, const std::string& where, std::
 void PartReader::addPatch (std::vector<KnownKey>& fields, Patch& patch)
 {
     const auto addNode = [&] (const std::string& name, Json& node, const std::string& where) { readNode (name, node, where, patch.nodes.emplace_back()); };
-    fields.push_back ({ "nodes", JsonKind::object, [this, addNode] (Json& v, const std::string& at) { eachId (v, at, "a node", addNode); } });
+    fields.push_back ({ "nodes", JsonKind::object, [this, addNode, &patch] (Json& v, const std::string& at) {
+                           patch.nodes.reserve (v.size());
+                           eachId (v, at, "a node", addNode);
+                       } });
     fields.push_back ({ "wires", JsonKind::list, [&] (Json& v, const std::string& at) {
+                           patch.wires.reserve (v.size());
                            for (std::size_t i = 0; i < v.size(); ++i)
-                               readWire (v[i], at + '/' + std::to_string (i), patch);
+                               readWire (v[i], at, i, patch);
                        } });
     fields.push_back ({ "expose", JsonKind::object, [&] (Json& v, const std::string& at) { readExpose (v, at, patch.expose); } });
 }
@@ -40,34 +44,33 @@ void PartReader::readSubgraph (Json& object, const std::string& where, Patch& pa
 
 void PartReader::readNode (const std::string& name, Json& object, const std::string& where, graph::Node& node)
 {
-    node.name = name;
-    const auto number = [&] (std::string_view key) -> KnownKey {
-        return { key, JsonKind::number, [this, &node, key] (Json& v, const std::string& at) { readCount (std::string (key), v, at, node.extra); } };
+    using Self = PartReader;
+    using Row = RowKey<PartReader, graph::Node>;
+    static const Row keys[] = {
+        { "type", JsonKind::text, [] (Self& self, graph::Node& n, Json& v, const std::string& at) { self.readType (v.asString(), at, n); } },
+        { "role", JsonKind::text,
+          [] (Self& self, graph::Node& n, Json& v, const std::string& at) {
+              n.role = v.asString();
+              self.checkId (n.role, at, "a role");
+          } },
+        { "params", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const std::string& at) { self.readValues (v, at, "a parameter", n.params); } },
+        { "settings", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const std::string& at) { self.readValues (v, at, "a setting", n.settings); } },
+        { "roles", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const std::string& at) { self.readRoles (v, at, n); } },
+        { "overrides", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const std::string& at) { self.readOverrides (v, at, n); } },
+        { "bypass", JsonKind::truth, [] (Self&, graph::Node& n, Json& v, const std::string&) { n.bypass = v.get<bool>(); } },
+        { "count", JsonKind::number, [] (Self& self, graph::Node& n, Json& v, const std::string& at) { self.readCount ("count", v, at, n.extra); } },
+        { "every", JsonKind::number, [] (Self& self, graph::Node& n, Json& v, const std::string& at) { self.readCount ("every", v, at, n.extra); } },
+        { "times", JsonKind::number, [] (Self& self, graph::Node& n, Json& v, const std::string& at) { self.readCount ("times", v, at, n.extra); } },
+        { "hold", JsonKind::text,
+          [] (Self& self, graph::Node& n, Json& v, const std::string& at) {
+              if (v != "latch" && v != "linear")
+                  self.error ("file/bad_value", at, "'hold' is " + quote (v.asString()) + "; it should be \"latch\" or \"linear\"", "write \"latch\"");
+              append (n.extra, "hold", std::move (v));
+          } },
+        { "ui", JsonKind::object, [] (Self&, graph::Node& n, Json& v, const std::string&) { append (n.extra, "ui", std::move (v)); } },
     };
-    read (object, where,
-          { { "type", JsonKind::text, [&] (Json& v, const std::string& at) { readType (v.asString(), at, node); } },
-            { "role", JsonKind::text,
-              [&] (Json& v, const std::string& at) {
-                  node.role = v.asString();
-                  checkId (node.role, at, "a role");
-              } },
-            { "params", JsonKind::object, [&] (Json& v, const std::string& at) { readValues (v, at, "a parameter", node.params); } },
-            { "settings", JsonKind::object, [&] (Json& v, const std::string& at) { readValues (v, at, "a setting", node.settings); } },
-            { "roles", JsonKind::object, [&] (Json& v, const std::string& at) { readRoles (v, at, node); } },
-            { "overrides", JsonKind::object, [&] (Json& v, const std::string& at) { readOverrides (v, at, node); } },
-            { "bypass", JsonKind::truth, [&] (Json& v, const std::string&) { node.bypass = v.get<bool>(); } },
-            number ("count"),
-            number ("every"),
-            number ("times"),
-            { "hold", JsonKind::text,
-              [&] (Json& v, const std::string& at) {
-                  if (v != "latch" && v != "linear")
-                      error ("file/bad_value", at, "'hold' is " + quote (v.asString()) + "; it should be \"latch\" or \"linear\"",
-                             "write \"latch\"");
-                  append (node.extra, "hold", std::move (v));
-              } },
-            { "ui", JsonKind::object, keep ("ui", node.extra) } },
-          node.extra);
+    node.name = name;
+    read (object, where, keys, *this, node, node.extra);
     if (! object.contains ("type"))
         error ("file/missing_key", where, "the node " + quote (name) + " has no 'type'",
                "add \"type\", with an id from the catalogue or \"graph:\" and the name of a subgraph");
@@ -87,7 +90,7 @@ void PartReader::readType (std::string& type, const std::string& where, graph::N
 void PartReader::readValues (Json& object, const std::string& where, std::string_view what, Json& values)
 {
     for (const auto& [id, value] : object.asObject())
-        checkId (id, where + '/' + pointerPart (id), what);
+        if (! isId (id)) checkId (id, where + '/' + pointerPart (id), what);
     values = std::move (object);
 }
 
@@ -129,6 +132,17 @@ void PartReader::readCount (const std::string& key, Json& value, const std::stri
     if (! (n >= 1.0 && n <= most && n == std::floor (n)))
         error ("file/bad_value", where, quote (key) + " is " + value.dump() + "; it should be a whole number from 1 to 1000000", "write 1, or remove the key");
     append (extra, key, std::move (value));
+}
+
+void PartReader::readWire (Json& value, const std::string& list, std::size_t number, Patch& patch)
+{
+    if (value.is_string())
+        if (auto wire = parseWire (value.asString()))
+        {
+            patch.wires.push_back (*std::move (wire));
+            return;
+        }
+    readWire (value, list + '/' + std::to_string (number), patch);
 }
 
 void PartReader::readWire (Json& value, const std::string& where, Patch& patch)

@@ -21,6 +21,7 @@ public:
     void readSubgraph (Json& object, const std::string& where, graph::Patch&);
     void readNode (const std::string& name, Json& object, const std::string& where, graph::Node&);
     void readWire (Json& value, const std::string& where, graph::Patch&);
+    void readWire (Json& value, const std::string& list, std::size_t number, graph::Patch&);   ///< an entry of the list of wires
     void readExpose (Json& object, const std::string& where, graph::Expose&);
     void readControl (const std::string& id, Json& object, const std::string& where, graph::Control&);
     bool checkId (const std::string& id, const std::string& where, std::string_view what);

@@ -20,7 +20,7 @@ constexpr int triangles_per_leaf = 4;
 constexpr double slack = 1e-12;
 
 /// A tree of halves is never deeper: 2^31 triangles have 29 levels.
-constexpr std::size_t deepest = 64;
+constexpr std::size_t deepest_tree = 64;
 
 struct Box
 {
@@ -59,7 +59,7 @@ public:
     {
         int best = 0;
         double least = std::numeric_limits<double>::infinity();
-        std::array<std::pair<int, double>, deepest> waiting { { { 0, 0.0 } } };   // boxes, with their distances
+        std::array<std::pair<int, double>, deepest_tree> waiting { { { 0, 0.0 } } };   // boxes, with their distances
         std::size_t count = 1;
         while (count > 0)
         {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "build.hpp"
+#include "build_parts.hpp"
 #include "bypass.hpp"
 #include "compile.hpp"
 #include "find_param.hpp"
@@ -24,21 +25,6 @@ namespace tactus::plan
 namespace
 {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-/// Something that drives one component of an input or parameter.
-struct Driver
-{
-    enum class Kind
-    {
-        replace,
-        add,
-        feed   ///< takes precedence over wires
-    };
-
-    Kind kind;
-    Sum::Term term;
-};
-
 }   // namespace
 
 class PlanBuilder
@@ -46,16 +32,17 @@ class PlanBuilder
 public:
     PlanBuilder (Flat& f, const PortUnits& u, const Order& o, Outside out, const Setup& s, const CompileOptions& options)
         : flat (f), units (u), order (o), outside (std::move (out)), setup (s), kept (options.kept), before (partsOf (options.before)),
-          diff (f, before, partsOf (options.withdrawn), s.rate_hz), slots (f), steps (f.sections.size())
+          diff (f, before, partsOf (options.withdrawn), s.rate_hz), in_order (inOrder (f, o)), slots (f, in_order), steps (f.sections.size())
     {
     }
 
-    std::shared_ptr<Plan> run()
+    std::shared_ptr<Plan> run (std::shared_ptr<Background> background)
     {
         layOut();
-        parts.exposed = std::move (outside.exposed);
+        parts.exposed = std::make_shared<std::map<std::string, std::vector<PortRef>>> (std::move (outside.exposed));
         parts.rate_hz = setup.rate_hz;
-        parts.feeds.assign (outside.feeds.size(), 0.0);
+        storage->feeds.assign (outside.feeds.size(), 0.0);
+        parts.feeds = storage->feeds;
         parts.fed = outside.feeds;
         makeNodes();
         connectDrivers();
@@ -69,22 +56,36 @@ public:
         Taps taps { flat, units, *storage, parts.taps, [this] (const PortRef& r) { return valueOf (r); } };
         for (const auto& read : outside.records)
             taps.add (read);
-        const auto delays = nodeDelays();
+        background->tapped = std::move (taps.ports);
+        const auto delays = nodeDelays (flat, parts.instances);
         parts.delays = pathDelays (flat, units, delays);
         warnOfDelays (flat, units, delays);
-        parts.storage = storage;
-        keepFlat();
+        parts.storage = { storage };
+        keepFlat (flat, parts);
         diff.compare (parts);
         keepValues();
+        keep (std::move (background));
         return std::move (plan);
     }
 
-private:
-    struct Steps
+    NodePart runNode (std::span<const Instance> instances, std::span<double> feeds)
     {
-        OwnedRecords peeks, body, writes;
-    };
+        storage = std::make_shared<Storage> (0);
+        makeRoomForInputs();
+        for (const auto& instance : instances)
+            parts.instances.add (instance);
+        parts.feeds = feeds;
+        auto& first = parts.instances.change (0);
+        first.sources = sourcesOf (0);
+        first.driven = {};
+        first.is_struck = false;
+        connectDrivers();
+        connectInputs (0);
+        addNode (0);
+        return { std::move (steps[0].peeks.records), std::move (steps[0].body.records), parts.instances[0], storage };
+    }
 
+private:
     Flat& flat;
     const PortUnits& units;
     const Order& order;
@@ -93,35 +94,47 @@ private:
     const std::vector<std::string>& kept;
     const PlanParts* before;
     PlanDiff diff;
+    const std::vector<int> in_order;   // the nodes in running order
     Slots slots;
 
     std::shared_ptr<Plan> plan = std::make_shared<Plan>();
     PlanParts& parts = plan->parts;
     std::shared_ptr<Storage> storage;
-    std::vector<std::size_t> output_at;       // by node: offset in the arena
+    std::shared_ptr<KnobBoard> board = std::make_shared<KnobBoard>();
     std::optional<Grouped<Driver>> drivers;   // by slot; within a slot, first the wires, then the feeds
-    std::vector<Steps> steps;                 // by section
+    std::vector<SectionSteps> steps;          // by section
 
     static const PlanParts* partsOf (const Plan* other) { return other ? &other->parts : nullptr; }
-    std::byte* outputsOf (int n) { return storage->outputs.bytes + output_at[at (n)]; }
+    void* outputsOf (int n) { return parts.instances[at (n)].outputs; }
     const double** sourcesOf (int n) { return storage->sources.data() + slots.firstInput (n); }
-    Steps& stepsOf (int n) { return steps[at (flat.node (n).section)]; }
+    SectionSteps& stepsOf (int n) { return steps[at (flat.node (n).section)]; }
     void* nodeOf (int n) { return parts.instances[at (n)].node.get(); }
 
+    /// The outputs and inputs of nodes lie side by side in running order.
     void layOut()
     {
         std::size_t size = 0;
-        output_at.reserve (flat.nodes.size());
-        for (const auto& n : flat.nodes)
-        {
-            const auto align = n.type->outputs_align;
-            size = (size + align - 1) / align * align;
-            output_at.push_back (size);
-            size += n.type->outputs_size;
-        }
+        const auto output_at = outputOffsets (flat, in_order, size);
         storage = std::make_shared<Storage> (size);
+        makeRoomForInputs();
+        parts.instances.resize (flat.nodes.size());
+        for (int i = 0; i < flat.nodeCount(); ++i)
+        {
+            auto& instance = parts.instances.change (at (i));
+            instance.outputs = storage->outputs.bytes + output_at[at (i)];
+            instance.sources = sourcesOf (i);
+        }
+        layOutSections();
+    }
+
+    void makeRoomForInputs()
+    {
         storage->defaults.resize (slots.inputCount());
         storage->sources.resize (slots.inputCount());
+    }
+
+    void layOutSections()
+    {
         storage->sections.resize (flat.sections.size());
         for (int s = 1; s < flat.sectionCount(); ++s)
         {
@@ -168,21 +181,20 @@ private:
         if (before)
             for (const auto& role : before->roles)
                 parts.roles.push_back ({ role.name, role.state, {} });
-        parts.instances.resize (flat.nodes.size());
-        for (int i = 0; i < flat.nodeCount(); ++i)
+        for (const int i : in_order)   // nodes that run one after another are made one after another, so that they lie close together
             makeNode (i);
+        for (const int i : in_order)
+            parts.instances.change (at (i)).knobs = diff.knobsOf (at (i), board, parts.takeover);
+        for (int i = 0; i < flat.nodeCount(); ++i)
+            begin (i);
         std::ranges::sort (parts.roles, {}, &RoleUse::name);
-        parts.ramps.prepare (parts.instances, setup.rate_hz);
+        parts.ramps.prepare (parts.instances, std::make_shared<KnobIndex> (parts.instances), setup.rate_hz);
     }
 
     void makeNode (int i)
     {
-        const auto& n = flat.node (i);
-        auto& instance = parts.instances[at (i)];
-        instance.outputs = outputsOf (i);
-        instance.sources = sourcesOf (i);
-        const bool is_shared = diff.continues (at (i));
-        if (is_shared)
+        auto& instance = parts.instances.change (at (i));
+        if (diff.continues (at (i)))
         {
             const auto& old = *diff.predecessorOf (at (i));
             instance.serial = old.serial;
@@ -194,15 +206,20 @@ private:
             instance.serial = newSerial();
             instance.node = plan::makeNode (flat, i);
         }
-        instance.knobs = diff.knobsOf (at (i), parts.takeover);
-        keepOutputs (i);
+    }
 
-        if (! instance.node)
+    void begin (int i)
+    {
+        const auto& n = flat.node (i);
+        const bool is_shared = diff.continues (at (i));
+        keepOutputs (i);
+        if (! parts.instances[at (i)].node)
         {
             std::memset (outputsOf (i), 0, n.type->outputs_size);
             return;
         }
         n.type->initialiseOutputs (outputsOf (i));
+        if ((n.type->bind || n.type->learn) && n.runs()) parts.bound.push_back (static_cast<std::uint32_t> (i));
         if (n.type->bind && n.runs()) use (i, is_shared);
         if (! is_shared) prepare (i);
     }
@@ -210,7 +227,7 @@ private:
     void prepare (int i)
     {
         const auto& n = flat.node (i);
-        auto& instance = parts.instances[at (i)];
+        auto& instance = parts.instances.change (at (i));
         if (n.type->learn)
             if (const auto role = std::ranges::find (parts.roles, n.role, &RoleUse::name); role != parts.roles.end())
                 n.type->learn (instance.node.get(), role->state->layout.mechanics);
@@ -234,7 +251,7 @@ private:
         const bool any = first_sum < storage->sums.size() || first_strike < storage->strikes.size();
         const auto* old = any ? diff.heldFrom (at (i)) : nullptr;
         if (old == nullptr) return;
-        const auto begin = slots.firstInput (i), end = slots.firstInput (i + 1);
+        const auto begin = slots.firstInput (i), end = begin + Slots::inputsOf (flat.node (i));
         for (auto slot = begin; slot < end; ++slot)
         {
             const auto keep = [&] (double& out) {
@@ -268,7 +285,8 @@ private:
 
     const double* output (const PortRef& r, int component)
     {
-        return reinterpret_cast<const double*> (outputsOf (r.node) + flat.sheet (r).offset) + slotWithin (r, component, flat.sheet (r).width);
+        const auto& sheet = flat.sheet (r);
+        return reinterpret_cast<const double*> (static_cast<std::byte*> (outputsOf (r.node)) + sheet.offset) + slotWithin (r, component, sheet.width);
     }
 
     void connectDrivers()
@@ -296,9 +314,10 @@ private:
             for (int k = 0; k < static_cast<int> (outside.feeds[f].size()); ++k)
             {
                 const auto& port = outside.feeds[f][at (k)];
-                ConvertedValue value { static_cast<int> (flat.wires.size() + f), k, carriedBy (flat, units, port) };
-                all.push_back (
-                    { slots (port, port.component), { Driver::Kind::feed, { conversions.enter (&parts.feeds[f], 0, flat.node (port).section, value), 1.0 } } });
+                const int section = flat.node (port).section;
+                ConvertedValue value { static_cast<int> (flat.wires.size() + f), k, section != 0 ? carriedBy (flat, units, port) : Carries::signal };
+                const double* from = conversions.enter (&parts.feeds[f], 0, section, value);
+                all.push_back ({ slots (port, port.component), { Driver::Kind::feed, { from, 1.0 } } });
             }
         drivers.emplace (slots.count(), [&] (auto visit) {
             for (const auto& [slot, driver] : all)
@@ -364,7 +383,7 @@ private:
     /// The value at the n-th hit input of a node, including hits from outside.
     const double* struck (int i, const double* from, std::size_t n)
     {
-        auto& instance = parts.instances[at (i)];
+        auto& instance = parts.instances.change (at (i));
         instance.is_struck = true;
         auto& s = storage->strikes.emplace_back (Strike { from, &instance.knobs->pulses[n] });
         stepsOf (i).body.add ({ &Strike::step, &s, nullptr, nullptr }, i);
@@ -387,7 +406,7 @@ private:
         d.type = n.type;
         d.node = nodeOf (i);
         d.drives = std::move (drives);
-        d.faulted.assign (slots.firstInput (i + 1) - slots.firstInput (i), &not_a_number);
+        d.faulted.assign (Slots::inputsOf (n), &not_a_number);
         if (n.type->tickStored) d.params.resize (n.type->params_size);
         stepsOf (i).body.add ({ &DrivenNode::step, &d, sources, outputsOf (i) }, i);
     }
@@ -395,7 +414,6 @@ private:
     std::vector<DrivenNode::Drive> drivesOf (int i)
     {
         const auto& n = flat.node (i);
-        auto& instance = parts.instances[at (i)];
         std::vector<DrivenNode::Drive> drives;
         auto slot = slots.firstParam (i);
         for (std::size_t p = 0; p < n.type->params.size(); ++p)
@@ -405,6 +423,7 @@ private:
                 if (all.empty()) continue;
                 const auto* feed = feedAmong (all);
                 const auto knob = Knobs::indexOf (*n.type, p, k);
+                auto& instance = parts.instances.change (at (i));
                 instance.driven.resize (instance.knobs->all.size());
                 instance.driven[knob] = true;
                 drives.push_back ({ param (i, p, k), &instance.knobs->all[knob].value, feed ? feed : joined (all, Driver::Kind::replace, i),
@@ -416,7 +435,7 @@ private:
     void addBypass (int i)
     {
         const auto is_driven = [&] (std::size_t input) { return ! (*drivers)[slots.firstInput (i) + input].empty(); };
-        auto& bypass = storage->bypasses.emplace_back (bypassOf (flat.node (i), outputsOf (i), is_driven));
+        auto& bypass = storage->bypasses.emplace_back (bypassOf (flat.node (i), static_cast<std::byte*> (outputsOf (i)), is_driven));
         stepsOf (i).body.add ({ &Bypass::step, &bypass, sourcesOf (i), nullptr }, i);
     }
 
@@ -429,25 +448,6 @@ private:
         return n.muted ? &Storage::zero : storage->sources[slots (r, r.component)];
     }
 
-    /// Keeps the flat graph for the next plan, without the parts that only messages need.
-    void keepFlat()
-    {
-        auto messages = std::move (flat.messages);
-        parts.flat = std::move (flat);
-        flat.messages = std::move (messages);
-        parts.flat.assignments = {};
-        parts.flat.places = {};
-        for (auto& n : parts.flat.nodes)
-            n.origin = {};
-        for (auto& w : parts.flat.wires)
-        {
-            w.origin = {};
-            w.written = {};
-        }
-        for (auto& s : parts.flat.sections)
-            s.origin = {};
-    }
-
     /// Drops the edits of params that must keep their values.
     void keepValues()
     {
@@ -456,23 +456,30 @@ private:
                        [&] (const Takeover::Change& change) { return std::ranges::count (kept, nameOf (parts.flat, change.instance, change.knob)) > 0; });
     }
 
-    std::vector<int> nodeDelays()
+    void keep (std::shared_ptr<Background> background)
     {
-        std::vector<int> delays;
-        for (int i = 0; i < flat.nodeCount(); ++i)
-        {
-            const auto& n = flat.node (i);
-            const bool source = n.type->bind && ! n.type->effort;
-            const bool waits = n.type->peek && ! n.bypass && ! source;
-            delays.push_back (waits ? parts.instances[at (i)].delay : 0);
-        }
-        return delays;
+        background->position.resize (in_order.size());
+        for (std::size_t r = 0; r < in_order.size(); ++r)
+            background->position[at (in_order[r])] = static_cast<int> (r);
+        background->running = in_order;
+        parts.background = std::move (background);
     }
 };
 
-std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, const Order& order, Outside outside, const Setup& setup, const CompileOptions& options)
+std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, const Order& order, Outside outside, const Setup& setup, const CompileOptions& options,
+                             std::shared_ptr<Background> background)
 {
-    return PlanBuilder { flat, units, order, std::move (outside), setup, options }.run();
+    return PlanBuilder { flat, units, order, std::move (outside), setup, options }.run (std::move (background));
+}
+
+NodePart buildNode (Flat& flat, std::vector<std::vector<PortRef>> fed, std::span<const Instance> instances, std::span<double> feeds)
+{
+    std::vector<Step> steps;
+    for (int i = 0; i < flat.nodeCount(); ++i)
+        steps.push_back ({ .node = i });
+    Outside outside;
+    outside.feeds = std::move (fed);
+    return PlanBuilder { flat, {}, { std::move (steps) }, std::move (outside), {}, {} }.runNode (instances, feeds);
 }
 
 }   // namespace tactus::plan

@@ -6,6 +6,10 @@
 
 #include <tactus/node/node.hpp>
 
+#include <memory>
+#include <span>
+#include <vector>
+
 namespace tactus
 {
 struct CompileOptions;
@@ -32,6 +36,19 @@ struct Outside
 
 /// Makes the nodes, lays out their outputs, and writes the records in the given order. The graph must be free of errors. It is
 /// moved into the plan, except for its messages. Uses `before`, `withdrawn` and `kept` of the options.
-std::shared_ptr<Plan> build (Flat&, const PortUnits&, const Order&, Outside, const Setup&, const CompileOptions&);
+/// The plan keeps the background, and completes it.
+std::shared_ptr<Plan> build (Flat&, const PortUnits&, const Order&, Outside, const Setup&, const CompileOptions&, std::shared_ptr<Background>);
+
+/// What building the inputs of a single node again yields. The storage is what the pointers point into.
+struct NodePart
+{
+    std::vector<Record> peeks, body;
+    Instance instance;
+    std::shared_ptr<void> storage;
+};
+
+/// Connects the first node of a small flat graph again. The other nodes are only there because wires start from them. The instances
+/// are those of a plan that has all these nodes already, and `feeds` are the values of its feeds. Only for nodes that run in no section.
+NodePart buildNode (Flat&, std::vector<std::vector<PortRef>> fed, std::span<const Instance>, std::span<double> feeds);
 
 }   // namespace tactus::plan

@@ -4,8 +4,10 @@
 #include "build.hpp"
 #include "device_of.hpp"
 #include "make_node.hpp"
+#include "rewire.hpp"
 #include "sections.hpp"
 #include "slots.hpp"
+#include "wire_fit.hpp"
 
 #include <tactus/graph/instances.hpp>
 #include <tactus/graph/text.hpp>
@@ -35,8 +37,6 @@ void checkDelays (Flat& flat)
     for (const auto& w : flat.wires)
         if (w.delay > 0 && ! flat.spend (0.0, sizeof (double) * static_cast<double> (w.delay) * flat.widthOf (w.to), w.origin)) return;
 }
-
-bool addsUp (Quantity q) { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; }
 
 /// Several wires into one port are summed if the quantity can be summed; otherwise this is an error that names both wires. The
 /// same applies to one wire that starts from several instances, even into ports that accept only one wire.
@@ -124,14 +124,14 @@ Spent spentOn (const Flat& flat)
 }
 
 /// All checks of a flat graph that do not involve feeds and records.
-PortUnits check (Flat& flat, const Setup& setup, const graph::Graph& graph, Order& ordered)
+PortUnits check (Flat& flat, const Setup& setup, const graph::Graph& graph, Order& ordered, std::vector<int>& rank)
 {
     auto units = checkUnits (flat);
     checkFanIn (flat, units);
     checkDelays (flat);
     findDevices (flat);
     askNodes (flat, setup, graph);
-    ordered = order (flat);
+    ordered = order (flat, rank);
     checkSections (flat, setup.rate_hz);
     warnOfAliasing (flat, units, setup);
     return units;
@@ -241,6 +241,8 @@ Outside findOutside (Flat& flat, const Scope& top, const CompileOptions& options
 Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const CompileOptions& options)
 {
     beginReading();
+    if (auto plan = rewire (g, catalogue, options)) return { std::move (plan), {} };
+    beginReading();   // rewire may have looked at files
     auto [flat, top, used] = flatten (g, catalogue, options.overrides, options.assets);
     const double rate = options.rate_hz > 0.0 ? options.rate_hz : g.rate_hz;
     if (! (rate >= 1.0 && rate <= 1e6))
@@ -248,15 +250,18 @@ Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const Co
 
     const Setup setup { .rate_hz = rate, .services = options.services };
     Order ordered;
-    const auto units = check (flat, setup, g, ordered);
+    auto background = std::make_shared<Background>();
+    auto units = check (flat, setup, g, ordered, background->rank);
     auto spent = spentOn (flat);
     for (const auto& [name, patch] : g.graphs)   // an unused subgraph is checked on its own
         if (! used.contains (&patch) && ! spent.is_over)
         {
             auto alone = flattenUnused (g, name, patch, catalogue, options.assets, spent);
             Order unneeded;
-            check (alone.flat, setup, g, unneeded);
+            std::vector<int> unneeded_rank;
+            check (alone.flat, setup, g, unneeded, unneeded_rank);
             spent = spentOn (alone.flat);
+            std::ranges::move (alone.flat.files, std::back_inserter (flat.files));
             flat.messages.insert (flat.messages.end(), alone.flat.messages.begin(), alone.flat.messages.end());
         }
     auto outside = findOutside (flat, *top, options);
@@ -265,8 +270,10 @@ Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const Co
     if (! canRun (messages)) return { nullptr, std::move (messages) };
 
     flat.messages.clear();
-    auto made = build (flat, units, ordered, std::move (outside), setup, options);
+    remember (*background, *top, flat, options);
+    auto made = build (flat, units, ordered, std::move (outside), setup, options, background);
     std::ranges::move (flat.messages, std::back_inserter (messages));
+    finish (*made, *background, std::move (units), g.trail.version(), messages.empty());
     return { std::move (made), std::move (messages) };
 }
 }   // namespace

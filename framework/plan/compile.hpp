@@ -9,6 +9,7 @@
 ///   sections     handles subgraphs that run at a different rate                  sections.hpp, aliasing.hpp, rate_conversions.hpp
 ///   build        makes nodes, lays out storage, writes records               build.hpp
 ///   lateness     warns of delays on the way back to the hand                 lateness.hpp
+///   rewire       follows an edit of a few wires without all of this          rewire.hpp
 ///   plan diff    decides what continues from the previous plan                 plan_diff.hpp, matching.hpp, takeover.hpp
 
 #include "flatten.hpp"

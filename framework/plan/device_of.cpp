@@ -58,7 +58,8 @@ void findDevices (Flat& flat)
     const auto before = nearestDevice (flat, onward), after = nearestDevice (flat, back);
     for (int n = 0; n < flat.nodeCount(); ++n)
         if (flat.node (n).type->learn)
-            if (const int device = before[at (n)] != none ? before[at (n)] : after[at (n)]; device != none) flat.nodes[at (n)].role = flat.node (device).role;
+            if (const int device = before[at (n)] != none ? before[at (n)] : after[at (n)]; device != none)
+                flat.nodes.change (at (n)).role = flat.node (device).role;
 }
 
 DeviceMechanics describedDevice (const graph::Graph& graph, const std::string& role)

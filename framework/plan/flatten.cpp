@@ -26,13 +26,6 @@ constexpr int max_depth = 32;
 // Measured costs of compiling, in units of work (work_unit_s).
 constexpr double work_per_node = 800.0, work_of_a_search = 10'000.0;
 
-/// Reserves room in large steps, so that many small additions do not move everything each time.
-template <typename T>
-void makeRoom (std::vector<T>& all, std::size_t more)
-{
-    if (all.size() + more > all.capacity()) all.reserve (std::max (all.size() + more, 2 * all.capacity()));
-}
-
 class Flattener
 {
 public:
@@ -82,8 +75,6 @@ private:
     {
         open.push_back (scope.patch);
         result.used.insert (scope.patch);
-        makeRoom (flat.nodes, scope.patch->nodes.size());
-        makeRoom (flat.wires, scope.patch->wires.size());
         scope.members.resize (scope.patch->nodes.size());
         const auto list = at (scope.origin, "nodes");
         for (const auto& node : scope.patch->nodes)
@@ -163,14 +154,13 @@ private:
                         "collapse it to a subgraph and give the subgraph the `count`, or remove the `count`");
 
         member.node = flat.nodeCount();
-        flat.nodes.push_back ({ .path = scope.prefix + node.name,
-                                .identity = { scope.number, node.id },
-                                .type = type,
-                                .origin = here,
-                                .bypass = node.bypass,
-                                .muted = muted,
-                                .section = scope.section });
-        auto& made = flat.nodes.back();
+        auto& made = flat.nodes.add ({ .path = scope.prefix + node.name,
+                                       .identity = { scope.number, node.id },
+                                       .type = type,
+                                       .origin = here,
+                                       .bypass = node.bypass,
+                                       .muted = muted,
+                                       .section = scope.section });
         readRole (node, here, roles, made, flat);
         countRole (made, here);
         readSettings (node, here, assets, scope.owner->folder, made, flat);
@@ -358,9 +348,9 @@ private:
                 w.crosses = (w.from && flat.node (*w.from).section != w.section) || flat.node (to).section != w.section;
                 if (! wireFits (w, flat) || ! is_active) continue;
                 if (from == 1 && ends.size() == 1)
-                    flat.wires.push_back (std::move (w));
+                    flat.wires.add (std::move (w));
                 else
-                    flat.wires.push_back (w);
+                    flat.wires.add (w);
             }
     }
 

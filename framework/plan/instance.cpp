@@ -31,7 +31,7 @@ void turn (const ParamRef& param, double value) noexcept
     auto& knob = param.knobs->all[param.index];
     knob.target.store (param.sheet->limits.hard.clamp (value), std::memory_order_relaxed);
     knob.turns.fetch_add (1, std::memory_order_release);
-    param.knobs->touched.store (true, std::memory_order_release);
+    param.knobs->board->mark (param.knobs->place);
 }
 
 bool takesHits (const PortSheet& input) noexcept
@@ -43,7 +43,7 @@ void strike (const HitRef& hit, double speed) noexcept
 {
     if (! isFinite (speed) || speed <= 0.0) return;
     hit.knobs->pulses[hit.index].asked.fetch_add (speed, std::memory_order_release);
-    hit.knobs->touched.store (true, std::memory_order_release);
+    hit.knobs->board->mark (hit.knobs->place);
 }
 
 double* Instance::param (std::size_t knob) const noexcept

@@ -24,7 +24,6 @@ struct Instance
     int delay = 1;                            ///< ticks from input to output, if the node peeks
     void* outputs = nullptr;                  ///< in the plan's storage, as the node's type lays them out
     const double* const* sources = nullptr;   ///< by input component, in the plan's storage
-    bool dirty = true;                        ///< the node or something upstream differs from the previous plan
 
     /// Address of a parameter in the node. Not for a choice, which is an int.
     double* param (std::size_t knob) const noexcept;

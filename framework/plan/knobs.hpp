@@ -4,6 +4,8 @@
 /// Knobs turn the parameters of a running node. Any thread may set a target; the tick thread ramps each parameter to its
 /// target in a straight line. Choices apply immediately.
 
+#include "knob_board.hpp"
+
 #include <tactus/node/catalogue.hpp>
 
 #include <algorithm>
@@ -45,8 +47,10 @@ bool takesHits (const PortSheet&) noexcept;
 /// shares them.
 struct Knobs
 {
-    explicit Knobs (const NodeType& t)
-        : type (t), all (indexOf (t, t.params.size(), 0)), pulses (static_cast<std::size_t> (std::ranges::count_if (t.inputs, takesHits)))
+    /// Takes a place on the board. [main thread]
+    Knobs (const NodeType& t, std::shared_ptr<KnobBoard> b)
+        : type (t), all (indexOf (t, t.params.size(), 0)), pulses (static_cast<std::size_t> (std::ranges::count_if (t.inputs, takesHits))),
+          board (std::move (b)), place (board->add())
     {
     }
 
@@ -66,12 +70,17 @@ struct Knobs
 
     const NodeType& type;
     std::vector<Knob> all;
-    std::vector<Pulse> pulses;           ///< by input that takes hits, in the order of the datasheet
-    std::atomic<bool> touched = false;   ///< a knob or pulse has changed since the tick thread last looked
+    std::vector<Pulse> pulses;   ///< by input that takes hits, in the order of the datasheet
+
+    const std::shared_ptr<KnobBoard> board;   ///< where the tick thread sees that a knob or pulse has changed
+    const std::uint32_t place;                ///< on the board
 
     // Tick thread only.
-    bool started = false;   ///< the node has ticked: new targets start a ramp
-    bool ramping = false;   ///< the node is in the list of nodes with a ramp
+    bool continues = false;   ///< the node replaces one that has ticked, so new targets start a ramp from its first tick on
+    bool ramping = false;     ///< the node is in the list of nodes with a ramp
+
+    /// True once new targets start a ramp. [tick thread]
+    bool hasStarted() const noexcept { return continues || board->started; }
 };
 
 bool isChoice (const NodeType&, std::size_t knob) noexcept;

@@ -222,6 +222,12 @@ void reportLoops (Flat& flat, const Blocks& blocks, const Grouped<int>& next)
 
 Order order (Flat& flat)
 {
+    std::vector<int> unneeded;
+    return order (flat, unneeded);
+}
+
+Order order (Flat& flat, std::vector<int>& rank)
+{
     const Blocks blocks { flat };
     const auto size = blocks.size();
     const Grouped<int> next (size, [&] (auto visit) {
@@ -234,7 +240,7 @@ Order order (Flat& flat)
             ++waiting[at (m)];
 
     const auto by_path = sortedByPath (blocks);
-    std::vector<int> rank (size);
+    rank.resize (size);
     for (std::size_t r = 0; r < size; ++r)
         rank[at (by_path[r])] = static_cast<int> (r);
 
@@ -255,6 +261,7 @@ Order order (Flat& flat)
             if (--waiting[at (m)] == 0) ready.push (rank[at (m)]);
     }
     if (done < size) reportLoops (flat, blocks, next);
+    rank.resize (flat.nodes.size());
     return ordered;
 }
 

@@ -14,10 +14,12 @@ void Plan::fuse (std::shared_ptr<const FusedTick> code)
 void Plan::forgetGraph()
 {
     parts.flat = {};
-    parts.exposed = {};
-    std::vector<plan::Instance>().swap (parts.instances);
+    parts.exposed = std::make_shared<std::map<std::string, std::vector<plan::PortRef>>>();
+    parts.instances = {};
     parts.ramps = {};
     parts.takeover = {};
+    parts.background = nullptr;
+    parts.wire_ends = {};
 }
 
 }   // namespace tactus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "background.hpp"
 #include "fused_tick.hpp"
 #include "order.hpp"
 #include "ramps.hpp"
@@ -90,26 +91,34 @@ struct PlanParts
     double rate_hz = 0.0;
     std::uint64_t number = 0;   ///< number of the next tick, counted across all plans
     std::vector<Record> records;
-    std::vector<std::uint32_t> owners;   ///< by record: the node it belongs to, as in flat.nodes; for a wire, the node where it ends
-    std::vector<std::uint64_t> rests;    ///< periods, in ticks, of the sections that do not run on every tick; in rising order
-    std::vector<RoleUse> roles;          ///< sorted by name
-    std::vector<Tap> taps;               ///< as in CompileOptions::records, in order
-    std::vector<double> feeds;           ///< current values, in the order of CompileOptions::feeds
-    std::vector<PathDelay> delays;       ///< between the sources and the sinks of devices
-    std::shared_ptr<void> storage;       ///< outputs, wires, constants: what all pointers point into
+    std::vector<std::uint32_t> owners;            ///< by record: the node it belongs to, as in flat.nodes; for a wire, the node where it ends
+    std::vector<std::uint64_t> rests;             ///< periods, in ticks, of the sections that do not run on every tick; in rising order
+    std::vector<RoleUse> roles;                   ///< sorted by name
+    std::vector<Tap> taps;                        ///< as in CompileOptions::records, in order
+    std::span<double> feeds;                      ///< current values, in the order of CompileOptions::feeds; in the storage
+    std::vector<PathDelay> delays;                ///< between the sources and the sinks of devices
+    std::vector<std::shared_ptr<void>> storage;   ///< outputs, wires, constants: what all pointers point into. Shared with plans that follow after a small edit
 
     // For the next plan, and for turning knobs.
-    Flat flat;                                             ///< what the plan was built from
-    std::vector<Instance> instances;                       ///< numbered as in flat.nodes
-    std::vector<LineUse> lines;                            ///< by wire, then component
-    std::vector<RateConverterUse> rate_converters;         ///< by wire, then component, then step
-    std::vector<std::vector<PortRef>> fed;                 ///< by feed: the ports it drives
-    std::map<std::string, std::vector<PortRef>> exposed;   ///< params and inputs by the names under which subgraphs expose them
+    Flat flat;                                       ///< what the plan was built from
+    Chunks<Instance> instances;                      ///< numbered as in flat.nodes
+    std::vector<LineUse> lines;                      ///< by wire, then component
+    std::vector<RateConverterUse> rate_converters;   ///< by wire, then component, then step
+    std::vector<std::vector<PortRef>> fed;           ///< by feed: the ports it drives
+    std::vector<std::uint32_t> bound;                ///< the nodes that run and whose type has one of the hooks bind and learn
+    std::shared_ptr<const std::map<std::string, std::vector<PortRef>>> exposed = std::make_shared<std::map<std::string, std::vector<PortRef>>>();
     Ramps ramps;
     Takeover takeover;
+
+    // For the next plan, if it differs only in a few wires (rewire.hpp).
+    std::shared_ptr<const Background> background;
+    WireEnds wire_ends;      // by number of the wire
+    graph::Id version = 0;   // of the graph, as in Trail
+    int rewired = 0;         // number of such edits since the whole graph was compiled
 };
 
 class PlanBuilder;
+class Rewirer;
 
 }   // namespace plan
 
@@ -133,7 +142,7 @@ public:
     void takeOver (const Plan& before, Journal* journal = nullptr) noexcept
     {
         if (parts.feeds.size() == before.parts.feeds.size()) setFeeds (before.parts.feeds);
-        parts.takeover.carryOut (parts.instances, parts.ramps, journal);
+        parts.takeover.carryOut (parts.instances, parts.ramps, before.parts.ramps, journal);
     }
 
     /// Starts moving to the targets that were set since the last call, and passes hits on to their inputs. [tick thread]
@@ -206,11 +215,17 @@ public:
     /// The periods, in ticks, of the sections that do not run on every tick; in rising order.
     const std::vector<std::uint64_t>& rests() const noexcept { return parts.rests; }
 
-    const plan::Flat& flat() const noexcept { return parts.flat; }                              ///< what it was built from
-    const std::vector<plan::Instance>& instances() const noexcept { return parts.instances; }   ///< numbered as in flat().nodes
+    const plan::Flat& flat() const noexcept { return parts.flat; }                               ///< what it was built from
+    const plan::Chunks<plan::Instance>& instances() const noexcept { return parts.instances; }   ///< numbered as in flat().nodes
+
+    /// The numbers of the nodes that run and belong to a role: those whose type has one of the hooks bind and learn.
+    const std::vector<std::uint32_t>& bound() const noexcept { return parts.bound; }
+
+    /// How many small edits this plan is away from one that was compiled from a whole graph; see plan/rewire.hpp.
+    int rewired() const noexcept { return parts.rewired; }
 
     /// Params and inputs by the names under which subgraphs expose them.
-    const std::map<std::string, std::vector<plan::PortRef>>& exposed() const noexcept { return parts.exposed; }
+    const std::map<std::string, std::vector<plan::PortRef>>& exposed() const noexcept { return *parts.exposed; }
 
     /// The use of a role, or null. [any thread]
     const RoleUse* findRole (std::string_view name) const noexcept
@@ -225,6 +240,7 @@ public:
 
 private:
     friend class plan::PlanBuilder;
+    friend class plan::Rewirer;
 
     std::uint64_t own_serial = plan::newSerial();
     plan::PlanParts parts;

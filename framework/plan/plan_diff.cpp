@@ -132,8 +132,7 @@ void keepTurned (Knobs& knobs, const Flat& flat, std::size_t i, const PlanParts&
     const auto* turned = before.instances[old].knobs.get();
     if (turned == nullptr) return;
     const auto hold = [&] (auto& to, const auto& from) { takeover.held.push_back ({ &to, &from, sizeof from }); };
-    hold (knobs.started, turned->started);
-    hold (knobs.ramping, turned->ramping);
+    takeover.rebuilt.push_back ({ i, turned });
     for (std::size_t p = 0; p < now.params.size(); ++p)
     {
         const auto* param = sameParam (now.params[p], then);
@@ -224,11 +223,11 @@ const Instance* PlanDiff::heldFrom (std::size_t node) const
     const auto& n = flat.nodes[node];
     const auto* old = flat.rests (n.section) ? predecessorOf (node) : nullptr;
     if (old == nullptr) return nullptr;
-    const auto& then = before->flat.nodes[at (old - before->instances.data())];
+    const auto& then = before->flat.nodes[at (matching.nodes[node])];
     return ! then.muted && then.bypass == n.bypass && then.list_size == n.list_size ? old : nullptr;
 }
 
-std::shared_ptr<Knobs> PlanDiff::knobsOf (std::size_t i, Takeover& takeover) const
+std::shared_ptr<Knobs> PlanDiff::knobsOf (std::size_t i, const std::shared_ptr<KnobBoard>& board, Takeover& takeover) const
 {
     const auto& n = flat.nodes[i];
     if (n.type->make == nullptr || ! Knobs::areIn (*n.type)) return nullptr;
@@ -236,7 +235,7 @@ std::shared_ptr<Knobs> PlanDiff::knobsOf (std::size_t i, Takeover& takeover) con
     const auto predecessor = knobsBefore (i);
     if (predecessor.plan == nullptr)
     {
-        auto knobs = std::make_shared<Knobs> (*n.type);
+        auto knobs = std::make_shared<Knobs> (*n.type, board);
         std::size_t k = 0;
         for (std::size_t p = 0; p < n.type->params.size(); ++p)
         {
@@ -347,14 +346,11 @@ std::vector<bool> PlanDiff::changed (const PlanParts& plan) const
 }
 
 /// Marks everything downstream of the changed nodes, including along delayed wires.
-void PlanDiff::spread (const std::vector<bool>& dirty, PlanParts& plan)
+void PlanDiff::spread (std::vector<bool>& dirty, const PlanParts& plan)
 {
     std::vector<int> open;
     for (std::size_t i = 0; i < dirty.size(); ++i)
-        if (! dirty[i])
-            plan.instances[i].dirty = false;
-        else
-            open.push_back (static_cast<int> (i));
+        if (dirty[i]) open.push_back (static_cast<int> (i));
     if (open.empty()) return;
 
     std::vector<std::pair<int, int>> pairs;   // of nodes: start and end of each wire
@@ -367,7 +363,11 @@ void PlanDiff::spread (const std::vector<bool>& dirty, PlanParts& plan)
         const int from = open.back();
         open.pop_back();
         for (auto p = std::ranges::lower_bound (pairs, std::pair { from, 0 }); p != pairs.end() && p->first == from; ++p)
-            if (! std::exchange (plan.instances[at (p->second)].dirty, true)) open.push_back (p->second);
+            if (! dirty[at (p->second)])
+            {
+                dirty[at (p->second)] = true;
+                open.push_back (p->second);
+            }
     }
 }
 
@@ -375,13 +375,14 @@ void PlanDiff::compare (PlanParts& plan) const
 {
     if (before == nullptr) return;
 
-    spread (changed (plan), plan);
+    auto dirty = changed (plan);
+    spread (dirty, plan);
 
     for (auto& role : plan.roles)
     {
         const auto old = std::ranges::find (before->roles, role.name, &RoleUse::name);
         role.untouched = old != before->roles.end() && serialsOf (role, plan) == serialsOf (*old, *before)
-                         && std::ranges::none_of (role.sinks, [&] (const SinkUse& s) { return plan.instances[s.instance].dirty; });
+                         && std::ranges::none_of (role.sinks, [&] (const SinkUse& s) { return dirty[s.instance]; });
     }
 
     for (std::size_t i = 0; i < continuing.size(); ++i)

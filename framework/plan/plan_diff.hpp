@@ -26,8 +26,8 @@ public:
     bool continues (std::size_t node) const noexcept { return continuing[node]; }
 
     /// The knobs of a node: its previous ones, or new ones with the stored values. Adds edited values to `takeover`. Null for a
-    /// node with neither params nor hit inputs.
-    std::shared_ptr<Knobs> knobsOf (std::size_t node, Takeover&) const;
+    /// node with neither params nor hit inputs. New ones take a place on the board.
+    std::shared_ptr<Knobs> knobsOf (std::size_t node, const std::shared_ptr<KnobBoard>&, Takeover&) const;
 
     /// Records in `takeover` what a new node takes over from its predecessor.
     void noteSuccessor (std::size_t node, Takeover&) const;
@@ -56,7 +56,7 @@ private:
     std::uint32_t turnsBefore (const Knobs&, std::size_t knob, double value) const noexcept;
     bool isSame (std::size_t node) const;
     std::vector<bool> changed (const PlanParts&) const;
-    static void spread (const std::vector<bool>& dirty, PlanParts&);
+    static void spread (std::vector<bool>& dirty, const PlanParts&);
 
     const Flat& flat;
     const PlanParts *before, *withdrawn;

@@ -1,36 +1,65 @@
 // SPDX-License-Identifier: MIT
 #include "ramps.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace tactus::plan
 {
 
-void Ramps::prepare (std::span<const Instance> all, double rate_hz)
+KnobIndex::KnobIndex (const Chunks<Instance>& instances)
 {
-    instances = all;
+    const auto before = [] (const Entry& e, const KnobBoard* b) { return std::less<const KnobBoard*> {}(e.board.get(), b); };
+    for (std::uint32_t i = 0; const auto& instance : instances)
+    {
+        if (const auto* knobs = instance.knobs.get())
+        {
+            const auto* board = knobs->board.get();
+            auto entry = ! all.empty() && all.back().board.get() == board ? std::prev (all.end()) : std::lower_bound (all.begin(), all.end(), board, before);
+            if (entry == all.end() || entry->board.get() != board) entry = all.insert (entry, { knobs->board, std::vector (board->size(), none) });
+            entry->nodes[knobs->place] = i;
+        }
+        ++i;
+    }
+}
+
+std::uint32_t KnobIndex::operator[] (const Knobs& knobs) const noexcept
+{
+    const auto entry = std::ranges::lower_bound (all, knobs.board.get(), std::less<const KnobBoard*> {}, [] (const Entry& e) { return e.board.get(); });
+    return entry != all.end() && entry->board == knobs.board ? entry->nodes[knobs.place] : none;
+}
+
+void Ramps::prepare (const Chunks<Instance>& all, std::shared_ptr<const KnobIndex> i, double rate_hz)
+{
+    instances = &all;
+    index = std::move (i);
     moving.reserve (all.size());
     ticks = std::max (1, static_cast<int> (std::lround (ramp_s * rate_hz)));
 }
 
 void Ramps::look (Journal* journal) noexcept
 {
-    for (std::size_t i = 0; i < instances.size(); ++i)
+    if (index == nullptr) return;
+    for (const auto& [board, nodes] : index->boards())
+        board->take ([&] (std::uint32_t place) { return nodes[place] != KnobIndex::none; }, [&] (std::uint32_t place) { turn (nodes[place], journal); });
+}
+
+void Ramps::turn (std::size_t i, Journal* journal) noexcept
+{
+    const auto& instance = (*instances)[i];
+    auto& knobs = *instance.knobs;
+    for (std::size_t k = 0; k < knobs.all.size(); ++k)
     {
-        auto* knobs = instances[i].knobs.get();
-        if (knobs == nullptr || ! knobs->touched.load (std::memory_order_relaxed) || ! knobs->touched.exchange (false, std::memory_order_acquire)) continue;
-        for (std::size_t k = 0; k < knobs->all.size(); ++k)
-        {
-            auto& knob = knobs->all[k];
-            const auto turns = knob.turns.load (std::memory_order_acquire);
-            if (turns == knob.heeded) continue;
-            knob.heeded = turns;
-            const double target = knob.target.load (std::memory_order_relaxed);
-            head (i, k, target);
-            if (journal) journal->turned (i, k, target);
-        }
-        strike (i, instances[i], journal);
+        auto& knob = knobs.all[k];
+        const auto turns = knob.turns.load (std::memory_order_acquire);
+        if (turns == knob.heeded) continue;
+        knob.heeded = turns;
+        const double target = knob.target.load (std::memory_order_relaxed);
+        head (i, k, target);
+        if (journal) journal->turned (i, k, target);
     }
+    strike (i, instance, journal);
 }
 
 /// A hit on a node that does not run is dropped.
@@ -47,19 +76,27 @@ void Ramps::strike (std::size_t i, const Instance& instance, Journal* journal) n
     }
 }
 
-void Ramps::goOn() noexcept
+void Ramps::goOn (const Ramps& before) noexcept
 {
-    for (std::size_t i = 0; i < instances.size(); ++i)
-        if (const auto* knobs = instances[i].knobs.get(); knobs != nullptr && knobs->ramping) moving.push_back (i);
+    for (const auto old : before.moving)
+        if (const auto i = (*index)[*(*before.instances)[old].knobs]; i != KnobIndex::none) moving.push_back (i);
+}
+
+void Ramps::inherit (std::size_t i, const Knobs& old) noexcept
+{
+    auto& knobs = *(*instances)[i].knobs;
+    knobs.continues = old.hasStarted();
+    knobs.ramping = old.ramping;
+    if (knobs.ramping) moving.push_back (static_cast<std::uint32_t> (i));
 }
 
 void Ramps::head (std::size_t i, std::size_t k, double to, bool at_once) noexcept
 {
-    const auto& instance = instances[i];
+    const auto& instance = (*instances)[i];
     auto& knobs = *instance.knobs;
     auto& knob = knobs.all[k];
     knob.to = to;
-    if (at_once || ! knobs.started || isChoice (knobs.type, k))
+    if (at_once || ! knobs.hasStarted() || isChoice (knobs.type, k))
     {
         knob.left = 0;
         knob.value = to;
@@ -71,14 +108,14 @@ void Ramps::head (std::size_t i, std::size_t k, double to, bool at_once) noexcep
     knob.left = ticks;
     if (knobs.ramping) return;
     knobs.ramping = true;
-    moving.push_back (i);
+    moving.push_back (static_cast<std::uint32_t> (i));
 }
 
 void Ramps::step() noexcept
 {
     for (std::size_t m = 0; m < moving.size();)
     {
-        const auto& instance = instances[moving[m]];
+        const auto& instance = (*instances)[moving[m]];
         auto& knobs = *instance.knobs;
         bool more = false, moved = false;
         for (std::size_t k = 0; k < knobs.all.size(); ++k)
@@ -105,8 +142,9 @@ void Ramps::step() noexcept
 
 void Ramps::startAll() noexcept
 {
-    for (const auto& instance : instances)
-        if (instance.knobs) instance.knobs->started = true;
+    if (index == nullptr) return;
+    for (const auto& entry : index->boards())
+        entry.board->started = true;
 }
 
 }   // namespace tactus::plan

@@ -6,15 +6,29 @@ namespace tactus::plan
 
 Slots::Slots (const Flat& f) : flat (&f)
 {
-    inputs.reserve (f.nodes.size() + 1);
-    std::size_t next = 0;
+    inputs.reserve (f.nodes.size());
     for (const auto& n : f.nodes)
     {
-        inputs.push_back (next);
-        for (const auto& row : n.type->inputs)
-            next += at (n.slots (row));
+        inputs.push_back (input_count);
+        input_count += inputsOf (n);
     }
-    inputs.push_back (next);
+}
+
+Slots::Slots (const Flat& f, std::span<const int> order) : flat (&f), inputs (f.nodes.size())
+{
+    for (const int n : order)
+    {
+        inputs[at (n)] = input_count;
+        input_count += inputsOf (f.node (n));
+    }
+}
+
+std::size_t Slots::inputsOf (const FlatNode& n) noexcept
+{
+    std::size_t count = 0;
+    for (const auto& row : n.type->inputs)
+        count += at (n.slots (row));
+    return count;
 }
 
 std::size_t Slots::operator() (const PortRef& r, int component) const noexcept

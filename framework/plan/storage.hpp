@@ -33,6 +33,7 @@ struct Storage
     explicit Storage (std::size_t outputs_size) : outputs (outputs_size) {}
 
     Arena outputs;
+    std::vector<double> feeds;      // current values, in the order of CompileOptions::feeds
     std::vector<double> defaults;   // by input component: the value if no wire or feed drives it
     std::vector<const double*> sources;
     std::deque<Sum> sums;

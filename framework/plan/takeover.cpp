@@ -6,7 +6,7 @@
 namespace tactus::plan
 {
 
-void Takeover::carryOut (std::span<const Instance> instances, Ramps& ramps, Journal* journal) const noexcept
+void Takeover::carryOut (const Chunks<Instance>& instances, Ramps& ramps, const Ramps& before, Journal* journal) const noexcept
 {
     for (const auto& [line, old] : relays)
         line->adopt (*old);
@@ -27,7 +27,9 @@ void Takeover::carryOut (std::span<const Instance> instances, Ramps& ramps, Jour
         if (adopt) adopt (instance.node.get(), old);
     }
 
-    ramps.goOn();
+    ramps.goOn (before);
+    for (const auto& [i, old] : rebuilt)
+        ramps.inherit (i, *old);
     for (const auto& [i, k] : releases)
     {
         auto& knob = instances[i].knobs->all[k];

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 namespace tactus::plan
@@ -22,6 +21,13 @@ struct Takeover
         std::size_t instance;
         void (*adopt) (void* node, const void* old) noexcept;   ///< null: the new node starts from its initial state
         const void* old;
+    };
+
+    /// A node whose type was built again, as after an edit of its C++. Its knobs are new, but keep what the old ones held.
+    struct Rebuilt
+    {
+        std::size_t instance;
+        const Knobs* old;
     };
 
     /// A parameter whose stored value was edited. If the knob was turned after the edit, the turned value takes precedence.
@@ -62,13 +68,14 @@ struct Takeover
     };
 
     std::vector<Successor> successors;
+    std::vector<Rebuilt> rebuilt;
     std::vector<Change> changes;
     std::vector<Release> releases;
     std::vector<Relay> relays;
     std::vector<Conversion> conversions;
     std::vector<HeldValue> held;
 
-    void carryOut (std::span<const Instance>, Ramps&, Journal*) const noexcept;   // [tick thread]
+    void carryOut (const Chunks<Instance>&, Ramps&, const Ramps& before, Journal*) const noexcept;   // [tick thread]
 };
 
 }   // namespace tactus::plan

@@ -360,9 +360,9 @@ int PortNumbers::entries (const FlatNode& n, const PortSheet& row) noexcept
     return row.list && row.unit.kind == UnitRule::Kind::each ? n.list_size : 1;
 }
 
-int PortNumbers::operator() (const PortRef& r) const noexcept
+int PortNumbers::in (const Flat& other, const PortRef& r) const noexcept
 {
-    const auto& n = flat->node (r);
+    const auto& n = other.node (r);
     const auto inputs = static_cast<int> (n.type->inputs.size()), params = static_cast<int> (n.type->params.size()),
                outputs = static_cast<int> (n.type->outputs.size());
     int number = firstOf (r.node);

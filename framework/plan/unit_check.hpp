@@ -10,15 +10,17 @@ namespace tactus::plan
 class PortNumbers
 {
 public:
+    PortNumbers() = default;
     explicit PortNumbers (const Flat&);
 
-    int operator() (const PortRef&) const noexcept;
+    int operator() (const PortRef& r) const noexcept { return in (*flat, r); }
+    int in (const Flat&, const PortRef&) const noexcept;   ///< the same for another flat graph with the same nodes
     int firstOf (int node) const noexcept { return first[at (node)]; }
     int count() const noexcept { return first.back(); }
 
     static int entries (const FlatNode&, const PortSheet&) noexcept;
 
-    const Flat* flat;
+    const Flat* flat = nullptr;
 
 private:
     std::vector<int> first;   // number of the first port of each node, then the end

@@ -60,10 +60,9 @@ std::unique_ptr<Engine::Running> Engine::makeRunning (std::shared_ptr<Plan> p)
     made->scratch.numbers.resize (most);
 
     const auto& [plan, used, bound, scratch] = *made;
-    for (std::size_t i = 0; i < plan->instances().size(); ++i)
+    for (const auto i : plan->bound())
     {
         const auto& node = plan->flat().nodes[i];
-        if ((! node.type->bind && ! node.type->learn) || ! node.runs()) continue;
         const auto role = std::ranges::find (plan->roles(), node.role, &Plan::RoleUse::name);
         if (role == plan->roles().end()) continue;
         made->bound.push_back ({ node.type, plan->instances()[i].node.get(), role->state.get(),
@@ -95,6 +94,7 @@ void Engine::announce (const Running& plan)
 /// Binds nodes to the layouts of new devices, and tells the nodes that learn about a device what it is.
 void Engine::introduce (Running& plan) noexcept
 {
+    if (std::ranges::none_of (plan.channels, &Channel::is_news)) return;   // so a takeover need not visit the nodes
     for (const auto& node : plan.bound)
         if (node.channel->is_news) node.type->bind ? node.type->bind (node.node, *node.state) : node.type->learn (node.node, node.state->layout.mechanics);
     for (auto* channel : plan.channels)

@@ -6,7 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include <unordered_map>
+#include <algorithm>
+#include <bit>
+#include <functional>
 
 namespace tactus
 {
@@ -155,20 +157,10 @@ public:
         const auto position = cursor.next();
         cursor.skipToken();
         auto& object = frames.back();
-        object.key = name;
+        object.key = std::move (name);
         object.has_key = true;
-        const auto [first, fresh] = object.seen.emplace (name, position);
-        if (! fresh)
-            complain ("file/duplicate_key", path + '/' + pointerPart (name), position,
-                      "the key " + quote (name) + " occurs twice in one object; first at line " + std::to_string (first->second.line) + ", column "
-                          + std::to_string (first->second.column),
-                      "remove or rename one of them");
-        else
-        {
-            enter (pointerPart (name));
-            place (position);
-            leave();
-        }
+        object.inside = result.positions.addMember (object.place, object.key, position);
+        if (object.has (object.key)) complainOfTwins (object.key, position);
         return true;
     }
 
@@ -179,18 +171,68 @@ public:
     }
 
 private:
+    /// An object or list that is being read.
     struct Frame
     {
         bool is_object = false;
         Json::Object members;
         Json::Array elements;
-        std::unordered_map<std::string, TextPosition> seen;
-        std::string key;
+        std::vector<std::uint32_t> table;   // of a large object: the members by the hash of their keys, as index + 1; 0: free
+        std::string key;                    // of the member that is being read
         bool has_key = false;
-        std::size_t path_size = 0;
+        std::uint32_t place = TextPositions::none, inside = TextPositions::none;   // numbers of the positions of this value, and of the one that is being read
 
         bool empty() const { return members.empty() && elements.empty(); }
+
+        /// True if there is a member with this key already. Searches a small object from end to end.
+        bool has (const std::string& wanted)
+        {
+            constexpr std::size_t few = 12;
+            if (members.size() <= few) return std::ranges::find (members, wanted, &Json::Member::first) != members.end();
+            if (table.size() < 2 * members.size()) fillTable();
+            for (; in_table < members.size(); ++in_table)
+                table[placeOf (members[in_table].first)] = static_cast<std::uint32_t> (in_table + 1);
+            return table[placeOf (wanted)] != 0;
+        }
+
+    private:
+        std::size_t in_table = 0;   // how many members are in the table
+
+        void fillTable()
+        {
+            table.assign (std::bit_ceil (4 * members.size()), 0);
+            in_table = 0;
+        }
+
+        std::size_t placeOf (const std::string& wanted) const
+        {
+            auto i = std::hash<std::string> {}(wanted) & (table.size() - 1);
+            while (table[i] != 0 && members[table[i] - 1].first != wanted)
+                i = (i + 1) & (table.size() - 1);
+            return i;
+        }
     };
+
+    void complainOfTwins (const std::string& name, TextPosition position)
+    {
+        const auto where = pathOf (innermost()) + '/' + pointerPart (name);
+        const auto first = result.positions.find (where).value_or (TextPosition {});
+        complain ("file/duplicate_key", where, position,
+                  "the key " + quote (name) + " occurs twice in one object; first at line " + std::to_string (first.line) + ", column "
+                      + std::to_string (first.column),
+                  "remove or rename one of them");
+    }
+
+    std::size_t innermost() const { return frames.empty() ? 0 : frames.size() - 1; }
+
+    /// The JSON pointer of the value that a frame holds.
+    std::string pathOf (std::size_t frame) const
+    {
+        std::string path;
+        for (std::size_t f = 0; f < frame; ++f)
+            path += '/' + (frames[f].is_object ? pointerPart (frames[f].key) : std::to_string (frames[f].elements.size()));
+        return path;
+    }
 
     void complain (std::string id, std::string where, TextPosition p, std::string text, std::string remedy)
     {
@@ -202,42 +244,15 @@ private:
         result.messages.push_back (std::move (m));
     }
 
-    void enter (const std::string& part)
-    {
-        path_sizes.push_back (path.size());
-        path.append (1, '/').append (part);
-    }
-
-    void leave()
-    {
-        path.resize (path_sizes.back());
-        path_sizes.pop_back();
-    }
-
-    void place (TextPosition position)
-    {
-        constexpr std::size_t most = 64u << 20u;   // bytes of paths; a hostile file may have long lists under long keys
-        place_bytes += path.size() + 1;
-        if (place_bytes < most) result.positions.emplace (path, position);
-    }
-
-    /// Records the position of an array element. For a member of an object, the position of its key was recorded before.
-    void enterValue (TextPosition position, bool bulk)
+    /// The number of the position of a value. For a member of an object, that of its key was recorded before.
+    std::uint32_t placeOf (TextPosition position, bool bulk)
     {
         constexpr std::size_t first_entries = 1000;
-        if (frames.empty())
-        {
-            place (position);
-            path_sizes.push_back (0);
-        }
-        else if (frames.back().is_object)
-            enter (pointerPart (frames.back().key));
-        else
-        {
-            const auto index = frames.back().elements.size();
-            enter (std::to_string (index));
-            if (! bulk || index < first_entries) place (position);
-        }
+        if (frames.empty()) return result.positions.addRoot (position);
+        auto& around = frames.back();
+        if (around.is_object) return around.inside;
+        const auto index = around.elements.size();
+        return ! bulk || index < first_entries ? result.positions.addElement (around.place, index, position) : TextPositions::none;
     }
 
     void put (Json value)
@@ -261,7 +276,7 @@ private:
     {
         if (++result.values <= most_values) return true;
         auto m = overBudget ("file/too_large", &Budgets::values, "the text", budgets().values + 1.0, "put meshes and samples into separate files");
-        complain (std::move (m.id), path, position, std::move (m.text), std::move (m.remedy));
+        complain (std::move (m.id), pathOf (innermost()), position, std::move (m.text), std::move (m.remedy));
         return false;
     }
 
@@ -270,8 +285,7 @@ private:
         const auto position = cursor.next();
         if (! count (position)) return false;
         cursor.skipToken();
-        enterValue (position, value.is_number());
-        leave();
+        placeOf (position, value.is_number());
         put (std::move (value));
         return true;
     }
@@ -281,14 +295,17 @@ private:
         const auto position = cursor.next();
         if (! count (position)) return false;
         cursor.skipToken();
-        enterValue (position, ! object);
+        const auto place = placeOf (position, ! object);
         if (frames.size() >= deepest_nesting)
         {
-            complain ("file/too_deep", path, position, "objects and lists are nested more than " + std::to_string (deepest_nesting) + " levels deep",
+            complain ("file/too_deep", pathOf (frames.size()), position,
+                      "objects and lists are nested more than " + std::to_string (deepest_nesting) + " levels deep",
                       "a graph needs fewer than ten levels");
             return false;
         }
-        frames.emplace_back().is_object = object;
+        auto& frame = frames.emplace_back();
+        frame.is_object = object;
+        frame.place = place;
         return true;
     }
 
@@ -298,7 +315,6 @@ private:
         cursor.skipToken();
         auto frame = std::move (frames.back());
         frames.pop_back();
-        leave();
         if (frame.is_object)
             put (std::move (frame.members));
         else
@@ -406,15 +422,15 @@ private:
         return quote (rest.substr (0, size));
     }
 
-    void syntax (std::string text, std::string remedy) { complain ("file/syntax", path, cursor.position(), std::move (text), std::move (remedy)); }
+    void syntax (std::string text, std::string remedy)
+    {
+        complain ("file/syntax", pathOf (innermost()), cursor.position(), std::move (text), std::move (remedy));
+    }
 
     Cursor cursor;
     JsonText& result;
     double most_values;
     std::vector<Frame> frames;
-    std::string path;
-    std::vector<std::size_t> path_sizes;
-    std::size_t place_bytes = 0;
     bool done = false;
 };
 }   // namespace
@@ -449,7 +465,7 @@ TextPosition positionOf (const TextPositions& positions, std::string_view pointe
 {
     while (true)
     {
-        if (const auto known = positions.find (pointer); known != positions.end()) return known->second;
+        if (const auto known = positions.find (pointer)) return *known;
         const auto slash = pointer.rfind ('/');
         if (slash == std::string_view::npos) return {};
         pointer = pointer.substr (0, slash);

@@ -117,11 +117,16 @@ void OrderedReader::read (Json& object, const std::string& where, const std::vec
         }
         std::vector<std::string_view> known (fields.size());
         std::ranges::transform (fields, known.begin(), &KnownKey::key);
-        if (const auto meant = closestMatch (key, known); ! meant.empty())
-            warning ("file/unknown_key", member, "the key " + quote (key) + " is unknown and has no effect; did you mean '" + std::string (meant) + "'?",
-                     "write '" + std::string (meant) + "', or leave the key as it is");
-        append (extra, key, std::move (value));
+        keepUnknown (key, std::move (value), member, known, extra);
     }
+}
+
+void OrderedReader::keepUnknown (const std::string& key, Json value, const std::string& member, std::span<const std::string_view> known, Json& extra)
+{
+    if (const auto meant = closestMatch (key, known); ! meant.empty())
+        warning ("file/unknown_key", member, "the key " + quote (key) + " is unknown and has no effect; did you mean '" + std::string (meant) + "'?",
+                 "write '" + std::string (meant) + "', or leave the key as it is");
+    append (extra, key, std::move (value));
 }
 
 }   // namespace tactus

@@ -4,9 +4,14 @@
 /// Reads the objects of a file member by member, in file order, against a table of the known keys. Unknown keys are kept in order.
 
 #include "json.hpp"
+#include "json_text.hpp"
 #include "message.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <functional>
+#include <iterator>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +37,15 @@ struct KnownKey
     std::function<void (Json& value, const std::string& where)> read;
 };
 
+/// A known key of an object that a file has many of, so that no table of functions can be made for each.
+template <typename Reader, typename Read>
+struct RowKey
+{
+    std::string_view key;
+    JsonKind kind;
+    void (*read) (Reader&, Read&, Json& value, const std::string& where);
+};
+
 class OrderedReader
 {
 public:
@@ -44,9 +58,29 @@ public:
     /// Moves unknown members to `extra`, with a warning if the key is probably misspelt.
     void read (Json& object, const std::string& where, const std::vector<KnownKey>&, Json& extra);
 
+    /// The same. The functions get `self`, which is this reader, and what they read into.
+    template <typename Reader, typename Read, std::size_t n>
+    void read (Json& object, const std::string& where, const RowKey<Reader, Read> (&fields)[n], Reader& self, Read& into, Json& extra)
+    {
+        for (auto& [key, value] : object.asObject())
+        {
+            const auto member = where + '/' + pointerPart (key);
+            const auto* field = std::ranges::find (fields, key, &RowKey<Reader, Read>::key);
+            if (field == std::end (fields))
+            {
+                std::string_view known[n];
+                std::ranges::transform (fields, known, &RowKey<Reader, Read>::key);
+                keepUnknown (key, std::move (value), member, known, extra);
+            }
+            else if (isKind (value, field->kind, member))
+                field->read (self, into, value, member);
+        }
+    }
+
     Messages messages;
 
 private:
+    void keepUnknown (const std::string& key, Json value, const std::string& member, std::span<const std::string_view> known, Json& extra);
     void add (Message::Severity, std::string id, const std::string& where, std::string text, std::string remedy);
 };
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
-#include <map>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace tactus
 {
@@ -16,8 +19,45 @@ struct TextPosition
     bool operator== (const TextPosition&) const = default;
 };
 
-/// The position of each key and element of a file, by JSON pointer. Of long lists of numbers or rows, only the first 1000 entries
-/// are kept; beyond these, the position of the list is good enough.
-using TextPositions = std::map<std::string, TextPosition, std::less<>>;
+/// The position of each key and element of a file. Of long lists of numbers or rows, only the first 1000 entries are kept; beyond
+/// these, the position of the list is good enough. Adding one costs little, because nearly all files are right and nobody asks;
+/// finding one visits the keys beside it.
+class TextPositions
+{
+public:
+    static constexpr std::uint32_t none = ~std::uint32_t {};
+
+    /// Adds the value of a file, a member of an object, or an element of a list. Returns its number, to add what is inside; `none`,
+    /// which can be given too, once there is no more room.
+    std::uint32_t addRoot (TextPosition);
+    std::uint32_t addMember (std::uint32_t object, std::string_view key, TextPosition);
+    std::uint32_t addElement (std::uint32_t list, std::size_t index, TextPosition);
+
+    /// The position of the value at a JSON pointer.
+    std::optional<TextPosition> find (std::string_view pointer) const;
+    TextPosition at (std::string_view pointer) const { return find (pointer).value(); }
+
+    /// Calls `change (TextPosition&)` for each position.
+    template <typename Change>
+    void changeAll (Change change)
+    {
+        for (auto& entry : entries)
+            change (entry.position);
+    }
+
+private:
+    struct Entry
+    {
+        std::uint32_t first, last, next;     // the first and the last entry inside, and the next one beside
+        std::uint32_t key_begin, key_size;   // in `keys`; an element has an index instead, and a size of `none`
+        TextPosition position;
+    };
+
+    std::uint32_t add (std::uint32_t around, Entry);
+    bool isNamed (const Entry&, std::string_view part) const;
+
+    std::vector<Entry> entries;
+    std::string keys;   // of all members, one after another
+};
 
 }   // namespace tactus

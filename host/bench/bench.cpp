@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bench.hpp"
+#include "edited.hpp"
 #include "fused.hpp"
 #include "juce_variants.hpp"
 #include "one_poles.hpp"
@@ -58,6 +59,15 @@ void time (Results& results, bool quick, bool quiet)
     const auto rebuild = [edit = juceEdits (shuffled (treeOfOnePoles (1000)))] (int) { edit(); };
     add ({ "juce_rebuild1000/compile1000", rebuild, compiling (1000, 20), 1.0, 20.0, quick ? 1 : 15 });
     add ({ "compile10000/compile1000", compiling (10000, 1), compiling (1000, 10), 1.0, 10.0, quick ? 2 : 60 });
+
+    // A tick of 10 000 nodes takes about 100 us, so a round is one tick of each kind.
+    const auto edited = std::make_shared<Edited> (shuffled (treeOfOnePoles (10000)));
+    add ({ "edit10000/compile10000", [edited] (int) { edited->edit(); }, [edited] (int) { edited->compileAll(); }, 1.0, 1.0, quick ? 4 : 100 });
+    const auto tick = [edited] (int) { edited->tick(); };
+    const auto takeover = [edited] (int) { edited->takeOver(); };
+    const auto knob = [edited] (int) { edited->turn(); };
+    add ({ "takeover10000/tick", takeover, tick, 1.0, 1.0, quick ? 4 : 400, [edited] (int) { edited->prepareTakeover(); } });
+    add ({ "knob10000/tick", knob, tick, 1.0, 1.0, quick ? 4 : 1000 });
 
     measure (results.pairs, quiet);
     results.memory = memoryPerNode();

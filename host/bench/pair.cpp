@@ -29,9 +29,13 @@ void run (Pair& pair, benchmark::State& state)
     for ([[maybe_unused]] auto iteration : state)
     {
         double first = 0.0, second = 0.0;
-        if (round % 2 == 0) first = secondsOf (pair.first, round);
+        const auto timeFirst = [&] {
+            if (pair.prepare) pair.prepare (round);
+            first = secondsOf (pair.first, round);
+        };
+        if (round % 2 == 0) timeFirst();
         second = secondsOf (pair.second, round);
-        if (round % 2 != 0) first = secondsOf (pair.first, round);
+        if (round % 2 != 0) timeFirst();
         pair.first_s.push_back (first / pair.first_work);
         pair.second_s.push_back (second / pair.second_work);
         state.SetIterationTime (first + second);

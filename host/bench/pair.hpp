@@ -19,6 +19,7 @@ struct Pair
     std::function<void (int round)> first, second;
     double first_work = 1.0, second_work = 1.0;   ///< work done in one round; the time is divided by it
     int rounds = 1;
+    std::function<void (int round)> prepare {};   ///< runs before the first in each round, untimed
 
     std::vector<double> first_s {}, second_s {};   ///< time of each round in s, filled by measure()
 

@@ -23,6 +23,9 @@ std::optional<std::string> contentOf (const fs::path& file)
 
 void FileWatch::watch (std::vector<fs::path> files)
 {
+    folders.watch (files);   // before they are read, so that no edit is missed
+    is_unsettled = true;
+    quiet = 0;
     std::vector<Watched> next;
     for (auto& file : files)
     {
@@ -54,9 +57,38 @@ bool FileWatch::readAgain (Watched& w)
     return w.latest.has_value();
 }
 
+/// Watches the same files again: a folder may have been made again, or a link may lead to another file.
+void FileWatch::watchFolders()
+{
+    std::vector<fs::path> files;
+    for (const auto& w : all)
+        files.push_back (w.file);
+    folders.watch (files);
+    is_unsettled = true;   // what happened meanwhile is not told
+}
+
 bool FileWatch::look()
 {
-    bool changed = false, settled = true;
+    if (folders.look())
+    {
+        if (folders.isTold()) quiet = 0;
+    }
+    else if (! is_unsettled && quiet + 1 < most_quiet)
+    {
+        ++quiet;
+        return false;
+    }
+    const bool is_long_quiet = ++quiet >= most_quiet;
+    if (is_long_quiet) quiet = 0;
+    const bool is_changed = compare (folders.isWriting() && ! is_long_quiet);
+    if (is_changed || (is_long_quiet && ! folders.isTold())) watchFolders();
+    return is_changed;
+}
+
+/// True if the files have changed and rest.
+bool FileWatch::compare (bool is_writing)
+{
+    bool changed = false, settled = ! is_writing;
     for (auto& w : all)
     {
         if (! readAgain (w)) continue;
@@ -70,6 +102,7 @@ bool FileWatch::look()
         w.pending = w.latest;
         settled = false;
     }
+    is_unsettled = changed && ! settled;
     if (! changed || ! settled) return false;
     for (auto& w : all)
         if (w.latest) w.known = w.latest;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <host/platform/folder_watch.hpp>
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -22,7 +24,16 @@ public:
 
     /// True if files have changed since the last time it returned true, and have not changed since the previous look: a
     /// file that is still being written keeps changing. Call this a few times a second.
+    ///
+    /// Where the system tells which files are written, a look at files that rest costs one call into the system, and a file that is
+    /// still open is not reported, unless nobody writes to it for `most_quiet` looks. As often, the files are compared all the same, for
+    /// folders that another computer shares.
     bool look();
+
+    /// True if the system tells which files are written, so that a look at files that rest costs little.
+    bool isTold() const noexcept { return folders.isTold(); }
+
+    static constexpr int most_quiet = 20;
 
 private:
     struct Watched
@@ -35,8 +46,13 @@ private:
     };
 
     static bool readAgain (Watched&);
+    bool compare (bool is_writing);
+    void watchFolders();
 
     std::vector<Watched> all;
+    FolderWatch folders;
+    bool is_unsettled = false;   // a change was seen, but not reported
+    int quiet = 0;               // looks since the last news, or since the files were compared without news
 };
 
 }   // namespace tactus::host

@@ -235,8 +235,7 @@ RelaxedJson readRelaxedJson (std::string_view text)
         moveBack (habit.first.line, habit.first.column, rewriter.shifts);
     read.json = readJson (plain);
     if (rewriter.shifts.empty()) return read;
-    for (auto& [pointer, position] : read.json.positions)
-        moveBack (position.line, position.column, rewriter.shifts);
+    read.json.positions.changeAll ([&] (TextPosition& p) { moveBack (p.line, p.column, rewriter.shifts); });
     for (auto& m : read.json.messages)
         moveBack (m.line, m.column, rewriter.shifts);
     return read;

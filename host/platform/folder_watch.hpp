@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// Learns from the system when files are written, so that they need not be looked at again and again. It watches the folders of
+/// the files, because an editor may replace a file by renaming another one. Only on Linux (inotify); a change that another
+/// computer makes in a shared folder is not noticed. [one thread]
+class FolderWatch
+{
+public:
+    FolderWatch() = default;
+    ~FolderWatch();
+    FolderWatch (FolderWatch&&) noexcept;
+    FolderWatch& operator= (FolderWatch&&) noexcept;
+
+    /// From now on, watches these files, and no others.
+    void watch (const std::vector<std::filesystem::path>& files);
+
+    /// True if the system tells about all the files. Otherwise, look at the files themselves.
+    bool isTold() const noexcept { return is_told; }
+
+    /// True if any of the files may have been written, replaced or removed since the last call. Does not wait.
+    bool look();
+
+    /// True if a file has been written to, but not closed yet.
+    bool isWriting() const noexcept
+    {
+        return std::ranges::any_of (names, [] (const auto& named) { return named.second.is_open && named.second.is_written; });
+    }
+
+private:
+    /// What other programs do with a file. A program may set the time of a file, which looks like writing, without opening it.
+    struct Use
+    {
+        bool is_open = false, is_written = false;
+    };
+
+    void close() noexcept;
+    bool take (unsigned event, const char* name);
+
+    int queue = -1;   // descriptor of the system's queue of events
+    bool is_told = false;
+    std::map<std::filesystem::path, Use> names;   // of the files, without their folders
+};
+
+}   // namespace tactus::host
