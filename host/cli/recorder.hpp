@@ -15,11 +15,11 @@
 namespace tactus::host
 {
 
-/// Writes the recording of a run: one row or frame per tick into each file, or CSV to the standard output if there is no
-/// file. If taps have several samples per tick, a CSV gets the last one; a WAV gets all of them if all taps have the same
-/// number. `all_samples` notes them even if no file is a WAV. Files appear on commit(), or not at all; IfKilled says what becomes of them if the process is killed before. Problems
-/// at the start end the command with a message. A file that cannot be written is given up, and writing of the other files
-/// continues.
+/// Writes the recording of a run: one row or frame per tick into each file, or CSV to the standard output if there is no file. If taps have
+/// several samples per tick, a CSV gets the last one; a WAV gets all of them if all taps have the same number. `all_samples` notes them
+/// even if no file is a WAV. Files appear on commit(), or not at all; IfKilled says what becomes of them if the process is killed
+/// before. Problems at the start end the command with a message. A file that cannot be written is given up, and writing of the other
+/// files continues.
 class Recorder
 {
 public:

@@ -170,7 +170,8 @@ void addRender (const Command& app)
     for (const auto* other : { "--feed", "--device", "--rate" })
         replayed.excludes (command.get (other));
     options->plot.addTo (command);
-    command.addOption ("--listen", options->listen, "Write what is recorded as a sound for loudspeakers: a mono .wav at 48 kHz, high-passed at 20 Hz, at -3 dBFS");
+    command.addOption ("--listen", options->listen,
+                       "Write what is recorded as a sound for loudspeakers: a mono .wav at 48 kHz, high-passed at 20 Hz, at -3 dBFS");
     command.footer ("Without --out, --plot and --listen, CSV goes to the standard output.\n\n"
                     "Examples:\n"
                     "  tactus render graphs/dry_wood.json --out wood.csv --plot wood.png\n"

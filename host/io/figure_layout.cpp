@@ -69,6 +69,11 @@ void alignX (std::vector<Panel>& panels)
         }
     }
 }
+
+float scaleOf (const Figure& figure)
+{
+    return figure.dpi > 0.0 ? static_cast<float> (figure.dpi / 96.0) : static_cast<float> (figure.width) / 800.0f;
+}
 }   // namespace
 
 FigureStyle::FigureStyle (float s)
@@ -86,7 +91,7 @@ float FigureStyle::hairline() const noexcept
 }
 
 FigureLayout::FigureLayout (const Figure& figure_to_arrange)
-    : style (figure_to_arrange.dpi > 0.0 ? static_cast<float> (figure_to_arrange.dpi / 96.0) : static_cast<float> (figure_to_arrange.width) / 800.0f), width (figure_to_arrange.width), figure (figure_to_arrange)
+    : style (scaleOf (figure_to_arrange)), width (figure_to_arrange.width), figure (figure_to_arrange)
 {
     for (const auto& axes : figure.panels)
         panels.push_back (measured (axes));

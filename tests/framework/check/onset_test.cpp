@@ -114,7 +114,7 @@ TEST_CASE ("a wall that meets the conditions for quanta and damping comes to res
     });
 }
 
-TEST_CASE ("a wall at the limit of the conditions comes to rest, whatever the mass, the damping, the friction, the quantum, the delay, the first mode and the rate", "[check]")
+TEST_CASE ("a wall at the limit of the conditions comes to rest, whatever the seven quantities of the device", "[check]")
 {
     rc::prop ("all at once", [] {
         const double rate_hz = *between (500.0, 10e3), mass = *between (0.02, 0.5), share = *between (0.005, 0.5);

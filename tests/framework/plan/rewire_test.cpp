@@ -268,8 +268,9 @@ TEST_CASE ("a file that has changed is read again after an edit of a wire", "[pl
 
         static Message none (const std::string& path) { return Message::error ("asset/unreadable", path, "there is only a table"); }
     } assets;
+    const Json map { { "csv", "hills.csv" }, { "pitch", 0.001 }, { "height", 1.0 } };
     const auto sketch = Sketch {}
-                            .node ("map", "texture.height_map", Json::object(), { { "map", { { "csv", "hills.csv" }, { "pitch", 0.001 }, { "height", 1.0 } } } })
+                            .node ("map", "texture.height_map", Json::object(), { { "map", map } })
                             .node ("a", "signal.constant", { { "value", 2.0 } })
                             .node ("sum", "signal.add", Json::object(), { { "inputs", 3 } })
                             .wire ("a.out -> sum.in[0]");
