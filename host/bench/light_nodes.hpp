@@ -181,6 +181,9 @@ private:
     double before = 0.0;
 };
 
+/// What the decaying kernels below add on each tick, so that they never reach subnormal numbers, which take much longer to compute with.
+inline constexpr double little = 1e-9;
+
 /// In place of shock.hunt_crossley.
 struct Thud
 {
@@ -196,7 +199,7 @@ struct Thud
     static constexpr Info info = infoOf ("light.thud");
     static constexpr std::tuple ports { input (&Inputs::hit, "hit", unit::hit, "hit"), output (&Outputs::resistance, "resistance", unit::newton, "decays") };
     Params params;
-    Outputs tick (const Inputs& in) noexcept { return { left = 0.9 * left + in.hit }; }
+    Outputs tick (const Inputs& in) noexcept { return { left = 0.9 * left + in.hit + little }; }
 
 private:
     double left = 0.0;
@@ -214,7 +217,7 @@ struct Ring
     static constexpr Info info = infoOf ("light.ring");
     static constexpr std::tuple ports { input (&Inputs::hit, "hit", unit::hit, "hit"), output (&Outputs::value, "value", unit::newton, "decays") };
     Params params;
-    Outputs tick (const Inputs& in) noexcept { return { left = 0.99 * left + in.hit }; }
+    Outputs tick (const Inputs& in) noexcept { return { left = 0.99 * left + in.hit + little }; }
 
 private:
     double left = 0.0;
