@@ -43,6 +43,8 @@ void require (ExportedProgram& program, const host::ExportedFolder& exported, co
 {
     INFO (name << ": " << test::text (exported.messages));
     REQUIRE_FALSE (exported.files.empty());
+    for (const auto& [path, text] : exported.files)   // a static within a function would lie in the memory of the graph that calls it first
+        CHECK (text.find ("static const auto ") == std::string::npos);
     program.add (exported);
 }
 }   // namespace
