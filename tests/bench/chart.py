@@ -10,8 +10,9 @@ import math
 import sys
 
 ROWS = [   # key, first, yardstick
-    ("export/hand", "exported code", "hand-written"), ("plan/hand", "reference graph", "hand-written"),
-    ("dry_wood_plan/hand", "dry wood", "hand-written"), ("light_plan/hand", "light kernels", "hand-written"),
+    ("export/hand", "exported code", "hand-written"), ("fused/hand", "reference graph, fused", "hand-written"),
+    ("plan/hand", "reference graph", "hand-written"), ("dry_wood_plan/hand", "dry wood", "hand-written"),
+    ("light_fused/hand", "light kernels, fused", "hand-written"), ("light_plan/hand", "light kernels", "hand-written"),
     ("export/faust_chain100", "exported chain of 100", "Faust"), ("plan/faust_chain100", "chain of 100", "Faust"),
     ("juce/plan", "reference graph in JUCE", "plan"), ("juce_tree100/plan", "tree of 100 in JUCE", "plan"),
 ]

@@ -128,8 +128,10 @@ TEST_CASE ("presets give the bits of the engine on a Cortex-M7", "[.export_m7]")
     CHECK (program.graphCount() >= 30);
     CHECK (said.find ("fault") == said.npos);
 
-    // These call no elementary function of the C library. Those of newlib differ from glibc's in the last bits, so the others may differ.
-    for (const auto* name : { "canvas_weave", "celery_stalk", "liver_cut", "oak_board", "potato_cut", "tactile_key", "two_fingers" })
+    // In the others, some values differ in their last bits (docs/export.md).
+    for (const auto* name : { "bronze_bell", "canvas_weave", "celery_stalk", "layered_cloth", "liver_cut", "machined_steel",
+                              "notched_rail", "oak_board", "padded_bench", "potato_cut", "potato_edge", "scissors_cloth",
+                              "scissors_skin", "singing_glass", "tactile_key", "two_fingers", "vibraphone_bar" })
     {
         const auto line = said.substr (said.find (std::string ("\n") + name + ": ") + 1);
         const auto compared = line.find (" values compared, ");
