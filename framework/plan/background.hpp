@@ -13,8 +13,8 @@
 namespace tactus::plan
 {
 
-/// What compiling found out about a graph and what an edit of a few wires does not change. Plans that follow one another through such
-/// edits share it; see rewire.hpp. [main thread]
+/// What compiling has found out about a graph and an edit of a few wires does not change. Plans that differ only by such edits share
+/// it; see rewire.hpp. [main thread]
 struct Background
 {
     std::vector<std::string> feeds, records;   ///< as in CompileOptions

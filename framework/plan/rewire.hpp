@@ -14,13 +14,15 @@ struct CompileOptions;
 namespace tactus::plan
 {
 
-/// Compiles an edit of a few wires without visiting the whole graph: the new plan shares its nodes, records, outputs and inputs with
-/// the plan before, except for those of the nodes where the wires end. The result is the same as that of compiling everything.
+/// Compiles an edit of a few wires without visiting the whole graph. The new plan shares its nodes, records, outputs and inputs with
+/// the previous plan, except those of the nodes where the wires end. The result is the same as compiling everything.
 ///
-/// Returns null if everything must be compiled. That is so if the graph's Trail does not lead from the plan before to the graph as it
-/// is, which only a History can vouch for; if a file that a setting names has changed; if there are messages or sections; if a wire is
-/// delayed, begins or ends in a subgraph, changes the running order, or may change the units of other ports; and once in a while,
-/// because each such plan keeps the storage of those before it.
+/// Returns null if everything must be compiled:
+///  - The graph's Trail does not lead from the previous plan to the graph. Only the graph of a History has such a trail.
+///  - A file that a setting names has changed.
+///  - There are messages or sections.
+///  - A wire is delayed, begins or ends in a subgraph, changes the running order, or may change the units of other ports.
+///  - There have been many such edits. Each plan keeps the storage of the plans before it, so now and then everything is compiled.
 std::shared_ptr<Plan> rewire (const graph::Graph&, const Catalogue&, const CompileOptions&);
 
 /// Notes what rewire() needs later. Takes the names of the scope and the checks of the files. [main thread]

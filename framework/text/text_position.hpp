@@ -19,16 +19,16 @@ struct TextPosition
     bool operator== (const TextPosition&) const = default;
 };
 
-/// The position of each key and element of a file. Of long lists of numbers or rows, only the first 1000 entries are kept; beyond
-/// these, the position of the list is good enough. Adding one costs little, because nearly all files are right and nobody asks;
-/// finding one visits the keys beside it.
+/// The position of each key and element of a file. For a long list of numbers or rows, only the first 1000 entries are kept; for the rest,
+/// the position of the list is close enough. Adding a position is cheap, because most files have no errors and their positions are never
+/// used. Finding one searches all keys of the objects and lists on the way.
 class TextPositions
 {
 public:
     static constexpr std::uint32_t none = ~std::uint32_t {};
 
-    /// Adds the value of a file, a member of an object, or an element of a list. Returns its number, to add what is inside; `none`,
-    /// which can be given too, once there is no more room.
+    /// Adds the value of a file, a member of an object, or an element of a list. Returns its number, which is needed to add its
+    /// children. Returns `none` when there is no more room; `none` can also be passed in.
     std::uint32_t addRoot (TextPosition);
     std::uint32_t addMember (std::uint32_t object, std::string_view key, TextPosition);
     std::uint32_t addElement (std::uint32_t list, std::size_t index, TextPosition);
@@ -48,7 +48,7 @@ public:
 private:
     struct Entry
     {
-        std::uint32_t first, last, next;     // the first and the last entry inside, and the next one beside
+        std::uint32_t first, last, next;     // the first and the last child, and the next sibling
         std::uint32_t key_begin, key_size;   // in `keys`; an element has an index instead, and a size of `none`
         TextPosition position;
     };

@@ -43,7 +43,7 @@ public:
     /// A value as an expression. Notes that it must be in memory if no variable with it is in sight.
     std::string read (const double*);
 
-    /// The same for a value that something else than fused code reads.
+    /// The same for a value that is read by something other than fused code.
     void need (const double*);
 
     bool isNeeded (const double* value) const { return has_strangers || needed.contains (value); }

@@ -16,8 +16,8 @@
 namespace tactus::host
 {
 
-/// Compiles fused code with the system's compiler in the background, one thing at a time. What has been compiled once is kept in a cache
-/// by its content. [main thread]
+/// Compiles fused code with the system's compiler in the background, one graph at a time. Keeps what it has compiled in a cache,
+/// by content. [main thread]
 class FusionCompiler
 {
 public:

@@ -13,7 +13,7 @@
 namespace tactus::host
 {
 
-/// Loads code that has been made for a plan. Once loaded, code stays loaded until the program ends, because nodes may keep addresses in
+/// Loads code that has been made for a plan. The code stays loaded until the program ends, because nodes may keep addresses in
 /// it. Ids: fuse/cannot_load. [main thread]
 Result<std::shared_ptr<const FusedTick>> loadFused (const std::filesystem::path&, std::vector<void*> objects, const char* function = FusedCode::function);
 

@@ -25,12 +25,12 @@ public:
     /// True if files have changed since the last time it returned true, and have not changed since the previous look: a
     /// file that is still being written keeps changing. Call this a few times a second.
     ///
-    /// Where the system tells which files are written, a look at files that rest costs one call into the system, and a file that is
-    /// still open is not reported, unless nobody writes to it for `most_quiet` looks. As often, the files are compared all the same, for
-    /// folders that another computer shares.
+    /// Where the system reports which files are written, a look at unchanged files costs one system call. A file that a program still has
+    /// open is not reported until `most_quiet` looks have passed without a write to it. All files are compared after `most_quiet` looks
+    /// in any case, because the system does not report changes that another computer makes in a shared folder.
     bool look();
 
-    /// True if the system tells which files are written, so that a look at files that rest costs little.
+    /// True if the system reports which files are written, so that a look at unchanged files costs little.
     bool isTold() const noexcept { return folders.isTold(); }
 
     static constexpr int most_quiet = 20;
@@ -52,7 +52,7 @@ private:
     std::vector<Watched> all;
     FolderWatch folders;
     bool is_unsettled = false;   // a change was seen, but not reported
-    int quiet = 0;               // looks since the last news, or since the files were compared without news
+    int quiet = 0;               // looks since the last event, or since the files were last compared
 };
 
 }   // namespace tactus::host

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 #if defined(__linux__)
 namespace
 {
-constexpr int most_links = 40;   // on the way to a file; the system follows as many
+constexpr int most_links = 40;   // followed to reach a file; Linux has the same limit
 }
 #endif
 
@@ -90,7 +90,7 @@ bool FolderWatch::look()
     return is_news;
 }
 
-/// Reading is no news: whoever looks at the files after each news would never end.
+/// Reading a file does not count as a change. The caller reads the files after each change, so it would never stop.
 bool FolderWatch::take (unsigned event, const char* name)
 {
     if ((event & IN_Q_OVERFLOW) != 0)

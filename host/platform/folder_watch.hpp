@@ -9,9 +9,9 @@
 namespace tactus::host
 {
 
-/// Learns from the system when files are written, so that they need not be looked at again and again. It watches the folders of
-/// the files, because an editor may replace a file by renaming another one. Only on Linux (inotify); a change that another
-/// computer makes in a shared folder is not noticed. [one thread]
+/// Asks the system to report when files are written, so that they need not be read again and again. It watches the folders of the
+/// files, because an editor may replace a file by renaming another one. Works only on Linux (inotify), and does not notice changes that
+/// another computer makes in a shared folder. [one thread]
 class FolderWatch
 {
 public:
@@ -23,7 +23,7 @@ public:
     /// From now on, watches these files, and no others.
     void watch (const std::vector<std::filesystem::path>& files);
 
-    /// True if the system tells about all the files. Otherwise, look at the files themselves.
+    /// True if the system reports changes of all the files. If not, look at the files themselves.
     bool isTold() const noexcept { return is_told; }
 
     /// True if any of the files may have been written, replaced or removed since the last call. Does not wait.
