@@ -19,9 +19,9 @@ Id newId() noexcept;   // [any thread]
 struct Wire;
 struct Command;
 
-/// How a graph came to be as it is, so that compile() need not look at all of it again after a small edit. It can be trusted because
-/// only History writes it, and nothing else can change the graph of a History. Everywhere else a graph can change in ways that
-/// are not noted, so copies and moves begin a trail of their own, with nothing in it. Not saved.
+/// The latest changes of a graph, so that compile() need not visit all of it after a small edit. The trail is complete because only History
+/// writes it, and nothing else can change the graph of a History. Any other graph can change without a note in the trail, so a
+/// copied or moved graph starts with an empty one. Not saved.
 class Trail
 {
 public:
@@ -42,13 +42,13 @@ public:
 
     Id version() const noexcept { return own_version; }   ///< of the graph as it is now
 
-    /// The changes of wires since a version, oldest first; nullopt if other things have changed, or if nothing is known.
+    /// The changes of wires since a version, oldest first; nullopt if anything else has changed, or the version is not in the trail.
     std::optional<std::vector<WireStep>> wiresSince (Id version) const;
 
 private:
     friend class History;
 
-    /// An edit that changed wires of the graph itself, or nothing that is compiled.
+    /// An edit that changed only wires of the graph itself, or nothing that affects the plan.
     struct Step
     {
         Id before = 0;   // version of the graph before the edit

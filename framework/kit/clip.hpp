@@ -113,7 +113,7 @@ inline constexpr int most_clip_tracks = 256, most_clip_channels = 1024;
 /// [main thread]
 Grid gridOf (const Clip&);
 
-/// A clip, or a sentence that says why a table is none. An empty table is an empty clip. [main thread]
+/// Reads a clip from a table. If the table is not a clip, returns a sentence that says why. An empty table is an empty clip. [main thread]
 struct ClipOrProblem
 {
     Clip clip {};

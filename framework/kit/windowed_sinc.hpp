@@ -29,7 +29,7 @@ inline double kaiser60 (double r) noexcept
 }
 
 /// The value of a table at a place between its entries, from 0 to below the number of the last one, on the straight line between its two
-/// neighbours. The bits of std::lerp in half of its instructions: most neighbours have the same sign, and none of its other cases occurs.
+/// neighbours. It has the bits of std::lerp, in half of its instructions: the special cases of std::lerp do not occur here.
 inline double betweenEntries (const double* table, double place) noexcept
 {
     const auto entry = static_cast<std::ptrdiff_t> (place);   // a signed number converts in one instruction

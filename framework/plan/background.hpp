@@ -28,7 +28,7 @@ struct Background
     std::vector<PortRef> tapped;               ///< by tap: the component that it reads; no node if it is that of a placeholder
 };
 
-/// The wires of a flat graph in short, by number. Searches need not visit the wires themselves.
+/// A compact copy of the wires of a flat graph, by number, so that searches need not visit the wires themselves.
 struct WireEnds
 {
     std::vector<graph::Id> ids;

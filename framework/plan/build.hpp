@@ -36,10 +36,10 @@ struct Outside
 
 /// Makes the nodes, lays out their outputs, and writes the records in the given order. The graph must be free of errors. It is
 /// moved into the plan, except for its messages. Uses `before`, `withdrawn` and `kept` of the options.
-/// The plan keeps the background, and completes it.
+/// The plan keeps the background, and fills in the rest of it.
 std::shared_ptr<Plan> build (Flat&, const PortUnits&, const Order&, Outside, const Setup&, const CompileOptions&, std::shared_ptr<Background>);
 
-/// What building the inputs of a single node again yields. The storage is what the pointers point into.
+/// The result of building the inputs of a single node again. The pointers point into the storage.
 struct NodePart
 {
     std::vector<Record> peeks, body;

@@ -13,9 +13,9 @@
 namespace tactus::plan
 {
 
-/// A list whose copies share what they have in common. A plan that follows another after a small edit is a copy of it with a few
-/// changes, so a copy must not cost as much as the list is long: it costs one pointer for each chunk, and a change copies the chunk
-/// that it is in. Elements do not move while elements are added.
+/// A list whose copies share what they have in common. After a small edit, the new plan is a copy of the previous one with a few changes,
+/// so copying must be cheap: a copy takes one pointer for each chunk, and a change copies only the chunk that it is in. Elements do not
+/// move when others are added.
 template <typename T>
 class Chunks
 {
@@ -73,7 +73,7 @@ public:
     const_iterator begin() const noexcept { return { *this, 0 }; }
     const_iterator end() const noexcept { return { *this, static_cast<std::ptrdiff_t> (count) }; }
 
-    /// An element to change. If the chunk is shared, this list gets one of its own first.
+    /// An element to change. If its chunk is shared, this list copies the chunk first.
     T& change (std::size_t i)
     {
         auto& mine = all[i >> bits];
@@ -96,7 +96,7 @@ public:
         if ((--count & within) == 0) all.pop_back();
     }
 
-    /// Adds elements, as they are made, or removes the last ones.
+    /// Adds default-constructed elements, or removes the last ones.
     void resize (std::size_t n)
     {
         reserve (n);

@@ -12,8 +12,8 @@
 namespace tactus::plan
 {
 
-/// The files that the settings of a graph name: a function for each, which tells whether loading it now gives the same content as when
-/// the graph was compiled. False also if no node uses that content any more. [main thread]
+/// A function for each file that the settings of a graph name. It returns true if loading the file now gives the same content as when the
+/// graph was compiled. It also returns false if no node uses that content any more. [main thread]
 using FileChecks = std::vector<std::function<bool (Assets&)>>;
 
 template <typename T>

@@ -7,8 +7,8 @@
 namespace tactus
 {
 
-/// Compiled code that does in one call what the records of a plan do in one tick: on the same nodes and in the same storage, in the same
-/// order, with the same bits. So a plan can change between its records and this code between any two ticks, and no state moves.
+/// Compiled code that does in one call what the records of a plan do in one tick. It works on the same nodes and storage in the same order, and
+/// gives the same bits. So a plan can switch between its records and this code between any two ticks, and no state moves.
 struct FusedTick
 {
     void (*tick) (void* const* objects) noexcept = nullptr;

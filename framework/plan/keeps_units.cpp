@@ -22,7 +22,7 @@ bool isInProduct (const Flat& flat, const PortRef& r)
 
 bool isUnknown (const PortUnits::Found& f) { return f.quantity == Quantity::any && ! f.dimension; }
 
-/// Looks for a port with a unit of its own that still tells what a generic port carries. Follows plain wires and "same as" rules.
+/// Looks for a port with a fixed unit that still determines what a generic port carries. Follows plain wires and "same as" rules.
 class Anchor
 {
 public:

@@ -10,8 +10,8 @@
 namespace tactus::plan
 {
 
-/// Shows the tick thread which nodes have been turned or hit, so that it need not ask every node. Each node whose knobs are made by
-/// one compilation has a place on its board, and any thread may mark a place. 64 places are one word.
+/// Tells the tick thread which nodes have been turned or hit, so that it need not look at every node. Each compilation has a board, with a
+/// place for each node whose knobs it makes. Any thread may mark a place. One word holds 64 places.
 class KnobBoard
 {
 public:
@@ -22,10 +22,10 @@ public:
         return places++;
     }
 
-    /// Everything written before is visible to the tick thread when it takes the mark. [any thread]
+    /// Everything written before is visible to the tick thread when it sees the mark. [any thread]
     void mark (std::uint32_t place) noexcept { words[place / 64].fetch_or (std::uint64_t { 1 } << place % 64, std::memory_order_release); }
 
-    /// Calls `visit (place)` for each marked place that is wanted, and takes the mark away. Other marks stay: a plan that is waiting
+    /// Calls `visit (place)` for each marked place that is wanted, and removes the mark. Other marks stay: a plan that is waiting
     /// may want them. [tick thread]
     template <typename IsWanted, typename Visit>
     void take (const IsWanted& isWanted, const Visit& visit) noexcept

@@ -97,7 +97,7 @@ struct PlanParts
     std::vector<Tap> taps;                        ///< as in CompileOptions::records, in order
     std::span<double> feeds;                      ///< current values, in the order of CompileOptions::feeds; in the storage
     std::vector<PathDelay> delays;                ///< between the sources and the sinks of devices
-    std::vector<std::shared_ptr<void>> storage;   ///< outputs, wires, constants: what all pointers point into. Shared with plans that follow after a small edit
+    std::vector<std::shared_ptr<void>> storage;   ///< outputs, wires, constants: what all pointers point into. Shared with the plans of later small edits
 
     // For the next plan, and for turning knobs.
     Flat flat;                                       ///< what the plan was built from

@@ -13,8 +13,8 @@
 namespace tactus::plan
 {
 
-/// Where to find the nodes of a plan by their knobs: the boards that their knobs are on, sorted by address. Made on the main thread;
-/// plans that contain the same nodes share it.
+/// Finds the nodes of a plan by their knobs: a list of the boards that hold the knobs, sorted by address. Made on the main thread, and
+/// shared by plans that contain the same nodes.
 class KnobIndex
 {
 public:
@@ -39,7 +39,7 @@ private:
 /// Moves the knobs of a plan's nodes to their targets, in a straight line that takes ramp_s. A new target during a ramp starts
 /// a new ramp from the current value. Choices, and nodes that have not ticked yet, change immediately.
 ///
-/// No function visits all nodes: the cost is that of the knobs that were turned or are moving.
+/// No function visits all nodes. The cost depends only on the number of knobs that were turned or are moving.
 class Ramps
 {
 public:

@@ -18,7 +18,7 @@ namespace tactus::plan
 /// Replaces every NaN by the same one.
 inline double withOneNan (double v) noexcept { return v == v ? v : std::numeric_limits<double>::quiet_NaN(); }
 
-/// Exchanges two values if the second one is smaller. NaN is never exchanged, so none gets lost.
+/// Exchanges two values if the second one is smaller. NaN is never exchanged, so no NaN is lost.
 ///
 /// Compilers turn the comparisons into jumps, and a processor cannot predict them, because which of two forces is larger changes with every
 /// motion. The instructions for minimum and maximum give the same bits, also for NaN and for zeros of both signs: the second operand.
@@ -36,7 +36,7 @@ inline void sortTwo (double& a, double& b) noexcept
 }
 
 #ifdef __SSE2__
-/// Two values, each in a sum of its own.
+/// Two values that belong to two different sums.
 typedef double Two __attribute__ ((vector_size (16)));
 
 inline Two withOneNan (Two v) noexcept
@@ -104,7 +104,7 @@ inline double sum (double* values, int n) noexcept
         break;
     }
     for (int i = 0; i < n; ++i)
-        if (values[i] != values[i]) return std::numeric_limits<double>::quiet_NaN();   // before they are sorted: NaN has no place in an order
+        if (values[i] != values[i]) return std::numeric_limits<double>::quiet_NaN();   // before sorting, because NaN cannot be ordered
     std::sort (values, values + n);
     double total = values[0];
     for (int i = 1; i < n; ++i)

@@ -23,7 +23,7 @@ struct Takeover
         const void* old;
     };
 
-    /// A node whose type was built again, as after an edit of its C++. Its knobs are new, but keep what the old ones held.
+    /// A node whose type was compiled again, as after an edit of its C++ code. Its knobs are new, and take over the values of the old ones.
     struct Rebuilt
     {
         std::size_t instance;

@@ -272,7 +272,7 @@ void Engine::beforePlan() noexcept
         if (used[i]->device)
         {
             auto& [reading, applied, layout] = *plan->roles()[i].state;
-            new (&reading) Reading (used[i]->device->read());   // in place, because most of a reading is rarely in use but always copied
+            new (&reading) Reading (used[i]->device->read());   // in place, because most of a reading is rarely used, but copying would copy all of it
             reading.valid = reading.valid && ! readings_invalid;
             applied.force -= reading.unrendered_force;
             applied.torque -= reading.unrendered_torque;

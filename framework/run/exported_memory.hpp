@@ -29,7 +29,7 @@
 namespace tactus::exported
 {
 
-/// Bytes that are given out one after another. The last ones can be given back; the others only all together.
+/// Bytes that are given out one after another. The last piece can be given back; the others only all together.
 class MemoryBlock
 {
 public:
@@ -61,7 +61,7 @@ public:
         if (current != nullptr && first >= current->begin && first + bytes == current->now) current->now = first;
     }
 
-    /// Makes what was taken last larger, if there is room. Returns false if it was not the last.
+    /// Extends the piece that was taken last, if there is room. Returns false for any other piece.
     static bool extend (void* place, std::size_t bytes, std::size_t more) noexcept
     {
         if (current == nullptr || static_cast<std::byte*> (place) + bytes != current->now) return false;
@@ -136,7 +136,7 @@ std::shared_ptr<T> makeShared (A&&... arguments)
 template <typename Key, typename T>
 using Map = std::map<Key, T, std::less<Key>, Allocator<std::pair<const Key, T>>>;
 
-/// A std::vector in the memory of a graph, or over constant data. Copies are in the memory of the graph; what is moved stays.
+/// A std::vector in the memory of a graph, or over constant data. Copies are in the memory of the graph; a move copies nothing.
 template <typename T>
 class Vector
 {

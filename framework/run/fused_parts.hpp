@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What fused code is made with (host/fuse): the steps of a plan that are not nodes. Each of them gives the same bits as its counterpart in
+/// What fused code (host/fuse) calls for the steps of a plan that are not nodes. Each of them gives the same bits as its counterpart in
 /// framework/plan/ops.hpp and running_section.hpp, and works on the same memory. Nothing here allocates, throws or locks. [tick thread]
 
 #include <tactus/node/node.hpp>
@@ -80,7 +80,7 @@ inline void delay (double value, double& samples, std::size_t& now, std::size_t 
     if (++now == size) now = 0;
 }
 
-/// Takes what has been gathered on the way into or out of a section.
+/// Takes the samples that were gathered on the way into or out of a section.
 inline void deliver (double& out, double& gathered) noexcept
 {
     out = gathered;

@@ -379,7 +379,7 @@ const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, d
         }
     }
     else if (cause == Stop::stale && event.why == Stop::stale && reading.fault != ReadingFault::none && reading.fault != event.fault && ! isFrozen())
-        note (cause, wanted, reading);   // not another stop, but another reason: a board that was silent is now too hot
+        note (cause, wanted, reading);   // the same stop with another reason, such as a silent board that is now too hot
     reason = cause;
 
     withheld = std::max (0.0, withheld - step_s / fade_s);

@@ -26,7 +26,7 @@ std::uint32_t TextPositions::addElement (std::uint32_t list, std::size_t index, 
 
 std::uint32_t TextPositions::add (std::uint32_t around, Entry entry)
 {
-    constexpr std::size_t most = 4u << 20u;   // a hostile file may have long lists of nothing
+    constexpr std::size_t most = 4u << 20u;   // a hostile file may have long lists of empty lists
     if (entries.size() == most) return none;
     const auto number = static_cast<std::uint32_t> (entries.size());
     entries.push_back (entry);

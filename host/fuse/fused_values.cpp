@@ -61,7 +61,7 @@ void FusedValues::findChanging (std::span<const Record> records)
 {
     for (const auto& r : records)
     {
-        has_strangers = has_strangers || isStranger (r);
+        has_unknown = has_unknown || isStranger (r);
         plan::eachSum (r, [this] (const plan::Sum& sum) { changing.insert (&sum.out); });
         if (r.step == &plan::Strike::step) changing.insert (&static_cast<plan::Strike*> (r.self)->out);
         if (r.step == &plan::DelayLine::read) changing.insert (&static_cast<plan::DelayLine*> (r.self)->line->out);
@@ -114,13 +114,13 @@ std::string FusedValues::memberOf (const PortSheet& sheet, int slot)
 /// True for defaults of inputs, which nothing ever writes.
 bool FusedValues::isConstant (const double* value) const
 {
-    if (has_strangers || changing.contains (value)) return false;
+    if (has_unknown || changing.contains (value)) return false;
     if (const auto feeds = plan.feeds(); value >= feeds.data() && value < feeds.data() + feeds.size()) return false;
     if (const auto found = lastBefore (by_outputs, value); found != by_outputs.end())
         if (static_cast<std::size_t> (bytes (value) - found->first) < plan.flat().nodes[found->second].type->outputs_size) return false;
     if (const auto found = lastBefore (by_params, value); found != by_params.end())
         if (static_cast<std::size_t> (bytes (value) - found->first) < plan.flat().nodes[found->second].type->params_size) return false;
-    return isFinite (*value);   // last, because the tick thread writes what the checks above exclude
+    return isFinite (*value);   // checked last: the checks above exclude the values that the tick thread writes
 }
 
 /// The variable that has a value, or null. If it is a member, its text is in `made`.

@@ -22,8 +22,8 @@ namespace tactus::host
 /// Where the values of a plan are while fused code runs: in local variables where possible, else in the memory where the plan has them.
 /// [main thread]
 ///
-/// What reads a value that is not in a variable, or not in one that it can see, needs it in memory. This may be known only after the
-/// value was written, so the code is written again until nothing new is needed; see settled().
+/// Code that reads a value needs it in memory unless it can see a variable with the value. This may be known only after the code for the
+/// value has been written, so the code is written again until nothing new is needed; see settled().
 class FusedValues
 {
 public:
@@ -46,8 +46,8 @@ public:
     /// The same for a value that is read by something other than fused code.
     void need (const double*);
 
-    bool isNeeded (const double* value) const { return has_strangers || needed.contains (value); }
-    bool isNeeded (std::size_t instance) const { return has_strangers || needed_nodes.contains (instance); }
+    bool isNeeded (const double* value) const { return has_unknown || needed.contains (value); }
+    bool isNeeded (std::size_t instance) const { return has_unknown || needed_nodes.contains (instance); }
     bool isInSight (const double* value) const;
 
     /// From here to the end of the scope, this variable has the value.
@@ -59,7 +59,7 @@ public:
     void openScope() { scopes.emplace_back(); }
     void closeScope() { scopes.pop_back(); }
 
-    /// Prepares for writing the code again. True if the last time needed nothing new.
+    /// Prepares for writing the code again. True if nothing new was needed the last time.
     bool settled();
 
     /// A component of a port as a member of its struct: "mu", "direction[2]".
@@ -92,7 +92,7 @@ private:
     std::map<const std::byte*, std::size_t> by_outputs;     // the number of an instance by where its outputs begin
     std::map<const std::byte*, std::size_t> by_params;      // by where its params begin
     std::unordered_set<const double*> changing;             // what sums, hits, delays and rate converters write
-    bool has_strangers = false;                             // the plan has records of an unknown kind, which may read and write anything
+    bool has_unknown = false;                               // the plan has records of an unknown kind, which may read and write anything
     std::set<const double*> needed;
     std::set<std::size_t> needed_nodes;
     std::size_t needed_before = 0;

@@ -14,9 +14,9 @@
 namespace tactus::host
 {
 
-/// Replaces the records of running plans by compiled code (docs/fusion.md). The code is made in the background and takes over between two
-/// ticks. An edit gives a plan that runs by its records at once; when there has been no other edit for a while, it is fused, too. If
-/// anything fails, the plan runs on by its records. [main thread]
+/// Replaces the records of running plans by compiled code (docs/fusion.md). The code is compiled in the background and takes over between two
+/// ticks. After an edit, the new plan first runs by its records, and is fused when there has been no other edit for a while. If anything
+/// fails, the plan keeps running by its records. [main thread]
 class Fuser
 {
 public:
@@ -25,7 +25,7 @@ public:
         rests,      ///< the plan is new, and may be replaced soon
         compiles,   ///< code for the plan is being made
         fused,      ///< the plan runs as compiled code
-        fails       ///< the plan runs by its records, because it cannot be fused
+        fails       ///< the plan runs by its records, because it could not be fused
     };
 
     struct Options
@@ -37,7 +37,7 @@ public:
 
     explicit Fuser (Options);
 
-    /// Call it several times a second with the newest plan of a run and the time in s. Returns why the plan is not fused, only once. Ids:
+    /// Call it several times a second with the newest plan of a run and the time in s. If the plan cannot be fused, returns the reason, once. Ids:
     /// those of FusionCompiler, fuse/too_long, fuse/too_large, fuse/nothing, fuse/cannot_load.
     std::optional<Message> look (const std::shared_ptr<Plan>&, double now_s);
 

@@ -30,7 +30,7 @@ std::string environment (const char* name)
     return value != nullptr ? value : "";
 }
 
-/// Two numbers of 64 bits that differ between texts: FNV-1a, with two ways to begin.
+/// Two 64-bit hashes of some texts: FNV-1a, with two starting values.
 class Digest
 {
 public:
@@ -40,7 +40,7 @@ public:
             for (auto& n : numbers)
                 n = (n ^ static_cast<unsigned char> (c)) * 0x100000001b3u;
         for (auto& n : numbers)
-            n = (n ^ 0x1ffu) * 0x100000001b3u;   // no byte, so that the ends of texts count
+            n = (n ^ 0x1ffu) * 0x100000001b3u;   // a value that is no byte, so that the end of each text changes the result
     }
 
     std::string text() const
@@ -225,7 +225,7 @@ fs::path FusionCompiler::keep (const fs::path& object)
     std::error_code failed;
     const auto kept = options.cache / (key + ".so"), part = options.cache / (key + "." + folder.filename().string());
     fs::copy_file (object, part, fs::copy_options::overwrite_existing, failed);
-    if (! failed) fs::rename (part, kept, failed);   // in one step, so that no other program sees half a file
+    if (! failed) fs::rename (part, kept, failed);   // atomic, so that no other program sees half a file
     std::error_code ignored;
     if (failed) fs::remove (part, ignored);
     removeOldest (options.cache);

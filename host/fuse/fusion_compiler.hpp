@@ -38,13 +38,13 @@ public:
     /// The user's cache for fused code: in TACTUS_HOME, XDG_CACHE_HOME or ~/.cache. Empty if the user's home is unknown.
     static std::filesystem::path usualCache();
 
-    /// Starts to compile; ends what is being compiled. Ids: fuse/no_compiler, fuse/no_folder, output/unwritable.
+    /// Starts to compile. Stops a compilation that is still running. Ids: fuse/no_compiler, fuse/no_folder, output/unwritable.
     Result<> start (const FusedCode&);
 
-    /// Ends what is being compiled.
+    /// Stops the compilation, if one is running.
     void stop() { program.reset(); }
 
-    /// The shared object, returned only once; empty while the compiler works, or if it has nothing to do. Ids: fuse/compile.
+    /// The shared object, returned only once; empty while the compiler is running, or if there is nothing to compile. Ids: fuse/compile.
     std::optional<Result<std::filesystem::path>> finished();
 
 private:

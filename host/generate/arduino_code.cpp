@@ -36,7 +36,7 @@ namespace tactus::board
 
 using Report = std::array<std::uint8_t, 64>;
 
-/// What the board says about itself, besides its reading.
+/// The state of the board, in addition to its reading.
 struct State
 {
     bool is_homed = false;      ///< the position is known
@@ -47,7 +47,7 @@ struct State
     std::uint32_t us = 0;       ///< when the position was sampled
 };
 
-/// What the host asks for.
+/// A request from the host.
 struct Asked
 {
     bool is_valid = false, drives = false;

@@ -16,7 +16,7 @@ namespace tactus::readers
 
 namespace
 {
-/// A value that curves and parameters move while a pattern plays. Straight between its points, held beyond them.
+/// A value that curves and parameters change while a pattern plays. Linear between its points, constant before and after them.
 struct Control
 {
     double initial = 0.0;

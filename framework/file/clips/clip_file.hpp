@@ -11,8 +11,8 @@
 namespace tactus::readers
 {
 
-/// A clip that was read, with warnings about what the file asks for and a clip does not hold, and about habits of the file that its
-/// format does not allow. `where` is name:line:column.
+/// A clip that was read. The warnings name contents that a clip cannot hold, and syntax that the format does not allow but is accepted.
+/// `where` is name:line:column.
 struct ClipFile
 {
     Clip clip;
@@ -38,7 +38,7 @@ bool isClipName (std::string_view name) noexcept;
 /// Writes a clip in the format of the extension. Warnings: clip/not_carried, clip/changed. Error: clip/unknown_kind. [main thread]
 [[nodiscard]] Result<ClipText> writeClip (const Clip&, std::string_view name);
 
-/// Sets what 0 and 1 mean from an actuator calibration (.acf) of Meta. Returns what a clip cannot hold of it. Errors as readClip.
+/// Sets what 0 and 1 mean, from an actuator calibration of Meta (.acf). Returns warnings about what a clip cannot hold. Errors as readClip.
 /// [main thread]
 [[nodiscard]] Result<Messages> readCalibration (std::string_view bytes, std::string_view name, ClipVoice&);
 

@@ -29,7 +29,7 @@ public:
 
     std::vector<Habit> habits;
 
-    /// A place in the output, and by how many columns what follows on its line is further right than in the text.
+    /// A place in the output, and by how many columns the rest of its line has moved to the right.
     struct Shift
     {
         TextPosition at;
@@ -203,7 +203,7 @@ private:
     static constexpr std::size_t none = static_cast<std::size_t> (-1);
     std::string_view text;
     std::string out;
-    std::size_t at = 0, comma = none;   // comma: where the output has one that a bracket would make superfluous
+    std::size_t at = 0, comma = none;   // comma: the last one in the output, which is superfluous if a bracket follows
     TextPosition comma_place;
     bool may_close = false;
     int line = 1, column = 1;   // in the output

@@ -26,7 +26,7 @@ T arcBeyondLinear (T z) noexcept
 /// The angle of the point (x, y) from the x axis, in rad from -pi to pi. Signs of zeros count, as in C. Error below 1.1 ulp.
 ///
 /// The smaller of |x| and |y| is divided by the larger one. If the angle exceeds pi/8, it is taken from the diagonal, whose tangent is
-/// (n - d) / (n + d). What the divisions and sums lose is added to the result.
+/// (n - d) / (n + d). The rounding errors of the divisions and sums are added to the result.
 template <typename T>
 T atan2 (T y, std::type_identity_t<T> x) noexcept
 {

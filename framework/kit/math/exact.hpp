@@ -10,7 +10,7 @@
 namespace tactus::math
 {
 
-/// The factor that moves numbers whose largest is this one to where squares neither overflow nor lose digits.
+/// The factor that scales numbers up to this size so that their squares neither overflow nor lose digits.
 template <typename T>
 T scaleForSquares (T largest) noexcept
 {

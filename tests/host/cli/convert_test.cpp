@@ -88,7 +88,7 @@ TEST_CASE ("convert: a WAV is the rendered clip, and comes back as it was", "[cl
     double peak = 0.0;
     for (const double v : wav->channels[0])
         peak = std::max (peak, std::abs (v));
-    const double scale = std::max (1.0, peak);   // values beyond 1 are scaled, which is said
+    const double scale = std::max (1.0, peak);   // values beyond 1 are scaled, with a warning
     for (std::size_t i = 0; i < 2000; ++i)
         REQUIRE (back->channels[0][i] * scale == Approx (wav->channels[0][i]).margin (1e-6));
 }

@@ -255,7 +255,7 @@ TEST_CASE ("a plot has the kind, the size and the time window that were asked fo
         return runTactus (arguments);
     };
     REQUIRE (plot ("p.svg", { "--size", "120x80", "--from", "0.2", "--until", "0.6" }).status == 0);
-    CHECK (test::textOf (scratch.path ("p.svg")).find (R"(width="119.99mm" height="80.04mm")") != std::string::npos);   // whole pixels at 192 dpi
+    CHECK (test::textOf (scratch.path ("p.svg")).find (R"(width="119.99mm" height="80.04mm")") != std::string::npos);   // rounded to whole pixels at 192 dpi
     REQUIRE (plot ("p.pdf", { "--size", "85" }).status == 0);
     CHECK (test::textOf (scratch.path ("p.pdf")).starts_with ("%PDF-"));
     REQUIRE (plot ("p.png", { "--size", "101.6x76.2", "--dpi", "300" }).status == 0);

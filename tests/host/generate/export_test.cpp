@@ -109,7 +109,7 @@ TEST_CASE ("all presets and many random graphs give the bits of the engine with 
 
 TEST_CASE ("presets give the bits of the engine on a Cortex-M7", "[.export_m7]")
 {
-    // What a small board has, less some for the stack and for everything else. A graph that does not fit is said, and left out.
+    // What a small board has, less some for the stack and for everything else. A graph that does not fit is left out, and printed.
     constexpr std::size_t memory = 512 * 1024 - 32 * 1024;
     ExportedProgram program;
     std::string left_out;
