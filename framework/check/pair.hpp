@@ -4,8 +4,6 @@
 #include "bench.hpp"
 #include "spots.hpp"
 
-#include <Eigen/Core>
-
 #include <optional>
 #include <vector>
 

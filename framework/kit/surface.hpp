@@ -4,8 +4,7 @@
 #include "assets.hpp"
 #include "curve.hpp"
 #include "law.hpp"
-
-#include <Eigen/Core>
+#include "vec3.hpp"
 
 namespace tactus
 {

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Where Eigen computes with vectors of several doubles, the order in which it adds the terms of a sum depends on their number, and so
+// do the last bits. All code must agree on this, because the linker keeps one copy of each function.
+#if defined(EIGEN_CORE_H) && ! defined(EIGEN_DONT_VECTORIZE)
+#error "Eigen is included before Tactus: compile with -DEIGEN_DONT_VECTORIZE, or include the headers of Tactus first"
+#elif ! defined(EIGEN_DONT_VECTORIZE)
+#define EIGEN_DONT_VECTORIZE
+#endif
 #include <Eigen/Core>
 
 #include <cmath>

@@ -5,6 +5,7 @@
 /// the same bits as its counterpart in framework/plan and framework/run/engine.cpp. Nothing here allocates, throws or locks, and all
 /// functions are for the thread that ticks the graph.
 
+#include "driven.hpp"
 #include "effort_sum.hpp"
 #include "guard.hpp"
 
@@ -17,13 +18,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 #include <memory>
 
 namespace tactus::exported
 {
 
-inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+using generated::Driven;
+using generated::not_a_number;
 
 /// The sum of several wires. They are added in order of value, so the order of the wires does not matter.
 template <typename... T>
@@ -262,30 +263,6 @@ private:
     std::size_t ramping = 0;   // how many nodes have a ramp
     int ticks = 1;             // length of a ramp
     bool is_touched = false, is_started = false;
-};
-
-/// Sets the parameters of a node that wires drive. A wire that is not finite makes the tick of the node a fault.
-struct Driven
-{
-    bool moved = false;   ///< at least one parameter has changed, so the node needs an update
-    bool fault = false;
-
-    /// The wires that replace the value, or the stored value; the sum of the wires that add to it.
-    void operator() (double& member, double value, double added, double min, double max) noexcept
-    {
-        const double now = Interval { min, max }.clamp (value + added);
-        if (! isFinite (now))
-            fault = true;
-        else if (now != member)
-        {
-            member = now;
-            moved = true;
-        }
-    }
-
-    double in (double value) const noexcept { return fault ? not_a_number : value; }
-    Vec3 in (const Vec3& value) const noexcept { return fault ? Vec3 (Vec3::Constant (not_a_number)) : value; }
-    const double* in (const double* value) const noexcept { return fault ? &not_a_number : value; }
 };
 
 /// Hits from outside, for one input.

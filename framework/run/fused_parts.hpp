@@ -4,6 +4,8 @@
 /// What fused code (host/fuse) calls for the steps of a plan that are not nodes. Each of them gives the same bits as its counterpart in
 /// framework/plan/ops.hpp and running_section.hpp, and works on the same memory. Nothing here allocates, throws or locks. [tick thread]
 
+#include "driven.hpp"
+
 #include <tactus/node/node.hpp>
 #include <tactus/plan/sum.hpp>
 
@@ -11,13 +13,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 #include <new>
 
 namespace tactus::fused
 {
 
-inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+using generated::Driven;
+using generated::not_a_number;
 
 /// The objects of a plan by number, as FusedTick::objects lists them.
 class Objects
@@ -100,29 +102,6 @@ inline double follow (double value, double before, double newest, bool begun, do
 {
     return begun ? std::lerp (before, newest, part) : value;
 }
-
-/// Sets the parameters of a node that wires or feeds drive. If a value is not finite, the inputs of the node are not finite either, so it
-/// responds as to any fault.
-struct Driven
-{
-    bool moved = false, fault = false;
-
-    void operator() (double& target, double stored, double added, double min, double max) noexcept
-    {
-        const double value = Interval { min, max }.clamp (stored + added);
-        if (! isFinite (value))
-            fault = true;
-        else if (value != target)
-        {
-            target = value;
-            moved = true;
-        }
-    }
-
-    double in (double value) const noexcept { return fault ? not_a_number : value; }
-    Vec3 in (const Vec3& value) const noexcept { return fault ? Vec3 { not_a_number, not_a_number, not_a_number } : value; }
-    const double* in (const double* value) const noexcept { return fault ? &not_a_number : value; }
-};
 
 /// Sets the member of a Params at this offset.
 template <typename Params>

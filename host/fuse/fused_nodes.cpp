@@ -71,11 +71,7 @@ std::vector<std::string> CodeWriter::inputs (const Known& n, const double* const
         members.emplace_back (row.offset, "." + std::string (row.id) + " = " + text);
         source += slots;
     }
-    std::ranges::sort (members);
-    std::vector<std::string> all;
-    for (auto& [offset, member] : members)
-        all.push_back (std::move (member));
-    return all;
+    return inOrder (std::move (members));
 }
 
 void CodeWriter::node (const Known& n, const Record& r, bool is_inner)

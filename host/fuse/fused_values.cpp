@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fused_values.hpp"
 
+#include <host/generate/address_map.hpp>
+
 #include <tactus/kit/vec3.hpp>
 
 #include <array>
@@ -8,19 +10,6 @@
 
 namespace tactus::host
 {
-
-namespace
-{
-const std::byte* bytes (const void* p) { return static_cast<const std::byte*> (p); }
-
-/// The entry of a map of ranges that begins last before this address.
-template <typename Map>
-auto lastBefore (const Map& map, const void* address)
-{
-    const auto next = map.upper_bound (bytes (address));
-    return next == map.begin() ? map.end() : std::prev (next);
-}
-}   // namespace
 
 std::string exactly (double v)
 {

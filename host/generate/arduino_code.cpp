@@ -189,7 +189,7 @@ void setup()
     next_tick = next_report = micros();
 }
 
-/// Takes the newest of all waiting reports.
+/// Reads all waiting reports and uses the newest.
 static void listen()
 {
     tactus::board::Report report;

@@ -115,7 +115,7 @@ size_t @S@_alignment (void);
    small or at a wrong address. Nothing here takes memory from a heap. */
 @S@* @S@_create (void* memory, size_t size);
 
-/* Makes all nodes as new, for this many ticks per second. False if the rate is not above 0 or is above @U@_MAX_RATE_HZ. */
+/* Resets all nodes, for this many ticks per second. False if the rate is not above 0 or is above @U@_MAX_RATE_HZ. */
 bool @S@_prepare (@S@* graph, double ticks_per_second);
 
 /* Inputs of a device that reports nothing yet, and zeros. */

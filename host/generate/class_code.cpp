@@ -139,7 +139,7 @@ std::string layoutOf (const DeviceLayout& l)
 
 std::string functions (const Exported& e)
 {
-    std::string text = "    /// Makes all nodes as new, for this many ticks per second. Returns false, and does nothing, if the rate is not above 0\n"
+    std::string text = "    /// Resets all nodes, for this many ticks per second. Returns false, and does nothing, if the rate is not above 0\n"
                        "    /// or is above max_rate_hz: the memory of the nodes is measured for that rate.\n"
                        "    bool prepare (double ticks_per_second = rate_hz) noexcept;\n\n"
                        "    /// Computes one tick. The same inputs give the same bits as in Tactus.\n"

@@ -101,6 +101,15 @@ std::string listed (const std::vector<std::string>& parts, std::string_view betw
     return all;
 }
 
+std::vector<std::string> inOrder (std::vector<std::pair<std::size_t, std::string>> members)
+{
+    std::ranges::sort (members);
+    std::vector<std::string> all;
+    for (auto& [offset, member] : members)
+        all.push_back (std::move (member));
+    return all;
+}
+
 std::string wrapped (std::string_view indent, const std::string& head, const std::vector<std::string>& parts, std::string_view end)
 {
     constexpr std::size_t most_columns = 130;

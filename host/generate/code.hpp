@@ -3,6 +3,7 @@
 
 /// Pieces of C++ text.
 
+#include <cstddef>
 #include <set>
 #include <string>
 #include <string_view>
@@ -29,6 +30,9 @@ std::string className (std::string_view identifier);
 
 /// "a, b, c"
 std::string listed (const std::vector<std::string>&, std::string_view between = ", ");
+
+/// Members of a struct, which come with their offsets, in the order in which an initializer lists them.
+std::vector<std::string> inOrder (std::vector<std::pair<std::size_t, std::string>> members);
 
 /// What begins with `head` and has these parts: on one line if it fits, else with each part on a line of its own. `end` closes it.
 std::string wrapped (std::string_view indent, const std::string& head, const std::vector<std::string>& parts, std::string_view end);

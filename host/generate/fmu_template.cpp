@@ -140,7 +140,7 @@ void makeNew (Unit& unit)
     unit.ticks = 0;
 @STARTS@}
 
-/// Passes a parameter or control on.
+/// Sets a parameter or control of the graph.
 void apply (Unit& unit, std::size_t number)
 {
     (void) unit;
@@ -166,7 +166,7 @@ void strike (Unit& unit)
     (void) unit;
 @STRIKE@}
 
-/// Ticks that begin before this time, counted from the start. A time that is a tick's but for rounding is that tick's.
+/// Ticks that begin before this time, counted from the start. A time within rounding error of a tick counts as that tick.
 std::uint64_t ticksBefore (const Unit& unit, double time)
 {
     constexpr double rounding = 1e-6;
@@ -271,7 +271,7 @@ fmi2Status fmi2SetBoolean (fmi2Component c, const fmi2ValueReference numbers[], 
 
 fmi2Status fmi2SetString (fmi2Component, const fmi2ValueReference[], size_t count, const fmi2String[]) { return count == 0 ? fmi2OK : fmi2Error; }
 
-// A unit takes no memory from a heap, and what it points to is within itself or constant. So its bytes are its state, for this unit.
+// A unit uses no heap, and points only into itself and at constants. So its bytes are its whole state, for this unit.
 fmi2Status fmi2GetFMUstate (fmi2Component c, fmi2FMUstate* state)
 {
     if (*state == nullptr) *state = std::malloc (sizeof (Unit));

@@ -115,7 +115,7 @@ inline int test()
 }   // namespace @STEM@_self_test
 
 #ifndef TACTUS_SELF_TEST_IS_INCLUDED
-/// With a number as argument, only runs the recorded inputs that often: `make instructions` counts what that takes.
+/// With a number as argument, runs the recorded inputs that many times and checks nothing: `make instructions` counts what that takes.
 int main (int count, char** arguments)
 {
     static @CLASS@ graph;

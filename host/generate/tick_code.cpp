@@ -104,11 +104,7 @@ std::vector<std::string> TickCode::inputs (const ExportedNode& n, const std::str
         members.emplace_back (row.offset, "." + std::string (row.id) + " = " + value);
         source += slots;
     }
-    std::ranges::sort (members);
-    std::vector<std::string> all;
-    for (auto& [offset, member] : members)
-        all.push_back (std::move (member));
-    return all;
+    return inOrder (std::move (members));
 }
 
 void TickCode::node (const ExportedNode& n, const Record& r, const std::string& indent)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wiring.hpp"
+#include "address_map.hpp"
 #include "sources.hpp"
 
 #include <tactus/plan/find_hit.hpp>
@@ -8,19 +9,6 @@
 
 namespace tactus::host
 {
-
-namespace
-{
-const std::byte* bytes (const void* p) { return static_cast<const std::byte*> (p); }
-
-/// The entry of a map of ranges that begins last before this address.
-template <typename Map>
-auto lastBefore (const Map& map, const void* address)
-{
-    const auto next = map.upper_bound (bytes (address));
-    return next == map.begin() ? map.end() : std::prev (next);
-}
-}   // namespace
 
 Wiring::Wiring (const Plan& p, const std::vector<std::string>& feeds, std::set<std::string> taken) : plan (p), members (std::move (taken))
 {

@@ -64,7 +64,7 @@ void FileWatch::watchFolders()
     for (const auto& w : all)
         files.push_back (w.file);
     folders.watch (files);
-    is_unsettled = true;   // what happened meanwhile is not told
+    is_unsettled = true;   // changes in between are not reported
 }
 
 bool FileWatch::look()
@@ -85,7 +85,7 @@ bool FileWatch::look()
     return is_changed;
 }
 
-/// True if the files have changed and rest.
+/// True if the files have changed, and no more changes come in.
 bool FileWatch::compare (bool is_writing)
 {
     bool changed = false, settled = ! is_writing;

@@ -11,7 +11,7 @@ namespace tactus::host
 
 namespace
 {
-/// A number with so many decimals at most, and never in the user's locale.
+/// A number with at most this many decimals, and never in the user's locale.
 std::string number (double value, int decimals = 2)
 {
     std::array<char, 64> text;

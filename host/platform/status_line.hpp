@@ -14,7 +14,7 @@ struct StatusPart
     int rank = 0;
 };
 
-/// Joins the parts that fit a terminal row of so many characters, so that the next status can replace the line. What is still too long
+/// Joins the parts that fit a terminal row of this many characters, so that the next status can replace the line. What is still too long
 /// ends in an ellipsis. 0 columns: everything fits.
 std::string statusLine (std::vector<StatusPart>, int columns);
 

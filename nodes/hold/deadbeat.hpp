@@ -239,7 +239,7 @@ private:
 
     Vec3 n = Vec3::UnitZ();
     double dt = 1.0 / Setup {}.rate_hz;   // s
-    double learns = 0.0;                  // the share of an error that the estimate takes up in a sample; set by prepare
+    double learns = 0.0;                  // the fraction of an error that the estimate corrects per sample; set by prepare
     double device_mass = 0.0, device_damping = 0.0;
     Past past;
 };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Geometry>
 #include <tactus/node/generic.hpp>
+
+#include <Eigen/Geometry>
 
 namespace tactus::nodes
 {

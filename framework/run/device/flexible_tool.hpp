@@ -3,8 +3,6 @@
 
 #include <tactus/kit/vec3.hpp>
 
-#include <Eigen/Core>
-
 #include <array>
 #include <cstdint>
 #include <vector>

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <tactus/node/node.hpp>
+
+#include <limits>
+
+/// What fused code (host/fuse) and exported code (host/generate) share.
+namespace tactus::generated
+{
+
+inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// Sets the parameters of a node that wires or feeds drive. If a value is not finite, the inputs of the node are not finite either, so it
+/// responds as to any fault. [tick thread]
+struct Driven
+{
+    bool moved = false;   ///< at least one parameter has changed, so the node needs an update
+    bool fault = false;
+
+    /// `stored`: the stored value, or the sum of the wires that replace it. `added`: the sum of the wires that add to it.
+    void operator() (double& target, double stored, double added, double min, double max) noexcept
+    {
+        const double value = Interval { min, max }.clamp (stored + added);
+        if (! isFinite (value))
+            fault = true;
+        else if (value != target)
+        {
+            target = value;
+            moved = true;
+        }
+    }
+
+    double in (double value) const noexcept { return fault ? not_a_number : value; }
+    Vec3 in (const Vec3& value) const noexcept { return fault ? Vec3 { not_a_number, not_a_number, not_a_number } : value; }
+    const double* in (const double* value) const noexcept { return fault ? &not_a_number : value; }
+};
+
+}   // namespace tactus::generated

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <iterator>
+
+namespace tactus::host
+{
+
+inline const std::byte* bytes (const void* p) { return static_cast<const std::byte*> (p); }
+
+/// The entry of a map of ranges, ordered by where they begin, that begins last before this address.
+template <typename Map>
+auto lastBefore (const Map& map, const void* address)
+{
+    const auto next = map.upper_bound (bytes (address));
+    return next == map.begin() ? map.end() : std::prev (next);
+}
+
+}   // namespace tactus::host
