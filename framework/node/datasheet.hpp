@@ -40,6 +40,9 @@ struct Info
     std::string_view name;      ///< as the host shows it
     std::string_view summary;   ///< one sentence
     std::string_view source;    ///< where the equations come from
+
+    /// Other words that people search for, such as the names of the same thing in other programs: "sine oscillator".
+    std::string_view keywords {};
 };
 
 struct Interval

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 
@@ -121,8 +122,8 @@ void printDatasheet (const NodeType& t)
 
 std::string familyOf (const NodeType& t) { return std::string (t.info.id.substr (0, t.info.id.find ('.'))); }
 
-/// Lists the node types of a family; "": of all families.
-void list (const std::string& wanted_family)
+/// Lists node types by family.
+void list (const std::function<bool (const NodeType&)>& isWanted)
 {
     std::string family;
     std::vector<std::vector<std::string>> rows;
@@ -134,7 +135,7 @@ void list (const std::string& wanted_family)
     for (const auto& t : catalogue())
     {
         const std::string id (t.info.id), its_family = familyOf (t);
-        if (! wanted_family.empty() && its_family != wanted_family) continue;
+        if (! isWanted (t)) continue;
         if (its_family != family)
         {
             flush();
@@ -148,17 +149,22 @@ void list (const std::string& wanted_family)
 
 void run (const std::string& wanted, bool json)
 {
+    const auto* type = catalogue().find (wanted);
     const auto isInFamily = [&] (const NodeType& t) { return wanted.empty() || familyOf (t) == wanted; };
-    if (std::ranges::any_of (catalogue(), isInFamily))
+    const auto hasKeyword = [&] (const NodeType& t) {
+        return (' ' + std::string (t.info.keywords) + ' ').find (' ' + wanted + ' ') != std::string::npos
+               || std::string (t.info.id).ends_with ('.' + wanted);
+    };
+    for (const auto& isWanted : { std::function<bool (const NodeType&)> (isInFamily), std::function<bool (const NodeType&)> (hasKeyword) })
     {
-        if (! json) return list (wanted);
+        if (type != nullptr || std::ranges::none_of (catalogue(), isWanted)) continue;
+        if (! json) return list (isWanted);
         Json all = Json::array();
         for (const auto& t : catalogue())
-            if (isInFamily (t)) all.push_back (datasheetJson (t));
+            if (isWanted (t)) all.push_back (datasheetJson (t));
         std::cout << all.dump (2) << '\n';
         return;
     }
-    const auto* type = catalogue().find (wanted);
     if (type == nullptr)
     {
         std::vector<std::string> known;
@@ -167,7 +173,7 @@ void run (const std::string& wanted, bool json)
             known.emplace_back (t.info.id);
             known.push_back (familyOf (t));
         }
-        fail ("node/unknown_type", "there is no node type and no family " + quote (wanted) + didYouMean (wanted, known), "`tactus nodes` lists them all");
+        fail ("node/unknown_type", "there is no node type, family or keyword " + quote (wanted) + didYouMean (wanted, known), "`tactus nodes` lists them all");
     }
     if (json)
         std::cout << datasheetJson (*type).dump (2) << '\n';
@@ -185,7 +191,7 @@ void addNodes (const Command& app)
     };
     const auto options = std::make_shared<Options>();
     const auto command = app.add ("nodes", "List the node types of all families or of one, or show the datasheet of a type");
-    command.addOption ("type", options->type, "A family, such as friction, or the id of a node type, such as friction.elasto_plastic");
+    command.addOption ("type", options->type, "A family (friction), the id of a node type (friction.elasto_plastic), or a word to search for (sine)");
     command.addFlag ("--json", options->json, "Print JSON, for use by programs");
     addPlugins (command);
     command.footer ("Examples:\n"

@@ -70,6 +70,7 @@ struct Impact
         .name = "Impact",
         .summary = "One hit per contact, with the speed of the approach.",
         .source = "Hayward 2007, section 6; Janabi-Sharifi et al. 2000",
+        .keywords = "collision hit tap onset",
     };
 
     static constexpr double longest_window = 0.1;   // s

@@ -39,6 +39,7 @@ struct ContactWindow
         .name = "Contact window",
         .summary = "A gain from 0 at the surface to 1 at a small depth.",
         .source = "Hayward 2007, section 5",
+        .keywords = "gate onset fade",
     };
 
     static constexpr std::tuple ports {

@@ -63,6 +63,7 @@ struct VirtualCoupling
         .name = "Virtual coupling",
         .summary = "A wall of any hardness, felt through a spring and damper that the device can handle.",
         .source = "Adams & Hannaford 1999",
+        .keywords = "proxy god object",
     };
 
     static constexpr std::tuple ports {

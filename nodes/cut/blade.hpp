@@ -83,6 +83,7 @@ struct Blade
         .name = "Blade",
         .summary = "A blade pressed into a sample, which bursts open and is cut.",
         .source = "Hayward 2007, section 3; Mahvash & Hayward 2001",
+        .keywords = "knife scalpel fracture crack",
     };
 
     static constexpr std::tuple ports {

@@ -106,6 +106,7 @@ struct Edge
         .name = "Edge",
         .summary = "A straight edge that cuts a body at any angle; each cut stays in its place.",
         .source = "Hayward 2007, section 3, Fig. 5; Mahvash & Hayward 2001",
+        .keywords = "knife scalpel fracture crack",
     };
 
     static constexpr std::tuple ports {

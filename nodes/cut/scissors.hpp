@@ -70,6 +70,7 @@ struct Scissors
         .name = "Scissors",
         .summary = "Scissors that cut a plate; the torque depends on toughness and shape.",
         .source = "after Mahvash & Okamura 2005; Hayward 2007, section 3",
+        .keywords = "shears",
     };
 
     static constexpr std::tuple ports {

@@ -85,6 +85,7 @@ struct Plane
         .name = "Plane",
         .summary = "A flat wall with a law of elasticity and two kinds of damping.",
         .source = "Hayward 2007, sections 4 and 6, eq. (10)",
+        .keywords = "wall floor virtual wall spring stiffness",
     };
 
     static constexpr std::tuple ports {

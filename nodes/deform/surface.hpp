@@ -145,6 +145,7 @@ struct ElasticSurface
         .name = "Elastic surface",
         .summary = "A body of any shape, with force curves interpolated over a mesh.",
         .source = "Hayward 2007, section 4, eq. (5) to (9)",
+        .keywords = "mesh body organ tissue stiffness",
     };
 
     static constexpr std::string_view friction_names[] { "bound", "frictionless" };

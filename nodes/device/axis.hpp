@@ -34,6 +34,7 @@ struct DeviceAxis
         .name = "Axis",
         .summary = "Position of one axis of the device.",
         .source = "definition",
+        .keywords = "encoder joint angle input",
     };
 
     static constexpr std::tuple ports {

@@ -34,6 +34,7 @@ struct DeviceButton
         .name = "Button",
         .summary = "Whether a button of the device is held down.",
         .source = "definition",
+        .keywords = "switch click input",
     };
 
     static constexpr std::tuple ports {

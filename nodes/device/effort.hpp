@@ -38,6 +38,7 @@ struct DeviceEffort
         .name = "Effort",
         .summary = "Pushes one axis of the device, through the guard.",
         .source = "definition",
+        .keywords = "motor torque joint output",
     };
 
     static constexpr std::tuple ports {

@@ -30,6 +30,7 @@ struct DeviceForce
         .name = "Force",
         .summary = "Sends a force and a torque to the device, through the guard.",
         .source = "definition",
+        .keywords = "motor actuator output sink",
     };
 
     static constexpr std::tuple ports {

@@ -30,6 +30,7 @@ struct DevicePosition
         .name = "Position",
         .summary = "Position and rotation of the tool, as the device measures them.",
         .source = "definition",
+        .keywords = "hand mouse pen stylus tool cursor input source",
     };
 
     static constexpr std::tuple ports {

@@ -25,6 +25,7 @@ struct DevicePressure
         .name = "Pressure",
         .summary = "How hard the hand presses.",
         .source = "definition",
+        .keywords = "pen input sensor",
     };
 
     static constexpr std::tuple ports {

@@ -33,6 +33,7 @@ struct DeviceSignalIn
         .name = "Signal in",
         .summary = "The signal of a sensor channel of the device.",
         .source = "definition",
+        .keywords = "sensor microphone input",
     };
 
     static constexpr std::tuple ports {

@@ -34,6 +34,7 @@ struct DeviceSignalOut
         .name = "Signal out",
         .summary = "Sends a signal to a vibration channel of the device, through the guard.",
         .source = "definition",
+        .keywords = "motor actuator voice coil speaker output",
     };
 
     static constexpr std::tuple ports {

@@ -28,6 +28,7 @@ struct DeviceTruth
         .name = "Truth",
         .summary = "True position and velocity of a simulated tool.",
         .source = "definition",
+        .keywords = "simulation",
     };
 
     static constexpr std::tuple ports {

@@ -57,6 +57,7 @@ struct BiquadFilter
         .name = "Biquad",
         .summary = "Low-pass, high-pass, band-pass, notch, peak or shelf.",
         .source = "R. Bristow-Johnson, Audio EQ Cookbook",
+        .keywords = "eq equalizer vcf",
     };
 
     static constexpr std::tuple ports {

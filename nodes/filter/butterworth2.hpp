@@ -29,6 +29,7 @@ struct Butterworth2
         .name = "Butterworth low-pass",
         .summary = "Smooths a signal, flat up to its cutoff.",
         .source = "Butterworth 1930; Hayward 2007, section 5",
+        .keywords = "lowpass smooth vcf",
     };
 
     static constexpr std::tuple ports {

@@ -30,6 +30,7 @@ struct OnePole
         .name = "One-pole low-pass",
         .summary = "Smooths a signal gently.",
         .source = "Oppenheim & Schafer, bilinear transformation",
+        .keywords = "lowpass smooth lag",
     };
 
     static constexpr std::tuple ports {

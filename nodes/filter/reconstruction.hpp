@@ -35,6 +35,7 @@ struct Reconstruction
         .name = "Reconstruction filter",
         .summary = "Smooths a force before it reaches the motor, flat up to its cutoff.",
         .source = "Hayward 2007, section 5; Butterworth 1930",
+        .keywords = "lowpass smooth",
     };
 
     static constexpr std::tuple ports {

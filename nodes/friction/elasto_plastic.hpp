@@ -150,6 +150,7 @@ struct ElastoPlastic
         .name = "Elasto-plastic friction",
         .summary = "Sticks, gives a little, and slides; without drift, at any speed.",
         .source = "Hayward 2007, section 2, eq. (1) to (4)",
+        .keywords = "stick slip stiction drag dahl lugre rub",
     };
 
     static constexpr std::string_view adhesion_names[] { "stick", "dupont", "ramp", "dahl", "curve" };

@@ -96,6 +96,7 @@ struct DeadbeatHold
         .name = "Deadbeat wall",
         .summary = "A stiff wall that moves a known mass as a continuous wall would, in steps of two samples.",
         .source = "Gillespie & Cutkosky 1996",
+        .keywords = "wall",
     };
 
     static constexpr int longest_delay = 16;   // ticks

@@ -52,6 +52,7 @@ struct PredictiveHold
         .name = "Predictive hold",
         .summary = "Predicts the force in the middle of the sample, so that springs leak less energy.",
         .source = "Ellis, Sarkar & Jenkins 1997",
+        .keywords = "zero-order zoh",
     };
 
     static constexpr std::tuple ports {

@@ -77,6 +77,7 @@ struct LayerMix
         .name = "Layer mixer",
         .summary = "Mixes the layers of an effect: gain, mute, solo, priority, ceiling.",
         .source = "definition",
+        .keywords = "mixer desk faders",
     };
 
     static constexpr std::tuple ports {

@@ -73,6 +73,7 @@ struct Velocity
         .name = "Velocity",
         .summary = "Velocity from quantised positions, over a window that adapts to the motion.",
         .source = "Janabi-Sharifi, Hayward & Chen 2000",
+        .keywords = "speed derivative differentiate",
     };
 
     static constexpr int longest_window = 256;

@@ -78,6 +78,7 @@ struct PassivityObserver
         .name = "Passivity observer and controller",
         .summary = "Brakes whenever an object has given back more energy than it took.",
         .source = "Hannaford & Ryu 2002; Hayward 2007, section 1",
+        .keywords = "energy stability",
     };
 
     static constexpr std::string_view pairing_names[] { "zoh", "backward" };

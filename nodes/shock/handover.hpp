@@ -65,6 +65,7 @@ struct Handover
         .name = "Shock handover",
         .summary = "Hands over from a contact to a played shock and back without a jump of the force.",
         .source = "Hayward 2007, section 6; law of the handover: own",
+        .keywords = "collision",
     };
 
     static constexpr std::tuple ports {

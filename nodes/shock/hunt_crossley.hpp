@@ -92,6 +92,7 @@ struct HuntCrossley
         .name = "Hunt-Crossley shock",
         .summary = "The push of an impact, played on a hit.",
         .source = "Hayward 2007, section 6, eq. (10); Hunt & Crossley 1975",
+        .keywords = "collision bounce",
     };
 
     static constexpr std::tuple ports {

@@ -20,6 +20,7 @@ struct SignalAbs
         .name = "Absolute value",
         .summary = "Drops the sign of a signal.",
         .source = "definition",
+        .keywords = "rectify magnitude",
     };
 
     static constexpr std::tuple ports {

@@ -22,6 +22,7 @@ struct SignalAdd
         input (&Inputs::in, "in", any_unit, "signals", 0.0),
         inputCount (&Settings::inputs),
         output (&Outputs::out, "out", sameAs ("in"), "the sum"),
+        .keywords = "sum plus",
     };
 
     Params params;

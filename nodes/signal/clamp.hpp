@@ -31,6 +31,7 @@ struct SignalClamp
         param (&Params::min, "min", sameAs ("in"), "lower bound", { .usual = { -10, 10 } }),
         param (&Params::max, "max", sameAs ("in"), "upper bound", { .usual = { -10, 10 } }),
         output (&Outputs::out, "out", sameAs ("in"), "the signal within the bounds"),
+        .keywords = "limit saturate minimum maximum",
     };
 
     Params params;

@@ -107,6 +107,7 @@ struct SignalClip
         .name = "Clip",
         .summary = "Plays a haptic clip: in time, or along a path.",
         .source = "definition; Meta .haptic 1 and Apple AHAP",
+        .keywords = "ahap pattern player sample",
     };
 
     static constexpr std::tuple ports {

@@ -25,6 +25,7 @@ struct SignalConstant
         .name = "Constant",
         .summary = "Gives a constant number.",
         .source = "definition",
+        .keywords = "knob slider number value",
     };
 
     static constexpr std::tuple ports {

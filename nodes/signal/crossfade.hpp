@@ -23,6 +23,7 @@ struct SignalCrossfade
         .name = "Crossfade",
         .summary = "Fades from one signal to another.",
         .source = "definition",
+        .keywords = "blend morph",
     };
 
     static constexpr std::tuple ports {

@@ -31,6 +31,7 @@ struct Delay
         .name = "Delay",
         .summary = "Delays a signal by a whole number of ticks.",
         .source = "definition",
+        .keywords = "memory latency",
     };
 
     static constexpr std::tuple ports {

@@ -41,6 +41,7 @@ struct SignalEnvelope
         .name = "Envelope",
         .summary = "Rises with a gate and falls after it.",
         .source = "ADSR envelope, straight segments",
+        .keywords = "adsr attack release",
     };
 
     static constexpr std::tuple ports {

@@ -33,6 +33,7 @@ struct SignalExpression
         .name = "Expression",
         .summary = "Computes a formula of its inputs.",
         .source = "definition",
+        .keywords = "formula math function code",
     };
 
     static constexpr std::tuple ports {

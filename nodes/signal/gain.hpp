@@ -25,6 +25,7 @@ struct SignalGain
         .name = "Gain",
         .summary = "Makes a signal larger or smaller.",
         .source = "definition",
+        .keywords = "knob amplifier volume level vca",
     };
 
     static constexpr std::tuple ports {

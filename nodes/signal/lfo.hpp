@@ -53,6 +53,7 @@ struct SignalLfo
         .name = "LFO",
         .summary = "A slow oscillator.",
         .source = "definition",
+        .keywords = "sine oscillator wave triangle square",
     };
 
     static constexpr std::tuple ports {

@@ -30,6 +30,7 @@ struct SignalMap
         .name = "Map",
         .summary = "Maps a signal through a drawn curve.",
         .source = "definition",
+        .keywords = "curve table lookup waveshaper",
     };
 
     static constexpr std::tuple ports {

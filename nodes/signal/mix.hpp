@@ -26,6 +26,7 @@ struct SignalMix
         .name = "Mix",
         .summary = "Adds signals, each with its own gain.",
         .source = "definition",
+        .keywords = "mixer sum",
     };
 
     static constexpr std::tuple ports {

@@ -22,6 +22,7 @@ struct SignalMultiply
         input (&Inputs::in, "in", each_its_unit, "signals", 1.0),
         inputCount (&Settings::inputs),
         output (&Outputs::out, "out", productOf ("in"), "the product"),
+        .keywords = "vca product modulator",
     };
 
     Params params;

@@ -48,6 +48,7 @@ struct SignalNoise
         .name = "Noise",
         .summary = "Gaussian noise that repeats from run to run.",
         .source = "Box & Muller 1958; Steele, Lea & Flood 2014 (splitmix64)",
+        .keywords = "random white",
     };
 
     static constexpr std::tuple ports {

@@ -26,6 +26,7 @@ struct SignalSampleHold
         .name = "Sample and hold",
         .summary = "Holds the value a signal had at the last hit.",
         .source = "definition",
+        .keywords = "latch",
     };
 
     static constexpr std::tuple ports {

@@ -30,6 +30,7 @@ struct SignalSelect
         .name = "Select",
         .summary = "Passes on one of several signals.",
         .source = "definition",
+        .keywords = "switch multiplexer",
     };
 
     static constexpr std::tuple ports {

@@ -26,6 +26,7 @@ struct SignalSlew
         .name = "Slew limit",
         .summary = "Limits how fast a signal changes.",
         .source = "definition",
+        .keywords = "glide portamento lag rate",
     };
 
     static constexpr std::tuple ports {

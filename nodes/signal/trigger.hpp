@@ -45,6 +45,7 @@ struct SignalTrigger
         .name = "Trigger",
         .summary = "Triggers a hit when a signal rises through a threshold.",
         .source = "Schmitt trigger (1938)",
+        .keywords = "comparator threshold gate",
     };
 
     static constexpr std::tuple ports {

@@ -61,6 +61,7 @@ struct AntiAlias
         .name = "Anti-alias guard",
         .summary = "Fades a texture out where the hand moves too fast for it.",
         .source = "Hayward 2007, section 5, Table 1",
+        .keywords = "nyquist",
     };
 
     static constexpr std::tuple ports {

@@ -52,6 +52,7 @@ struct Grating
         .name = "Grating",
         .summary = "Sinusoidal ridges, felt as a force along the wave.",
         .source = "Hayward 2007, section 5",
+        .keywords = "ridges bumps sine roughness",
     };
 
     static constexpr std::tuple ports {

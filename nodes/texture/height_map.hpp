@@ -102,6 +102,7 @@ struct HeightMap
         .name = "Height map",
         .summary = "A measured or painted relief, felt as a force down its slopes.",
         .source = "Hayward 2007, section 5; Campion & Hayward 2008",
+        .keywords = "bump image displacement roughness",
     };
 
     static constexpr std::tuple ports {

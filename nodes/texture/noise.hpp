@@ -103,6 +103,7 @@ struct TextureNoise
         .name = "Recorded texture",
         .summary = "The hiss and rumble of a real surface, from recordings at several speeds and forces.",
         .source = "Culbertson, Unwin & Kuchenbecker 2014; Romano & Kuchenbecker 2012",
+        .keywords = "roughness data-driven noise",
     };
 
     static constexpr std::tuple ports {

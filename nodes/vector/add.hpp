@@ -20,6 +20,7 @@ struct VectorAdd
         input (&Inputs::in, "in", any_unit, "vectors", 0.0),
         inputCount (&Settings::inputs),
         output (&Outputs::out, "out", sameAs ("in"), "the sum"),
+        .keywords = "sum plus",
     };
 
     Params params;

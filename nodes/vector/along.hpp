@@ -32,6 +32,7 @@ struct VectorAlong
         .name = "Along",
         .summary = "Splits a vector into the parts along and across a direction.",
         .source = "definition",
+        .keywords = "project component",
     };
 
     static constexpr std::tuple ports {

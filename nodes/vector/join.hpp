@@ -18,6 +18,7 @@ struct VectorJoin
         .name = "Join",
         .summary = "Makes a vector from three signals.",
         .source = "definition",
+        .keywords = "pack combine xyz",
     };
 
     static constexpr std::tuple ports {

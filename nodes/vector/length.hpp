@@ -19,6 +19,7 @@ struct VectorLength
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "vector"),
         output (&Outputs::amount, "amount", sameAs ("in"), "its length, never negative"),
+        .keywords = "norm magnitude",
     };
 
     Params params;

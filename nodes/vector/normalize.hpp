@@ -20,6 +20,7 @@ struct VectorNormalize
         .name = "Normalize",
         .summary = "Gives the direction of a vector.",
         .source = "definition",
+        .keywords = "unit",
     };
 
     static constexpr std::tuple ports {

@@ -23,6 +23,7 @@ struct VectorScale
         .name = "Scale",
         .summary = "Multiplies a vector by a signal.",
         .source = "definition",
+        .keywords = "gain multiply",
     };
 
     static constexpr std::tuple ports {

@@ -18,6 +18,7 @@ struct VectorSplit
         .name = "Split",
         .summary = "Splits a vector into its components.",
         .source = "definition",
+        .keywords = "unpack xyz",
     };
 
     static constexpr std::tuple ports {

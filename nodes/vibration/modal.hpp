@@ -61,6 +61,7 @@ struct Modal
         .name = "Modal vibration",
         .summary = "Decaying tones that a hit excites.",
         .source = "Hayward 2007, section 6; Okamura et al. 2001",
+        .keywords = "resonator bell tap",
     };
 
     static constexpr std::tuple ports {

@@ -94,6 +94,7 @@ struct Wavetable
         .name = "Wavetable vibration",
         .summary = "A recorded or computed ring that each hit plays once.",
         .source = "Hayward 2007, section 6; Okamura et al. 2001",
+        .keywords = "sample tap",
     };
 
     static constexpr std::tuple ports {

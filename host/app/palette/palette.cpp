@@ -46,14 +46,15 @@ void Palette::update()
 {
     found = search (query.getText().toStdString());
     list.updateContent();
-    list.selectRow (0);
+    list.scrollToEnsureRowIsOnscreen (0);
+    selectNear (0, 1);
     list.repaint();
     repaint();
 }
 
 void Palette::choose (int row)
 {
-    if (row < 0 || row >= getNumRows()) return;
+    if (! isEntry (row)) return;
     const auto type = found[static_cast<std::size_t> (row)].type;
     close();
     if (on_chosen) on_chosen (type);
@@ -69,8 +70,19 @@ bool Palette::keyPressed (const juce::KeyPress& key, juce::Component*)
     const bool is_down = key == juce::KeyPress::downKey;
     if (! is_down && key != juce::KeyPress::upKey) return false;
     const int step = is_down ? 1 : -1;
-    list.selectRow (juce::jlimit (0, std::max (0, getNumRows() - 1), list.getSelectedRow() + step));
+    selectNear (list.getSelectedRow() + step, step);
     return true;
+}
+
+bool Palette::isEntry (int row) const { return row >= 0 && row < static_cast<int> (found.size()) && ! found[static_cast<std::size_t> (row)].isTitle(); }
+
+void Palette::selectNear (int row, int step)
+{
+    while (row >= 0 && row < getNumRows() && ! isEntry (row))
+        row += step;
+    if (! isEntry (row)) return;
+    if (row > 0 && ! isEntry (row - 1)) list.scrollToEnsureRowIsOnscreen (row - 1);
+    list.selectRow (row);
 }
 
 void Palette::paint (juce::Graphics& g)
@@ -106,6 +118,13 @@ void Palette::paintListBoxItem (int row, juce::Graphics& g, int w, int h, bool s
     const auto& look = lookOf (*this);
     const auto& theme = look.theme();
     auto area = juce::Rectangle<int> (w, h);
+    if (entry.isTitle())
+    {
+        g.setColour (theme.dim);
+        g.setFont (look.font (12.0f, true));
+        g.drawText (entry.name, area.withTrimmedLeft (10).withTrimmedTop (h / 3), juce::Justification::centredLeft, true);
+        return;
+    }
     if (selected)
     {
         g.setColour (theme.accent.withAlpha (0.18f));

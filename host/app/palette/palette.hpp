@@ -10,7 +10,7 @@
 namespace tactus::host
 {
 
-/// A searchable list of node types. Return or a click chooses an entry; Esc or a click elsewhere closes the list.
+/// A searchable list of node types, which may come in groups with titles. Return or a click chooses an entry; Esc or a click elsewhere closes the list.
 class Palette final : public juce::Component, private juce::ListBoxModel, private juce::TextEditor::Listener, private juce::KeyListener
 {
 public:
@@ -18,7 +18,7 @@ public:
 
     Palette();
 
-    /// Opens the palette with an empty query. `search` returns the entries for a query.
+    /// Opens the palette with an empty query. `search` returns the entries for a query, and titles between them.
     void open (std::function<std::vector<PaletteEntry> (const std::string&)> search, const juce::String& purpose,
                std::function<void (const std::string& type)> chosen);
     void close();
@@ -39,6 +39,8 @@ private:
     bool keyPressed (const juce::KeyPress&, juce::Component*) override;
     void update();
     void choose (int row);
+    bool isEntry (int row) const;          ///< false for titles
+    void selectNear (int row, int step);   ///< selects the first entry from this row on, in this direction
 
     std::function<std::vector<PaletteEntry> (const std::string&)> search;
     std::function<void (const std::string&)> on_chosen;

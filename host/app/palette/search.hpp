@@ -9,17 +9,21 @@
 namespace tactus::host
 {
 
-/// An entry of the palette.
+/// An entry of the palette, or the title of a group of entries.
 struct PaletteEntry
 {
-    std::string type;   ///< "friction.elasto_plastic", "graph:grain"
+    std::string type;   ///< "friction.elasto_plastic", "graph:grain"; empty for a title
     std::string name, summary;
+
+    bool isTitle() const noexcept { return type.empty(); }
 };
 
-/// Finds the node types of the catalogue and the subgraphs of a graph that contain all words of the query in their id, name,
-/// summary, ports, units or quantities. Those whose id or name starts with the query come first. Each result has a port for
-/// every wire end in `fits`: one end for a dropped wire, two for inserting into a wire.
-std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::Graph&, const Catalogue&, const std::vector<WireEnd>& fits);
+/// Finds the node types of the catalogue and the subgraphs of a graph. Every word of the query must occur in an entry: best in its id
+/// or name, then in its keywords, then in its summary, ports, units or quantities. If no entry has them all, mistyped and shortened
+/// words ("gratng", "elpl") are tried. Each result has a port for every wire end in `fits`: one end for a dropped wire, two for
+/// inserting into a wire. Without a query, all entries come in groups: the types in `recent`, then the families.
+std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::Graph&, const Catalogue&, const std::vector<WireEnd>& fits,
+                                         const std::vector<std::string>& recent = {});
 
 /// The entries that contain all words of the query, in the given order.
 std::vector<PaletteEntry> matching (const std::vector<PaletteEntry>&, const std::string& query);

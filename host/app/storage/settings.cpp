@@ -54,15 +54,20 @@ Json pathsToJson (const std::vector<fs::path>& paths)
     return list;
 }
 
+template <typename T>
+void putFirst (std::vector<T>& list, const T& value, std::size_t most)
+{
+    std::erase (list, value);
+    list.insert (list.begin(), value);
+    if (list.size() > most) list.resize (most);
+}
+
 fs::path fileIn (const fs::path& home) { return home / "settings.json"; }
 }   // namespace
 
-void Settings::noteRecent (const fs::path& file)
-{
-    std::erase (recent, file);
-    recent.insert (recent.begin(), file);
-    if (recent.size() > most_recent) recent.resize (most_recent);
-}
+void Settings::noteRecent (const fs::path& file) { putFirst (recent, file, most_recent); }
+
+void Settings::noteType (const std::string& type) { putFirst (recent_types, type, most_recent_types); }
 
 bool Settings::isFavourite (const fs::path& file) const { return std::ranges::count (favourites, file) > 0; }
 
@@ -106,6 +111,12 @@ ReadSettings readSettings (const std::string& text)
     });
     reader.take ("recent", &Json::is_array, [&] (const Json& v) { return readPaths (v, s.recent); });
     reader.take ("favourites", &Json::is_array, [&] (const Json& v) { return readPaths (v, s.favourites); });
+    reader.take ("recent_types", &Json::is_array, [&] (const Json& v) {
+        if (! std::ranges::all_of (v, &Json::is_string)) return false;
+        s.recent_types = v.get<std::vector<std::string>>();
+        if (s.recent_types.size() > Settings::most_recent_types) s.recent_types.resize (Settings::most_recent_types);
+        return true;
+    });
     if (s.recent.size() > Settings::most_recent) s.recent.resize (Settings::most_recent);
     if (! reader.wrong.empty()) read.problem = "invalid values for " + reader.wrong;
     s.others = std::move (json);
@@ -120,7 +131,8 @@ std::string writeSettings (const Settings& s)
         { "welcomed", s.welcomed },
         { "panels", Json::object() },
         { "recent", pathsToJson (s.recent) },
-        { "favourites", pathsToJson (s.favourites) }
+        { "favourites", pathsToJson (s.favourites) },
+        { "recent_types", s.recent_types }
     };
     for (const auto& [name, size] : s.panels)
         json["panels"][name] = size;

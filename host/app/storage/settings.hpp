@@ -15,7 +15,7 @@ namespace tactus::host
 /// What the window remembers between starts.
 struct Settings
 {
-    static constexpr std::size_t most_recent = 12;
+    static constexpr std::size_t most_recent = 12, most_recent_types = 6;
 
     bool light = false;
     double scale = 0.0;   ///< scale of the user interface; 0: automatic
@@ -23,9 +23,11 @@ struct Settings
     std::map<std::string, int> panels;           ///< panel sizes by name, in pixels; 0: folded
     std::vector<std::filesystem::path> recent;   ///< the latest first
     std::vector<std::filesystem::path> favourites;
-    Json others = Json::object();   ///< keys written by a different version of Tactus
+    std::vector<std::string> recent_types;   ///< node types that were added, the latest first
+    Json others = Json::object();            ///< keys written by a different version of Tactus
 
     void noteRecent (const std::filesystem::path&);
+    void noteType (const std::string&);
     bool isFavourite (const std::filesystem::path&) const;
     void toggleFavourite (const std::filesystem::path&);
 };

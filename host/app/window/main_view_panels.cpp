@@ -43,7 +43,13 @@ void MainView::connectCanvas()
     patching.onNotice = [this] (const juce::String& text) { status.notify (text); };
     patching.onBreadcrumbs = [this] { documentChanged(); };
     patching.onSelection = [this] { inspector.inspect (patching.patch(), patching.selection()); };
-    patching.onNodeRequested = [this] (const NodeRequest& request) { openNodePalette (palette, patching, catalogue, request); };
+    patching.onNodeRequested = [this] (const NodeRequest& request) {
+        openNodePalette (palette, patching, catalogue, request, settings.recent_types, [this] (const std::string& type) {
+            if (catalogue.find (type) == nullptr) return;   // a subgraph, which other graphs do not have
+            settings.noteType (type);
+            saveSettingsSoon();
+        });
+    };
     patching.onChoose = [this] (const juce::String& purpose, auto entries, auto onChosen) {
         openPalette (palette, patching, purpose, std::move (entries), std::move (onChosen));
     };

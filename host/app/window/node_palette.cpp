@@ -32,7 +32,8 @@ void place (Palette& palette, juce::Point<int> at)
 }
 }   // namespace
 
-void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalogue, const NodeRequest& request)
+void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalogue, const NodeRequest& request, const std::vector<std::string>& recent,
+                      std::function<void (const std::string&)> onAdded)
 {
     juce::String purpose = "Add node";
     if (request.wire != 0)
@@ -40,11 +41,14 @@ void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalog
     else if (request.start)
         purpose = "Connect " + juce::String (request.start->port) + " to";
     place (palette, canvas.view().toPixels (request.at).toInt() + canvas.getPosition());
-    palette.open ([&canvas, &catalogue,
-                   request] (const std::string& query) { return searchPalette (query, canvas.edited().graph(), catalogue, endsOf (request, canvas.scene())); },
-                  purpose, [&canvas, request] (const std::string& type) {
+    const auto search = [&canvas, &catalogue, recent, request] (const std::string& query) {
+        return searchPalette (query, canvas.edited().graph(), catalogue, endsOf (request, canvas.scene()), recent);
+    };
+    palette.open (search, purpose, [&canvas, request, onAdded = std::move (onAdded)] (const std::string& type) {
         canvas.addNodeAt (type, request);
-        takeFocus (canvas); });
+        onAdded (type);
+        takeFocus (canvas);
+    });
 }
 
 void openPalette (Palette& palette, Canvas& canvas, const juce::String& purpose, std::vector<PaletteEntry> entries,

@@ -7,8 +7,9 @@
 namespace tactus::host
 {
 
-/// Opens the palette with the node types that fit a request from the canvas, and adds the chosen node.
-void openNodePalette (Palette&, Canvas&, const Catalogue&, const NodeRequest&);
+/// Opens the palette with the node types that fit a request from the canvas, those in `recent` first, and adds the chosen node.
+void openNodePalette (Palette&, Canvas&, const Catalogue&, const NodeRequest&, const std::vector<std::string>& recent,
+                      std::function<void (const std::string& type)> onAdded);
 
 /// Opens the palette at the pointer with the given entries to choose from.
 void openPalette (Palette&, Canvas&, const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string& type)> chosen);

@@ -19,6 +19,7 @@ Settings some()
     s.panels = { { "left", 232 }, { "bottom", 0 } };
     s.recent = { "/a/b.json", "/c.json" };
     s.favourites = { "/presets/wood.json" };
+    s.recent_types = { "signal.lfo", "friction.elasto_plastic" };
     s.others["from a newer version"] = { 1, 2 };
     return s;
 }
@@ -34,6 +35,7 @@ TEST_CASE ("settings survive a round trip, including unknown keys")
     CHECK (read.settings.panels == some().panels);
     CHECK (read.settings.recent == some().recent);
     CHECK (read.settings.favourites == some().favourites);
+    CHECK (read.settings.recent_types == some().recent_types);
     CHECK (writeSettings (read.settings) == text);
 }
 
