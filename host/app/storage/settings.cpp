@@ -13,7 +13,6 @@ namespace fs = std::filesystem;
 namespace
 {
 constexpr double least_scale = 0.5, most_scale = 4.0;
-constexpr int largest_panel = 10000;
 
 /// Takes the members out of an object one by one, and notes the invalid ones.
 class Reader
@@ -104,8 +103,8 @@ ReadSettings readSettings (const std::string& text)
     reader.take ("panels", &Json::is_object, [&] (const Json& v) {
         for (const auto& [name, size] : v.items())
         {
-            if (! size.is_number_integer() || size.get<int>() < 0 || size.get<int>() > largest_panel) return false;
-            s.panels[name] = size.get<int>();
+            if (! size.is_number() || ! (size.get<double>() >= 0.0)) return false;
+            if (size.get<double>() < 1.0) s.panels[name] = size.get<double>();   // older versions wrote pixels
         }
         return true;
     });

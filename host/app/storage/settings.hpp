@@ -20,7 +20,7 @@ struct Settings
     bool light = false;
     double scale = 0.0;   ///< scale of the user interface; 0: automatic
     bool welcomed = false;
-    std::map<std::string, int> panels;           ///< panel sizes by name, in pixels; 0: folded
+    std::map<std::string, double> panels;        ///< each panel's share of the window, by name; 0: folded; absent: the usual size
     std::vector<std::filesystem::path> recent;   ///< the latest first
     std::vector<std::filesystem::path> favourites;
     std::vector<std::string> recent_types;   ///< node types that were added, the latest first

@@ -119,6 +119,7 @@ constexpr std::array key_list {
     Keys { "Shift+Esc", "emergency stop: no forces until REARM, while the graph keeps running" },
     Keys { "1 ... 9", "recalls a snapshot; with Ctrl, stores it" },
     Keys { "Ctrl+N, Ctrl+O, Ctrl+S, Ctrl+Shift+S", "new, open, save, save as" },
+    Keys { "Z", "gives the window to the canvas, or brings the panels back" },
     Keys { "H", "holds the tool pressed where it is, or releases it" },
     Keys { "X", "freezes or unfreezes all scopes" },
     Keys { "C", "shows the CPU cost of each node" },

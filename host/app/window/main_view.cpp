@@ -58,8 +58,7 @@ void MainView::addPanels()
     for (auto* edge : { &left_edge, &right_edge, &bottom_edge })
     {
         edge->onMove = [this] {
-            settings.panels = { { "left", left_edge.size() }, { "right", right_edge.size() }, { "bottom", bottom_edge.size() } };
-            saveSettingsSoon();
+            rememberPanels();
             resized();
         };
         addAndMakeVisible (*edge);
@@ -103,10 +102,35 @@ void MainView::begin (const Start& how)
     }
 }
 
+std::array<std::pair<const char*, Splitter*>, 3> MainView::edges()
+{
+    return { { { "left", &left_edge }, { "right", &right_edge }, { "bottom", &bottom_edge } } };
+}
+
+void MainView::rememberPanels()
+{
+    settings.panels.clear();
+    for (const auto& [name, edge] : edges())
+        if (const auto share = edge->share()) settings.panels[name] = *share;
+    saveSettingsSoon();
+}
+
+/// Leaves the window to the canvas, or brings back the panels that were open before.
+void MainView::foldPanels()
+{
+    const auto isFolded = [] (const auto& e) { return e.second->isFolded(); };
+    const bool is_any_open = ! std::ranges::all_of (edges(), isFolded);
+    if (is_any_open) folded_before = { left_edge.isFolded(), right_edge.isFolded(), bottom_edge.isFolded() };
+    for (std::size_t i = 0; const auto& [name, edge] : edges())
+        edge->fold (is_any_open || folded_before[i++]);
+    rememberPanels();
+    resized();
+}
+
 void MainView::applySettings()
 {
-    for (const auto& [name, edge] : { std::pair { "left", &left_edge }, std::pair { "right", &right_edge }, std::pair { "bottom", &bottom_edge } })
-        if (const auto size = settings.panels.find (name); size != settings.panels.end()) edge->setSize (size->second);
+    for (const auto& [name, edge] : edges())
+        if (const auto share = settings.panels.find (name); share != settings.panels.end()) edge->setShare (share->second);
     applyTheme (*getTopLevelComponent(), light ? Theme::light() : Theme::dark());
     applyScale (settings.scale);
     resized();

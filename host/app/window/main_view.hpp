@@ -26,6 +26,9 @@
 #include <host/app/welcome/help_panel.hpp>
 #include <host/app/welcome/welcome_page.hpp>
 
+#include <array>
+#include <utility>
+
 namespace tactus::host
 {
 
@@ -108,6 +111,9 @@ private:
     void openMenu (juce::Component& at);
     void askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
     void applySettings();
+    std::array<std::pair<const char*, Splitter*>, 3> edges();   ///< of the panels, by the names that the settings give them
+    void rememberPanels();
+    void foldPanels();
     void saveSettingsSoon();
 
     const Catalogue& catalogue;
@@ -130,6 +136,7 @@ private:
     HandPanel hand { playback, sound };
     Tabs left, bottom;
     Splitter left_edge { Splitter::Edge::right, 232, 160 }, right_edge { Splitter::Edge::left, 304, 220 }, bottom_edge { Splitter::Edge::top, 264, 140 };
+    std::array<bool, 3> folded_before {};   // by panel, before foldPanels() folded them all
     TopBar top { edited };
     Canvas patching;
     Inspector inspector;

@@ -44,6 +44,11 @@ bool MainView::keyPressed (const juce::KeyPress& key)
         key.getModifiers().isAnyModifierKeyDown() ? store (digit) : recall (digit);
         return true;
     }
+    if (key == juce::KeyPress::createFromDescription ("z"))
+    {
+        foldPanels();
+        return true;
+    }
     if (key == juce::KeyPress::createFromDescription ("h"))
     {
         hand.view().hold();

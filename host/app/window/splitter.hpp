@@ -4,11 +4,13 @@
 #include <host/app/look/look.hpp>
 
 #include <functional>
+#include <optional>
 
 namespace tactus::host
 {
 
-/// The draggable edge of a panel: drawn as a hairline, but wider for the mouse. A double click folds or unfolds the panel.
+/// The draggable edge of a panel: drawn as a hairline, but wider for the mouse. A double click folds or unfolds the panel. A panel has
+/// its initial size until it is dragged; from then on, it keeps its share of the window.
 class Splitter final : public juce::Component
 {
 public:
@@ -21,16 +23,22 @@ public:
         top      ///< the top edge of a panel at the bottom
     };
 
-    Splitter (Edge e, int initial, int least) : edge (e), extent (initial), least_extent (least), unfolded (initial)
+    Splitter (Edge e, int initial, int least) : edge (e), initial_extent (initial), least_extent (least)
     {
         setMouseCursor (edge == Edge::top ? juce::MouseCursor::UpDownResizeCursor : juce::MouseCursor::LeftRightResizeCursor);
         setTitle ("Panel edge");
     }
 
-    /// The panel's width or height; 0 if it is folded.
-    int size() const noexcept { return extent; }
-    void setSize (int s) { extent = s <= 0 ? 0 : std::max (s, least_extent); }
-    bool isFolded() const noexcept { return extent == 0; }
+    /// The panel's share of the width or height of the window; 0 if it is folded, nothing if it has its initial size.
+    std::optional<double> share() const { return is_folded ? 0.0 : dragged; }
+    void setShare (double s)
+    {
+        is_folded = s <= 0.0;
+        if (! is_folded) dragged = s;
+    }
+
+    bool isFolded() const noexcept { return is_folded; }
+    void fold (bool folded) { is_folded = folded; }
 
     std::function<void()> onMove;
 
@@ -38,7 +46,7 @@ public:
     juce::Rectangle<int> take (juce::Rectangle<int>& area, int least_rest)
     {
         const int room = edge == Edge::top ? area.getHeight() : area.getWidth();
-        const int n = std::clamp (extent, 0, std::max (0, room - least_rest));
+        const int n = std::clamp (extent(), 0, std::max (0, room - least_rest));
         juce::Rectangle<int> panel;
         switch (edge)
         {
@@ -70,32 +78,37 @@ public:
 
     void mouseEnter (const juce::MouseEvent&) override { repaint(); }
     void mouseExit (const juce::MouseEvent&) override { repaint(); }
-    void mouseDown (const juce::MouseEvent&) override { grabbed = extent; }
+    void mouseDown (const juce::MouseEvent&) override { grabbed = extent(); }
 
     void mouseDrag (const juce::MouseEvent& e) override
     {
         const auto way = e.getEventRelativeTo (getParentComponent()).getOffsetFromDragStart();
         const int grown = edge == Edge::top ? -way.y : way.x;
         const int wanted = grabbed + (edge == Edge::left ? -grown : grown);
-        setSize (wanted < least_extent / 2 ? 0 : wanted);
+        setShare (wanted < least_extent / 2 ? 0.0 : static_cast<double> (std::max (wanted, least_extent)) / whole());
         if (onMove) onMove();
     }
 
     void mouseDoubleClick (const juce::MouseEvent&) override
     {
-        if (isFolded())
-            setSize (unfolded);
-        else
-        {
-            unfolded = extent;
-            setSize (0);
-        }
+        is_folded = ! is_folded;
         if (onMove) onMove();
     }
 
 private:
+    int whole() const { return std::max (1, edge == Edge::top ? getParentHeight() : getParentWidth()); }
+
+    int extent() const
+    {
+        if (is_folded) return 0;
+        return dragged ? std::max (juce::roundToInt (*dragged * whole()), least_extent) : initial_extent;
+    }
+
     const Edge edge;
-    int extent, least_extent, unfolded, grabbed = 0;
+    const int initial_extent, least_extent;
+    std::optional<double> dragged;   // the share of the window
+    bool is_folded = false;
+    int grabbed = 0;
 };
 
 }   // namespace tactus::host

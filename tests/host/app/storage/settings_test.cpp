@@ -16,7 +16,7 @@ Settings some()
     s.light = true;
     s.scale = 1.5;
     s.welcomed = true;
-    s.panels = { { "left", 232 }, { "bottom", 0 } };
+    s.panels = { { "left", 0.1875 }, { "bottom", 0.0 } };
     s.recent = { "/a/b.json", "/c.json" };
     s.favourites = { "/presets/wood.json" };
     s.recent_types = { "signal.lfo", "friction.elasto_plastic" };

@@ -235,10 +235,15 @@ TEST_CASE ("the option --light applies to this start only")
 TEST_CASE ("settings persist between starts, and damaged ones are reported")
 {
     Opened o;
-    o.home.write ("settings.json", R"({"theme": "light", "panels": {"left": 300}, "favourites": [")" TACTUS_SOURCE_DIR R"(/graphs/dry_wood.json"]})");
+    o.home.write ("settings.json", R"({"theme": "light", "panels": {"left": 0.25, "right": 304},
+        "favourites": [")" TACTUS_SOURCE_DIR R"(/graphs/dry_wood.json"]})");
     o.view->begin ({ o.home.path(), true });
     CHECK (o.look.theme().is_dark == false);
-    CHECK (o.view->browser().getWidth() == 300);
+    CHECK (o.view->browser().getWidth() == 320);
+    CHECK (o.view->inspected().getWidth() == 304);   // pixels, as older versions wrote them, are the usual size
+    o.view->setSize (1920, 1080);
+    CHECK (o.view->browser().getWidth() == 480);
+    CHECK (o.view->inspected().getWidth() == 304);
     REQUIRE (o.view->browser().rows().size() > 2);
     CHECK (o.view->browser().rows()[0].heading == "Favourites");
     CHECK (o.view->browser().rows()[1].preset->name == "Dry wood");
@@ -249,4 +254,30 @@ TEST_CASE ("settings persist between starts, and damaged ones are reported")
     o.view = o.make();
     o.view->begin ({ o.home.path(), true });
     CHECK (fs::exists (o.home / "settings.json.broken"));
+}
+
+TEST_CASE ("Z gives the window to the canvas, also on small screens, and brings the panels back")
+{
+    Opened o;
+    o.view->begin ({ o.home.path(), true, false, { o.wood } });
+    for (const auto& [width, height] : { std::pair { 1024, 700 }, std::pair { 1280, 720 }, std::pair { 1920, 1080 } })
+    {
+        CAPTURE (width);
+        o.view->setSize (width, height);
+        const auto before = o.view->canvas().getBounds();
+        CHECK (before.getWidth() > 300);
+        CHECK (before.getHeight() > 200);
+        o.press ("z");
+        CHECK (o.view->canvas().getWidth() == width);
+        CHECK (o.view->canvas().getHeight() > 0.6 * height);
+        o.press ("z");
+        CHECK (o.view->canvas().getBounds() == before);
+    }
+    o.press ("z");
+    o.view.reset();
+    o.view = o.make();
+    o.view->begin ({ o.home.path(), true, false, { o.wood } });
+    CHECK (o.view->canvas().getWidth() == 1280);   // remembered
+    o.press ("z");
+    CHECK (o.view->canvas().getWidth() < 1000);
 }
