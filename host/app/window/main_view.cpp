@@ -109,7 +109,14 @@ void MainView::applySettings()
         if (const auto size = settings.panels.find (name); size != settings.panels.end()) edge->setSize (size->second);
     applyTheme (*getTopLevelComponent(), light ? Theme::light() : Theme::dark());
     applyScale (settings.scale);
+    applyFusion();
     resized();
+}
+
+void MainView::applyFusion()
+{
+    const Fuser::Options how { .compiler = { .cache = FusionCompiler::usualCache() } };
+    run().fuse (settings.fuse ? std::optional (how) : std::nullopt);
 }
 
 void MainView::open (const std::filesystem::path& file)

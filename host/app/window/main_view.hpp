@@ -108,6 +108,7 @@ private:
     void openMenu (juce::Component& at);
     void askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
     void applySettings();
+    void applyFusion();
     void saveSettingsSoon();
 
     const Catalogue& catalogue;
