@@ -351,6 +351,20 @@ void LiveRun::noticeAlarms()
     said.push_back (std::move (alarm));
 }
 
+void LiveRun::fuse (std::optional<Fuser::Options> how)
+{
+    fuser.reset();
+    if (isLive()) run->engine().newestShared()->fuse (nullptr);
+    if (how) fuser.emplace (std::move (*how));
+}
+
+void LiveRun::attendFusion()
+{
+    if (! fuser || ! isRunning()) return;
+    const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
+    if (auto trouble = fuser->look (run->engine().newestShared(), now.count())) said.push_back (std::move (*trouble));
+}
+
 void LiveRun::attend()
 {
     noticeAlarms();
@@ -359,6 +373,7 @@ void LiveRun::attend()
     {
         run->attend();
         if (++attended % looks_apart == 0) watch.look (realDevices());
+        attendFusion();
     }
     if (rig) static_cast<void> (rig->attend());
     if (sound != nullptr) sound->attend();

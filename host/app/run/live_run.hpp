@@ -10,6 +10,7 @@
 #include <host/app/model/document.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/audio/open_audio.hpp>
+#include <host/fuse/fuser.hpp>
 #include <host/sessions/choose_clock.hpp>
 #include <host/sessions/device_health.hpp>
 #include <host/sessions/device_session.hpp>
@@ -155,11 +156,18 @@ public:
     bool isCapturing() const noexcept { return run && run->isCapturing(); }
     void endCapture();
 
+    /// From now on, replaces the plan that runs by compiled code (docs/fusion.md); empty: runs by the plan. The forces do not change.
+    void fuse (std::optional<Fuser::Options>);
+
+    /// What runs: "plan", "plan, fusing" or "fused"; empty if fuse() is not wanted.
+    std::string fusion() const { return fuser ? fuser->describe() : std::string {}; }
+
     /// Frees what is no longer used, and collects new samples. Call this many times a second.
     void attend();
 
 private:
     void noticeAlarms();
+    void attendFusion();
     void documentChanged() override;
     void before (Plan&, std::uint64_t tick) noexcept override;
     void after (const Plan&, std::uint64_t tick, bool halts) noexcept override;
@@ -209,6 +217,7 @@ private:
     HealthWatch watch;
     std::vector<RoleNeeds> needed;
     int attended = 0;
+    std::optional<Fuser> fuser;
     std::optional<std::int64_t> delay_ticks;
     std::shared_ptr<PointerPath> pointer;
     std::shared_ptr<TransportPath> transported;

@@ -42,8 +42,10 @@ juce::String reason (const RunStatus& s, LiveRun& run)
 
 juce::String runningText (const LiveRun& run)
 {
-    const auto rate = "running at " + juce::String (run.rate()) + " Hz";
-    return run.clockRole().empty() ? rate : rate + ", ticked by " + juce::String (run.clockRole());
+    auto text = "running at " + juce::String (run.rate()) + " Hz";
+    if (! run.clockRole().empty()) text += ", ticked by " + juce::String (run.clockRole());
+    if (const auto fusion = run.fusion(); ! fusion.empty()) text += ", " + juce::String (fusion);
+    return text;
 }
 
 juce::String delayText (const LiveRun& run)

@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// The strip at the top of the window, which is always visible: the state of the run and its guards, the current and peak force, missed
+/// The strip at the top of the window, which is always visible: the state of the run, whether it is fused, its guards, the current and peak force, missed
 /// ticks, the delay with the stiffness that it allows, the light of the limits, and the STOP button.
 class SafetyStrip final : public juce::Component
 {

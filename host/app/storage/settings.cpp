@@ -100,6 +100,10 @@ ReadSettings readSettings (const std::string& text)
         s.welcomed = v.get<bool>();
         return true;
     });
+    reader.take ("fuse", &Json::is_boolean, [&] (const Json& v) {
+        s.fuse = v.get<bool>();
+        return true;
+    });
     reader.take ("panels", &Json::is_object, [&] (const Json& v) {
         for (const auto& [name, size] : v.items())
         {
@@ -128,6 +132,7 @@ std::string writeSettings (const Settings& s)
         { "theme", s.light ? "light" : "dark" },
         { "scale", s.scale },
         { "welcomed", s.welcomed },
+        { "fuse", s.fuse },
         { "panels", Json::object() },
         { "recent", pathsToJson (s.recent) },
         { "favourites", pathsToJson (s.favourites) },

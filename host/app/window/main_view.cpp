@@ -133,7 +133,14 @@ void MainView::applySettings()
         if (const auto share = settings.panels.find (name); share != settings.panels.end()) edge->setShare (share->second);
     applyTheme (*getTopLevelComponent(), light ? Theme::light() : Theme::dark());
     applyScale (settings.scale);
+    applyFusion();
     resized();
+}
+
+void MainView::applyFusion()
+{
+    const Fuser::Options how { .compiler = { .cache = FusionCompiler::usualCache() } };
+    run().fuse (settings.fuse ? std::optional (how) : std::nullopt);
 }
 
 void MainView::open (const std::filesystem::path& file)

@@ -111,6 +111,7 @@ private:
     void openMenu (juce::Component& at);
     void askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
     void applySettings();
+    void applyFusion();
     std::array<std::pair<const char*, Splitter*>, 3> edges();   ///< of the panels, by the names that the settings give them
     void rememberPanels();
     void foldPanels();

@@ -190,6 +190,12 @@ void MainView::openMenu (juce::Component& at)
         saveSettingsSoon(); },
         light));
     menu.addSubMenu ("Interface scale", size);
+    menu.addItem (item (
+        "Fuse: run the graph as compiled code", {}, [this] {
+        settings.fuse = ! settings.fuse;
+        applyFusion();
+        saveSettingsSoon(); },
+        settings.fuse));
     menu.addSeparator();
     menu.addItem (item ("Help on selected node", "F1", [this] { helpOnSelection(); }));
     menu.addItem (item ("Keyboard shortcuts", {}, [this] { help.showKeys(); }));

@@ -232,6 +232,22 @@ TEST_CASE ("the option --light applies to this start only")
     CHECK (o.home.textOf ("settings.json").find ("\"theme\": \"dark\"") != std::string::npos);
 }
 
+TEST_CASE ("the window fuses the graph if the settings say so, and says what runs")
+{
+    Opened o;
+    o.home.write ("settings.json", R"({"fuse": true})");
+    o.view->begin ({ o.home.path(), false, false, { o.wood } });
+    REQUIRE (o.view->run().isRunning());
+    CHECK (o.view->run().fusion() == "plan");
+    o.view.reset();
+    CHECK (o.home.textOf ("settings.json").find ("\"fuse\": true") != std::string::npos);
+
+    o.home.write ("settings.json", "{}");
+    o.view = o.make();
+    o.view->begin ({ o.home.path(), false, false, { o.wood } });
+    CHECK (o.view->run().fusion().empty());
+}
+
 TEST_CASE ("settings persist between starts, and damaged ones are reported")
 {
     Opened o;
