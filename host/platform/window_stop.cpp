@@ -131,7 +131,7 @@ void WindowStop::listen (const std::stop_token& stop)
             case XCB_KEY_PRESS:
             {
                 const auto& key = *reinterpret_cast<const xcb_key_press_event_t*> (event.get());
-                if (server->escape[key.detail]) (key.state & XCB_MOD_MASK_SHIFT) != 0 ? actions.emergency_stop() : actions.stop();
+                if (server->escape[key.detail]) (key.state & XCB_MOD_MASK_SHIFT) != 0 ? actions.emergency_stop() : actions.escape();
                 break;
             }
             case XCB_BUTTON_PRESS:   // button 4 and above are wheels

@@ -36,10 +36,11 @@ public:
         bool operator== (const Area&) const = default;
     };
 
-    /// What a stop does. Both functions are called on the thread of this object and must not wait.
+    /// What a stop does. The functions are called on the thread of this object and must not wait.
     struct Actions
     {
-        std::function<void()> stop;             ///< Esc, or a click on the area
+        std::function<void()> stop;             ///< a click on the area
+        std::function<void()> escape;           ///< Esc
         std::function<void()> emergency_stop;   ///< Shift+Esc
     };
 

@@ -17,7 +17,9 @@ std::optional<Message> DirectStop::follow (juce::Component& component, juce::Rec
         watch.reset();
         if (window != 0)
         {
-            auto opened = WindowStop::open (window, { [&s = pressed] { s.stop(); }, [&s = pressed] { s.emergencyStop(); } });
+            auto opened = WindowStop::open (window, { [&s = pressed] { s.stop(); },
+                                                      [this] { if (esc_stops) pressed.stop(); },
+                                                      [&s = pressed] { s.emergencyStop(); } });
             if (opened)
                 watch = std::move (*opened);
             else

@@ -6,6 +6,7 @@
 #include <host/platform/window_stop.hpp>
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -25,9 +26,14 @@ public:
     /// because windows and components move. If direct stops do not work for a window, returns the reason, once per window.
     std::optional<Message> follow (juce::Component&, juce::Rectangle<int> part);
 
+    /// Whether Esc is a stop, as it is at first. If not, it closes something on the message thread. Shift+Esc always is one.
+    void letEscStop (bool does) noexcept { esc_stops = does; }
+
 private:
-    StopSwitch& pressed;
     void watchOthers();
+
+    StopSwitch& pressed;
+    std::atomic<bool> esc_stops { true };
 
     std::uintptr_t watched = 0;   // the window; 0: none yet
     std::unique_ptr<WindowStop> watch;

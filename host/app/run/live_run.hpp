@@ -107,6 +107,10 @@ public:
     /// The state of the real devices, whether present or awaited; empty while nothing runs.
     const std::vector<DeviceHealth>& health() const noexcept { return watch.health(); }
 
+    /// True while the run drives something that can push or shake: a device, present or awaited, or a sound card. False if all roles are
+    /// simulated.
+    bool drivesDevice() const;
+
     /// The role whose device ticks the run; empty if a timer does.
     const std::string& clockRole() const noexcept { return clock_role; }
 

@@ -6,6 +6,8 @@
 #include <host/app/model/device_profiles.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/sessions/binding.hpp>
+#include <tactus/run/device/gesture_device.hpp>
+#include <tactus/run/device/trace.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -122,6 +124,18 @@ std::vector<RealDevice> LiveRun::realDevices() const
         for (const auto& [role, d] : run->devices())
             if (auto real = realDevice (role, d.driver != nullptr ? *d.driver : *d.device)) all.push_back (std::move (*real));
     return all;
+}
+
+bool LiveRun::drivesDevice() const
+{
+    if (! run) return false;
+    const auto isReal = [] (const auto& role) {
+        const auto& [name, d] = role;
+        auto* driver = d.driver != nullptr ? d.driver : d.device.get();
+        return dynamic_cast<SimulatedDevice*> (driver) == nullptr && dynamic_cast<GestureDevice*> (driver) == nullptr
+               && dynamic_cast<TraceDevice*> (driver) == nullptr;
+    };
+    return audioStatus().has_value() || std::ranges::any_of (run->devices(), isReal);
 }
 
 std::unique_ptr<TickClock> LiveRun::makeClock()

@@ -111,7 +111,7 @@ SafetyStrip::SafetyStrip (Playback& p) : playback (p), button (std::make_unique<
         else if (! button->isTooSoon())   // the second click of a double click on STOP must not restart the run
             playback.restart();
     };
-    button->setTooltip ("Ramps all forces to zero immediately. Esc does the same. With Shift+Esc, the graph keeps running without forces.");
+    button->setTooltip ("Ramps all forces to zero. So does Esc, if nothing is open, or while a device runs. With Shift+Esc, the graph keeps running.");
     addAndMakeVisible (*button);
     addChildComponent (limits);
 }

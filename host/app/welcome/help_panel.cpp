@@ -115,7 +115,7 @@ void addPorts (Column& column, const char* heading, const std::vector<PortSheet>
 
 using Keys = std::pair<const char*, const char*>;
 constexpr std::array key_list {
-    Keys { "Esc", "ramps all forces to zero; if nothing runs, closes the open panel" },
+    Keys { "Esc", "closes what is open, such as a menu or a field; if nothing is, or a real device runs, ramps all forces to zero" },
     Keys { "Shift+Esc", "emergency stop: no forces until REARM, while the graph keeps running" },
     Keys { "1 ... 9", "recalls a snapshot; with Ctrl, stores it" },
     Keys { "Ctrl+N, Ctrl+O, Ctrl+S, Ctrl+Shift+S", "new, open, save, save as" },

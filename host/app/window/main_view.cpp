@@ -173,8 +173,11 @@ void MainView::timerCallback()
     if (osc_server) osc_server->attend();
     strip.refresh();
     if (direct_stop)
+    {
+        direct_stop->letEscStop (escStops());
         if (const auto why = direct_stop->follow (strip, strip.stopPlace()))
             status.notify ("While the window is busy, Esc and STOP have to wait: " + juce::String (messageText (*why)));
+    }
     hand.refresh();
     live.refresh();
     limits.attend();

@@ -101,6 +101,8 @@ private:
     void attendLiveNodes();
     void showProblems();
     bool hasBoundRole() const;   ///< true if the session binds a role of the graph
+    bool isAnythingOpen() const;
+    bool escStops();
     void escape (const juce::KeyPress&);
     void stopBy (const juce::KeyPress&);
     bool fileKey (const juce::KeyPress&);

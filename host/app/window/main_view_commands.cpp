@@ -62,7 +62,17 @@ bool MainView::keyPressed (const juce::KeyPress& key)
     return scopes.keyPressed (key) || patching.keyPressed (key);
 }
 
-/// Esc must stop the forces whichever component has the focus: a text field or a menu would otherwise swallow it.
+/// True if Esc would close something: a question, the help, the palette, a menu, a dialog, or a field in which text is typed.
+bool MainView::isAnythingOpen() const
+{
+    return question.isOpen() || help.isOpen() || palette.isVisible() || juce::Component::getNumCurrentlyModalComponents() > 0
+           || dynamic_cast<juce::TextEditor*> (juce::Component::getCurrentlyFocusedComponent()) != nullptr;
+}
+
+/// Esc closes what is open before it stops, unless there are motors: then you should not have to look first.
+bool MainView::escStops() { return playback.current().drivesDevice() || ! isAnythingOpen(); }
+
+/// A stop must work whichever component has the focus: a text field or a menu would swallow the key.
 void MainView::globalFocusChanged (juce::Component* now)
 {
     if (focused != nullptr) focused->removeKeyListener (this);
@@ -73,6 +83,7 @@ void MainView::globalFocusChanged (juce::Component* now)
 bool MainView::keyPressed (const juce::KeyPress& key, juce::Component*)
 {
     if (key.getKeyCode() != juce::KeyPress::escapeKey || ! playback.current().isWanted()) return false;
+    if (! key.getModifiers().isShiftDown() && ! escStops()) return false;
     stopBy (key);
     return true;   // the next Esc closes what is open
 }
@@ -81,7 +92,7 @@ void MainView::stopBy (const juce::KeyPress& key) { key.getModifiers().isShiftDo
 
 void MainView::escape (const juce::KeyPress& key)
 {
-    if (playback.current().isWanted()) return stopBy (key);
+    if (playback.current().isWanted() && (key.getModifiers().isShiftDown() || escStops())) return stopBy (key);
     if (question.isOpen()) return question.cancel();
     if (help.isOpen()) return help.close();
     palette.close();

@@ -294,6 +294,23 @@ TEST_CASE ("on a screen: Esc in a dialog", "[.screen]")
     CHECK (Window::untilStuck ([&] { return ! w.run().isRunning(); }));
 }
 
+TEST_CASE ("on a screen: Esc that closes something", "[.screen]")
+{
+    Window w;
+    w.start();
+    w.direct.letEscStop (false);
+    xdo ("key Escape");
+    std::this_thread::sleep_for (200ms);
+    CHECK (w.force() == 2.0);
+    xdo ("key shift+Escape");
+    CHECK (Window::untilStuck ([&] { return w.force() == 0.0; }));
+}
+
+TEST_CASE ("Shift+Esc removes the force even while Esc would only close something", "[app][run][safety]")
+{
+    onScreen ("on a screen: Esc that closes something");
+}
+
 TEST_CASE ("a press of the stop switch before a run begins is not lost", "[app][run][safety]")
 {
     CanvasRig rig { Window::graph() };

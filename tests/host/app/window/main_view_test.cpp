@@ -58,12 +58,36 @@ TEST_CASE ("the first start shows the welcome page, and one click runs a preset 
     CHECK_FALSE (o.view->welcomePage().isVisible());   // an empty graph does not bring it back
 }
 
-TEST_CASE ("Esc stops the forces first, then closes what is open")
+TEST_CASE ("with simulated devices, Esc closes what is open, and then stops the forces; Shift+Esc stops in any case")
 {
     Opened o;
     o.view->begin ({ o.home.path(), false, false, { o.wood } });
     CHECK_FALSE (o.view->welcomePage().isVisible());
     REQUIRE (o.view->run().isRunning());
+    o.press ("F1");
+    REQUIRE (o.view->helpPanel().isOpen());
+    REQUIRE_FALSE (o.view->run().drivesDevice());
+    o.press ("escape");
+    CHECK_FALSE (o.view->helpPanel().isOpen());
+    CHECK (o.view->run().isWanted());
+    o.press ("F1");
+    o.press ("shift + escape");
+    CHECK (o.view->run().isStoppedForGood());
+    CHECK (o.view->helpPanel().isOpen());
+    o.press ("escape");
+    CHECK (o.view->run().isWanted());
+    o.press ("escape");
+    CHECK_FALSE (o.view->run().isWanted());
+}
+
+TEST_CASE ("while a real device is driven, Esc stops the forces whatever is open")
+{
+    Opened o;
+    o.home.write ("session.json", R"({ "format": "tactus-session", "version": 1,
+        "roles": { "stylus": { "driver": "hid", "profile": "woodenhaptics_usb" } } })");
+    o.view->begin ({ o.home.path(), false, false, { o.wood } });
+    REQUIRE (o.view->run().isWanted());
+    REQUIRE (o.view->run().drivesDevice());   // it is awaited, and may be plugged in at any time
     o.press ("F1");
     REQUIRE (o.view->helpPanel().isOpen());
     o.press ("escape");
