@@ -52,7 +52,11 @@ void NumberField::setBold (bool is_set)
 void NumberField::show (const Json& written)
 {
     const auto read = readQuantity (written, sheet);
-    if (read) value = *read;
+    if (read)
+    {
+        if (refused_text.isNotEmpty() && read->toText() != value.toText()) accept();   // changed from elsewhere, such as by an undo
+        value = *read;
+    }
     repaint();
 }
 
@@ -60,6 +64,7 @@ void NumberField::mouseDown (const juce::MouseEvent& e)
 {
     if (e.mods.isAltDown())
     {
+        accept();
         if (onChange) onChange (std::nullopt, false);
         return;
     }
@@ -78,7 +83,7 @@ void NumberField::moveTo (const QuantityText& to)
 {
     if (to.number == value.number || ! sheet.limits.hard.contains (to.si())) return;
     value = to;
-    repaint();
+    accept();
     const bool continues = std::exchange (begun, true);
     if (onChange) onChange (value.toJson(), continues);
 }
@@ -116,28 +121,53 @@ void NumberField::openEditor()
     editor = std::make_unique<juce::TextEditor>();
     editor->setFont (lookOf (*this).font (12.0f));
     editor->setJustification (juce::Justification::centredRight);
-    editor->setText (value.toText(), false);
-    editor->onReturnKey = [this] {
-        apply();
-        takeFocus (*this);
-    };
+    editor->setText (refused_text.isEmpty() ? juce::String (value.toText()) : refused_text, false);
+    editor->onReturnKey = [this] { apply (true); };
     editor->onEscapeKey = [this] {
+        accept();
         closeEditor();
         takeFocus (*this);
     };
-    editor->onFocusLost = [this] { apply(); };
+    editor->onFocusLost = [this] { apply (false); };
     addAndMakeVisible (*editor);
     resized();
     takeFocus (*editor);
     editor->selectAll();
 }
 
-void NumberField::apply()
+void NumberField::apply (bool by_return)
 {
     if (! isEditing()) return;
     const auto text = editor->getText();
+    const bool is_accepted = text.trim().toStdString() == value.toText() || type (text);
+    if (is_accepted) accept();
+    if (by_return && ! is_accepted) return;   // stays open, for another try
+    error.fold();                             // from now on, the tooltip says it
     closeEditor();
-    if (text.trim().toStdString() != value.toText()) type (text);
+    if (by_return) takeFocus (*this);
+}
+
+void NumberField::refuse (const juce::String& text, const juce::String& why)
+{
+    refused_text = text;
+    error.show (*this, why);
+    if (isEditing())
+        for (const auto id : { juce::TextEditor::outlineColourId, juce::TextEditor::focusedOutlineColourId })
+            editor->setColour (id, themeOf (*this).stop);
+    if (onRefused) onRefused (why);
+    repaint();
+}
+
+void NumberField::accept()
+{
+    refused_text.clear();
+    error.hide();
+    repaint();
+}
+
+void NumberField::visibilityChanged()
+{
+    if (refused_text.isNotEmpty() && ! isShowing()) accept();
 }
 
 void NumberField::closeEditor()
@@ -149,7 +179,7 @@ void NumberField::closeEditor()
     });
 }
 
-void NumberField::type (const juce::String& text)
+bool NumberField::type (const juce::String& text)
 {
     const auto trimmed = text.trim().toStdString();
     char* rest = nullptr;
@@ -159,12 +189,13 @@ void NumberField::type (const juce::String& text)
     const auto read = readQuantity (wanted, sheet);
     if (! read)
     {
-        if (onRefused) onRefused (read.error().text);
-        return;
+        refuse (text, read.error().text);
+        return false;
     }
     value = *read;
-    repaint();
+    accept();
     if (onChange) onChange (value.toJson(), false);
+    return true;
 }
 
 void NumberField::resized()
@@ -181,7 +212,13 @@ void NumberField::paint (juce::Graphics& g)
     g.fillRoundedRectangle (area, 4.0f);
     const auto outline = isMouseOverOrDragging() ? theme.dim : theme.hairline;
     g.setColour (hasKeyboardFocus (false) ? theme.accent : outline);
+    if (refused_text.isNotEmpty()) g.setColour (theme.stop);
     g.drawRoundedRectangle (area.reduced (0.5f), 4.0f, 1.0f);
+    if (refused_text.isNotEmpty())
+    {
+        g.setFont (look.font (12.0f, bold));
+        return g.drawText (refused_text, area.reduced (8.0f, 0.0f), juce::Justification::centredRight, true);
+    }
 
     const auto& usual = sheet.limits.usual;
     const bool unusual = ! usual.contains (value.si());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "field_error.hpp"
+
 #include <host/app/model/drag_number.hpp>
 
 #include <host/app/look/look.hpp>
@@ -14,7 +16,8 @@ namespace tactus::host
 
 /// A number field. Drag up or down to change it (shift: fine), double-click or press Return to type a value, with an optional unit.
 /// Alt-click restores the default; arrow keys change it in small steps. The bar shows the position within the usual range.
-/// Outside that range the field is amber; values outside the hard range are refused.
+/// Outside that range the field is amber. What is refused, such as a value outside the hard range, stays in the field in red, with the
+/// reason next to it, until it is corrected or Esc brings back the value.
 class NumberField final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
@@ -31,10 +34,15 @@ public:
     std::function<void (const juce::String&)> onRefused;
 
     void setBold (bool);               ///< marks a value that is not the default
-    void type (const juce::String&);   ///< applies typed text
+    bool type (const juce::String&);   ///< applies typed text; false if it is refused
     void openEditor();
     bool isEditing() const noexcept { return editor != nullptr && editor->isVisible(); }
 
+    /// The text that was typed and refused, and why. Empty if what the field shows is its value.
+    const juce::String& refused() const noexcept { return refused_text; }
+    const juce::String& whyRefused() const noexcept { return error.text(); }
+
+    juce::String getTooltip() override { return refused_text.isEmpty() ? SettableTooltipClient::getTooltip() : error.text(); }
     void paint (juce::Graphics&) override;
     void resized() override;
     void mouseDown (const juce::MouseEvent&) override;
@@ -46,10 +54,14 @@ public:
     void focusGained (FocusChangeType) override { repaint(); }
     void focusLost (FocusChangeType) override { repaint(); }
     bool keyPressed (const juce::KeyPress&) override;
+    void visibilityChanged() override;
+    void parentHierarchyChanged() override { visibilityChanged(); }
 
 private:
     void moveTo (const QuantityText&);
-    void apply();
+    void apply (bool by_return);
+    void refuse (const juce::String& text, const juce::String& why);
+    void accept();
     void closeEditor();
     void paintText (juce::Graphics&, juce::Rectangle<float>, juce::Colour) const;
 
@@ -58,6 +70,8 @@ private:
     QuantityText value, grabbed;
     bool begun = false, bold = false;
     std::unique_ptr<juce::TextEditor> editor;
+    juce::String refused_text;
+    FieldError error;
 };
 
 /// The unit symbol to show. Empty for a pure number and for a generic port.

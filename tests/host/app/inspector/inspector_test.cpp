@@ -143,6 +143,67 @@ TEST_CASE ("a field opens on Return or a digit, applies on Return and cancels on
     juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
 }
 
+TEST_CASE ("what a field refuses stays in it, in red and with the reason next to it, until it is corrected", "[inspector]")
+{
+    const juce::ScopedJuceInitialiser_GUI juce_runs;
+    Look look;
+    juce::LookAndFeel::setDefaultLookAndFeel (&look);
+    {
+        const auto sheet = sheetOfNumber ("x", unit::metre, "", { .hard = { 0, 1 }, .usual = { 0, 0.1 } }, 0.01);
+        juce::Component window;
+        NumberField field (sheet);
+        window.setBounds (0, 0, 400, 200);
+        field.setBounds (200, 20, 120, 24);
+        window.addAndMakeVisible (field);
+        field.setTooltip ("a length");
+        field.show (Json ("5 mm"));
+        int changes = 0;
+        field.onChange = [&] (const std::optional<Json>&, bool) { ++changes; };
+        const auto editor = [&] { return dynamic_cast<juce::TextEditor*> (field.getChildComponent (field.getNumChildComponents() - 1)); };
+
+        field.openEditor();
+        editor()->setText ("5 mmm");
+        editor()->onReturnKey();
+        REQUIRE (field.isEditing());
+        CHECK (editor()->getText() == "5 mmm");
+        CHECK (editor()->findColour (juce::TextEditor::focusedOutlineColourId) == look.theme().stop);
+        CHECK (field.whyRefused().isNotEmpty());
+        REQUIRE (window.getNumChildComponents() == 2);   // the reason
+        CHECK (window.getLocalBounds().contains (window.getChildComponent (1)->getBounds()));
+        CHECK_FALSE (window.getChildComponent (1)->getBounds().intersects (field.getBounds()));
+
+        editor()->onFocusLost();
+        CHECK_FALSE (field.isEditing());
+        CHECK (field.refused() == "5 mmm");
+        CHECK (field.getTooltip() == field.whyRefused());
+        CHECK (window.getNumChildComponents() == 1);
+        field.show (Json ("5 mm"));   // nothing else has changed
+        CHECK (field.refused() == "5 mmm");
+
+        field.openEditor();
+        CHECK (editor()->getText() == "5 mmm");
+        editor()->setText ("6 mm");
+        editor()->onReturnKey();
+        CHECK_FALSE (field.isEditing());
+        CHECK (field.refused().isEmpty());
+        CHECK (field.getTooltip() == "a length");
+        CHECK (changes == 1);
+
+        field.openEditor();
+        editor()->setText ("-1 m");
+        editor()->onReturnKey();
+        CHECK (field.refused() == "-1 m");
+        editor()->onEscapeKey();
+        CHECK (field.refused().isEmpty());
+        CHECK (field.shown().toText() == "6 mm");
+        field.type ("2 m");
+        CHECK (field.refused() == "2 m");
+        field.show (Json ("7 mm"));   // an undo
+        CHECK (field.refused().isEmpty());
+    }
+    juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
+}
+
 TEST_CASE ("editing a driven parameter moves its control, and releasing it keeps the value", "[inspector]")
 {
     InspectorRig rig ("layered_cloth.json");
