@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fixes.hpp"
 
+#include <host/app/canvas/actions.hpp>
 #include <host/app/model/patch.hpp>
+#include <tactus/node/catalogue.hpp>
 #include <tactus/run/device/make_device.hpp>
+#include <tactus/text/closest_match.hpp>
 
 #include <algorithm>
 #include <vector>
@@ -38,6 +41,35 @@ const graph::Wire* wireOf (const graph::Graph& g, const Culprit& c)
     if (patch == nullptr) return nullptr;
     const auto found = std::ranges::find (patch->wires, c.id, &graph::Wire::id);
     return found == patch->wires.end() ? nullptr : &*found;
+}
+
+/// The type that was probably meant: one with a similar id, else the only one whose id ends like this. Empty if there is none.
+std::string likelyType (const std::string& unknown)
+{
+    const auto endOf = [] (std::string_view id) { return id.substr (id.find_last_of ('.') + 1); };
+    std::vector<std::string_view> ids, ends;
+    for (const auto& type : catalogue())
+    {
+        ids.push_back (type.info.id);
+        ends.push_back (endOf (type.info.id));
+    }
+    if (const auto id = closestMatch (unknown, ids); ! id.empty()) return std::string (id);
+    const auto end = closestMatch (endOf (unknown), ends);
+    if (end.empty() || std::ranges::count (ends, end) != 1) return {};
+    return std::string (ids[static_cast<std::size_t> (std::ranges::find (ends, end) - ends.begin())]);
+}
+
+/// A node of this type beside the others: on their left if it is a hand, on their right if it is a motor.
+Fix add (const graph::Graph& g, const std::string& type, const char* label, bool on_the_left)
+{
+    constexpr float distance = 240.0f;
+    std::optional<juce::Point<float>> place;
+    for (const auto& node : g.root.nodes)
+        if (const auto at = positionOf (node))
+            if (! place || (on_the_left ? at->x < place->x : at->x > place->x)) place = juce::Point<double> (at->x, at->y).toFloat();
+    const auto beside = place ? *place + juce::Point<float> (on_the_left ? -distance : distance, 0.0f) : juce::Point<float>();
+    graph::Id made = 0;
+    return { label, addNode (g, {}, type, beside, made) };
 }
 }   // namespace
 
@@ -75,6 +107,8 @@ std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
         delayed.delay = std::max (1, wire->delay);
         return Fix { "Delay wire by a tick", graph::Batch { "break loop", { graph::ChangeWire { culprit.patch, culprit.id, std::move (delayed) } } } };
     }
+    if (m.id == "graph/no_hand") return add (g, "device.position", "Add a hand", true);
+    if (m.id == "graph/no_motor") return add (g, "device.force", "Add a motor", false);
     if (m.severity != Message::Severity::error) return std::nullopt;
     const auto& [patch, id, node, param, role] = culprit;
     if (wire != nullptr) return Fix { "Remove the wire", graph::Batch { "remove wire", { graph::RemoveWire { patch, id } } } };
@@ -88,8 +122,10 @@ std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
         all.commands.push_back (graph::SetNodeKey { patch, node, "role", Json (name) });
         return Fix { (has_device ? "Assign to " : "Add a ") + name, std::move (all) };
     }
-    if (! node.empty() && m.id == "node/unknown_type") return Fix { "Remove the node", graph::Batch { "remove node", { graph::RemoveNode { patch, node } } } };
-    return std::nullopt;
+    if (node.empty() || m.id != "node/unknown_type") return std::nullopt;
+    if (const auto type = likelyType (findPatch (g, patch)->find (node)->type); ! type.empty())
+        return Fix { "Change to " + type, graph::Batch { "change type", { graph::SetNodeKey { patch, node, "type", Json (type) } } } };
+    return Fix { "Remove the node", graph::Batch { "remove node", { graph::RemoveNode { patch, node } } } };
 }
 
 }   // namespace tactus::host

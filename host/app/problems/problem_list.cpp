@@ -8,7 +8,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr int problem_height = 48, button_width = 144;
+constexpr int problem_height = 48, least_button_width = 144;
 
 bool isSame (const Message& a, const Message& b) { return a.id == b.id && a.where == b.where && a.text == b.text && a.severity == b.severity; }
 }   // namespace
@@ -28,6 +28,7 @@ public:
             if (auto now = fixOf (list.document.graph(), message)) list.document.perform (std::move (now->command));
         };
         addAndMakeVisible (*button);
+        button_width = std::max (least_button_width, button->getBestWidthForHeight (28));
     }
 
     void paint (juce::Graphics& g) override
@@ -63,6 +64,7 @@ private:
     ProblemList& list;
     const Message message;
     std::unique_ptr<juce::TextButton> button;
+    int button_width = 0;
 };
 
 ProblemList::ProblemList (Document& d) : document (d)

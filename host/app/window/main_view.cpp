@@ -207,6 +207,7 @@ void MainView::showProblems()
 {
     auto all = run().messages();
     if (live_nodes) all.insert (all.begin(), live_nodes->messages().begin(), live_nodes->messages().end());
+    std::ranges::copy (missing, std::back_inserter (all));
     const bool is_error = hasErrors (all);
     const auto count = all.size();   // without the limits, which the strip counts
     std::ranges::copy (limits.messages(), std::back_inserter (all));
@@ -218,6 +219,7 @@ void MainView::showProblems()
 void MainView::documentChanged()
 {
     status.clearNotice();
+    missing = missingEnds (edited.graph());
     if (edited.identity() != shown_identity)
     {
         shown_identity = edited.identity();

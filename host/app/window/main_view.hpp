@@ -14,6 +14,7 @@
 #include <host/app/inspector/inspector.hpp>
 #include <host/app/layers/layers_panel.hpp>
 #include <host/app/presets/browser.hpp>
+#include <host/app/problems/missing_ends.hpp>
 #include <host/app/problems/problem_list.hpp>
 #include <host/app/run/direct_stop.hpp>
 #include <host/app/run/hand_panel.hpp>
@@ -154,6 +155,7 @@ private:
     HelpPanel help;
     std::unique_ptr<juce::FileChooser> chooser;
     juce::Component::SafePointer<juce::Component> focused;   // the component with the focus, whose keys are listened to
+    Messages missing;                                        // what the graph lacks to be felt
     const void* shown_identity = nullptr;                    // identity of the document that is shown
     int ticks_to_save = 0;                                   // timer ticks until the settings are saved; 0: nothing to save
     juce::TooltipWindow tooltips { this, 600 };

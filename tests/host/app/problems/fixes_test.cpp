@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <host/app/problems/fixes.hpp>
+#include <host/app/problems/missing_ends.hpp>
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/node/catalogue.hpp>
@@ -8,6 +9,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <filesystem>
+#include <utility>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -84,4 +87,49 @@ TEST_CASE ("device nodes of a graph without devices get a device", "[app][proble
     REQUIRE (g.devices.size() == 1);
     CHECK (g.root.find ("hand")->role == "stylus");
     CHECK (g.root.find ("motor")->role == "stylus");
+}
+
+TEST_CASE ("an unknown type becomes the one that was probably meant", "[app][problems]")
+{
+    const auto meant = GENERATE (std::pair { "deform.plain", "deform.plane" }, std::pair { "contact.plane", "deform.plane" },
+                                 std::pair { "texture.gratng", "texture.grating" }, std::pair { "xyzzy.foo", "" });
+    auto g = graphOf (R"("nodes":{"a":{"type":")" + std::string (meant.first) + R"(","params":{"stiffness":"300 N/m"}}},"wires":[])");
+    const auto errors = errorsOf (g);
+    REQUIRE (errors.size() == 1);
+    const auto fix = fixOf (g, errors[0]);
+    REQUIRE (fix.has_value());
+    CAPTURE (meant.first, fix->label);
+    CHECK (fix->label == (std::string (meant.second).empty() ? "Remove the node" : "Change to " + std::string (meant.second)));
+    REQUIRE (graph::apply (g, fix->command).has_value());
+    if (! std::string (meant.second).empty()) CHECK (g.root.find ("a")->type == meant.second);
+    if (std::string (meant.second) == "deform.plane") CHECK (g.root.find ("a")->params["stiffness"] == "300 N/m");
+}
+
+TEST_CASE ("a graph without a hand or a motor says so, and a click adds them with a device", "[app][problems]")
+{
+    CHECK (missingEnds (graphOf (R"("nodes":{},"wires":[])")).empty());
+    auto g = graphOf (R"("nodes":{"wall":{"type":"deform.plane","ui":{"at":[100,40]}}},"wires":[])");
+    auto missing = missingEnds (g);
+    REQUIRE (missing.size() == 2);
+    for (const auto& m : missing)
+        REQUIRE (graph::apply (g, fixOf (g, m)->command).has_value());
+    CHECK (missingEnds (g).empty());
+    CHECK (errorsOf (g).empty());
+    REQUIRE (g.devices.size() == 1);
+    const auto x = [&] (const char* type) { return std::ranges::find (g.root.nodes, type, &graph::Node::type)->extra["ui"]["at"][0].get<double>(); };
+    CHECK (x ("device.position") < 100.0);
+    CHECK (x ("device.force") > 100.0);
+    CHECK (missingEnds (graphOf (R"("nodes":{"pad":{"type":"graph:pad"}},"wires":[],"graphs":{"pad":{"nodes":{
+        "hand":{"type":"device.position"},"buzz":{"type":"device.signal_out"}},"wires":[]}})"))
+               .empty());
+}
+
+TEST_CASE ("no preset lacks a hand or a motor", "[app][problems]")
+{
+    for (const auto& entry : std::filesystem::directory_iterator (TACTUS_SOURCE_DIR "/graphs"))
+        if (entry.path().extension() == ".json")
+        {
+            CAPTURE (entry.path().string());
+            CHECK (missingEnds (loadGraph (entry.path()).graph).empty());
+        }
 }
