@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wire_rules.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 
 namespace tactus::host
 {
@@ -15,14 +17,25 @@ Unit unitOf (Quantity q) noexcept
     return {};
 }
 
+namespace
+{
+/// "length (m)", "gain"
+std::string described (const Unit& u)
+{
+    std::string text (name (u.quantity));
+    std::ranges::replace (text, '_', ' ');
+    return u.symbol == "1" ? text : text + " (" + std::string (u.symbol) + ")";
+}
+}   // namespace
+
 bool addsUp (Quantity q) noexcept { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; }
 
 Result<> checkWireByComponent (const WireEnd& from, const WireEnd& to)
 {
     const auto refuse = [] (std::string why) { return Message::error ("wire/refused", {}, std::move (why)); };
-    if (from.port->role != Role::output) return refuse ("a wire starts at an output");
-    if (to.port->role == Role::output) return refuse ("a wire ends at an input or a parameter");
-    if (to.port->isChoice()) return refuse ("a list of choices cannot be wired");
+    if (from.port->role != Role::output) return refuse ("A wire starts at an output");
+    if (to.port->role == Role::output) return refuse ("A wire ends at an input or a parameter");
+    if (to.port->isChoice()) return refuse ("A list of choices cannot be wired");
 
     const auto unitAt = [] (const WireEnd& e) -> std::optional<Unit> {
         if (e.port->unit.kind == UnitRule::Kind::fixed) return e.port->unit.unit;
@@ -30,7 +43,12 @@ Result<> checkWireByComponent (const WireEnd& from, const WireEnd& to)
         return std::nullopt;
     };
     const auto a = unitAt (from), b = unitAt (to);
-    if (a && b && a->dimension != b->dimension) return refuse (std::string (a->symbol) + " does not fit " + std::string (b->symbol));
+    if (a && b && a->dimension != b->dimension)
+    {
+        auto why = described (*a) + " cannot drive " + described (*b);
+        why.front() = static_cast<char> (std::toupper (static_cast<unsigned char> (why.front())));
+        return refuse (std::move (why));
+    }
     return {};
 }
 
@@ -38,7 +56,7 @@ Result<> checkWire (const WireEnd& from, const WireEnd& to)
 {
     auto checked = checkWireByComponent (from, to);
     if (! checked || from.port->width == to.port->width) return checked;
-    return Message::error ("wire/refused", {}, from.port->width == 3 ? "a vector does not fit a scalar" : "a scalar does not fit a vector");
+    return Message::error ("wire/refused", {}, from.port->width == 3 ? "A vector cannot drive a number" : "A number cannot drive a vector");
 }
 
 }   // namespace tactus::host

@@ -15,7 +15,7 @@ struct WireEnd
     Quantity quantity;
 };
 
-/// Checks whether a wire from an output may end at a port. The error is short, such as "m does not fit N".
+/// Checks whether a wire from an output may end at a port. The error is short, such as "Length (m) cannot drive force (N)".
 Result<> checkWire (const WireEnd& from, const WireEnd& to);
 
 /// Like checkWire(), but also allows a vector at one end and a scalar at the other, because one component can be wired.

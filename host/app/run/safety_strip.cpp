@@ -51,10 +51,10 @@ juce::String runningText (const LiveRun& run)
 juce::String delayText (const LiveRun& run)
 {
     const auto d = run.delay();
-    if (! d) return "no path from a hand to a motor";
+    if (! d) return "no path from hand to motor";
     const auto delay = "delay " + juce::String (*d) + (*d == 1 ? " tick" : " ticks");
     const auto stiffness = run.stiffnessLeft();
-    return stiffness ? delay + ", walls up to " + stiffnessText (*stiffness) : delay;
+    return stiffness ? delay + ", walls stable up to " + stiffnessText (*stiffness) : delay;
 }
 }   // namespace
 
@@ -138,13 +138,14 @@ SafetyStrip::Shown SafetyStrip::stateOf (LiveRun& run)
     const auto status = run.status();
     if (! status)
     {
-        now.alarmed = has_errors;
+        now.alarmed = now.has_errors = has_errors;
         now.state = has_errors ? "cannot run: see Problems" : "stopped";
         return now;
     }
+    now.has_errors = has_errors;
     const bool halting = status->phase == RunStatus::Phase::halting;
     if (has_errors)
-        now.state = now.running && ! halting ? "running without the latest edits" : "cannot run: see Problems";
+        now.state = now.running && ! halting ? "edit has errors; still running the last valid version" : "cannot run: see Problems";
     else if (! now.running)
         now.state = reason (*status, run);
     else
@@ -153,7 +154,7 @@ SafetyStrip::Shown SafetyStrip::stateOf (LiveRun& run)
     now.warned = has_errors;
     showGuards (run, *status, now);
     now.force = newtonText (status->force) + "  |  peak " + newtonText (status->peak);
-    now.misses = "missed ticks: " + juce::String (static_cast<juce::int64> (status->misses));
+    now.misses = "late ticks: " + juce::String (static_cast<juce::int64> (status->misses));
     now.delay = delayText (run);
     return now;
 }
@@ -189,6 +190,17 @@ void SafetyStrip::resized()
     rearm->setBounds (area.removeFromRight (button_width).reduced (8, 7));   // away from STOP, so that a click meant for STOP cannot rearm
 }
 
+void SafetyStrip::mouseMove (const juce::MouseEvent& e)
+{
+    const bool is_link = shown.has_errors && state_place.contains (e.getPosition());
+    setMouseCursor (is_link ? juce::MouseCursor::PointingHandCursor : juce::MouseCursor::NormalCursor);
+}
+
+void SafetyStrip::mouseUp (const juce::MouseEvent& e)
+{
+    if (shown.has_errors && state_place.contains (e.getPosition()) && onProblems) onProblems();
+}
+
 void SafetyStrip::paint (juce::Graphics& g)
 {
     const auto& look = lookOf (*this);
@@ -213,7 +225,9 @@ void SafetyStrip::paint (juce::Graphics& g)
         g.drawText (text, area.removeFromLeft (std::min (width, area.getWidth())), juce::Justification::centredLeft, true);
         area.removeFromLeft (std::min (gap, area.getWidth()));
     };
+    state_place = area.withWidth (look.font (13.0f, true).getStringWidthFloat (shown.state) + 4.0f).toNearestInt();
     add (shown.state, 140.0f, theme.text, true);
+    if (shown.has_errors) g.fillRect (state_place.withTop (state_place.getCentreY() + 8).withHeight (1).withTrimmedRight (4));   // a link
     add (shown.guard, 80.0f, colourFor (shown.warned ? theme.warning : theme.dim));
     constexpr float force_width = 200.0f;
     if (shown.force.isNotEmpty() && area.getWidth() > force_width)

@@ -24,16 +24,24 @@ public:
     /// The part of the strip where a click is a stop. Empty while there is nothing to stop.
     juce::Rectangle<int> stopPlace() const;
 
+    /// The state of the run, as the strip shows it.
+    const juce::String& text() const noexcept { return shown.state; }
+
+    /// A click on the state while the graph has errors.
+    std::function<void()> onProblems;
+
     LimitLight& limitLight() noexcept { return limits; }
 
     void paint (juce::Graphics&) override;
     void resized() override;
+    void mouseMove (const juce::MouseEvent&) override;
+    void mouseUp (const juce::MouseEvent&) override;
 
 private:
     struct Shown
     {
         juce::String state, guard, force, misses, delay;
-        bool running = false, alarmed = false, warned = false, stopped_for_good = false;
+        bool running = false, alarmed = false, warned = false, stopped_for_good = false, has_errors = false;
 
         bool operator== (const Shown&) const = default;
     };
@@ -45,6 +53,7 @@ private:
 
     Playback& playback;
     Shown shown;
+    juce::Rectangle<int> state_place;   // where the state is painted
     std::unique_ptr<StopButton> button, rearm;
     LimitLight limits;
 };

@@ -184,7 +184,7 @@ std::vector<CrashedSession> findCrashedSessions (const fs::path& home)
 RecoveryQuestion questionAbout (const CrashedSession& s, double now_s)
 {
     RecoveryQuestion q;
-    q.title = "Tactus quit unexpectedly";
+    q.title = "Tactus closed unexpectedly";
     if (! s.problem().empty())
     {
         q.can_recover = false;
@@ -197,7 +197,7 @@ RecoveryQuestion questionAbout (const CrashedSession& s, double now_s)
     q.text = s.document().changed ? name + " has unsaved changes, last autosaved " + ago + "." : name + " was open " + ago + ".";
     q.safe_first = s.endedInTrial();
     if (q.safe_first)
-        q.text += " Tactus quit soon after the graph was started or changed, so running the graph may crash Tactus again. "
+        q.text += " Tactus closed soon after the graph was started or changed, so running the graph may crash Tactus again. "
                   "Look at the graph first; START runs it.";
     return q;
 }

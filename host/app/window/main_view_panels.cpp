@@ -61,6 +61,7 @@ void MainView::connectCanvas()
     inspector.messagesNow = [this] { return run().messages(); };
     layers.onSelect = [this] (const std::string& patch, graph::Id node) { patching.show (patch, node); };
     live.limits = &limits;
+    strip.onProblems = [this] { bottom.show (problems); };
     strip.limitLight().onClick = [this] { bottom.show (problems); };
     problems.onShow = [this] (const Culprit& c) { patching.show (c.patch, c.id); };
 }

@@ -46,7 +46,7 @@ TEST_CASE ("a wire that does not fit shows the reason and is not created", "[app
     auto hand = rig.hand();
     hand.press (rig.port ("hand", Role::output, "position"));
     hand.dragTo (rig.port ("motor", Role::input, "force"));
-    CHECK (rig.hint.contains ("m does not fit N"));
+    CHECK (rig.hint.contains ("Length (m) cannot drive force (N)"));
     REQUIRE (rig.canvas->highlighted().fits);
     const auto& drag = rig.node ("drag");
     CHECK (rig.canvas->highlighted().fits (drag, *drag.face->find (Role::input, "position")));

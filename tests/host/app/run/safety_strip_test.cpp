@@ -3,6 +3,8 @@
 
 #include <host/app/run/safety_strip.hpp>
 
+#include <tactus/file/graph_file.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <chrono>
@@ -65,5 +67,55 @@ TEST_CASE ("REARM never appears in the place of STOP", "[app][run]")
     run.emergencyStop();
     buttonCalled (strip, "STOP")->onClick();
     CHECK (until ([&] { return ! run.isRunning(); }));
+    strip.setLookAndFeel (nullptr);
+}
+
+TEST_CASE ("while an edit has errors, the strip says that the last valid version runs, and a click on that shows the problems", "[app][run]")
+{
+    CanvasRig rig { readGraph (R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000, "devices": { "tip": { "driver": "gesture", "path": "circle" } },
+        "nodes": { "hand": { "type": "device.position", "role": "tip" }, "a": { "type": "signal.slew" }, "b": { "type": "signal.slew" } },
+        "wires": [ "a.out -> b.in" ] })")
+                        .graph };
+    Sound sound;
+    DeviceSetup setup;
+    Playback playback { rig.document, catalogue(), sound, setup, [] {} };
+    SafetyStrip strip { playback };
+    Look look;
+    strip.setLookAndFeel (&look);
+    strip.setSize (1280, SafetyStrip::height);
+    int shown = 0;
+    strip.onProblems = [&] { ++shown; };
+    const auto refresh = [&] {
+        playback.attend();
+        strip.refresh();
+        juce::Image picture (juce::Image::RGB, strip.getWidth(), strip.getHeight(), true);
+        juce::Graphics g (picture);
+        strip.paintEntireComponent (g, false);
+    };
+    const auto click = [&] {
+        const auto now = juce::Time::getCurrentTime();
+        const juce::Point<float> at { 60.0f, 0.5f * SafetyStrip::height };
+        strip.mouseUp ({ juce::Desktop::getInstance().getMainMouseSource(), at, {}, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, &strip, &strip, now, at, now, 1, false });
+    };
+    playback.run().start ({});
+    for (int i = 0; i < 2000 && ! playback.run().isRunning(); ++i)
+    {
+        refresh();
+        std::this_thread::sleep_for (std::chrono::milliseconds (5));
+    }
+    refresh();
+    click();
+    CHECK (shown == 0);
+
+    graph::Wire back;   // closes a loop without a delay
+    back.from = { "b", "out" };
+    back.to = { "a", "in" };
+    REQUIRE (rig.document.perform (graph::AddWire { "", back }));
+    refresh();
+    REQUIRE (hasErrors (playback.run().messages()));
+    CHECK (playback.run().isRunning());
+    CHECK (strip.text().contains ("still running the last valid version"));
+    click();
+    CHECK (shown == 1);
     strip.setLookAndFeel (nullptr);
 }
