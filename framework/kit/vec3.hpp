@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <concepts>
 
 namespace tactus
 {
@@ -18,13 +19,39 @@ namespace tactus
 using Vec3 = Eigen::Vector3d;
 
 /// True if every component of every value is a finite number. Nodes check their inputs with it.
-inline bool isFinite (double v) noexcept { return v - v == 0.0; }
-inline bool isFinite (const Vec3& v) noexcept { return isFinite (v.x()) && isFinite (v.y()) && isFinite (v.z()); }
+inline bool isFinite (double v) noexcept
+{
+    const double none = v - v;   // 0 or NaN
+    return none == none;
+}
+
+namespace detail
+{
+template <typename T>
+concept NumberOrVector = std::same_as<T, double> || std::same_as<T, Vec3>;
+
+inline double total (double v) noexcept { return v; }
+inline double total (const Vec3& v) noexcept { return v.x() + v.y() + v.z(); }
+inline double zeroIfFinite (double v) noexcept { return v - v; }
+inline double zeroIfFinite (const Vec3& v) noexcept { return (v.x() - v.x()) + (v.y() - v.y()) + (v.z() - v.z()); }
+
+/// One comparison for all values. Where their sum is finite, each of them is. Where it is not, it may only be too large.
+template <NumberOrVector... T>
+bool areFinite (const T&... values) noexcept
+{
+    return isFinite ((total (values) + ...)) || isFinite ((zeroIfFinite (values) + ...));
+}
+}   // namespace detail
+
+inline bool isFinite (const Vec3& v) noexcept { return detail::areFinite (v); }
 
 template <typename... T>
 requires (sizeof...(T) > 1) bool isFinite (const T&... values) noexcept
 {
-    return (isFinite (values) && ...);
+    if constexpr ((detail::NumberOrVector<T> && ...))
+        return detail::areFinite (values...);
+    else
+        return (isFinite (values) && ...);
 }
 
 /// Returns the value if every component is finite, else 0. Nodes whose arithmetic can overflow pass their result through it.

@@ -35,8 +35,7 @@ struct VectorAdd
             y += v.y();
             z += v.z();
         }
-        const bool is_finite = (x - x) + (y - y) + (z - z) == 0.0;   // of all three at once
-        if (! is_finite) return {};
+        if (! isFinite (x, y, z)) return {};
         return { .out = { x, y, z } };
     }
 };

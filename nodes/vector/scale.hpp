@@ -36,8 +36,7 @@ struct VectorScale
     Outputs tick (const Inputs& in) const noexcept
     {
         const double x = in.gain * in.in.x(), y = in.gain * in.in.y(), z = in.gain * in.in.z();   // as in VectorAdd
-        const bool is_finite = (x - x) + (y - y) + (z - z) == 0.0;
-        if (! is_finite) return {};
+        if (! isFinite (x, y, z)) return {};
         return { .out = { x, y, z } };
     }
 };

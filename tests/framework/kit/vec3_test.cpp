@@ -48,3 +48,27 @@ TEST_CASE ("isFinite: false if any component of any value is not finite", "[fram
     }
     CHECK (finiteOrZero (good) == good);
 }
+
+TEST_CASE ("isFinite: for every mixture of three or four special values, what std::isfinite says of each", "[framework][length]")
+{
+    constexpr double inf = std::numeric_limits<double>::infinity(), largest = std::numeric_limits<double>::max();
+    const double some[] { 0.0, -0.0, 1.0, -1.0, 5e-324, largest, -largest, 1e308, inf, -inf, std::nan (""), -std::nan ("7") };
+    int wrong = 0, finite = 0;
+    for (const double a : some)
+        for (const double b : some)
+            for (const double c : some)
+            {
+                const bool three = std::isfinite (a) && std::isfinite (b) && std::isfinite (c);
+                wrong += isFinite (Vec3 { a, b, c }) != three;
+                wrong += isFinite (a, b, c) != three;
+                for (const double d : some)
+                {
+                    const bool four = three && std::isfinite (d);
+                    wrong += isFinite (Vec3 { a, b, c }, d) != four;
+                    wrong += isFinite (a, Vec3 { b, c, d }) != four;
+                    finite += four;
+                }
+            }
+    CHECK (finite == 8 * 8 * 8 * 8);
+    CHECK (wrong == 0);
+}
