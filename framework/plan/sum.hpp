@@ -16,26 +16,37 @@ namespace tactus::plan
 {
 
 /// Replaces every NaN by the same one.
-inline double withOneNan (double v) noexcept { return v == v ? v : std::numeric_limits<double>::quiet_NaN(); }
+inline double withOneNan (double v) noexcept
+{
+    // A jump that is never taken costs less than a choice, for which the sum would have to be known first.
+    if (__builtin_expect_with_probability (v == v, 1, 1.0)) return v;
+    return std::numeric_limits<double>::quiet_NaN();
+}
 
 /// Exchanges two values if the second one is smaller. NaN is never exchanged, so no NaN is lost.
 ///
 /// Compilers turn the comparisons into jumps, and a processor cannot predict them, because which of two forces is larger changes with every
 /// motion. The instructions for minimum and maximum give the same bits, also for NaN and for zeros of both signs: the second operand.
-inline void sortTwo (double& a, double& b) noexcept
-{
 #ifdef __SSE2__
-    const auto x = _mm_set_sd (a), y = _mm_set_sd (b);
-    a = _mm_cvtsd_f64 (_mm_min_sd (y, x));
-    b = _mm_cvtsd_f64 (_mm_max_sd (x, y));
-#else
-    const double lower = b < a ? b : a, higher = b < a ? a : b;
-    a = lower;
-    b = higher;
-#endif
+/// One value, kept in the form that these instructions take, from the first exchange to the sum.
+struct Lane
+{
+    Lane (double v) noexcept : value (_mm_set_sd (v)) {}
+    Lane (__m128d v) noexcept : value (v) {}
+
+    friend Lane operator+ (Lane a, Lane b) noexcept { return _mm_add_sd (a.value, b.value); }
+    friend double withOneNan (Lane v) noexcept { return plan::withOneNan (_mm_cvtsd_f64 (v.value)); }
+
+    __m128d value;   // in the lower half; the upper half means nothing
+};
+
+inline void sortTwo (Lane& a, Lane& b) noexcept
+{
+    const auto lower = _mm_min_sd (b.value, a.value);
+    b.value = _mm_max_sd (a.value, b.value);
+    a.value = lower;
 }
 
-#ifdef __SSE2__
 /// Two values that belong to two different sums.
 typedef double Two __attribute__ ((vector_size (16)));
 
@@ -48,6 +59,15 @@ inline Two withOneNan (Two v) noexcept
 inline void sortTwo (Two& a, Two& b) noexcept
 {
     const Two lower = _mm_min_pd (b, a), higher = _mm_max_pd (a, b);
+    a = lower;
+    b = higher;
+}
+#else
+using Lane = double;
+
+inline void sortTwo (double& a, double& b) noexcept
+{
+    const double lower = b < a ? b : a, higher = b < a ? a : b;
     a = lower;
     b = higher;
 }
@@ -65,7 +85,7 @@ T sumOf (T a, T b) noexcept
     return withOneNan (a + b);
 }
 template <typename T>
-T sumOf (T a, T b, T c) noexcept
+auto sumOf (T a, T b, T c) noexcept
 {
     sortTwo (b, c);
     sortTwo (a, c);
@@ -73,7 +93,7 @@ T sumOf (T a, T b, T c) noexcept
     return withOneNan (a + b + c);
 }
 template <typename T>
-T sumOf (T a, T b, T c, T d) noexcept
+auto sumOf (T a, T b, T c, T d) noexcept
 {
     sortTwo (a, b);
     sortTwo (c, d);
@@ -82,6 +102,9 @@ T sumOf (T a, T b, T c, T d) noexcept
     sortTwo (b, c);
     return withOneNan (a + b + c + d);
 }
+
+inline double sumOf (double a, double b, double c) noexcept { return sumOf<Lane> (a, b, c); }
+inline double sumOf (double a, double b, double c, double d) noexcept { return sumOf<Lane> (a, b, c, d); }
 
 inline constexpr int most_in_network = 4;
 
