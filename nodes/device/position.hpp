@@ -47,12 +47,10 @@ struct DevicePosition
     {
         const Reading& now = device->reading;
         const bool tells = now.valid && isFinite (now.position, now.rotation, now.age);
-        if (tells)
-        {
-            position = now.position;
-            rotation = now.rotation;
-        }
-        return { .position = position, .rotation = rotation, .valid = tells ? 1.0 : 0.0, .age = finiteOrZero (now.age) };
+        if (! tells) return { .position = position, .rotation = rotation, .valid = 0.0, .age = finiteOrZero (now.age) };
+        position = now.position;
+        rotation = now.rotation;
+        return { .position = now.position, .rotation = now.rotation, .valid = 1.0, .age = now.age };
     }
 
 private:
