@@ -72,7 +72,7 @@ FusedCode CodeWriter::write()
     }
     for (const auto& check : checked)
         checks += check;
-    std::string tick = std::string ("extern \"C\" [[gnu::visibility (\"default\")]] void ") + FusedCode::function + " (void* const* objects) noexcept\n{\n";
+    std::string tick = std::string ("extern \"C\" [[gnu::visibility (\"default\"), gnu::externally_visible]] void ") + FusedCode::function + " (void* const* objects) noexcept\n{\n";
     for (std::size_t i = 1; i <= parts; ++i)
         tick += "    part" + std::to_string (i) + " (tactus::fused::Objects { objects });\n";
     made.text = top + "\n" + checks + "\n" + code + tick + "}\n";
