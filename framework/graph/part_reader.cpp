@@ -2,6 +2,7 @@
 #include "part_reader.hpp"
 
 #include "text.hpp"
+#include "wire_text.hpp"
 
 #include <tactus/text/quote.hpp>
 #include <tactus/text/units.hpp>
@@ -137,11 +138,10 @@ void PartReader::readCount (const std::string& key, Json& value, const std::stri
 void PartReader::readWire (Json& value, const std::string& list, std::size_t number, Patch& patch)
 {
     if (value.is_string())
-        if (auto wire = parseWire (value.asString()))
-        {
-            patch.wires.push_back (*std::move (wire));
-            return;
-        }
+    {
+        if (graph::readWire (value.asString(), patch.wires.emplace_back())) return;
+        patch.wires.pop_back();
+    }
     readWire (value, list + '/' + std::to_string (number), patch);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "text.hpp"
+#include "wire_text.hpp"
 
 #include <tactus/kit/at.hpp>
 #include <tactus/text/quote.hpp>
@@ -16,10 +17,12 @@ constexpr bool continuesId (char c) noexcept { return startsId (c) || (c >= '0' 
 
 std::string_view trimmed (std::string_view text) noexcept
 {
-    constexpr std::string_view space = " \t\r\n";
-    const auto first = text.find_first_not_of (space);
-    if (first == std::string_view::npos) return {};
-    return text.substr (first, text.find_last_not_of (space) + 1 - first);
+    const auto isSpace = [] (char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
+    while (! text.empty() && isSpace (text.front()))
+        text.remove_prefix (1);
+    while (! text.empty() && isSpace (text.back()))
+        text.remove_suffix (1);
+    return text;
 }
 
 /// Reads a string from the front.
@@ -31,6 +34,13 @@ struct Reader
     {
         if (! text.starts_with (expected)) return false;
         text.remove_prefix (expected.size());
+        return true;
+    }
+
+    bool take (char expected)
+    {
+        if (text.empty() || text.front() != expected) return false;
+        text.remove_prefix (1);
         return true;
     }
 
@@ -71,24 +81,24 @@ bool readInstance (Reader& in, std::string& path)
         return true;
     }
     const auto n = in.number();
-    if (! n || ! in.take ("]")) return false;
+    if (! n || ! in.take (']')) return false;
     path += '[' + std::to_string (*n) + ']';
     return true;
 }
 
-Result<Endpoint> readEndpoint (std::string_view written, bool relative)
+/// Reads into a new Endpoint.
+Result<> readEndpoint (std::string_view written, bool relative, Endpoint& end)
 {
     const auto text = trimmed (written);
     const auto wrong = [text] (const std::string& what) { return Message::error ("port/syntax", {}, quote (text) + ": " + what); };
 
-    Endpoint end;
     Reader in { text };
     if (text.empty()) return Message::error ("port/syntax", {}, "expected a port, written node.port; found nothing");
 
-    if (relative && in.take ("["))
+    if (relative && in.take ('['))
     {
         if (! readInstance (in, end.node)) return wrong ("an instance is written [0], [1] … or [*]; found " + in.next());
-        if (! in.take ("/")) return wrong ("a / should follow the instance, as in [3]/drag.mu; found " + in.next());
+        if (! in.take ('/')) return wrong ("a / should follow the instance, as in [3]/drag.mu; found " + in.next());
         end.node += '/';
     }
 
@@ -97,24 +107,24 @@ Result<Endpoint> readEndpoint (std::string_view written, bool relative)
         const auto name = in.id();
         if (name.empty()) return wrong ("expected the id of a node before " + in.next() + "; " + id_rule);
         end.node += name;
-        if (in.take ("[") && ! readInstance (in, end.node)) return wrong ("an instance of a node is written [0], [1] … or [*]; found " + in.next());
-        if (! in.take ("/")) break;
+        if (in.take ('[') && ! readInstance (in, end.node)) return wrong ("an instance of a node is written [0], [1] … or [*]; found " + in.next());
+        if (! in.take ('/')) break;
         end.node += '/';
     }
-    if (! in.take ("."))
+    if (! in.take ('.'))
         return wrong (in.text.empty() ? "the port is missing; write node.port"
                                       : "found " + in.next() + " after the node; a port is written node.port, and " + id_rule);
 
     const auto port = in.id();
     if (port.empty()) return wrong ("expected the id of a port before " + in.next() + "; " + id_rule);
     end.port = port;
-    if (in.take ("["))
+    if (in.take ('['))
     {
         const auto n = in.number();
-        if (! n || ! in.take ("]")) return wrong ("an entry of an array port is written in[0], in[1] …; found " + in.next());
+        if (! n || ! in.take (']')) return wrong ("an entry of an array port is written in[0], in[1] …; found " + in.next());
         end.index = *n;
     }
-    if (in.take ("."))
+    if (in.take ('.'))
     {
         const auto component = in.id();
         if (component != "x" && component != "y" && component != "z")
@@ -123,6 +133,14 @@ Result<Endpoint> readEndpoint (std::string_view written, bool relative)
         end.component = component[0] - 'x';
     }
     if (! in.text.empty()) return wrong ("found " + in.next() + " after the port; " + id_rule);
+    return {};
+}
+
+Result<Endpoint> endpointFrom (std::string_view text, bool relative)
+{
+    Endpoint end;
+    auto read = readEndpoint (text, relative, end);
+    if (! read) return std::move (read).error();
     return end;
 }
 }   // namespace
@@ -133,22 +151,28 @@ bool isId (std::string_view text) noexcept
     return ! in.id().empty() && in.text.empty();
 }
 
-Result<Endpoint> parseEndpoint (std::string_view text) { return readEndpoint (text, false); }
-Result<Endpoint> parseOverride (std::string_view text) { return readEndpoint (text, true); }
+Result<Endpoint> parseEndpoint (std::string_view text) { return endpointFrom (text, false); }
+Result<Endpoint> parseOverride (std::string_view text) { return endpointFrom (text, true); }
 
-Result<Wire> parseWire (std::string_view written)
+Result<Wire> parseWire (std::string_view text)
+{
+    Wire wire;
+    auto read = readWire (text, wire);
+    if (! read) return std::move (read).error();
+    return wire;
+}
+
+Result<> readWire (std::string_view written, Wire& wire)
 {
     constexpr std::string_view arrow = "->";
     constexpr auto form = "; a wire is written 'node.port -> node.port', with a delay 'node.port -> [1] -> node.port'";
     const auto wrong = [written] (const std::string& what) { return Message::error ("wire/syntax", {}, quote (trimmed (written)) + ": " + what); };
 
-    Wire wire;
     auto cut = written.find (arrow);
     if (cut == std::string_view::npos) return wrong (std::string ("the -> is missing") + form);
 
-    auto from = parseEndpoint (written.substr (0, cut));
-    if (! from) return Message::error ("wire/syntax", {}, "the start of the wire: " + from.error().text);
-    wire.from = *std::move (from);
+    if (const auto from = readEndpoint (written.substr (0, cut), false, wire.from); ! from)
+        return Message::error ("wire/syntax", {}, "the start of the wire: " + from.error().text);
     auto rest = trimmed (written.substr (cut + arrow.size()));
 
     if (rest.starts_with ('['))
@@ -156,7 +180,7 @@ Result<Wire> parseWire (std::string_view written)
         Reader in { trimmed (rest.substr (1)) };
         const auto ticks = in.number();
         in.text = trimmed (in.text);
-        if (! ticks || *ticks < 1 || *ticks > longest_delay || ! in.take ("]"))
+        if (! ticks || *ticks < 1 || *ticks > longest_delay || ! in.take (']'))
             return wrong ("a delay is a whole number of ticks from 1 to " + std::to_string (longest_delay) + ", written [1]");
         in.text = trimmed (in.text);
         if (! in.take (arrow)) return wrong (std::string ("a -> should follow the delay") + form);
@@ -170,10 +194,9 @@ Result<Wire> parseWire (std::string_view written)
     }
     if (rest.find (arrow) != std::string_view::npos) return wrong (std::string ("more than one wire in one string") + form);
 
-    auto to = parseEndpoint (rest);
-    if (! to) return Message::error ("wire/syntax", {}, "the end of the wire: " + to.error().text);
-    wire.to = *std::move (to);
-    return wire;
+    if (const auto to = readEndpoint (rest, false, wire.to); ! to)
+        return Message::error ("wire/syntax", {}, "the end of the wire: " + to.error().text);
+    return {};
 }
 
 std::string toText (const Endpoint& end)

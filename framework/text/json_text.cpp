@@ -3,12 +3,12 @@
 
 #include "is_digit.hpp"
 #include "quote.hpp"
+#include "right_json.hpp"
+#include "seen_keys.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <bit>
-#include <functional>
 
 namespace tactus
 {
@@ -160,7 +160,7 @@ public:
         object.key = std::move (name);
         object.has_key = true;
         object.inside = result.positions.addMember (object.place, object.key, position);
-        if (object.has (object.key)) complainOfTwins (object.key, position);
+        if (object.seen.has (object.members, object.key)) complainOfTwins (object.key, position);
         return true;
     }
 
@@ -177,40 +177,12 @@ private:
         bool is_object = false;
         Json::Object members;
         Json::Array elements;
-        std::vector<std::uint32_t> table;   // of a large object: the members by the hash of their keys, as index + 1; 0: free
-        std::string key;                    // of the member that is being read
+        SeenKeys seen;
+        std::string key;   // of the member that is being read
         bool has_key = false;
         std::uint32_t place = TextPositions::none, inside = TextPositions::none;   // numbers of the positions of this value, and of the one that is being read
 
         bool empty() const { return members.empty() && elements.empty(); }
-
-        /// True if there is a member with this key already. Searches a small object from end to end.
-        bool has (const std::string& wanted)
-        {
-            constexpr std::size_t few = 12;
-            if (members.size() <= few) return std::ranges::find (members, wanted, &Json::Member::first) != members.end();
-            if (table.size() < 2 * members.size()) fillTable();
-            for (; in_table < members.size(); ++in_table)
-                table[placeOf (members[in_table].first)] = static_cast<std::uint32_t> (in_table + 1);
-            return table[placeOf (wanted)] != 0;
-        }
-
-    private:
-        std::size_t in_table = 0;   // how many members are in the table
-
-        void fillTable()
-        {
-            table.assign (std::bit_ceil (4 * members.size()), 0);
-            in_table = 0;
-        }
-
-        std::size_t placeOf (const std::string& wanted) const
-        {
-            auto i = std::hash<std::string> {}(wanted) & (table.size() - 1);
-            while (table[i] != 0 && members[table[i] - 1].first != wanted)
-                i = (i + 1) & (table.size() - 1);
-            return i;
-        }
     };
 
     void complainOfTwins (const std::string& name, TextPosition position)
@@ -437,12 +409,19 @@ private:
 
 JsonText readJson (std::string_view text, double most_values)
 {
-    JsonText result;
     if (const auto size = static_cast<double> (text.size()); size > budgets().file)
     {
+        JsonText result;
         result.messages.push_back (overBudget ("file/too_large", &Budgets::file, "the text", size, "put meshes and samples into separate files"));
         return result;
     }
+    if (auto right = readRightJson (text, most_values)) return *std::move (right);
+    return readAnyJson (text, most_values);
+}
+
+JsonText readAnyJson (std::string_view text, double most_values)
+{
+    JsonText result;
     Builder builder (text, result, most_values);
     if (! Parser::sax_parse (text.begin(), text.end(), &builder)) result.root = nullptr;
     return result;
@@ -450,6 +429,7 @@ JsonText readJson (std::string_view text, double most_values)
 
 std::string pointerPart (std::string_view key)
 {
+    if (key.find_first_of ("~/") == std::string_view::npos) return std::string (key);
     std::string part;
     for (const char c : key)
         if (c == '~')

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+#include "right_json.hpp"
+
+#include "is_digit.hpp"
+#include "seen_keys.hpp"
+
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace tactus
+{
+namespace
+{
+/// Each function reads one thing at `here` and returns false if it is not there.
+class RightReader
+{
+public:
+    RightReader (std::string_view text, JsonText& r, double most) : here (text.data()), end (here + text.size()), result (r), most_values (most)
+    {
+        if (text.starts_with ("\xEF\xBB\xBF")) here += 3;
+        line_begin = here;
+    }
+
+    bool file()
+    {
+        skipSpace();
+        if (! value (result.root, result.positions.addRoot (position()), 0)) return false;
+        skipSpace();
+        return here == end;
+    }
+
+private:
+    char peek() const noexcept { return here < end ? *here : '\0'; }
+    bool take (char c) noexcept
+    {
+        if (peek() != c) return false;
+        ++here;
+        return true;
+    }
+
+    TextPosition position() const noexcept { return { line, static_cast<int> (here - line_begin) - continued + 1 }; }
+
+    void skipSpace() noexcept
+    {
+        for (; here < end; ++here)
+            if (*here == '\n')
+            {
+                ++line;
+                line_begin = here + 1;
+                continued = 0;
+            }
+            else if (*here != ' ' && *here != '\t' && *here != '\r')
+                return;
+    }
+
+    bool value (Json& into, std::uint32_t place, int depth)
+    {
+        if (++result.values > most_values) return false;
+        switch (peek())
+        {
+        case '{':
+            return depth < deepest_nesting && object ((into = Json (Json::Object())).asObject(), place, depth + 1);
+        case '[':
+            return depth < deepest_nesting && list ((into = Json (Json::Array())).asArray(), place, depth + 1);
+        case '"':
+            return string ((into = Json (std::string())).asString());
+        case 't':
+            return word ("true", into, Json (true));
+        case 'f':
+            return word ("false", into, Json (false));
+        case 'n':
+            return word ("null", into, Json());
+        default:
+            return number (into);
+        }
+    }
+
+    bool word (std::string_view wanted, Json& into, Json meaning)
+    {
+        if (! std::string_view (here, end).starts_with (wanted)) return false;
+        here += wanted.size();
+        into = std::move (meaning);
+        return true;
+    }
+
+    bool object (Json::Object& members, std::uint32_t place, int depth)
+    {
+        ++here;
+        skipSpace();
+        if (take ('}')) return true;
+        constexpr std::size_t usual = 2;   // so that most objects are allocated once
+        members.reserve (usual);
+        SeenKeys seen;
+        do
+        {
+            skipSpace();
+            const auto begin = position();
+            if (peek() != '"' || ! string (key)) return false;
+            if (seen.has (members, key)) return false;
+            const auto inside = result.positions.addMember (place, key, begin);
+            auto& added = members.emplace_back (std::move (key), Json()).second;
+            skipSpace();
+            if (! take (':')) return false;
+            skipSpace();
+            if (! value (added, inside, depth)) return false;
+            skipSpace();
+        } while (take (','));
+        return take ('}');
+    }
+
+    bool list (Json::Array& elements, std::uint32_t place, int depth)
+    {
+        constexpr std::size_t first_entries = 1000;
+        ++here;
+        skipSpace();
+        if (take (']')) return true;
+        do
+        {
+            skipSpace();
+            const auto index = elements.size();
+            const bool is_bulk = peek() == '[' || peek() == '-' || isDigit (peek());
+            const auto inside = ! is_bulk || index < first_entries ? result.positions.addElement (place, index, position()) : TextPositions::none;
+            if (! value (elements.emplace_back(), inside, depth)) return false;
+            skipSpace();
+        } while (take (','));
+        return take (']');
+    }
+
+    //==============================================================================
+    bool number (Json& into)
+    {
+        const auto* const begin = here;
+        const bool is_negative = take ('-');
+        if (! take ('0') && ! digits()) return false;
+        const auto* const end_of_integer = here;
+        if (take ('.') && ! digits()) return false;
+        if (take ('e') || take ('E'))
+        {
+            if (! take ('+')) take ('-');
+            if (! digits()) return false;
+        }
+        if (here == end_of_integer && (is_negative ? isRead (begin, std::int64_t {}, into) : isRead (begin, std::uint64_t {}, into))) return true;
+        return isRead (begin, 0.0, into);
+    }
+
+    bool digits() noexcept
+    {
+        const auto* const begin = here;
+        while (isDigit (peek()))
+            ++here;
+        return here > begin;
+    }
+
+    /// False if the number does not fit into this type.
+    template <typename T>
+    bool isRead (const char* begin, T number, Json& into) const
+    {
+        if (std::from_chars (begin, here, number).ec != std::errc()) return false;
+        into = Json (number);
+        return true;
+    }
+
+    //==============================================================================
+    bool string (std::string& into)
+    {
+        ++here;
+        const auto first = plain();
+        into.assign (first.data(), first.size());
+        while (! take ('"'))
+        {
+            if (here == end || ! (*here == '\\' ? escape (into) : rune (into))) return false;
+            into += plain();
+        }
+        return true;
+    }
+
+    /// The next characters that stand for themselves.
+    std::string_view plain() noexcept
+    {
+        const auto* const begin = here;
+        while (here < end && isPlain (*here))
+            ++here;
+        return { begin, here };
+    }
+
+    static bool isPlain (char c) noexcept { return static_cast<unsigned char> (c) >= 0x20 && static_cast<unsigned char> (c) < 0x80 && c != '"' && c != '\\'; }
+
+    bool escape (std::string& into)
+    {
+        static constexpr std::string_view names = "\"\\/bfnrt", meanings = "\"\\/\b\f\n\r\t";
+        ++here;
+        if (peek() == 'u') return escapedRune (into);
+        const auto which = here < end ? names.find (*here) : std::string_view::npos;
+        if (which == std::string_view::npos) return false;
+        into += meanings[which];
+        ++here;
+        return true;
+    }
+
+    /// \uXXXX, or two of them for a rune beyond U+FFFF.
+    bool escapedRune (std::string& into)
+    {
+        auto rune = hexadecimal();
+        if (rune >= 0xD800 && rune < 0xDC00)
+        {
+            if (! take ('\\') || peek() != 'u') return false;
+            const auto low = hexadecimal();
+            if (low < 0xDC00 || low > 0xDFFF) return false;
+            rune = 0x10000 + ((rune - 0xD800) << 10) + (low - 0xDC00);
+        }
+        else if (rune < 0 || (rune >= 0xDC00 && rune <= 0xDFFF))
+            return false;
+        appendRune (static_cast<std::uint32_t> (rune), into);
+        return true;
+    }
+
+    /// The number after "u"; -1 if it is not one.
+    std::int32_t hexadecimal() noexcept
+    {
+        constexpr int size = 4;
+        if (end - here <= size) return -1;
+        std::uint32_t number = 0;
+        if (std::from_chars (here + 1, here + 1 + size, number, 16).ptr != here + 1 + size) return -1;
+        here += 1 + size;
+        return static_cast<std::int32_t> (number);
+    }
+
+    static void appendRune (std::uint32_t rune, std::string& into)
+    {
+        const auto add = [&into] (std::uint32_t byte) { into += static_cast<char> (byte); };
+        if (rune < 0x80) return add (rune);
+        if (rune < 0x800)
+            add (0xC0 | rune >> 6);
+        else
+        {
+            if (rune < 0x10000)
+                add (0xE0 | rune >> 12);
+            else
+            {
+                add (0xF0 | rune >> 18);
+                add (0x80 | (rune >> 12 & 0x3F));
+            }
+            add (0x80 | (rune >> 6 & 0x3F));
+        }
+        add (0x80 | (rune & 0x3F));
+    }
+
+    /// A character of several bytes, as RFC 3629 allows it: the shortest form, no surrogates, up to U+10FFFF.
+    bool rune (std::string& into)
+    {
+        const auto byte = [this] (int i) { return static_cast<unsigned char> (here[i]); };
+        const auto first = byte (0);
+        const int size = first >= 0xF0 ? 4 : first >= 0xE0 ? 3
+                                                           : 2;
+        if (first < 0xC2 || first > 0xF4 || end - here < size) return false;
+        for (int i = 1; i < size; ++i)
+            if ((byte (i) & 0xC0) != 0x80) return false;
+        const auto second = byte (1);
+        if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) || (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F))
+            return false;
+        into.append (here, static_cast<std::size_t> (size));
+        here += size;
+        continued += size - 1;
+        return true;
+    }
+
+    const char *here, *const end, *line_begin;
+    int line = 1, continued = 0;   // continued: bytes of this line that continue a character
+    JsonText& result;
+    const double most_values;
+    std::string key;   // of the member that is being read
+};
+}   // namespace
+
+std::optional<JsonText> readRightJson (std::string_view text, double most_values)
+{
+    JsonText result;
+    if (! RightReader (text, result, most_values).file()) return std::nullopt;
+    return result;
+}
+
+}   // namespace tactus

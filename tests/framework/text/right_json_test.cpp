@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include <tactus/text/right_json.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+using namespace tactus;
+
+namespace
+{
+/// Writes JSON of all kinds, in odd ways that are right.
+class OddWriter
+{
+public:
+    explicit OddWriter (unsigned seed) : random (seed) {}
+
+    std::size_t dice (std::size_t n) { return random() % n; }
+
+    std::string value (int depth)
+    {
+        static const std::vector<std::string> scalars { "null", "true", "false", "0", "-0", "-0.0",
+                                                        "3", "-17", "1.5e3", "1E-5", "2.5e+300", "18446744073709551615",
+                                                        "1844674407370955161600", "-9223372036854775808", "-9223372036854775809", "0.1",
+                                                        "123456789012345678901234567890.5", "4.9e-324", "2.2250738585072011e-308", "9007199254740993" };
+        const auto kind = dice (depth > 0 ? 4 : 2);
+        if (kind == 0) return space() + scalars[dice (scalars.size())] + space();
+        if (kind == 1) return space() + text() + space();
+        std::string all = kind == 2 ? "[" : "{";
+        const auto size = dice (20) == 0 ? 30 : dice (5);
+        for (std::size_t i = 0; i < size; ++i)
+            all += (i > 0 ? "," : "") + (kind == 2 ? std::string() : space() + key (i) + space() + ":") + value (depth - 1);
+        return space() + all + (size == 0 ? space() : "") + (kind == 2 ? "]" : "}") + space();
+    }
+
+private:
+    std::string space()
+    {
+        static const std::vector<std::string> spaces { "", "", "", " ", "\n", "\t", "\r\n", " \n  " };
+        return spaces[dice (spaces.size())];
+    }
+
+    std::string text() { return '"' + inside() + '"'; }
+    std::string key (std::size_t i) { return '"' + inside() + (dice (50) == 0 ? "" : std::to_string (i)) + '"'; }
+
+    std::string inside()
+    {
+        static const std::vector<std::string> parts { "a", "bc", "~", "/", "'", "\x7f", "ü", "€", "\U0001F600", "\uFFFF", "\\\"", "\\\\", "\\/",
+                                                      "\\b", "\\f", "\\n", "\\r", "\\t", "\\u0000", "\\u00e4", "\\u20AC", "\\uD83D\\uDE00", "\\ud7ff", "\\uE000" };
+        std::string all;
+        for (auto n = dice (5); n > 0; --n)
+            all += parts[dice (parts.size())];
+        return all;
+    }
+
+    std::mt19937 random;
+};
+
+bool samePositions (const JsonText& a, const JsonText& b, const Json& value, const std::string& pointer)
+{
+    if (a.positions.find (pointer) != b.positions.find (pointer)) return false;
+    if (value.is_object())
+    {
+        for (const auto& [key, inner] : value.asObject())
+            if (! samePositions (a, b, inner, pointer + '/' + pointerPart (key))) return false;
+    }
+    else if (value.is_array())
+        for (std::size_t i = 0; i < value.size(); ++i)
+            if (! samePositions (a, b, value[i], pointer + '/' + std::to_string (i))) return false;
+    return true;
+}
+
+/// Numbers of different types compare as equal, but are written differently.
+bool isSame (const JsonText& right, const JsonText& any)
+{
+    return any.messages.empty() && right.messages.empty() && right.root == any.root && right.root.dump() == any.root.dump() && right.values == any.values
+           && samePositions (right, any, any.root, "");
+}
+
+constexpr double most = 1e6;
+
+/// True if the text is refused, or read as the other parser does.
+bool agree (std::string_view text)
+{
+    const auto right = readRightJson (text, most);
+    return ! right || isSame (*right, readAnyJson (text, most));
+}
+}   // namespace
+
+TEST_CASE ("right JSON is read in one pass as the careful parser reads it", "[json][property]")
+{
+    int right = 0, refused = 0;
+    rc::prop ("any text", [&] {
+        OddWriter odd (*rc::gen::arbitrary<unsigned>());
+        for (int k = 0; k < 20; ++k)
+        {
+            auto text = (odd.dice (10) == 0 ? "\xEF\xBB\xBF" : "") + odd.value (4);
+            const auto any = readAnyJson (text, most);
+            const auto read = readRightJson (text, most);
+            RC_ASSERT (read.has_value() == any.messages.empty());   // the only mistake so far is a key that occurs twice
+            RC_ASSERT (! read || isSame (*read, any));
+            ++right;
+
+            static constexpr std::string_view bytes ("\0\x01\n\"\\/{}[],:0129-+.eEutfn \x7f\x80\xBF\xC0\xC2\xE0\xED\xF0\xF4\xF5\xFF", 40);
+            for (auto n = odd.dice (3); n > 0 && ! text.empty(); --n)
+            {
+                const auto at = odd.dice (text.size());
+                switch (odd.dice (3))
+                {
+                case 0:
+                    text[at] = bytes[odd.dice (bytes.size())];
+                    break;
+                case 1:
+                    text.insert (at, 1, bytes[odd.dice (bytes.size())]);
+                    break;
+                default:
+                    text.erase (at, 1);
+                }
+            }
+            RC_ASSERT (agree (text));
+            refused += ! readRightJson (text, most);
+        }
+    });
+    CHECK (right > 1000);
+    CHECK (refused > 300);
+}
+
+TEST_CASE ("right JSON is also refused where a limit or the careful parser would complain", "[json]")
+{
+    for (const auto* text : { "", " ", "{", "[1,]", "{\"a\":1,}", "{\"a\":1,\"a\":2}", "01", "1.", ".5", "-", "+1", "1e", "1e400", "nul", "NaN", "\"a", "\"\n\"", "\"\\x\"",
+                              "\"\\ud800\"", "\"\\udc00\"", "\"\\ud800\\u0041\"", "\"\xC0\x80\"", "\"\xED\xA0\x80\"", "\"\xF4\x90\x80\x80\"", "\"\xE2\x82\"", "1 2", "'a'", "// c\n1" })
+    {
+        INFO (text);
+        CHECK_FALSE (readRightJson (text, most).has_value());
+        CHECK_FALSE (readAnyJson (text, most).messages.empty());
+    }
+    CHECK (readRightJson ("[1, 2]", 3.0));
+    CHECK_FALSE (readRightJson ("[1, 2]", 2.0));
+    const auto nested = [] (int n) { return std::string (static_cast<std::size_t> (n), '[') + std::string (static_cast<std::size_t> (n), ']'); };
+    CHECK (readRightJson (nested (deepest_nesting), most));
+    CHECK_FALSE (readRightJson (nested (deepest_nesting + 1), most));
+}
