@@ -36,9 +36,10 @@ protected:
     template <typename F>
     void eachId (Json& object, const std::string& where, std::string_view what, F&& each)
     {
+        std::string at;
         for (auto& [id, value] : object.asObject())
         {
-            const auto at = where + '/' + pointerPart (id);
+            setPointer (at, where, id);
             checkId (id, at, what);
             if (isKind (value, JsonKind::object, at)) each (id, value, at);
         }

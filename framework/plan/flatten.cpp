@@ -65,7 +65,8 @@ private:
     std::optional<Origin> too_large;            // the place where the graph became too large
     Message why_too_large;
     std::unordered_set<std::string> roles_seen;
-    Ports starts, ends;   // ports of the wire or value being read
+    Ports starts, ends;                    // ports of the wire or value being read
+    const NodeType* last_type = nullptr;   // of the node that was added last
 
     // These take views, because the Place that they make keeps pointing to the name.
     Origin at (Origin around, std::string_view name) { return flat.at (around, name); }
@@ -87,7 +88,7 @@ private:
                 addSubgraph (scope, node, here, roles, muted, member);
             else
             {
-                refuseSection (node, scope.prefix + node.name, here, flat);
+                refuseSection (node, scope.prefix, here, flat);
                 addNode (scope, node, here, roles, muted, member);
             }
         }
@@ -133,9 +134,16 @@ private:
         return fate + "`tactus nodes` lists all types";
     }
 
+    /// Nodes of one type are often next to each other.
+    const NodeType* typeOf (const graph::Node& node)
+    {
+        if (last_type == nullptr || last_type->info.id != node.type) last_type = nodes.find (node.type);
+        return last_type;
+    }
+
     void addNode (Scope& scope, const graph::Node& node, Origin here, const Roles& roles, bool muted, Scope::Member& member)
     {
-        const auto* type = nodes.find (node.type);
+        const auto* type = typeOf (node);
         if (! flat.spend (type == nullptr ? work_of_a_search : work_per_node, 0.0, here)) return;
         if (type == nullptr)
         {

@@ -127,12 +127,13 @@ int openSection (const graph::Node& node, int around, const std::string& path, O
     return flat.sectionCount() - 1;
 }
 
-void refuseSection (const graph::Node& node, const std::string& path, Origin here, Flat& flat)
+void refuseSection (const graph::Node& node, const std::string& prefix, Origin here, Flat& flat)
 {
+    if (node.extra.empty()) return;
     for (const auto* key : { "every", "times", "hold" })
         if (node.extra.contains (key))
             flat.error ("rate/no_subgraph", flat.at (here, key),
-                        "'" + path + "' (" + node.type + ") has a `" + key + "`, but only subgraphs run at their own rate",
+                        "'" + prefix + node.name + "' (" + node.type + ") has a `" + key + "`, but only subgraphs run at their own rate",
                         "collapse it into a subgraph, and set the rate there");
 }
 

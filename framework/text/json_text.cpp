@@ -405,6 +405,18 @@ private:
     std::vector<Frame> frames;
     bool done = false;
 };
+
+void appendPart (std::string& pointer, std::string_view key)
+{
+    std::size_t done = 0;
+    for (std::size_t i = 0; i < key.size(); ++i)
+        if (key[i] == '~' || key[i] == '/')
+        {
+            pointer.append (key.substr (done, i - done)).append (key[i] == '~' ? "~0" : "~1");
+            done = i + 1;
+        }
+    pointer.append (key.substr (done));
+}
 }   // namespace
 
 JsonText readJson (std::string_view text, double most_values)
@@ -429,16 +441,16 @@ JsonText readAnyJson (std::string_view text, double most_values)
 
 std::string pointerPart (std::string_view key)
 {
-    if (key.find_first_of ("~/") == std::string_view::npos) return std::string (key);
     std::string part;
-    for (const char c : key)
-        if (c == '~')
-            part += "~0";
-        else if (c == '/')
-            part += "~1";
-        else
-            part += c;
+    appendPart (part, key);
     return part;
+}
+
+void setPointer (std::string& pointer, std::string_view object, std::string_view key)
+{
+    pointer = object;
+    pointer += '/';
+    appendPart (pointer, key);
 }
 
 TextPosition positionOf (const TextPositions& positions, std::string_view pointer)

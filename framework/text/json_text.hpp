@@ -23,12 +23,16 @@ struct JsonText
     Messages messages;     ///< file/syntax, file/too_deep, file/too_large, file/duplicate_key
 };
 
-/// Reads JSON (RFC 8259, UTF-8). Does not throw or recurse; accepts any text, and refuses one that exceeds the budget `file` or has
+/// Reads JSON (RFC 8259, UTF-8). Does not throw, and recurses at most `deepest_nesting` times; accepts any text, and refuses one that exceeds the budget `file` or has
 /// more values than `most_values`. [any thread]
 JsonText readJson (std::string_view text, double most_values = budgets().values);
 
 /// A key in the form used in JSON pointers.
 std::string pointerPart (std::string_view key);
+
+/// Makes `pointer` the JSON pointer to a member of the object at `object`. A loop over many members that passes the same string each time
+/// allocates nothing for most of them.
+void setPointer (std::string& pointer, std::string_view object, std::string_view key);
 
 /// The position of the value at a pointer, or of its nearest parent that exists in the file.
 TextPosition positionOf (const TextPositions&, std::string_view pointer);

@@ -62,9 +62,10 @@ public:
     template <typename Reader, typename Read, std::size_t n>
     void read (Json& object, const std::string& where, const RowKey<Reader, Read> (&fields)[n], Reader& self, Read& into, Json& extra)
     {
+        std::string member;
         for (auto& [key, value] : object.asObject())
         {
-            const auto member = where + '/' + pointerPart (key);
+            setPointer (member, where, key);
             const auto* field = std::ranges::find (fields, key, &RowKey<Reader, Read>::key);
             if (field == std::end (fields))
             {

@@ -4,7 +4,9 @@
 #include "is_digit.hpp"
 #include "seen_keys.hpp"
 
+#include <bit>
 #include <charconv>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -182,9 +184,24 @@ private:
     std::string_view plain() noexcept
     {
         const auto* const begin = here;
+        if constexpr (std::endian::native == std::endian::little)
+            for (; end - here >= step; here += step)
+                if (const auto special = specialAmong (here); special != 0) return { begin, here += std::countr_zero (special) / 8 };
         while (here < end && isPlain (*here))
             ++here;
         return { begin, here };
+    }
+
+    static constexpr std::ptrdiff_t step = 8;
+
+    /// Eight characters as a number whose lowest byte is the first. In the result, the highest bit of a byte is set if the character is not
+    /// plain. The first one is exact. After it, a plain character may be marked too, because a subtraction borrows from the next byte.
+    static std::uint64_t specialAmong (const char* text) noexcept
+    {
+        constexpr std::uint64_t ones = 0x0101010101010101u;
+        std::uint64_t all;
+        std::memcpy (&all, text, sizeof all);
+        return (all | (all - 0x20 * ones) | ((all ^ ('"' * ones)) - ones) | ((all ^ ('\\' * ones)) - ones)) & (0x80 * ones);
     }
 
     static bool isPlain (char c) noexcept { return static_cast<unsigned char> (c) >= 0x20 && static_cast<unsigned char> (c) < 0x80 && c != '"' && c != '\\'; }

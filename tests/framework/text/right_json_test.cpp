@@ -144,3 +144,22 @@ TEST_CASE ("right JSON is also refused where a limit or the careful parser would
     CHECK (readRightJson (nested (deepest_nesting), most));
     CHECK_FALSE (readRightJson (nested (deepest_nesting + 1), most));
 }
+
+TEST_CASE ("right JSON: a string is read right whatever its length, and wherever a special character is", "[json]")
+{
+    const std::vector<std::string> specials { "\\\"", "\\\\", "\\n", "\\u00e4", "ü", "€", "\U0001F600", "\x7f", " ", "!", "#", "[", "]" };
+    const std::vector<std::string> meanings { "\"", "\\", "\n", "ä", "ü", "€", "\U0001F600", "\x7f", " ", "!", "#", "[", "]" };
+    int wrong = 0;
+    for (std::size_t size = 0; size < 20; ++size)
+        for (std::size_t where = 0; where <= size; ++where)
+            for (std::size_t k = 0; k < specials.size(); ++k)
+            {
+                const std::string before (where, 'a'), after (size - where, 'z');
+                const auto read = readRightJson ('"' + before + specials[k] + after + '"', most);
+                wrong += ! read || read->root != Json (before + meanings[k] + after);
+                for (const auto* bad : { "\n", "\x1f", "\x01", "\xff", "\x80" })
+                    wrong += readRightJson ('"' + before + bad + after + '"', most).has_value();
+                wrong += readRightJson ('"' + before + '"' + after + "\"", most).has_value();
+            }
+    CHECK (wrong == 0);
+}
