@@ -14,13 +14,6 @@ constexpr double most_behind = 50.0;   // times the watchdog; a limit, so that a
 // A few units in the last place below the limit, so that rounding cannot exceed it.
 constexpr double just_under = 1.0 - 16.0 * std::numeric_limits<double>::epsilon();
 
-/// isFinite for two vectors, without branches.
-bool areFinite (const Vec3& a, const Vec3& b) noexcept
-{
-    const Vec3 zero = (a - a) + (b - b);
-    return zero.x() + zero.y() + zero.z() == 0.0;
-}
-
 /// The share of v, 0…1, whose length is at most `most`. v must be finite; its length may overflow.
 double shareWithin (const Vec3& v, double most) noexcept
 {
@@ -321,13 +314,13 @@ void Guard::countImpulse (double s, const Reading& reading) noexcept
 /// True if the reading is valid and finite, whatever its age.
 bool Guard::isUsable (const Reading& reading) const noexcept
 {
-    return reading.valid && areFinite (reading.position, reading.rotation) && ! hasBrokenAxes (reading);
+    return reading.valid && isFinite (reading.position, reading.rotation) && ! hasBrokenAxes (reading);
 }
 
 Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading, bool is_usable) const noexcept
 {
     if (latched == Stop::emergency) return latched;
-    if (! areFinite (wanted.force, wanted.torque)) return Stop::not_finite;
+    if (! isFinite (wanted.force, wanted.torque)) return Stop::not_finite;
     if (hasChannels (wanted) && ! channelsAreFinite (wanted)) return Stop::not_finite;
     if (! is_usable || ! isRecent (reading) || isFrozen()) return Stop::stale;
     if (is_starved) return Stop::starved;
