@@ -16,26 +16,32 @@ namespace tactus::plan
 {
 
 /// Replaces every NaN by the same one.
-inline double withOneNan (double v) noexcept { return v == v ? v : std::numeric_limits<double>::quiet_NaN(); }
+template <typename T>
+T withOneNan (T v) noexcept
+{
+    return v == v ? v : T (std::numeric_limits<double>::quiet_NaN());
+}
 
 /// Exchanges two values if the second one is smaller. NaN is never exchanged, so no NaN is lost.
 ///
 /// Compilers turn the comparisons into jumps, and a processor cannot predict them, because which of two forces is larger changes with every
 /// motion. The instructions for minimum and maximum give the same bits, also for NaN and for zeros of both signs: the second operand.
-inline void sortTwo (double& a, double& b) noexcept
+template <typename T>
+void sortTwo (T& a, T& b) noexcept
 {
-#ifdef __SSE2__
-    const auto x = _mm_set_sd (a), y = _mm_set_sd (b);
-    a = _mm_cvtsd_f64 (_mm_min_sd (y, x));
-    b = _mm_cvtsd_f64 (_mm_max_sd (x, y));
-#else
-    const double lower = b < a ? b : a, higher = b < a ? a : b;
+    const T lower = b < a ? b : a, higher = b < a ? a : b;
     a = lower;
     b = higher;
-#endif
 }
 
 #ifdef __SSE2__
+inline void sortTwo (double& a, double& b) noexcept
+{
+    const auto x = _mm_set_sd (a), y = _mm_set_sd (b);
+    a = _mm_cvtsd_f64 (_mm_min_sd (y, x));
+    b = _mm_cvtsd_f64 (_mm_max_sd (x, y));
+}
+
 /// Two values that belong to two different sums.
 typedef double Two __attribute__ ((vector_size (16)));
 
@@ -86,12 +92,13 @@ T sumOf (T a, T b, T c, T d) noexcept
 inline constexpr int most_in_network = 4;
 
 /// The sum of n values. May sort `values` in place.
-inline double sum (double* values, int n) noexcept
+template <typename T>
+T sum (T* values, int n) noexcept
 {
     switch (n)
     {
     case 0:
-        return 0.0;
+        return T (0.0);
     case 1:
         return sumOf (values[0]);
     case 2:
@@ -104,9 +111,9 @@ inline double sum (double* values, int n) noexcept
         break;
     }
     for (int i = 0; i < n; ++i)
-        if (values[i] != values[i]) return std::numeric_limits<double>::quiet_NaN();   // before sorting, because NaN cannot be ordered
+        if (! (values[i] == values[i])) return T (std::numeric_limits<double>::quiet_NaN());   // before sorting, because NaN cannot be ordered
     std::sort (values, values + n);
-    double total = values[0];
+    T total = values[0];
     for (int i = 1; i < n; ++i)
         total += values[i];
     return withOneNan (total);
