@@ -59,7 +59,7 @@ struct Bristle
     bool letGo (Vec3& d) const noexcept;
 
 private:
-    static constexpr double eps_slip = 1e-9;   // relative; keeps steady sliding away from the branch points of eq. (3) and (4)
+    static constexpr double eps_slip = margin (1e-9);   // relative; keeps steady sliding away from the branch points of eq. (3) and (4)
 
     Step stick (const Vec3& d, const Vec3& dp) const noexcept;
     Step euler (const Vec3& d, const Vec3& dp) const noexcept;

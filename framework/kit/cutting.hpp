@@ -65,7 +65,7 @@ public:
     static std::string problem (double width, double toughness, double rupture_force, const Law& law, const Law& cracked);
 
 private:
-    static constexpr double eps_cut = 1e-9;   // relative; a cut ends exactly at e_c, and rounding there must not continue it
+    static constexpr double eps_cut = margin (1e-9);   // relative; a cut ends exactly at e_c, and rounding there must not continue it
     static constexpr double inf = std::numeric_limits<double>::infinity();
 
     double burstLength (const Law& law, const Law& cracked) const noexcept;

@@ -121,7 +121,7 @@ public:
         return found;
     }
 
-    bool isShort (const Vec3& step) const noexcept { return ! (step.norm() > 1e-10 * size); }
+    bool isShort (const Vec3& step) const noexcept { return ! (step.norm() > margin (1e-10) * size); }
 
 private:
     double reach() const noexcept { return 1e-5 * size; }   // step of the finite differences, in m
@@ -130,7 +130,7 @@ private:
     bool leaves (const Spot& from, const Vec3& step) const noexcept
     {
         for (std::size_t i = 0; i < 3; ++i)
-            if (from.on.weights[i] <= 0.0 && gradients[i].dot (step) * size < -1e-9 * step.norm()) return true;
+            if (from.on.weights[i] <= 0.0 && gradients[i].dot (step) * size < -margin (1e-9) * step.norm()) return true;
         return false;
     }
 
@@ -165,7 +165,7 @@ void Downhill::descend (Spot& spot, Felt& felt, double& left) const noexcept
             Spot there = patch.moved (spot, step);
             for (int i = 0; i < 3; ++i)   // puts a point that reaches or stays on an edge exactly on it
             {
-                const bool stays = spot.on.weights[at (i)] <= 0.0 && std::abs (there.on.weights[at (i)]) < 1e-12;
+                const bool stays = spot.on.weights[at (i)] <= 0.0 && std::abs (there.on.weights[at (i)]) < margin (1e-12);
                 if (i == edge || stays) patch.putOnEdge (there, i);
             }
             const Felt now = patch.feel (there);
@@ -185,9 +185,9 @@ void Downhill::descend (Spot& spot, Felt& felt, double& left) const noexcept
 
 void Downhill::settle (Spot& spot, Felt& felt, double longest) const noexcept
 {
-    constexpr int most = 16;          // triangles in one tick
-    constexpr double lower = 1e-13;   // relative: smaller differences are rounding
-    constexpr double on_it = 1e-9;    // relative to the size of the coordinates
+    constexpr int most = 16;                   // triangles in one tick
+    constexpr double lower = margin (1e-13);   // relative: smaller differences are rounding
+    constexpr double on_it = margin (1e-9);    // relative to the size of the coordinates
     double left = longest;
     for (int k = 0; k < most; ++k)
     {

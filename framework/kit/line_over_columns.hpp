@@ -25,7 +25,7 @@ struct LineOverColumns
         double along = 0.0;   ///< mean position on the line: 0 at a, 1 at b
         double hat[2] {};     ///< the hat function at a and b
 
-        explicit operator bool() const noexcept { return share > 1e-9; }
+        explicit operator bool() const noexcept { return share > margin (1e-9); }
     };
 
     double length() const noexcept { return x[1] - x[0]; }

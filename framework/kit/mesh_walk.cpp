@@ -44,7 +44,7 @@ MeshWalk::MeshWalk (Mesh m) : body (std::move (m)), rim (rimOf (body)), first (b
         size = std::max (size, point.cwiseAbs().maxCoeff());
     boxes.reserve (body.triangles.size());
     blocks.reserve (body.triangles.size() / block + 1);
-    const Vec3 slack = Vec3::Constant (1e-12 * size);   // far more than the rounding error of a computed point
+    const Vec3 slack = Vec3::Constant (margin (1e-12) * size);   // far more than the rounding error of a computed point
     for (int t = 0; t < body.size(); ++t)
     {
         const auto [a, b, c] = cornersOf (body, t);
@@ -91,7 +91,7 @@ public:
     }
 
 private:
-    static constexpr double rounding = 1e-12;   // relative bound on rounding errors
+    static constexpr double rounding = margin (1e-12);   // relative bound on rounding errors
     static constexpr double endless = std::numeric_limits<double>::infinity();
 
     Vec3 centre;
@@ -125,8 +125,8 @@ Spot MeshWalk::nearestOfAll (const Vec3& p, int guess) const noexcept
 
 Spot MeshWalk::nearestAmong (int from, const Vec3& p, const Vec3* way) const noexcept
 {
-    constexpr int most = 1000;         // most steps of a walk: more than a hand needs in a tick on any mesh
-    constexpr double nearer = 1e-12;   // relative margin: at a common edge, two triangles are equally near except for rounding
+    constexpr int most = 1000;                  // most steps of a walk: more than a hand needs in a tick on any mesh
+    constexpr double nearer = margin (1e-12);   // relative margin: at a common edge, two triangles are equally near except for rounding
 
     Spot here = spotOn (from, p);
     for (int step = 0; step < most; ++step)
@@ -160,7 +160,7 @@ Spot MeshWalk::nearestAmong (int from, const Vec3& p, const Vec3* way) const noe
 
 int MeshWalk::entered (const Vec3& from, const Vec3& to) const noexcept
 {
-    constexpr double slack = 1e-9;   // relative; far larger than the rounding error of a weight
+    constexpr double slack = margin (1e-9);   // relative; far larger than the rounding error of a weight
     const Vec3 way = to - from;
     const Box whole { from.cwiseMin (to), from.cwiseMax (to) };
     const auto misses = [&] (const Box& box) { return (box.low.array() > whole.high.array() || box.high.array() < whole.low.array()).any(); };
@@ -202,7 +202,7 @@ bool MeshWalk::isBeyondRim (const Spot& spot, const Vec3& p) const noexcept
             const Vec3& a = body.corner (triangle, (i + 1) % 3);
             const Vec3& b = body.corner (triangle, (i + 2) % 3);
             const Vec3 along = b - a, inward = body.corner (triangle, i) - a;
-            if (along.cross (spot.on.point - a).norm() > 1e-9 * along.squaredNorm()) continue;   // the spot is not on this edge
+            if (along.cross (spot.on.point - a).norm() > margin (1e-9) * along.squaredNorm()) continue;   // the spot is not on this edge
             const Vec3 outward = -direction (inward - along * (inward.dot (along) / along.squaredNorm()));
             const Vec3 up = direction (along.cross (inward));
             if (outward.dot (away) > 0.0 && (away - up.dot (away) * up).norm() > further * away.norm()) return true;

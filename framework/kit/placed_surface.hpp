@@ -237,7 +237,7 @@ inline Vec3 PlacedSurface::slope (const Spot& spot, const Felt& felt, const Vec3
 
     const Vec3 away = p - on.point, normal = direction (areaNormal (corners));
     const Vec3 sideways = away - away.dot (normal) * normal;
-    if (sideways.norm() <= 1e-9 * away.norm()) return sum;
+    if (sideways.norm() <= margin (1e-9) * away.norm()) return sum;
     for (std::size_t i = 0; i < 3; ++i)
         if (on.weights[i] == 0.0 && on.weights[(i + 1) % 3] > 0.0 && on.weights[(i + 2) % 3] > 0.0)
         {

@@ -52,7 +52,7 @@ inline Eigen::Quaterniond shortestRotation (const Vec3& from, const Vec3& to) no
     };
 
     const double cosine = v1.dot (v0);
-    if (! (cosine < -1.0 + 1e-12)) return arc (v0, v1, cosine);
+    if (! (cosine < -1.0 + margin (1e-12))) return arc (v0, v1, cosine);
 
     const Vec3 axis = perpendicularTo (v0);
     return arc (-v0, v1, -cosine) * Eigen::Quaterniond { 0.0, axis.x(), axis.y(), axis.z() };

@@ -13,7 +13,7 @@ namespace tactus
 
 namespace
 {
-constexpr double level = 1.0 - 1e-12;   // the cosine of the largest angle that counts as 0
+constexpr double level = 1.0 - margin (1e-12);   // the cosine of the largest angle that counts as 0
 
 /// The cosine of the largest angle between a frame and the normal of a triangle at its node.
 double mostTilted (const Surface& s)

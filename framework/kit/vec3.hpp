@@ -10,13 +10,18 @@
 #endif
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <limits>
 
 namespace tactus
 {
 
 using Vec3 = Eigen::Vector3d;
+
+/// A relative margin against rounding: this one, but at least a few units in the last place. That matters only in single precision.
+constexpr double margin (double relative) noexcept { return std::max (relative, 32.0 * std::numeric_limits<double>::epsilon()); }
 
 /// True if every component of every value is a finite number. Nodes check their inputs with it.
 inline bool isFinite (double v) noexcept

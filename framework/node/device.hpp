@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/vec3.hpp>
+#include <tactus/kit/fine.hpp>
 #include <tactus/node/reading_fault.hpp>
 
 #include <algorithm>
@@ -75,15 +75,15 @@ struct Reading
 {
     static constexpr int most_buttons = 32;
 
-    Vec3 position = Vec3::Zero();        ///< as measured, so quantised; in m
-    Vec3 rotation = Vec3::Zero();        ///< rotation vector, in rad
-    double pressure = 0.0;               ///< in N, if the device measures it
-    std::uint32_t buttons = 0;           ///< bit i: button i is down
-    ReadingFault fault {};               ///< why the reading is not valid, or why it gets old, if the driver knows
-    double age = 0.0;                    ///< time since the device took this reading, in s
-    bool valid = true;                   ///< false while the device has nothing to report
-    Vec3 true_position = Vec3::Zero();   ///< in m; known only for a simulated device
-    Vec3 true_velocity = Vec3::Zero();   ///< in m/s; known only for a simulated device
+    Place position = Place::Zero();        ///< as measured, so quantised; in m
+    Vec3 rotation = Vec3::Zero();          ///< rotation vector, in rad
+    double pressure = 0.0;                 ///< in N, if the device measures it
+    std::uint32_t buttons = 0;             ///< bit i: button i is down
+    ReadingFault fault {};                 ///< why the reading is not valid, or why it gets old, if the driver knows
+    double age = 0.0;                      ///< time since the device took this reading, in s
+    bool valid = true;                     ///< false while the device has nothing to report
+    Place true_position = Place::Zero();   ///< in m; known only for a simulated device
+    Vec3 true_velocity = Vec3::Zero();     ///< in m/s; known only for a simulated device
 
     // The part of the last written effort that the limits of the motors removed.
     Vec3 unrendered_force = Vec3::Zero();    ///< written minus rendered, in N

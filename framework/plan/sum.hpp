@@ -16,17 +16,26 @@ namespace tactus::plan
 {
 
 /// Replaces every NaN by the same one.
-inline double withOneNan (double v) noexcept
+template <typename T>
+T withOneNan (T v) noexcept
 {
     // A jump that is never taken costs less than a choice, for which the sum would have to be known first.
     if (__builtin_expect_with_probability (v == v, 1, 1.0)) return v;
-    return std::numeric_limits<double>::quiet_NaN();
+    return T (std::numeric_limits<double>::quiet_NaN());
 }
 
 /// Exchanges two values if the second one is smaller. NaN is never exchanged, so no NaN is lost.
 ///
 /// Compilers turn the comparisons into jumps, and a processor cannot predict them, because which of two forces is larger changes with every
 /// motion. The instructions for minimum and maximum give the same bits, also for NaN and for zeros of both signs: the second operand.
+template <typename T>
+void sortTwo (T& a, T& b) noexcept
+{
+    const T lower = b < a ? b : a, higher = b < a ? a : b;
+    a = lower;
+    b = higher;
+}
+
 #ifdef __SSE2__
 /// One value, kept in the form that these instructions take, from the first exchange to the sum.
 struct Lane
@@ -62,15 +71,6 @@ inline void sortTwo (Two& a, Two& b) noexcept
     a = lower;
     b = higher;
 }
-#else
-using Lane = double;
-
-inline void sortTwo (double& a, double& b) noexcept
-{
-    const double lower = b < a ? b : a, higher = b < a ? a : b;
-    a = lower;
-    b = higher;
-}
 #endif
 
 /// The sum of up to four values. A fixed network of exchanges sorts them, in a fraction of the instructions of std::sort.
@@ -103,18 +103,21 @@ auto sumOf (T a, T b, T c, T d) noexcept
     return withOneNan (a + b + c + d);
 }
 
+#ifdef __SSE2__
 inline double sumOf (double a, double b, double c) noexcept { return sumOf<Lane> (a, b, c); }
 inline double sumOf (double a, double b, double c, double d) noexcept { return sumOf<Lane> (a, b, c, d); }
+#endif
 
 inline constexpr int most_in_network = 4;
 
 /// The sum of n values. May sort `values` in place.
-inline double sum (double* values, int n) noexcept
+template <typename T>
+T sum (T* values, int n) noexcept
 {
     switch (n)
     {
     case 0:
-        return 0.0;
+        return T (0.0);
     case 1:
         return sumOf (values[0]);
     case 2:
@@ -127,9 +130,9 @@ inline double sum (double* values, int n) noexcept
         break;
     }
     for (int i = 0; i < n; ++i)
-        if (values[i] != values[i]) return std::numeric_limits<double>::quiet_NaN();   // before sorting, because NaN cannot be ordered
+        if (! (values[i] == values[i])) return T (std::numeric_limits<double>::quiet_NaN());   // before sorting, because NaN cannot be ordered
     std::sort (values, values + n);
-    double total = values[0];
+    T total = values[0];
     for (int i = 1; i < n; ++i)
         total += values[i];
     return withOneNan (total);

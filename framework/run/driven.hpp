@@ -4,6 +4,7 @@
 #include <tactus/node/node.hpp>
 
 #include <limits>
+#include <type_traits>
 
 /// What fused code (host/fuse) and exported code (host/generate) share.
 namespace tactus::generated
@@ -31,9 +32,17 @@ struct Driven
         }
     }
 
-    double in (double value) const noexcept { return fault ? not_a_number : value; }
-    Vec3 in (const Vec3& value) const noexcept { return fault ? Vec3 { not_a_number, not_a_number, not_a_number } : value; }
-    const double* in (const double* value) const noexcept { return fault ? &not_a_number : value; }
+    /// A number, a vector, or the address of a number.
+    template <typename T>
+    auto in (const T& value) const noexcept
+    {
+        if constexpr (std::is_pointer_v<T>)
+            return fault ? &not_a_number : static_cast<const double*> (value);
+        else if constexpr (std::is_convertible_v<double, T>)
+            return fault ? T (not_a_number) : value;
+        else
+            return fault ? T { not_a_number, not_a_number, not_a_number } : value;
+    }
 };
 
 }   // namespace tactus::generated

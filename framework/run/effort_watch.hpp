@@ -24,11 +24,11 @@ public:
 
     /// Takes a reading, which must be finite. A negative age counts as 0, because it would make the motion seem slow. turned() and axisMoved()
     /// refer to this reading until the next call. [tick thread]
-    void begin (const Reading& reading, double now_s) noexcept
+    void begin (const Reading& reading, Fine now_s) noexcept
     {
-        const double at = now_s - std::max (0.0, reading.age);
+        const Fine at = now_s - std::max (0.0, reading.age);
         moved = known ? Vec3 (reading.position - position) : Vec3 (Vec3::Zero());
-        elapsed = known ? std::max (0.0, at - before_at) : 0.0;
+        elapsed = known ? std::max (0.0, static_cast<double> (at - before_at)) : 0.0;
         position = reading.position;
         before_at = at;
         was_known = std::exchange (known, true);
@@ -68,11 +68,11 @@ private:
         return step.vec() * (2.0 * math::atan2 (std::copysign (sine, step.w()), std::abs (step.w())) / sine);
     }
 
-    Vec3 position = Vec3::Zero();
+    Place position = Place::Zero();
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
     Vec3 measured = Vec3::Zero();   // what `rotation` was computed from; not a number if that is no rotation
     std::array<double, Channels::most> axes {};
-    double before_at = 0.0;
+    Fine before_at = 0.0;
     bool known = false, was_known = false;
 };
 
@@ -146,7 +146,7 @@ class StillWatch
 public:
     /// Only a change resets a count. Without a force the counts are kept: if they were reset, a stop would end itself by taking the
     /// force away, and the force would push the hand again and again. [tick thread]
-    void operator() (const Vec3& position, const Vec3& force, double least_force, double dt_s) noexcept
+    void operator() (const Place& position, const Vec3& force, double least_force, double dt_s) noexcept
     {
         whole = position == before ? whole + (force.norm() >= least_force ? dt_s : 0.0) : 0.0;
         for (int i = 0; i < 3; ++i)
@@ -174,7 +174,8 @@ public:
     }
 
 private:
-    Vec3 before = Vec3::Zero(), still = Vec3::Zero();   // still: by coordinate
+    Place before = Place::Zero();
+    Vec3 still = Vec3::Zero();   // by coordinate
     double whole = 0.0;
     bool has_changed[3] {};   // by coordinate, since the first reading
     bool known = false;

@@ -28,13 +28,14 @@ using generated::not_a_number;
 
 /// The sum of several wires. They are added in order of value, so the order of the wires does not matter.
 template <typename... T>
-double sumOf (T... values) noexcept
+auto sumOf (T... values) noexcept
 {
+    using Sum = std::remove_cvref_t<decltype ((values + ...))>;
     if constexpr (sizeof...(T) <= plan::most_in_network)
-        return plan::sumOf (values...);
+        return plan::sumOf<Sum> (Sum (values)...);
     else
     {
-        double all[] { values... };
+        Sum all[] { values... };
         return plan::sum (all, static_cast<int> (sizeof...(T)));
     }
 }

@@ -221,7 +221,7 @@ void Guard::loseTime (double lost_s) noexcept
 /// Updates the watches with the motion of the device under its last effort. `is_usable`: see isUsable.
 void Guard::watch (const Reading& reading, bool is_usable, double elapsed_s) noexcept
 {
-    const double now = static_cast<double> (static_cast<std::int64_t> (ticks++)) * dt + lost;   // a signed number converts in one instruction
+    const Fine now = Fine (static_cast<std::int64_t> (ticks++)) * dt + lost;   // a signed number converts in one instruction
     if (! is_usable || ! isFinite (reading.age))
     {
         mean_effort.add (last, reading, elapsed_s / dt, watches_axes);

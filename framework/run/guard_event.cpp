@@ -44,7 +44,7 @@ void nameNotFinite (Guard::Event& e, const Effort& wanted) noexcept
 void Guard::describeStale (Event& e, const Reading& reading) const noexcept
 {
     using Part = Event::Part;
-    if (! isFinite (reading.position, reading.rotation)) nameValue (e, Part::reading, isFinite (reading.position) ? reading.rotation : reading.position);
+    if (! isFinite (reading.position, reading.rotation)) nameValue (e, Part::reading, isFinite (reading.position) ? reading.rotation : Vec3 (reading.position));
     if (hasBrokenAxes (reading)) nameChannel (e, Part::reading, reading.axes);
     e.fault = reading.fault;
     e.value = reading.age;

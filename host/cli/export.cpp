@@ -26,6 +26,7 @@ struct Options
     std::string graph, folder, target = "cpp";
     std::vector<std::string> inputs, records, sets;
     double rate_hz = 0.0;
+    bool is_single = false;
 };
 
 ExportTarget targetNamed (const std::string& name)
@@ -58,9 +59,13 @@ void run (const Options& options)
                              .overrides = readSets (options.sets),
                              .assets = &assets,
                              .services = { .nearest_triangle = nearestByEmbree } };
-    const auto folder = exportGraph (
-        loaded.graph,
-        { .file = fs::path (options.graph).filename().string(), .program = TACTUS_VERSION, .compile = std::move (compile), .target = target, .open = {} });
+    const auto folder = exportGraph (loaded.graph,
+                                     { .file = fs::path (options.graph).filename().string(),
+                                       .program = TACTUS_VERSION,
+                                       .compile = std::move (compile),
+                                       .target = target,
+                                       .is_single = options.is_single,
+                                       .open = {} });
     if (report (folder.messages, loaded, options.graph) > 0) throw Stop {};
     if (auto written = writeFolder (folder, options.folder); ! written) fail (written.error());
     std::cout << options.folder << ": " << folder.class_name << " in " << folder.stem << ".hpp, " << folder.files.size() << " files\n"
@@ -85,6 +90,8 @@ void addExport (const Command& app)
     command.addOption ("--record", options->records, "Make these ports outputs of the class; default: the inputs of every sink").separatedBy (',');
     command.addOption ("--set", options->sets, "Set a parameter: NODE.PARAM=VALUE").oneValueEach();
     command.addOption ("--rate", options->rate_hz, "Ticks per second; default: the graph's").check (finiteWithin (1.0, 1e6));
+    command.addFlag ("--float", options->is_single,
+                     "Compute with float instead of double, for boards without a unit for doubles; positions keep more digits. Only with --to cpp");
     addLimits (command);
     addPlugins (command);
     command.footer ("The folder needs Eigen and the standard library, and nothing of Tactus. Its README.md says how to use it.\n\n"
@@ -92,6 +99,7 @@ void addExport (const Command& app)
                     "  tactus export graphs/dry_wood.json -o dry_wood\n"
                     "  tactus export dry_wood -o dry_wood --record drag.force,drag.state\n"
                     "  make -C dry_wood test\n"
+                    "  tactus export dry_wood -o dry_wood_small --float\n"
                     "  tactus export dry_wood -o dry_wood_fmu --to fmu && make -C dry_wood_fmu fmu");
     command.callback ([options] { run (*options); });
 }

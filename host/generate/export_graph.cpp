@@ -8,6 +8,7 @@
 #include "folder_code.hpp"
 #include "self_test_code.hpp"
 #include "self_test_run.hpp"
+#include "single_precision.hpp"
 #include "sources.hpp"
 
 #include <tactus/file/text_file.hpp>
@@ -48,6 +49,25 @@ void refusePlugins (const Plan& plan, Messages& messages)
                                             quote (node.path) + " (" + std::string (node.type->info.id) + ") cannot be exported: its code is " + where,
                                             "bypass it, or use a node that `tactus nodes` lists without a plugin"));
     }
+}
+
+/// Names what has no single-precision export.
+void refuseSingle (const ExportOptions& options, Messages& messages)
+{
+    if (! options.is_single || options.target == ExportTarget::cpp) return;
+    messages.push_back (
+        Message::error ("export/float", "", "only the class alone can be exported in single precision", "write --to cpp, or leave out --float"));
+}
+
+/// The code of the class in single precision. A number that a float cannot hold is an error.
+void makeSingle (ClassFiles& code, Messages& messages)
+{
+    std::vector<std::string> outside;
+    for (auto* text : { &code.header, &code.source, &code.data })
+        *text = inSinglePrecision (*text, &outside);
+    for (const auto& number : outside)
+        messages.push_back (Message::error ("export/float", "", "the graph has the number " + number + ", which is beyond the range of single precision",
+                                            "change it, or leave out --float"));
 }
 
 std::vector<std::string> limitsOf (const Plan& plan)
@@ -188,7 +208,7 @@ void addFiles (ExportedFolder& folder, const Exported& e, const ClassFiles& code
     if (! code.data.empty()) used.insert ("tactus/kit/surface.hpp");
     for (const auto& node : e.wiring.nodes)
         used.insert (node.header);
-    const auto sources = withIncludes (used);
+    const auto sources = e.is_single ? inSinglePrecision (withIncludes (used)) : withIncludes (used);
     auto compiled = sources;
     if (target == ExportTarget::c_api) compiled.insert (e.stem + "_c.cpp");
     auto& files = folder.files;
@@ -200,7 +220,7 @@ void addFiles (ExportedFolder& folder, const Exported& e, const ClassFiles& code
               { "LICENSE", std::string (findSource ("LICENSES/MIT.txt")->text) } };
     if (! code.data.empty()) files.emplace_back (e.stem + "_data.hpp", code.data);
     for (const auto& path : sources)
-        files.emplace_back (path, adapted (*findSource (path)));
+        files.emplace_back (path, e.is_single ? adaptedSingle (path) : adapted (*findSource (path)));
     addTarget (folder, e, target);
 }
 
@@ -213,6 +233,7 @@ ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& opti
     Run tried { catalogue(), options.compile, options.open ? options.open : simulatedDevices() };
     folder.messages = tried.load (graph);
     if (hasErrors (folder.messages)) return folder;
+    refuseSingle (options, folder.messages);
     refusePlugins (tried.engine().plan(), folder.messages);
     if (options.target == ExportTarget::arduino && tried.engine().plan().roles().empty())
         folder.messages.push_back (Message::error ("export/role", "", "an Arduino library drives a device, but the graph has none", "write --to cpp"));
@@ -232,6 +253,7 @@ ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& opti
                  .stem = stemOf (options.file),
                  .class_name = {},
                  .program = options.program,
+                 .is_single = options.is_single,
                  .parameters = parametersOf (wiring),
                  .controls = {},
                  .hits = {},
@@ -244,7 +266,9 @@ ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& opti
 
     e.roles = rolesOf (run);
     e.memory = memoryOf (wiring);
-    const auto code = classFiles (e);   // before the run, because it moves the values
+    auto code = classFiles (e);   // before the run, because it moves the values
+    if (e.is_single) makeSingle (code, folder.messages);
+    if (hasErrors (folder.messages)) return folder;
     addFiles (folder, e, code, options.target);
     auto self_test = selfTestFiles (e, selfTestOf (run, e));
     const std::string place = options.target == ExportTarget::arduino ? "extras/" : "";

@@ -27,7 +27,8 @@ struct ExportOptions
     std::string program;      ///< "tactus 0.2.0"
     CompileOptions compile;   ///< feeds become inputs, and records outputs
     ExportTarget target = ExportTarget::cpp;
-    Run::OpenDevice open;   ///< the devices of the self-test; empty: those that the graph describes, simulated
+    bool is_single = false;   ///< with float instead of double, and positions with more digits (kit/fine.hpp)
+    Run::OpenDevice open;     ///< the devices of the self-test; empty: those that the graph describes, simulated
 };
 
 /// A folder of C++ files that is not written yet.
@@ -39,7 +40,7 @@ struct ExportedFolder
 };
 
 /// Turns a graph into C++ code that computes the same bits, with a self-test. Ids of its own: export/plugin (a node whose code is not part
-/// of the program), export/role (an Arduino library needs a device). [main thread]
+/// of the program), export/role (an Arduino library needs a device), export/float (what has no single-precision export). [main thread]
 ExportedFolder exportGraph (const graph::Graph&, const ExportOptions&);
 
 /// Writes the files into a folder that is new or empty, or holds an earlier export, whose files are replaced. Errors: output/exists,

@@ -57,6 +57,7 @@ struct Exported
     std::string stem;         ///< of the files: "dry_wood"
     std::string class_name;   ///< "DryWood"
     std::string program;      ///< "tactus 0.2.0"
+    bool is_single = false;   ///< see ExportOptions
     std::vector<ExportedParameter> parameters;
     std::vector<ExportedControl> controls;
     std::vector<std::string> hits;   ///< enumerators

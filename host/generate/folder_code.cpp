@@ -102,7 +102,7 @@ std::string makeFile (const Exported& e, const std::set<std::string>& sources)
     return filled (R"(# SPDX-License-Identifier: MIT
 # make test: builds and runs the self-test. EIGEN is the folder of Eigen's headers.
 EIGEN ?= /usr/include/eigen3
-CXXFLAGS ?= -O2 -Wall -Wextra
+CXXFLAGS ?= -O2 -Wall -Wextra@WARNINGS@
 NO_FMA := $(if $(filter x86_64-% amd64-% i386-% i486-% i586-% i686-%,$(shell $(CXX) -dumpmachine)),-mno-fma -mno-fma4 -mno-avx512f)
 FLAGS = -std=c++20 -I. -isystem $(EIGEN) -ffp-contract=off -fno-math-errno -fno-trapping-math $(NO_FMA) -fno-exceptions -fno-rtti
 
@@ -131,7 +131,7 @@ instructions: @STEM@_self_test
 
 .PHONY: test clean instructions
 )",
-                   { { "@SOURCES@", compiled (e, sources, " \\\n    ") }, { "@STEM@", e.stem } });
+                   { { "@SOURCES@", compiled (e, sources, " \\\n    ") }, { "@STEM@", e.stem }, { "@WARNINGS@", e.is_single ? " -Wdouble-promotion" : "" } });
 }
 
 namespace
@@ -144,12 +144,13 @@ std::string buildOf (const Exported& e, ExportTarget target)
                "board\nmust compile C++20 (`-std=gnu++20`), and must not use `-ffast-math`. `extras/` has a self-test for a computer:\n\n"
                "    g++ -std=c++20 -O2 -ffp-contract=off -fno-math-errno -fno-trapping-math -Isrc -isystem /usr/include/eigen3 \\\n"
                "        extras/*.cpp $(find src -name '*.cpp') -o self_test && ./self_test\n";
-    std::string text = R"(    cmake -B build && cmake --build build && ctest --test-dir build
+    std::string text = filled (R"(    cmake -B build && cmake --build build && ctest --test-dir build
     make test
 
-Either command builds the self-test and runs it. It compares every output of a recorded run with what Tactus computed, bit for bit. It
+Either command builds the self-test and runs it. It compares every output of a recorded run with what Tactus computed, @HOW@. It
 also prints how many bytes the graph takes. `make instructions` counts the instructions of a tick (it needs valgrind).
-)";
+)",
+                               { { "@HOW@", e.is_single ? "in double precision" : "bit for bit" } });
     if (target == ExportTarget::c_api)
         text += filled ("\n`@S@.h` is the same class for C99: create, prepare, tick, set, destroy. `@S@_example.c` shows how to use it; link it with\n"
                         "`lib@S@.a` and the C++ library.\n",
@@ -162,6 +163,17 @@ in the same unit; it cannot be serialised.
 )",
                         { { "@S@", e.stem } });
     return text;
+}
+
+/// How exact the values are.
+std::string bitsOf (const Exported& e)
+{
+    if (! e.is_single)
+        return "- The bits are those of Tactus if the code is compiled without contraction into fused multiply-adds (see `CMakeLists.txt`). No function\n";
+    return "- All numbers are floats, and nothing here needs a unit for doubles. Positions, which are inputs of type `tactus::Place`, are sums of two\n"
+           "  floats, because a float at 0.1 m has steps of 7.5 nm. `tactus::Extended::steps (count, step)` makes one from an encoder. The self-test\n"
+           "  compares with double precision and prints the largest difference.\n"
+           "- The bits are the same on all machines if the code is compiled without contraction into fused multiply-adds (see `CMakeLists.txt`). No function\n";
 }
 
 /// Bytes of the class, roughly: the sizes of parameters, guards and readings on a 64-bit computer.
@@ -201,11 +213,11 @@ nodes are in `tactus/nodes/`, one file per node type.
 - All functions are for one thread.
 - Each role has a guard, which limits its effort and brings it to zero on bad readings. @LIMITS@ Set `limits` and `layout` of each role
   to those of your device before `prepare`.
-- The bits are those of Tactus if the code is compiled without contraction into fused multiply-adds (see `CMakeLists.txt`). No function
-  of `libm` is called, so its version does not matter.
+@BITS@  of `libm` is called, so its version does not matter.
 @MORE@
 @TABLES@)",
-                   { { "@BUILD@", buildOf (e, target) },
+                   { { "@BITS@", bitsOf (e) },
+                     { "@BUILD@", buildOf (e, target) },
                      { "@BYTES@", std::to_string (aboutBytesOf (e)) },
                      { "@NODES@", std::to_string (e.memory.nodes) },
                      { "@PREPARED@", std::to_string (e.memory.prepared) },

@@ -30,7 +30,7 @@ void TickCode::record (const Record& r, const std::string& indent, const std::st
     bool is_sum = false;
     plan::eachSum (r, [&] (const plan::Sum& sum) {
         is_sum = true;
-        if (wiring.isRead (&sum.out)) line (indent, wiring.target (&sum.out) + " = " + sumOf (sum) + ";");
+        if (wiring.isRead (&sum.out)) line (indent, wiring.target (&sum.out, "auto") + " = " + sumOf (sum) + ";");
     });
     if (is_sum) return;
     if (r.step == &plan::Strike::step)

@@ -275,10 +275,10 @@ std::string Wiring::valueAt (const double* const* three, const std::string& type
     return type + (type.empty() ? "{ " : " { ") + listed ({ valueAt (three[0]), valueAt (three[1]), valueAt (three[2]) }) + " }";
 }
 
-std::string Wiring::target (const double* value) const
+std::string Wiring::target (const double* value, const std::string& type) const
 {
     const auto& name = values.at (value);
-    return name.starts_with ("state.") ? name : "const double " + name;
+    return name.starts_with ("state.") ? name : "const " + type + " " + name;
 }
 
 }   // namespace tactus::host

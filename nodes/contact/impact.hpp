@@ -48,7 +48,7 @@ struct Impact
 {
     struct Inputs
     {
-        double depth = 0.0;
+        Fine depth = 0.0;
     };
 
     struct Params
@@ -122,7 +122,7 @@ struct Impact
 
         touching = true;
         const double v = approach();
-        const bool rested = since_hit * dt >= params.refractory * (1.0 - 1e-12);
+        const bool rested = since_hit * dt >= params.refractory * (1.0 - margin (1e-12));
         if (! (v > 0.0 && v >= params.min_speed && rested && isFinite (v))) return { .contact = 1.0 };
 
         since_hit = 0.0;
@@ -134,7 +134,7 @@ private:
     static constexpr double finest = 1e-8, coarsest = 1e-4;   // m; limits for the quantum of an encoder
 
     /// The quantum of the encoder, or 0 if the positions are exact. A little less than computed, to allow for rounding.
-    double quantum() const noexcept { return ! is_exact && common <= coarsest ? common * (1.0 - 1e-6) : 0.0; }
+    double quantum() const noexcept { return ! is_exact && common <= coarsest ? common * (1.0 - margin (1e-6)) : 0.0; }
 
     double noise() const noexcept { return std::max (params.release, quantum()); }
 
@@ -165,7 +165,7 @@ private:
     /// Rate of depth up to now, m/s; 0 without an earlier sample.
     double approach() noexcept
     {
-        const int longest = std::min (known - 1, std::max (1, static_cast<int> (params.window / dt * (1.0 + 1e-9))));
+        const int longest = std::min (known - 1, std::max (1, static_cast<int> (params.window / dt * (1.0 + margin (1e-9)))));
         if (longest < 1) return 0.0;
         const int n = line (longest);
         return (ago (0) - ago (n)) / (n * dt);
@@ -210,7 +210,7 @@ private:
     int line (int longest) noexcept
     {
         const int begins = beginning (std::min (known - 1, longest + 1)), count = listArrivals (begins, longest);
-        const double play = noise() * (1.0 + 2e-6);
+        const double play = noise() * (1.0 + 2.0 * margin (1e-6));
         double least = -inf, most = inf;
         int best = std::clamp (begins, 1, longest);   // if there is no arrival, the tool was at rest for all of this time
         for (int i = count - 1, used = 0; i >= 0 && least <= most; --i, ++used)

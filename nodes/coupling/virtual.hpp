@@ -38,7 +38,7 @@ struct VirtualCoupling
 {
     struct Inputs
     {
-        Vec3 position = Vec3::Zero();
+        Place position = Place::Zero();
     };
 
     struct Params
@@ -52,7 +52,7 @@ struct VirtualCoupling
 
     struct Outputs
     {
-        Vec3 proxy = Vec3::Zero();
+        Place proxy = Place::Zero();
         Vec3 force = Vec3::Zero();
         double depth = 0.0;
         double state = 0.0;
@@ -102,7 +102,7 @@ struct VirtualCoupling
 
     Outputs tick (const Inputs& in) noexcept
     {
-        const double x = params.offset - n.dot (in.position);
+        const Fine x = params.offset - n.dot (in.position);
         const double sigma = params.wall_stiffness, damper = params.damping / dt, g = params.stiffness + damper;
 
         const double free = last.known && g > 0.0 ? x - damper / g * last.e : x;

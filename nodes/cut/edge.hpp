@@ -69,7 +69,7 @@ struct Edge
 {
     struct Inputs
     {
-        Vec3 position = Vec3::Zero();
+        Place position = Place::Zero();
         Vec3 rotation = Vec3::Zero();
     };
 
@@ -193,7 +193,7 @@ private:
     };
 
     const Law& cracked() const noexcept { return settings.cracked_law ? settings.cracked_law : settings.law; }
-    double depthOf (const Vec3& p) const noexcept { return settings.offset - n.dot (p); }
+    double depthOf (const Place& p) const noexcept { return settings.offset - n.dot (p); }
     static double stateOf (const Sum&) noexcept;
 
     Cutting read (const Params&) const noexcept;
@@ -223,7 +223,7 @@ inline Edge::Outputs Edge::tick (const Inputs& in) noexcept
     double width = contact.touching ? contact.params.width : params.width;
     if (contact.inside) width = std::min (width, CutPlaces::longest * places[contact.cut].spacing());
     const Vec3 edge = rotationMatrix (in.rotation).col (0);
-    const Vec3 a = in.position - 0.5 * width * edge, b = in.position + 0.5 * width * edge;
+    const Place a = in.position - 0.5 * width * edge, b = in.position + 0.5 * width * edge;
     Line line { .depth = { depthOf (a), depthOf (b) } };
     if (! isFinite (a, b, line.depth[0], line.depth[1])) return fault();
 
@@ -292,7 +292,7 @@ inline CutPlaces::Cut* Edge::cutUnder (const Vec3& a, const Vec3& b, bool inside
 inline void Edge::follow (CutPlaces::Cut& cut, const Vec3& a, const Vec3& b) const noexcept
 {
     const Vec3 edge = direction (b - a), flat = edge - n * n.dot (edge);
-    const Vec3 along = flat.norm() > 1e-9 ? flat.normalized() : perpendicularTo (n);
+    const Vec3 along = flat.norm() > margin (1e-9) ? flat.normalized() : perpendicularTo (n);
     CutPlaces::place (cut, 0.5 * (a + b), along, n.cross (along));
 }
 

@@ -100,7 +100,7 @@ struct Scissors
     Outputs tick (const Inputs&) noexcept;
 
 private:
-    static constexpr double eps_cut = 1e-9;   // relative margin: a front exactly at the criterion must not grow by rounding errors
+    static constexpr double eps_cut = margin (1e-9);   // relative margin: a front exactly at the criterion must not grow by rounding errors
 
     struct Plate
     {

@@ -51,7 +51,7 @@ struct Plane
 {
     struct Inputs
     {
-        Vec3 position = Vec3::Zero();
+        Place position = Place::Zero();
     };
 
     struct Params
@@ -73,7 +73,7 @@ struct Plane
     {
         Vec3 force = Vec3::Zero();
         double resistance = 0.0;
-        double depth = 0.0;
+        Fine depth = 0.0;
         double hit = 0.0;
         double stored_energy = 0.0;
         double dissipated_energy = 0.0;
@@ -139,7 +139,7 @@ struct Plane
 
     Outputs tick (const Inputs& in) noexcept
     {
-        const double depth = params.offset - n.dot (in.position);
+        const Fine depth = params.offset - n.dot (in.position);
         const double rate = rateAt (depth);
         const bool inside = depth > 0.0, onset = inside && ! past.isEmpty() && past.last() <= 0.0;
 

@@ -351,7 +351,7 @@ private:
     {
         if (! last.known || behind || before.triangle < 0) return -1;
         const double gap2 = (before.on.point - last.position).squaredNorm();
-        return (p - last.position).squaredNorm() < gap2 * (1.0 - 1e-9) ? -1 : body->walk().entered (last.position, p);
+        return (p - last.position).squaredNorm() < gap2 * (1.0 - margin (1e-9)) ? -1 : body->walk().entered (last.position, p);
     }
 
     /// Puts the contact point of a tool that entered through a triangle on that side of the body, even if another side is nearer. If

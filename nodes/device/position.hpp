@@ -19,7 +19,7 @@ struct DevicePosition
 
     struct Outputs
     {
-        Vec3 position = Vec3::Zero();
+        Place position = Place::Zero();
         Vec3 rotation = Vec3::Zero();
         double valid = 0.0;
         double age = 0.0;
@@ -56,7 +56,9 @@ struct DevicePosition
 
 private:
     const DeviceState* device = &no_device;
-    Vec3 position = Vec3::Zero(), rotation = Vec3::Zero();   // the last valid values
+    // The last valid values.
+    Place position = Place::Zero();
+    Vec3 rotation = Vec3::Zero();
 };
 
 }   // namespace tactus::nodes

@@ -19,7 +19,7 @@ struct DeviceTruth
 
     struct Outputs
     {
-        Vec3 position = Vec3::Zero();
+        Place position = Place::Zero();
         Vec3 velocity = Vec3::Zero();
     };
 

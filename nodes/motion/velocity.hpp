@@ -48,7 +48,7 @@ struct Velocity
 {
     struct Inputs
     {
-        Vec3 position = Vec3::Zero();
+        Place position = Place::Zero();
     };
 
     struct Params
@@ -149,19 +149,19 @@ private:
 
     struct Axis
     {
-        std::array<double, capacity> past {};   // ring of the last positions, in m
-        double quantum = inf;                   // smallest step seen, m
-        int still = 0;                          // how many of the positions before the newest one have had its bits, up to the capacity
+        std::array<Fine, capacity> past {};   // ring of the last positions, in m
+        double quantum = inf;                 // smallest step seen, m
+        int still = 0;                        // how many of the positions before the newest one have had its bits, up to the capacity
     };
 
-    double ago (const Axis& axis, int ticks) const noexcept
+    Fine ago (const Axis& axis, int ticks) const noexcept
     {
         const int place = newest - ticks;
         return axis.past[at (place >= 0 ? place : place + capacity)];
     }
 
     /// To the bit: the difference of 0 and -0 has a sign.
-    static bool isSame (double a, double b) noexcept { return std::bit_cast<std::uint64_t> (a) == std::bit_cast<std::uint64_t> (b); }
+    static bool isSame (Fine a, Fine b) noexcept { return std::bit_cast<std::uint64_t> (a) == std::bit_cast<std::uint64_t> (b); }
 
     void learn (Axis& axis) const noexcept
     {
@@ -178,8 +178,8 @@ private:
 
         const bool is_set = params.noise > 0.0;
         const double learnt = axis.quantum < inf ? axis.quantum : 0.0;
-        const double noise = (is_set ? params.noise : learnt) * (1.0 + 1e-6);   // computed quanta differ in the last bits
-        const double now = ago (axis, 0);
+        const double noise = (is_set ? params.noise : learnt) * (1.0 + margin (1e-6));   // computed quanta differ in the last bits
+        const Fine now = ago (axis, 0);
 
         // The range of slopes with which a line from now into the past passes within the noise of every sample so far, and the range
         // of these samples.
@@ -205,10 +205,11 @@ private:
     /// True if the samples of a window lie on a line.
     bool isRamp (const Axis& axis, int n) const noexcept
     {
-        const double now = ago (axis, 0), rise = now - ago (axis, n);
+        const Fine now = ago (axis, 0);
+        const double rise = now - ago (axis, n);
         if (n < 2) return false;
         for (int i = 1; i < n; ++i)
-            if (! (std::abs (now - rise * i / n - ago (axis, i)) <= 1e-6 * std::abs (rise))) return false;
+            if (! (std::abs (now - rise * i / n - ago (axis, i)) <= margin (1e-6) * std::abs (rise))) return false;
         return true;
     }
 

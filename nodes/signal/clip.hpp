@@ -6,7 +6,6 @@
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -186,7 +185,7 @@ struct SignalClip
     Outputs tick (const Inputs& in) noexcept
     {
         // At rest nothing but this is computed. Comparing bits is cheaper than comparing numbers; -0 and NaN just take the other way.
-        if ((std::bit_cast<std::uint64_t> (in.hit) | std::bit_cast<std::uint64_t> (in.gate) | busy) == 0) [[likely]]
+        if ((math::wordOf (in.hit) | math::wordOf (in.gate) | busy) == 0) [[likely]]
             return {};
         return play (in.hit, in.gate, in.time, in.position);
     }

@@ -116,7 +116,7 @@ private:
         release   // also the state at rest
     };
 
-    static constexpr double rounding = 1e-9;   // so that n steps of 1/n take n ticks
+    static constexpr double rounding = margin (1e-9);   // so that n steps of 1/n take n ticks
 
     double portionOf (double time) const noexcept { return time > dt ? dt / time : 1.0; }
 

@@ -89,7 +89,7 @@ struct SignalLfo
 private:
     static double fraction (double cycles) noexcept { return cycles - std::floor (cycles); }
 
-    double cycle() const noexcept { return start + frequency * static_cast<double> (ticks) / rate; }
+    Fine cycle() const noexcept { return start + frequency * static_cast<double> (ticks) / rate; }
 
     double shaped (double t) const noexcept
     {

@@ -55,7 +55,7 @@ struct SignalNoise
         param (&Params::amplitude, "amplitude", any_unit, "standard deviation", { .hard = { 0, inf }, .usual = { 0, 10 } }),
         param (&Params::bandwidth, "bandwidth", unit::hertz, "upper end of the band; 0: white noise, a new number each tick",
                { .hard = { 0, inf }, .usual = { 0, 1000 } }),
-        setting (&Settings::seed, "seed", unit::count, "number that selects the noise", { .hard = { 0, 2147483647 }, .usual = { 1, 1000 } }),
+        setting (&Settings::seed, "seed", unit::count, "number that selects the noise", { .hard = { 0, 2147483647.0 }, .usual = { 1, 1000 } }),
         output (&Outputs::out, "out", sameAs ("amplitude"), "the noise"),
     };
 

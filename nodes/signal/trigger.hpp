@@ -76,7 +76,7 @@ struct SignalTrigger
         low_ticks = is_low ? low_ticks + 1.0 : 0.0;
 
         const Seen before = seen;
-        const bool holds = low_ticks * dt <= params.hold * (1.0 + 1e-9);
+        const bool holds = low_ticks * dt <= params.hold * (1.0 + margin (1e-9));
         if (in.in > params.threshold + half)
             seen = Seen::high;
         else if (before == Seen::nothing || (is_low && ! holds))

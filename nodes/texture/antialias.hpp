@@ -35,7 +35,7 @@ struct AntiAlias
 {
     struct Inputs
     {
-        Vec3 position = Vec3::Zero();
+        Place position = Place::Zero();
     };
 
     struct Params
@@ -89,7 +89,7 @@ struct AntiAlias
     Outputs tick (const Inputs& in) noexcept
     {
         const auto moved = past.to (in.position);
-        const double speed = moved.time > 0.0 ? along.dot (moved.by) / moved.time : 0.0;
+        const double speed = moved.time > 0.0 ? along.dot (Vec3 (moved.by)) / moved.time : 0.0;
         if (! isFinite (in.position, speed))
         {
             past.clear();
@@ -109,7 +109,7 @@ private:
     }
 
     Vec3 along = Vec3::UnitX();
-    PastWindow<Vec3> past { Setup {}.dt_s() };   // positions, in m
+    PastWindow<Place> past { Setup {}.dt_s() };   // positions, in m
 };
 
 }   // namespace tactus::nodes

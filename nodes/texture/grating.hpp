@@ -30,7 +30,7 @@ struct Grating
 {
     struct Inputs
     {
-        Vec3 position = Vec3::Zero();
+        Place position = Place::Zero();
     };
 
     struct Params
@@ -82,7 +82,7 @@ struct Grating
 
     Outputs tick (const Inputs& in) noexcept
     {
-        const double s = along.dot (in.position);
+        const Fine s = along.dot (in.position);
         const double value = params.amplitude * math::sin (2.0 * std::numbers::pi * params.spatial_frequency * s + params.phase);
         if (! isFinite (value, in.position.z())) return {};
         return { .force = value * along, .value = value };

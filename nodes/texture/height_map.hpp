@@ -291,7 +291,7 @@ inline void HeightMap::build()
     for (double spacing = pitch; 0.25 / spacing > 0.5 / length; spacing *= 2.0)
     {
         const auto coarser = [spacing] (const MirroredAxis& a) {
-            const auto intervals = static_cast<int> (std::ceil (a.intervals * a.spacing / spacing * (1.0 - 1e-12)));
+            const auto intervals = static_cast<int> (std::ceil (a.intervals * a.spacing / spacing * (1.0 - margin (1e-12))));
             return a.with (std::max (1, intervals));
         };
         const double edge = 0.25 / spacing;

@@ -111,7 +111,7 @@ struct TextureNoise
         input (&Inputs::normal_force, "normal_force", unit::newton, "force that presses the tool onto the surface"),
         param (&Params::gain, "gain", unit::gain, "gain of the output", { .usual = { 0, 4 } }),
         setting (&Settings::models, "models", unit::count, "one for each recorded speed and force; without models the node is silent"),
-        setting (&Settings::seed, "seed", unit::count, "number that selects the noise", { .hard = { 0, 2147483647 }, .usual = { 1, 1000 } }),
+        setting (&Settings::seed, "seed", unit::count, "number that selects the noise", { .hard = { 0, 2147483647.0 }, .usual = { 1, 1000 } }),
         output (&Outputs::value, "value", unit::newton, "force of the vibration"),
     };
 

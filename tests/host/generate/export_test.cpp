@@ -12,9 +12,9 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <sstream>
+#include <vector>
 
 using namespace tactus;
 using test::ExportedProgram;
@@ -23,19 +23,14 @@ namespace
 {
 bool passes (const std::string& said) { return said.starts_with ("passed"); }
 
-/// The largest difference that self-tests print, as a part of the value expected.
-double largestDifference (const std::string& said)
+/// The lines with this text.
+std::vector<std::string> linesWith (const std::string& said, const std::string& text)
 {
     std::istringstream lines (said);
-    double largest = 0.0;
+    std::vector<std::string> all;
     for (std::string line; std::getline (lines, line);)
-    {
-        const auto is = line.find (" is "), expected = line.find (", expected ");
-        if (is == line.npos || expected == line.npos) continue;
-        const double value = std::strtod (line.c_str() + is + 4, nullptr), wanted = std::strtod (line.c_str() + expected + 11, nullptr);
-        largest = std::max (largest, std::abs (value - wanted) / std::max (std::abs (wanted), 1e-9));
-    }
-    return largest;
+        if (line.find (text) != line.npos) all.push_back (line);
+    return all;
 }
 
 /// The C++ code of a graph that has to be exportable.
@@ -95,6 +90,14 @@ TEST_CASE ("all presets and many random graphs give the bits of the engine with 
         const auto said = presets.run (compiler, "-O2");
         INFO (compiler << ", " << presets.graphCount() << " presets: " << said);
         CHECK (passes (said));
+        if (compiler == "g++")
+        {
+            // As the Makefile of the folder does it on a new processor.
+            const auto native = presets.run (compiler, "-O2 -march=native -mno-fma -mno-fma4 -mno-avx512f");
+            INFO ("for this processor: " << native);
+            CHECK (passes (native));
+            CHECK (presets.instructions ("\\svfn?m(add|sub)").empty());
+        }
         for (unsigned first = 1; first <= graphs; first += graphs_per_program)
         {
             ExportedProgram random;
@@ -109,43 +112,62 @@ TEST_CASE ("all presets and many random graphs give the bits of the engine with 
 
 TEST_CASE ("presets give the bits of the engine on a Cortex-M7", "[.export_m7]")
 {
-    // What a small board has, less some for the stack and for everything else. A graph that does not fit is left out, and printed.
-    constexpr std::size_t memory = 512 * 1024 - 32 * 1024;
     ExportedProgram program;
-    std::string left_out;
     for (const auto& name : test::presetNames())
-    {
-        auto exported = test::exportedPreset (name);
-        const auto& header = test::textOf (exported, exported.stem + ".hpp");
-        const std::string block = "tactus::exported::Memory<";
-        if (std::stoul (header.substr (header.find (block) + block.size())) > memory)
-            left_out += name + " does not fit\n";
-        else
-            require (program, exported, name);
-    }
-    const auto said = program.runOnM7 ("-O2");
-    WARN (left_out << said);
-    CHECK (program.graphCount() >= 30);
-    CHECK (said.find ("fault") == said.npos);
+        require (program, test::exportedPreset (name), name);
+    const auto said = program.runOn (ExportedProgram::Board::m7, "-O2");
+    WARN (said);
+    CHECK (passes (said));
+    const auto compared = linesWith (said, "values compared");
+    CHECK (static_cast<int> (compared.size()) == program.graphCount());
+    CHECK (linesWith (said, ", 0 differ") == compared);
 
-    // In the others, some values differ in their last bits (docs/export.md).
-    for (const auto* name : { "bronze_bell", "canvas_weave", "celery_stalk", "layered_cloth", "liver_cut", "machined_steel",
-                              "notched_rail", "oak_board", "padded_bench", "potato_cut", "potato_edge", "scissors_cloth",
-                              "scissors_skin", "singing_glass", "tactile_key", "two_fingers", "vibraphone_bar" })
-    {
-        const auto line = said.substr (said.find (std::string ("\n") + name + ": ") + 1);
-        const auto compared = line.find (" values compared, ");
-        INFO (name);
-        REQUIRE (compared != line.npos);
-        CHECK (line.substr (compared, line.find ('\n', compared) - compared) == " values compared, 0 differ");
-    }
+    // What a small board has, less some for the stack and for everything else. See docs/export.md for the one that does not fit.
+    constexpr unsigned long memory = 512 * 1024 - 32 * 1024;
+    int fitting = 0;
+    for (const auto& line : linesWith (said, " bytes, "))
+        fitting += std::stoul (line.substr (line.find (": ") + 2)) <= memory ? 1 : 0;
+    CHECK (fitting >= program.graphCount() - 1);
+}
 
-    std::istringstream lines (said);
-    int compared = 0;
-    for (std::string line; std::getline (lines, line);)
-        compared += line.find ("values compared") != line.npos ? 1 : 0;
-    CHECK (compared == program.graphCount());
-    CHECK (largestDifference (said) < 1e-9);
+TEST_CASE ("presets in single precision are close to the engine, and have the same bits on a Cortex-M4 without doubles", "[.export_m4]")
+{
+    ExportedProgram program;
+    for (const auto& name : test::presetNames())
+        require (program, test::exportedPreset (name, true), name);
+    CHECK (program.callsOn (ExportedProgram::Board::m4, "__aeabi_(d|c?d|[a-z]+2d)|double|__[a-z]+df[0-9]") == "");
+    const auto here = program.run ("g++", "-O2");
+    WARN (here);
+    CHECK (passes (here));
+    const auto compared = linesWith (here, "values compared");
+    CHECK (static_cast<int> (compared.size()) == 2 * program.graphCount());   // with and without AVX
+    const auto there = program.runOn (ExportedProgram::Board::m4, "-O2");
+    WARN (there);
+    CHECK (passes (there));
+    auto twice = linesWith (there, "values compared");
+    twice.insert (twice.end(), twice.begin(), twice.end());
+    CHECK (twice == compared);
+}
+
+TEST_CASE ("a graph in single precision has no doubles, and notices a fault", "[export]")
+{
+    ExportedProgram program;
+    for (const auto* name : { "dry_wood", "two_fingers" })
+        require (program, test::exportedPreset (name, true), name);
+    auto broken = test::exportedPreset ("soft_pad", true);
+    auto& source = test::textOf (broken, "soft_pad.cpp");
+    const std::string call = "motor.effort()";
+    REQUIRE (source.find (call) != std::string::npos);
+    source.replace (source.find (call), call.size(), "tactus::Effort { .force = 1.002f * motor.effort().force }");
+    program.add (broken);
+    const auto said = program.run ("c++", "-O0");
+    INFO (said);
+    CHECK_FALSE (passes (said));
+    const auto right = linesWith (said, ", 0 differ by more than 0.001 of the largest");
+    REQUIRE (right.size() == 2);
+    CHECK (right[0].starts_with ("dry_wood: "));
+    CHECK (right[1].starts_with ("two_fingers: "));
+    CHECK (linesWith (said, "values compared").size() == 3);
 }
 
 TEST_CASE ("an exported graph calls its nodes and values what the patch calls them", "[export]")

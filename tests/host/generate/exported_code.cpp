@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <random>
 
 namespace tactus::test
@@ -20,6 +21,9 @@ namespace tactus::test
 namespace
 {
 namespace fs = std::filesystem;
+
+constexpr const char* flags_of_all = " -std=c++20 -Wall -Wextra -Wdouble-promotion -Werror -fno-exceptions -fno-rtti -ffp-contract=off -fno-math-errno "
+                                     "-fno-trapping-math -I. -isystem /usr/include/eigen3";
 
 class RandomHand final : public Device
 {
@@ -73,7 +77,7 @@ host::ExportedFolder exportedRandomGraph (unsigned seed, int size)
     return host::exportGraph (graph, options);
 }
 
-host::ExportedFolder exportedPreset (const std::string& name, host::ExportTarget target)
+host::ExportedFolder exportedPreset (const std::string& name, bool is_single)
 {
     const auto file = fs::path (TACTUS_SOURCE_DIR) / "graphs" / (name + ".json");
     const auto loaded = loadGraph (file);
@@ -82,7 +86,7 @@ host::ExportedFolder exportedPreset (const std::string& name, host::ExportTarget
                               { .file = file.filename().string(),
                                 .program = "tactus",
                                 .compile = { .assets = &assets, .services = { .nearest_triangle = host::nearestByEmbree } },
-                                .target = target,
+                                .is_single = is_single,
                                 .open = {} });
 }
 
@@ -124,25 +128,58 @@ void ExportedProgram::writeMain (const std::string& head, const std::string& per
     folder.write ("all.cpp", program + head + "int main()\n{\n    int failed = 0;\n" + tests + "    return failed;\n}\n");
 }
 
-std::string ExportedProgram::compileAndRun (const std::string& compile, const std::string& run) const
+bool ExportedProgram::succeeds (const std::string& command) const
 {
-    std::string files = " -std=c++20 -Wall -Wextra -Werror -fno-exceptions -fno-rtti -ffp-contract=off -fno-math-errno -fno-trapping-math -I. -isystem "
-                        "/usr/include/eigen3 all.cpp";
+    return std::system (("cd '" + folder.path().string() + "' && (" + command + ") >> said.txt 2>&1").c_str()) == 0;
+}
+
+/// Compiles the sources that graphs share. Each is compiled only once in all programs, because that takes as long as ten graphs.
+bool ExportedProgram::compile (const std::string& compiler, std::string& objects) const
+{
+    static const TemporaryFolder kept;
+    static std::map<std::string, std::string> known;   // the object by compiler and text
     for (const auto& source : sources)
-        files += " " + source;
-    const auto there = "cd '" + folder.path().string() + "' && ";
-    const auto succeeds = [&] (const std::string& command) { return std::system ((there + command).c_str()) == 0; };
-    const bool passed = succeeds (compile + files + " > said.txt 2>&1") && succeeds (run + " >> said.txt 2>&1");
+    {
+        auto& object = known[compiler + "\n" + contentOf (folder / source)];
+        if (object.empty())
+        {
+            const auto name = (kept / (std::to_string (known.size()) + ".o")).string();
+            if (! succeeds (compiler + " -c -o '" + name + "' " + source)) return false;
+            object = name;
+        }
+        objects += " '" + object + "'";
+    }
+    return true;
+}
+
+std::string ExportedProgram::compileAndRun (const std::string& compiler, const std::string& link, const std::string& run) const
+{
+    const auto complete = compiler + flags_of_all;
+    std::string objects;
+    folder.write ("said.txt", "");
+    const bool passed = compile (complete, objects) && succeeds (complete + " all.cpp" + objects + " " + link + " -o all") && succeeds (run);
     return (passed ? "passed\n" : "failed\n") + contentOf (folder / "said.txt");
 }
 
 std::string ExportedProgram::run (const std::string& compiler, const std::string& flags) const
 {
+    // Hides AVX and FMA from the C library, so that it takes its functions for older processors.
+    constexpr const char* old = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4,-AVX512F,-AVX_Usable,-AVX2_Usable,-FMA_Usable,-FMA4_Usable,"
+                                "-AVX512F_Usable ./all";
     writeMain ({}, "    failed += @S@_self_test::test();\n");
-    return compileAndRun (compiler + " " + flags + " -o all", "./all");
+    return compileAndRun (compiler + " " + flags, {}, std::string ("./all && ") + old);
 }
 
-std::string ExportedProgram::runOnM7 (const std::string& flags) const
+namespace
+{
+std::string compilerFor (ExportedProgram::Board board)
+{
+    const std::string unit = board == ExportedProgram::Board::m7 ? "-mcpu=cortex-m7 -mfpu=fpv5-d16" : "-mcpu=cortex-m4 -mfpu=fpv4-sp-d16";
+    return "arm-none-eabi-g++ " + unit + " -mthumb -mfloat-abi=hard -fno-threadsafe-statics -ffunction-sections -fdata-sections ";
+}
+}   // namespace
+
+std::string ExportedProgram::runOn (Board board, const std::string& flags) const
 {
     // With shift 6, QEMU's clock moves by 64 ns per instruction, and the timer by one in 40 ns.
     writeMain ("extern \"C\" unsigned long timer();\n",
@@ -150,13 +187,31 @@ std::string ExportedProgram::runOnM7 (const std::string& flags) const
                "        std::printf (\"@S@: %lu bytes, %lu instructions per tick\\n\", static_cast<unsigned long> (sizeof graph),\n"
                "                     static_cast<unsigned long> (static_cast<double> (begin - timer()) * 40.0 / 64.0 / 1200.0));\n"
                "        failed += @S@_self_test::test();\n    }\n");
-    const std::string here = TACTUS_SOURCE_DIR "/tests/host/generate/boards/";
-    return compileAndRun ("arm-none-eabi-g++ -mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard -fno-threadsafe-statics -ffunction-sections "
-                          "-fdata-sections "
-                              + flags + " -nostartfiles -Wl,--gc-sections -T '" + here + "an500.ld' '" + here + "start.cpp' -o all.elf",
-                          "qemu-system-arm -M mps2-an500 -nographic -monitor none -serial none -chardev stdio,id=said "
-                          "-semihosting-config enable=on,target=native,chardev=said -icount shift=6 "
-                          "-kernel all.elf");
+    const std::string here = TACTUS_SOURCE_DIR "/tests/host/generate/boards/", machine = board == Board::m7 ? "an500" : "an386";
+    return compileAndRun (compilerFor (board) + flags, "-nostartfiles -Wl,--gc-sections -L '" + here + "' -T " + machine + ".ld '" + here + "start.cpp'",
+                          "qemu-system-arm -M mps2-" + machine
+                              + " -nographic -monitor none -serial none -chardev stdio,id=said "
+                                "-semihosting-config enable=on,target=native,chardev=said -icount shift=6 -kernel all");
+}
+
+std::string ExportedProgram::instructions (const std::string& pattern) const
+{
+    folder.write ("said.txt", "");
+    succeeds ("objdump -d all | grep -E -m 10 '" + pattern + "'");
+    return contentOf (folder / "said.txt");
+}
+
+std::string ExportedProgram::callsOn (Board board, const std::string& pattern) const
+{
+    std::string text, objects;
+    for (const auto& stem : stems)
+        text += "#include \"" + stem + ".cpp\"\n";
+    folder.write ("graphs.cpp", text);
+    folder.write ("said.txt", "");
+    const auto compiler = compilerFor (board) + "-O2" + flags_of_all;
+    if (! compile (compiler, objects) || ! succeeds (compiler + " -c graphs.cpp -o graphs.o")) return "failed\n" + contentOf (folder / "said.txt");
+    succeeds ("arm-none-eabi-nm -u -C graphs.o" + objects + " | grep -E '" + pattern + "' | sort | uniq -c");
+    return contentOf (folder / "said.txt");
 }
 
 }   // namespace tactus::test

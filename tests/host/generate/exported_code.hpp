@@ -18,7 +18,7 @@ Run::OpenDevice randomHands (unsigned seed);
 host::ExportedFolder exportedRandomGraph (unsigned seed, int size);
 
 /// A preset as C++ code; the devices are those that it describes.
-host::ExportedFolder exportedPreset (const std::string& name, host::ExportTarget = host::ExportTarget::cpp);
+host::ExportedFolder exportedPreset (const std::string& name, bool is_single = false);
 
 /// The text of a file of an export.
 std::string& textOf (host::ExportedFolder&, const std::string& path);
@@ -33,12 +33,26 @@ public:
     void add (const host::ExportedFolder&);
     int graphCount() const noexcept { return static_cast<int> (stems.size()); }
 
-    /// Compiles and runs the program. Returns what the compiler and the program said, beginning with "passed" or "failed".
+    /// Compiles the program and runs it, with all features of the processor, and without AVX and FMA. Returns what the compiler and the
+    /// program said, beginning with "passed" or "failed".
     std::string run (const std::string& compiler, const std::string& flags) const;
 
-    /// The same on a Cortex-M7 in QEMU: compiled with arm-none-eabi-g++. For each graph, also says how many bytes it takes and how many
+    /// A Cortex-M7, with a unit for doubles, or a Cortex-M4, with one for floats.
+    enum class Board
+    {
+        m7,
+        m4
+    };
+
+    /// The same on a board in QEMU: compiled with arm-none-eabi-g++. For each graph, also says how many bytes it takes and how many
     /// instructions a tick takes on average.
-    std::string runOnM7 (const std::string& flags) const;
+    std::string runOn (Board, const std::string& flags) const;
+
+    /// The lines of the disassembly of the last program that have this pattern (of grep -E), at most ten.
+    std::string instructions (const std::string& pattern) const;
+
+    /// The functions with these names (a pattern of grep -E) that the graphs call on a board, apart from the self-tests.
+    std::string callsOn (Board, const std::string& pattern) const;
 
 private:
     TemporaryFolder folder;
@@ -46,7 +60,9 @@ private:
     std::vector<std::string> stems, classes;
 
     void writeMain (const std::string& head, const std::string& per_graph) const;
-    std::string compileAndRun (const std::string& compile, const std::string& run) const;
+    bool succeeds (const std::string& command) const;
+    bool compile (const std::string& compiler, std::string& objects) const;
+    std::string compileAndRun (const std::string& compiler, const std::string& link, const std::string& run) const;
 };
 
 }   // namespace tactus::test

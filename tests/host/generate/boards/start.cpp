@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a program needs on QEMU's mps2-an500: vectors, the floating-point unit, what newlib asks of a system, and a timer.
+// What a program needs on QEMU's mps2-an500 and mps2-an386: vectors, the floating-point unit, what newlib asks of a system, and a timer.
 
 #include <sys/stat.h>
 
