@@ -40,7 +40,11 @@ add_custom_command (OUTPUT ${made}/written
     COMMENT "Writing man pages, completions and udev rules" VERBATIM)
 add_custom_target (installed_texts ALL DEPENDS ${made}/written)
 
-install (TARGETS tactus tactus-bench ${check_plugin} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+set (fuse_llvm)   # as for tactus-check-plugin
+if (TARGET tactus-fuse-llvm)
+    set (fuse_llvm tactus-fuse-llvm)
+endif ()
+install (TARGETS tactus tactus-bench ${check_plugin} ${fuse_llvm} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install (DIRECTORY graphs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/tactus/graphs COMPONENT program
     FILES_MATCHING PATTERN "*.json" PATTERN "assets/*.png" PATTERN "assets/*.obj" PATTERN "assets/*.csv")
 install (FILES ${profiles} DESTINATION ${CMAKE_INSTALL_DATADIR}/tactus/profiles COMPONENT program)

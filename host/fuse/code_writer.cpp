@@ -2,18 +2,11 @@
 #include "code_writer.hpp"
 
 #include <host/generate/code.hpp>
-#include <host/generate/sources.hpp>
 
-#include <algorithm>
+#include <set>
 
 namespace tactus::host
 {
-
-namespace
-{
-/// Records in one function. A compiler takes much longer for one function of thousands of nodes than for several smaller ones.
-constexpr std::size_t records_in_part = 150;
-}   // namespace
 
 CodeWriter::Block::Block (CodeWriter& w, const std::string& head) : writer (w)
 {
@@ -30,153 +23,76 @@ CodeWriter::Block::~Block()
     writer.line ("}");
 }
 
-CodeWriter::CodeWriter (const Plan& plan, const FusedCode::Classes& more) : values (plan)
+std::string CodeWriter::end (const std::vector<const Known*>& nodes)
 {
-    auto classes = more;
-    for (std::size_t i = 0; i < plan.instances().size(); ++i)
+    std::set<std::string> headers { FusedCode::parts };
+    std::set<std::string> checks;
+    for (const auto* n : nodes)
     {
-        const auto& type = *plan.flat().nodes[i].type;
-        const auto& node = plan.instances()[i].node;
-        if (! node || ! plan.flat().nodes[i].runs() || type.owner || ! type.origin.empty()) continue;
-        const auto [entry, is_new] = classes.try_emplace (std::string (type.info.id));
-        if (is_new) entry->second = classOf (type.info.id);
-        const auto& [name, header] = entry->second;
-        if (! name.empty()) known.emplace (node.get(), Known { i, name, header });
+        headers.insert (n->header);
+        const auto& type = *flatOf (*n).type;
+        checks.insert ("static_assert (sizeof (" + n->type + "::Outputs) == " + std::to_string (type.outputs_size) + " && sizeof (" + n->type
+                       + "::Params) == " + std::to_string (type.params_size) + ");\n");
     }
-}
-
-const CodeWriter::Known* CodeWriter::knownOf (const void* node) const
-{
-    const auto found = known.find (node);
-    return found != known.end() ? &found->second : nullptr;
-}
-
-FusedCode CodeWriter::write()
-{
-    do
-        writeOnce();
-    while (! values.settled());
-
-    std::set<std::string> headers { "tactus/run/fused_parts.hpp" };
-    std::string top, checks;
-    for (const auto& [node, n] : known)
-        headers.insert (n.header);
+    std::string text;
     for (const auto& header : headers)
-        top += "#include <" + header + ">\n";
-    std::set<std::string> checked;
-    for (const auto& [node, n] : known)
-    {
-        const auto& type = *values.plan.flat().nodes[n.instance].type;
-        checked.insert ("static_assert (sizeof (" + n.type + "::Outputs) == " + std::to_string (type.outputs_size) + " && sizeof (" + n.type
-                        + "::Params) == " + std::to_string (type.params_size) + ");\n");
-    }
-    for (const auto& check : checked)
-        checks += check;
-    std::string tick = std::string ("extern \"C\" [[gnu::visibility (\"default\"), gnu::externally_visible]] void ") + FusedCode::function + " (void* const* objects) noexcept\n{\n";
-    for (std::size_t i = 1; i <= parts; ++i)
-        tick += "    part" + std::to_string (i) + " (tactus::fused::Objects { objects });\n";
-    made.text = top + "\n" + checks + "\n" + code + tick + "}\n";
-    made.headers = std::move (headers);
-    made.objects = values.objects();
-    return std::move (made);
+        text += "#include <" + header + ">\n";
+    text += "\n";
+    for (const auto& check : checks)
+        text += check;
+    text += "\n" + code + "extern \"C\" [[gnu::visibility (\"default\"), gnu::externally_visible]] void " + FusedCode::function
+            + " (void* const* objects) noexcept\n{\n";
+    for (int i = 1; i <= parts; ++i)
+        text += "    part" + std::to_string (i) + " (tactus::fused::Objects { objects });\n";
+    return text + "}\n";
 }
 
-void CodeWriter::writeOnce()
+void CodeWriter::begin()
 {
     code.clear();
-    made = {};
-    names = parts = in_part = 0;
-    beginPart();
-    records (values.plan.records(), false);
-    indent = 0;
-    line ("}");
-    line ("");
+    names = 0;
 }
 
 void CodeWriter::beginPart()
 {
-    in_part = 0;
-    ++parts;
     // A function that is called once would be inlined, and all would be one large function again.
-    const auto* kind = values.plan.records().size() > records_in_part ? "[[gnu::noinline]] static void part" : "static inline void part";
+    const auto* kind = isLarge() ? "[[gnu::noinline]] static void part" : "static inline void part";
     line (kind + std::to_string (parts) + " (const tactus::fused::Objects p) noexcept");
     line ("{");
     indent = 4;
     line ("(void) p;");
 }
 
-void CodeWriter::records (std::span<const Record> all, bool is_inner)
+void CodeWriter::endPart()
 {
-    for (const auto& r : all)
-    {
-        if (! is_inner && in_part++ == records_in_part)
-        {
-            indent = 0;
-            line ("}");
-            line ("");
-            values.closeScope();
-            values.openScope();
-            beginPart();
-        }
-        if (fuse (r, is_inner))
-            ++made.fused;
-        else
-            call (r);
-    }
+    indent = 0;
+    line ("}");
+    line ("");
 }
 
-bool CodeWriter::fuse (const Record& r, bool is_inner)
+std::string CodeWriter::read (const double* v)
 {
-    bool is_sum = false;
-    plan::eachSum (r, [&] (const plan::Sum& s) {
-        is_sum = true;
-        sum (s, is_inner);
-    });
-    if (is_sum) return true;
-    if (r.step == &plan::Strike::step)
-        strike (*static_cast<plan::Strike*> (r.self), is_inner);
-    else if (r.step == &plan::DelayLine::read || r.step == &plan::DelayLine::write)
-        delay (r);
-    else if (r.step == &plan::RunningSection::every)
-        every (*static_cast<plan::RunningSection*> (r.self));
-    else if (r.step == &plan::RunningSection::times)
-        times (*static_cast<plan::RunningSection*> (r.self));
-    else if (r.step == &plan::DrivenNode::step)
+    using Kind = FusedValues::Place::Kind;
+    const auto place = values.find (v);
+    switch (place.kind)
     {
-        const auto& d = *static_cast<plan::DrivenNode*> (r.self);
-        const auto* n = knownOf (d.node);
-        if (n == nullptr || (d.type->peek && d.faulted.empty())) return false;
-        driven (*n, r, is_inner);
-    }
-    else
+    case Kind::variable:
+        return place.name;
+    case Kind::member:
     {
-        const auto* n = knownOf (r.self);
-        if (n == nullptr) return false;
-        const auto& type = *values.plan.flat().nodes[n->instance].type;
-        if (r.step != type.tick && r.step != type.peek) return false;
-        node (*n, r, is_inner);
+        const auto member = place.name + "." + std::string (place.sheet->id);
+        return place.sheet->list || place.sheet->width == 3 ? member + "[" + std::to_string (place.slot) + "]" : member;
     }
-    return true;
+    case Kind::constant:
+        return literal (*v);
+    case Kind::memory:
+        break;
+    }
+    return value (v);
 }
 
-/// Lets a record run as the plan runs it, with everything that it reads in memory.
 void CodeWriter::call (const Record& r)
 {
-    ++made.called;
-    const auto& plan = values.plan;
-    for (std::size_t i = 0; i < plan.instances().size(); ++i)
-    {
-        if (plan.instances()[i].sources != r.sources) continue;   // a node without inputs has the same sources as the next one
-        const auto& flat = plan.flat().nodes[i];
-        std::size_t slot = 0;
-        for (const auto& row : flat.type->inputs)
-            for (int k = 0; k < flat.slots (row); ++k, ++slot)
-                if (! flat.muted) values.need (r.sources[slot]);
-    }
-    if (r.step == &plan::DrivenNode::step)
-        for (const auto& drive : static_cast<plan::DrivenNode*> (r.self)->drives)
-            for (const auto* from : { drive.replace, drive.add })
-                if (from != nullptr) values.need (from);
     line ("p.run (" + values.numbers ({ reinterpret_cast<const void*> (r.step), r.self, r.sources, r.outputs }) + ");");
 }
 
@@ -184,7 +100,7 @@ void CodeWriter::sum (const plan::Sum& s, bool is_inner)
 {
     std::vector<std::string> terms;
     for (const auto& term : s.terms)
-        terms.push_back ((term.gain == 1.0 ? "" : exactly (term.gain) + " * ") + values.read (term.from));
+        terms.push_back ((term.gain == 1.0 ? "" : literal (term.gain) + " * ") + read (term.from));
     const auto name = fresh ("s");
     const auto memory = is_inner || values.isNeeded (&s.out) ? value (&s.out) + " = " : std::string {};
     line ("const double " + name + " = " + memory + "tactus::fused::sumOf (" + listed (terms) + ");");
@@ -195,22 +111,21 @@ void CodeWriter::strike (const plan::Strike& s, bool is_inner)
 {
     const auto name = fresh ("k");
     const auto memory = is_inner || values.isNeeded (&s.out) ? value (&s.out) + " = " : std::string {};
-    line ("const double " + name + " = " + memory + "tactus::fused::struck (" + values.read (s.from) + ", " + value (&s.pulse->pending) + ");");
+    line ("const double " + name + " = " + memory + "tactus::fused::struck (" + read (s.from) + ", " + value (&s.pulse->pending) + ");");
     values.name (&s.out, name);
 }
 
-void CodeWriter::delay (const Record& r)
+void CodeWriter::readDelay (const plan::Line& wire)
 {
-    const auto& [from, wire] = *static_cast<plan::DelayLine*> (r.self);
-    const auto samples = value (wire->samples.data()), now = "p.as<std::size_t> (" + values.number (&wire->now) + ")";
-    if (r.step == &plan::DelayLine::read)
-    {
-        const auto name = fresh ("d");
-        line ("const double " + name + " = tactus::fused::delayed (" + samples + ", " + now + ", " + value (&wire->out) + ");");
-        values.name (&wire->out, name);
-    }
-    else
-        line ("tactus::fused::delay (" + values.read (from) + ", " + samples + ", " + now + ", " + std::to_string (wire->samples.size()) + ");");
+    const auto name = fresh ("d");
+    line ("const double " + name + " = tactus::fused::delayed (" + value (wire.samples.data()) + ", " + size (&wire.now) + ", " + value (&wire.out) + ");");
+    values.name (&wire.out, name);
+}
+
+void CodeWriter::writeDelay (const double* from, const plan::Line& wire)
+{
+    line ("tactus::fused::delay (" + read (from) + ", " + value (wire.samples.data()) + ", " + size (&wire.now) + ", "
+          + std::to_string (wire.samples.size()) + ");");
 }
 
 }   // namespace tactus::host

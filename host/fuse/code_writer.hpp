@@ -1,35 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fused_code.hpp"
-#include "fused_values.hpp"
+#include "plan_writer.hpp"
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 namespace tactus::host
 {
 
-/// Writes what the records of a plan do in one tick. [main thread]
-class CodeWriter
+/// Writes what the records of a plan do in one tick, as C++. [main thread]
+class CodeWriter final : public PlanWriter
 {
 public:
-    CodeWriter (const Plan&, const FusedCode::Classes& more);
-
-    FusedCode write();
+    CodeWriter (const Plan& plan, const FusedCode::Classes& classes) : PlanWriter (plan, classes) {}
 
 private:
-    /// A node whose code is known.
-    struct Known
-    {
-        std::size_t instance = 0;
-        std::string type, header;
-    };
-
     /// An indented block with its own variables.
     class Block
     {
@@ -43,42 +31,47 @@ private:
         CodeWriter& writer;
     };
 
-    void writeOnce();
-    void beginPart();
-    void records (std::span<const Record>, bool is_inner);
-    bool fuse (const Record&, bool is_inner);
-    void call (const Record&);
-    void sum (const plan::Sum&, bool is_inner);
-    void strike (const plan::Strike&, bool is_inner);
-    void delay (const Record&);
-    void node (const Known&, const Record&, bool is_inner);
-    void driven (const Known&, const Record&, bool is_inner);
+    bool has (const std::string&) const override { return true; }
+    void begin() override;
+    void beginPart() override;
+    void endPart() override;
+    std::string end (const std::vector<const Known*>&) override;
+
+    void sum (const plan::Sum&, bool is_inner) override;
+    void strike (const plan::Strike&, bool is_inner) override;
+    void readDelay (const plan::Line&) override;
+    void writeDelay (const double* from, const plan::Line&) override;
+    void peek (const Known&, bool is_inner) override;
+    void node (const Known&, const Record&, bool is_inner) override;
+    void driven (const Known&, const Record&, bool is_inner) override;
+    void every (const plan::RunningSection&) override;
+    void times (const plan::RunningSection&) override;
+    void call (const Record&) override;
+
+    void drive (const std::string& wires, const plan::DrivenNode::Drive&);
+    std::string stored (const Known&, const plan::DrivenNode&);
     void takeOutputs (const Known&, const std::string& result, bool is_inner);
     std::vector<std::string> inputs (const Known&, const double* const* sources, const std::string& driven);
     std::string list (const Known&, const PortSheet&, const double* const* sources, int slots, const std::string& driven);
 
-    void every (const plan::RunningSection&);
-    void times (const plan::RunningSection&);
-    void latch (const std::vector<plan::ConversionLink>&);
-    void silence (const std::vector<plan::ConversionLink>&);
-    void gather (const std::vector<plan::ConversionLink>&);
-    void deliver (const std::vector<plan::ConversionLink>&);
-    void head (const std::vector<plan::ConversionLink>&);
-    void follow (const std::vector<plan::ConversionLink>&);
+    void latch (const Links&);
+    void silence (const Links&);
+    void gather (const Links&);
+    void deliver (const Links&);
+    void head (const Links&);
+    void follow (const Links&);
 
-    const Known* knownOf (const void* node) const;
+    std::string read (const double*);
     std::string value (const void* at) { return "p.value (" + values.number (at) + ")"; }
+    std::string size (const std::size_t* at) { return "p.as<std::size_t> (" + values.number (at) + ")"; }
     std::string ticks (const std::uint64_t* at) { return "p.ticks (" + values.number (at) + ")"; }
     std::string fresh (const char* stem) { return stem + std::to_string (++names); }
     std::string nodeName (const Known& n) const { return "n" + std::to_string (n.instance); }
-    std::string reference (const Known&);
+    void title (const Known&);
     void line (std::string_view text) { code.append (indent, ' ').append (text).append ("\n"); }
 
-    FusedValues values;
-    std::unordered_map<const void*, Known> known;   // by address of the node
     std::string code;
-    std::size_t indent = 0, names = 0, in_part = 0, parts = 0;
-    FusedCode made;
+    std::size_t indent = 0, names = 0;
 };
 
 }   // namespace tactus::host

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "code_writer.hpp"
+#include "wiring_writer.hpp"
 
 namespace tactus::host
 {
@@ -20,6 +21,14 @@ FusedCode FusedCode::of (const Plan& plan, const Classes& more)
 {
     if (countOf (plan.records()) > most_records) return {};
     return CodeWriter { plan, more }.write();
+}
+
+FusedCode FusedCode::wiringOf (const Plan& plan)
+{
+    if (countOf (plan.records()) > most_records) return {};
+    auto wiring = WiringWriter { plan }.write();
+    wiring.language = Language::llvm;
+    return wiring;
 }
 
 }   // namespace tactus::host

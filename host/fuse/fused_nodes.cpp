@@ -8,12 +8,6 @@
 namespace tactus::host
 {
 
-/// The node, as a variable with the name nodeName().
-std::string CodeWriter::reference (const Known& n)
-{
-    return "auto& " + nodeName (n) + " = p.as<" + n.type + "> (" + values.number (values.plan.instances()[n.instance].node.get()) + ");";
-}
-
 /// Gives the outputs of a node a name. They are put in memory if something else reads them there.
 void CodeWriter::takeOutputs (const Known& n, const std::string& result, bool is_inner)
 {
@@ -42,7 +36,7 @@ std::string CodeWriter::list (const Known& n, const PortSheet& row, const double
     std::vector<std::string> numbers, addresses;
     for (int k = 0; k < slots; ++k)
     {
-        numbers.push_back (values.read (sources[k]));
+        numbers.push_back (read (sources[k]));
         const auto address = "&" + name + "_values[" + std::to_string (k) + "]";
         addresses.push_back (driven.empty() ? address : driven + ".in (" + address + ")");
     }
@@ -65,56 +59,65 @@ std::vector<std::string> CodeWriter::inputs (const Known& n, const double* const
         if (row.list)
             text = list (n, row, source, slots, driven);
         else if (row.width == 3)
-            text = passed ("tactus::Vec3 { " + values.read (source[0]) + ", " + values.read (source[1]) + ", " + values.read (source[2]) + " }");
+            text = passed ("tactus::Vec3 { " + read (source[0]) + ", " + read (source[1]) + ", " + read (source[2]) + " }");
         else
-            text = passed (values.read (source[0]));
+            text = passed (read (source[0]));
         members.emplace_back (row.offset, "." + std::string (row.id) + " = " + text);
         source += slots;
     }
     return inOrder (std::move (members));
 }
 
+void CodeWriter::title (const Known& n) { line ("// " + comment (flatOf (n).path) + ": " + std::string (flatOf (n).type->info.id)); }
+
+void CodeWriter::peek (const Known& n, bool is_inner)
+{
+    line ("auto& " + nodeName (n) + " = p.as<" + n.type + "> (" + values.number (values.plan.instances()[n.instance].node.get()) + ");   // "
+          + comment (flatOf (n).path));
+    takeOutputs (n, nodeName (n) + ".peek()", is_inner);
+}
+
 void CodeWriter::node (const Known& n, const Record& r, bool is_inner)
 {
-    const auto& flat = values.plan.flat().nodes[n.instance];
-    if (flat.type->peek && r.step == flat.type->peek)
-    {
-        line (reference (n) + "   // " + comment (flat.path));
-        return takeOutputs (n, nodeName (n) + ".peek()", is_inner);
-    }
-    line ("// " + comment (flat.path) + ": " + std::string (flat.type->info.id));
+    title (n);
     const auto members = inputs (n, r.sources, {});
-    const auto call = nodeName (n) + ".tick ({ " + listed (members) + " })";
-    // The peek of a node may be in another part of the code.
-    line ("auto& " + nodeName (n) + "_now = p.as<" + n.type + "> (" + values.number (r.self) + ");");
-    const auto ticked = nodeName (n) + "_now" + call.substr (nodeName (n).size());
-    flat.type->peek ? line (ticked + ";") : takeOutputs (n, ticked, is_inner);
+    const auto now = nodeName (n) + "_now";   // the peek of a node may be in another part of the code
+    line ("auto& " + now + " = p.as<" + n.type + "> (" + values.number (r.self) + ");");
+    const auto ticked = now + ".tick ({ " + listed (members) + " })";
+    flatOf (n).type->peek ? line (ticked + ";") : takeOutputs (n, ticked, is_inner);
+}
+
+/// Sets a parameter from a wire or feed.
+void CodeWriter::drive (const std::string& wires, const plan::DrivenNode::Drive& d)
+{
+    line (wires + " (" + value (d.target) + ", " + (d.replace ? read (d.replace) : value (d.stored)) + ", " + (d.add ? read (d.add) : "0.0") + ", "
+          + literal (d.hard.min) + ", " + literal (d.hard.max) + ");");
+}
+
+/// A variable with the parameters of a node as they are without the wires.
+std::string CodeWriter::stored (const Known& n, const plan::DrivenNode& d)
+{
+    const auto name = nodeName (n) + "_stored";
+    const auto* own = static_cast<const std::byte*> (d.type->paramsOf (d.node));
+    line ("auto " + name + " = " + nodeName (n) + "_now.params;");
+    for (const auto& drive : d.drives)
+        line ("tactus::fused::store (" + name + ", " + std::to_string (reinterpret_cast<const std::byte*> (drive.target) - own) + ", " + value (drive.stored)
+              + ");");
+    return name;
 }
 
 void CodeWriter::driven (const Known& n, const Record& r, bool is_inner)
 {
     const auto& d = *static_cast<plan::DrivenNode*> (r.self);
-    const auto& flat = values.plan.flat().nodes[n.instance];
-    const auto now = nodeName (n) + "_now", wires = nodeName (n) + "_driven", stored = nodeName (n) + "_stored";
-    line ("// " + comment (flat.path) + ": " + std::string (flat.type->info.id));
+    const auto now = nodeName (n) + "_now", wires = nodeName (n) + "_driven";
+    title (n);
     line ("auto& " + now + " = p.as<" + n.type + "> (" + values.number (d.node) + ");");
     line ("tactus::fused::Driven " + wires + ";");
-    const auto limit = [] (double v) { return v == inf ? "tactus::inf" : v == -inf ? "-tactus::inf"
-                                                                                   : exactly (v); };
-    for (const auto& drive : d.drives)
-        line (wires + " (" + value (drive.target) + ", " + (drive.replace ? values.read (drive.replace) : value (drive.stored)) + ", "
-              + (drive.add ? values.read (drive.add) : "0.0") + ", " + limit (drive.hard.min) + ", " + limit (drive.hard.max) + ");");
+    for (const auto& one : d.drives)
+        drive (wires, one);
     if (d.type->update) line ("if (" + wires + ".moved) " + now + ".update();");
     const auto members = inputs (n, r.sources, wires);
-    if (! d.params.empty())
-    {
-        const auto* own = static_cast<const std::byte*> (d.type->paramsOf (d.node));
-        line ("auto " + stored + " = " + now + ".params;");
-        for (const auto& drive : d.drives)
-            line ("tactus::fused::store (" + stored + ", " + std::to_string (reinterpret_cast<const std::byte*> (drive.target) - own) + ", "
-                  + value (drive.stored) + ");");
-    }
-    const auto ticked = now + ".tick ({ " + listed (members) + " }" + (d.params.empty() ? ")" : ", " + stored + ")");
+    const auto ticked = now + ".tick ({ " + listed (members) + " }" + (d.params.empty() ? "" : ", " + stored (n, d)) + ")";
     if (d.type->peek) return line (ticked + ";");
     if (! d.faulted.empty()) return takeOutputs (n, ticked, is_inner);
     line ("auto " + nodeName (n) + "_result = " + ticked + ";");

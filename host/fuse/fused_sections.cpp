@@ -8,12 +8,10 @@
 namespace tactus::host
 {
 
-using Links = std::vector<plan::ConversionLink>;
-
 void CodeWriter::latch (const Links& links)
 {
     for (const auto& [from, converter] : links)
-        line (value (&converter->out) + " = " + values.read (from) + ";");
+        line (value (&converter->out) + " = " + read (from) + ";");
 }
 
 void CodeWriter::silence (const Links& links)
@@ -25,7 +23,7 @@ void CodeWriter::silence (const Links& links)
 void CodeWriter::gather (const Links& links)
 {
     for (const auto& [from, converter] : links)
-        line (value (&converter->gathered) + " += " + values.read (from) + ";");
+        line (value (&converter->gathered) + " += " + read (from) + ";");
 }
 
 void CodeWriter::deliver (const Links& links)
@@ -37,14 +35,14 @@ void CodeWriter::deliver (const Links& links)
 void CodeWriter::head (const Links& links)
 {
     for (const auto& [from, c] : links)
-        line ("tactus::fused::head (" + values.read (from) + ", " + value (&c->before) + ", " + value (&c->newest) + ", p.as<bool> ("
+        line ("tactus::fused::head (" + read (from) + ", " + value (&c->before) + ", " + value (&c->newest) + ", p.as<bool> ("
               + values.number (&c->begun) + "));");
 }
 
 void CodeWriter::follow (const Links& links)
 {
     for (const auto& [from, c] : links)
-        line (value (&c->out) + " = tactus::fused::follow (" + values.read (from) + ", " + value (&c->before) + ", " + value (&c->newest)
+        line (value (&c->out) + " = tactus::fused::follow (" + read (from) + ", " + value (&c->before) + ", " + value (&c->newest)
               + ", p.as<bool> (" + values.number (&c->begun) + "), part);");
 }
 
@@ -63,7 +61,7 @@ void CodeWriter::every (const plan::RunningSection& s)
         head (s.lines);
         latch (s.pulses);
     }
-    if (! s.lines.empty()) line ("const double part = static_cast<double> (phase) / " + exactly (static_cast<double> (s.factor)) + ";");
+    if (! s.lines.empty()) line ("const double part = static_cast<double> (phase) / " + literal (static_cast<double> (s.factor)) + ";");
     follow (s.lines);
     if (s.pulses.empty()) return;
     const Block resting { *this, "if (phase != 0)" };
@@ -80,7 +78,7 @@ void CodeWriter::times (const plan::RunningSection& s)
     {
         const Block running { *this, "for (std::uint64_t " + i + " = 0; " + i + " < " + factor + "u; ++" + i + ")" };
         line (ticks (&s.number) + " = " + ticks (s.around) + " * " + factor + "u + " + i + ";");
-        if (! s.lines.empty()) line ("const double part = static_cast<double> (" + i + " + 1) / " + exactly (static_cast<double> (s.factor)) + ";");
+        if (! s.lines.empty()) line ("const double part = static_cast<double> (" + i + " + 1) / " + literal (static_cast<double> (s.factor)) + ";");
         follow (s.lines);
         if (! s.pulses.empty())
         {
@@ -90,7 +88,7 @@ void CodeWriter::times (const plan::RunningSection& s)
         records (s.records, true);
         gather (s.gathers);
         for (const auto& tap : s.samples)
-            line ("(&" + value (tap.to) + ")[" + ticks (&s.number) + " % " + std::to_string (tap.per_tick) + "u] = " + values.read (tap.from) + ";");
+            line ("(&" + value (tap.to) + ")[" + ticks (&s.number) + " % " + std::to_string (tap.per_tick) + "u] = " + read (tap.from) + ";");
     }
     deliver (s.gathers);
 }

@@ -5,18 +5,8 @@
 
 #include <tactus/kit/vec3.hpp>
 
-#include <array>
-#include <cstdio>
-
 namespace tactus::host
 {
-
-std::string exactly (double v)
-{
-    std::array<char, 40> text {};
-    const auto size = std::snprintf (text.data(), text.size(), "%a", v);
-    return { text.data(), static_cast<std::size_t> (size) };
-}
 
 FusedValues::FusedValues (const Plan& p) : plan (p)
 {
@@ -94,12 +84,6 @@ std::optional<FusedValues::Output> FusedValues::outputAt (const double* value) c
     return std::nullopt;
 }
 
-std::string FusedValues::memberOf (const PortSheet& sheet, int slot)
-{
-    const std::string name (sheet.id);
-    return sheet.list || sheet.width == 3 ? name + "[" + std::to_string (slot) + "]" : name;
-}
-
 /// True for defaults of inputs, which nothing ever writes.
 bool FusedValues::isConstant (const double* value) const
 {
@@ -112,36 +96,28 @@ bool FusedValues::isConstant (const double* value) const
     return isFinite (*value);   // checked last: the checks above exclude the values that the tick thread writes
 }
 
-/// The variable that has a value, or null. If it is a member, its text is in `made`.
-const std::string* FusedValues::variableOf (const double* value, std::string& made) const
+/// The variable that has a value, if one is in sight.
+std::optional<FusedValues::Place> FusedValues::variableOf (const double* value) const
 {
     const auto output = outputAt (value);
     for (auto scope = scopes.rbegin(); scope != scopes.rend(); ++scope)
     {
-        if (const auto known = scope->values.find (value); known != scope->values.end()) return &known->second;
+        if (const auto known = scope->values.find (value); known != scope->values.end()) return Place { Place::Kind::variable, known->second };
         if (! output) continue;
         if (const auto known = scope->outputs.find (output->instance); known != scope->outputs.end())
-        {
-            made = known->second + "." + memberOf (*output->sheet, output->slot);
-            return &made;
-        }
+            return Place { Place::Kind::member, known->second, output->sheet, output->slot };
     }
-    return nullptr;
+    return std::nullopt;
 }
 
-bool FusedValues::isInSight (const double* value) const
-{
-    std::string made;
-    return variableOf (value, made) != nullptr;
-}
+bool FusedValues::isInSight (const double* value) const { return variableOf (value).has_value(); }
 
-std::string FusedValues::read (const double* value)
+FusedValues::Place FusedValues::find (const double* value)
 {
-    std::string made;
-    if (const auto* variable = variableOf (value, made)) return *variable;
-    if (isConstant (value)) return exactly (*value);
+    if (auto variable = variableOf (value)) return std::move (*variable);
+    if (isConstant (value)) return { Place::Kind::constant };
     need (value);
-    return "p.value (" + number (value) + ")";
+    return {};
 }
 
 void FusedValues::need (const double* value)

@@ -40,10 +40,27 @@ public:
 
     const std::vector<void*>& objects() const noexcept { return all; }
 
-    /// A value as an expression. Notes that it must be in memory if no variable with it is in sight.
-    std::string read (const double*);
+    /// Where code that reads a value finds it.
+    struct Place
+    {
+        enum class Kind
+        {
+            variable,   ///< in the variable `name`
+            member,     ///< in a member of `name`, which has the outputs of a node
+            constant,   ///< it never changes
+            memory      ///< where the plan has it
+        };
 
-    /// The same for a value that is read by something other than fused code.
+        Kind kind = Kind::memory;
+        std::string name {};
+        const PortSheet* sheet = nullptr;   ///< the row of the member
+        int slot = 0;                       ///< the component of the member
+    };
+
+    /// Finds a value. Notes that it must be in memory if no variable with it is in sight.
+    Place find (const double*);
+
+    /// Notes that a value must be in memory, because something other than fused code reads it.
     void need (const double*);
 
     bool isNeeded (const double* value) const { return has_unknown || needed.contains (value); }
@@ -61,9 +78,6 @@ public:
 
     /// Prepares for writing the code again. True if nothing new was needed the last time.
     bool settled();
-
-    /// A component of a port as a member of its struct: "mu", "direction[2]".
-    static std::string memberOf (const PortSheet&, int slot);
 
 private:
     struct Scope
@@ -83,7 +97,7 @@ private:
     bool isStranger (const Record&) const;
     std::optional<Output> outputAt (const double*) const;
     bool isConstant (const double*) const;
-    const std::string* variableOf (const double*, std::string& made) const;
+    std::optional<Place> variableOf (const double*) const;
 
     std::vector<Scope> scopes { 1 };
     std::vector<void*> all;
@@ -97,8 +111,5 @@ private:
     std::set<std::size_t> needed_nodes;
     std::size_t needed_before = 0;
 };
-
-/// A number as C++ with the same bits. The number is finite.
-std::string exactly (double);
 
 }   // namespace tactus::host

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fused_code.hpp"
+#include "fusion_cache.hpp"
 
 #include <host/platform/background_program.hpp>
 #include <tactus/text/result.hpp>
@@ -16,18 +17,19 @@
 namespace tactus::host
 {
 
-/// Compiles fused code with the system's compiler in the background, one graph at a time. Keeps what it has compiled in a cache,
-/// by content. [main thread]
+/// Compiles fused code in the background, one graph at a time: with LLVM or with the system's compiler, as the language of the code asks. Keeps
+/// what it has compiled in a cache, by content. [main thread]
 class FusionCompiler
 {
 public:
     struct Options
     {
         std::string compiler {};             ///< empty: CXX from the environment, or else `c++`
-        std::string optimisation = "-O3";    ///< the bits are the same for each
+        std::string llvm {};                 ///< the program tactus-fuse-llvm; empty: TACTUS_FUSE_LLVM from the environment, or else beside this program
+        std::string optimisation = "-O3";    ///< of the compiler; the bits are the same for each
         std::filesystem::path cache {};      ///< the folder of the cache; empty: nothing is kept
-        unsigned cpu_seconds = 120;          ///< after which the system ends the compiler
-        std::vector<std::string> flags {};   ///< in addition
+        unsigned cpu_seconds = 120;          ///< after which the system ends the compiler or LLVM
+        std::vector<std::string> flags {};   ///< of the compiler, in addition
     };
 
     explicit FusionCompiler (Options);
@@ -35,29 +37,34 @@ public:
     FusionCompiler (const FusionCompiler&) = delete;
     FusionCompiler& operator= (const FusionCompiler&) = delete;
 
-    /// The user's cache for fused code: in TACTUS_HOME, XDG_CACHE_HOME or ~/.cache. Empty if the user's home is unknown.
-    static std::filesystem::path usualCache();
+    /// The user's cache for fused code: see FusionCache::usualFolder.
+    static std::filesystem::path usualCache() { return FusionCache::usualFolder(); }
 
-    /// Starts to compile. Stops a compilation that is still running. Ids: fuse/no_compiler, fuse/no_folder, output/unwritable.
+    /// Starts to compile. Stops a compilation that is still running. Ids: fuse/no_compiler, fuse/no_llvm, fuse/no_folder, output/unwritable.
     Result<> start (const FusedCode&);
 
     /// Stops the compilation, if one is running.
     void stop() { program.reset(); }
 
-    /// The shared object, returned only once; empty while the compiler is running, or if there is nothing to compile. Ids: fuse/compile.
+    /// The shared object, returned only once; empty while the compiler is running, or if there is nothing to compile. Ids: fuse/compile,
+    /// fuse/no_llvm.
     std::optional<Result<std::filesystem::path>> finished();
 
 private:
     std::string keyOf (const FusedCode&) const;
-    std::vector<std::string> flagsFor (const std::string& compiler) const;
+    std::vector<std::string> flags() const;
+    std::vector<std::string> commandFor (const FusedCode&) const;
+    std::filesystem::path sourceOf (const FusedCode&) const;
     Result<> write (const FusedCode&);
-    std::filesystem::path keep (const std::filesystem::path& object);
+    Result<> writeHeaders (const FusedCode&);
 
     const Options options;
+    const FusionCache cache;
     std::filesystem::path folder;    // empty until something is compiled
-    std::set<std::string> written;   // headers that are in the folder
+    std::set<std::string> written;   // headers and bitcode that are in the folder
     std::unique_ptr<BackgroundProgram> program;
-    std::filesystem::path ready;   // from the cache
+    std::filesystem::path ready;                               // from the cache
+    FusedCode::Language language = FusedCode::Language::cpp;   // of what is compiled now
     std::string key;
     int count = 0;   // objects compiled so far: the system does not load a file twice
 };

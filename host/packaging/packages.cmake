@@ -49,7 +49,7 @@ models of touch are nodes, and a graph of them computes a force for every
 sample of the hand's position.\n")
 tactus_package (program tactus science "haptic effects, patched like a modular synthesiser" "${about}
 This package contains the command line, the presets, and the profiles of\nhaptic devices."
-    RECOMMENDS "python3" SUGGESTS "tactus-host, valgrind, g++, libeigen3-dev")
+    RECOMMENDS "python3" SUGGESTS "tactus-host, valgrind, libllvm14 | libllvm15 | libllvm16, binutils, g++, libeigen3-dev")
 tactus_package (host tactus-host science "editor for graphs of haptic effects" "${about}
 This package contains the window in which graphs are edited and played."
     DEPENDS "tactus (= ${debian_version}), libx11-6, libxext6, libxrandr2, libxrender1"

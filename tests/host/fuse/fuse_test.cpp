@@ -6,6 +6,7 @@
 
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
+#include <host/fuse/bitcode.hpp>
 #include <support/interpreter.hpp>
 #include <support/random_graph.hpp>
 #include <support/sketch.hpp>
@@ -173,6 +174,16 @@ void requireSameBits (const std::vector<std::pair<std::string, Twins*>>& all, in
         CHECK (all[i].second->valueCount() > 0);
     }
 }
+
+/// The same for what LLVM makes.
+void requireSameBitsByLlvm (const std::string& name, Twins& twins, int ticks)
+{
+    INFO (name);
+    const auto code = test::fusedByLlvm (twins.plan());
+    REQUIRE (code);
+    CHECK (twins.run (code, ticks) == 0);
+    CHECK (twins.valueCount() > 0);
+}
 }   // namespace
 
 TEST_CASE ("fused code gives the bits of the plan while they take turns and parameters move", "[fuse]")
@@ -189,6 +200,53 @@ TEST_CASE ("fused code gives the bits of the plan while they take turns and para
     for (const auto* name : { "dry_wood", "vibraphone_bar" })
         all.emplace_back (name, &presets.add (name));
     requireSameBits (all, 3200);
+}
+
+TEST_CASE ("what LLVM makes gives the bits of the plan while they take turns and parameters move", "[fuse]")
+{
+    if (! test::hasLlvm())
+    {
+        WARN ("skipped: there is no LLVM, or no clang when this was built");
+        return;
+    }
+    for (unsigned seed = 1; seed <= 24; ++seed)
+    {
+        const auto twins = randomTwins (seed, seed % 2 == 0);
+        requireSameBitsByLlvm ("random graph " + std::to_string (seed), *twins, 3200);
+    }
+    PresetTwins presets;
+    for (const auto* name : { "dry_wood", "vibraphone_bar" })
+        requireSameBitsByLlvm (name, presets.add (name), 3200);
+}
+
+TEST_CASE ("every preset gives the same bits when LLVM has fused it", "[.][fuse_all]")
+{
+    if (! test::hasLlvm())
+    {
+        WARN ("skipped: there is no LLVM, or no clang when this was built");
+        return;
+    }
+    PresetTwins presets;
+    for (const auto& name : test::presetNames())
+        requireSameBitsByLlvm (name, presets.add (name), 12000);
+}
+
+TEST_CASE ("the program contains the bitcode of every node, and LLVM can fuse and load each", "[.][fuse_all]")
+{
+    if (! test::hasLlvm())
+    {
+        WARN ("skipped: there is no LLVM, or no clang when this was built");
+        return;
+    }
+    for (const auto& type : catalogue())
+    {
+        const std::string id (type.info.id);
+        INFO (id);
+        CHECK_FALSE (host::findBitcode (host::classOf (id).header).empty());
+        const auto plan = test::Sketch {}.node ("node", id).compile().plan;
+        if (plan == nullptr || plan->records().empty()) continue;   // a setting is missing, such as a recording
+        CHECK (test::fusedByLlvm (*plan) != nullptr);
+    }
 }
 
 TEST_CASE ("every preset gives the same bits fused", "[.][fuse_all]")
@@ -222,4 +280,5 @@ TEST_CASE ("the fused code of a graph does not depend on where its plan is in me
     const auto first = sketch.compile (options).plan, second = sketch.compile (options).plan;
     CHECK (host::FusedCode::of (*first).text == host::FusedCode::of (*second).text);
     CHECK (host::FusedCode::of (*first).objects != host::FusedCode::of (*second).objects);
+    CHECK (host::FusedCode::wiringOf (*first).text == host::FusedCode::wiringOf (*second).text);
 }

@@ -1,34 +1,60 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fused_plans.hpp"
 
+#include <host/fuse/bitcode.hpp>
 #include <host/fuse/fusion_compiler.hpp>
 #include <host/fuse/load_fused.hpp>
 #include <host/generate/code.hpp>
+#include <support/sketch.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <chrono>
+#include <filesystem>
 #include <thread>
 
 namespace tactus::test
 {
 
+namespace
+{
+/// Waits for compiled code. Keeps the files until the process ends.
+Result<std::filesystem::path> compile (const host::FusedCode& code)
+{
+    static host::FusionCompiler compiler { { .optimisation = "-O1" } };
+    if (auto started = compiler.start (code); ! started) return started.error();
+    for (;; std::this_thread::sleep_for (std::chrono::milliseconds (5)))
+        if (auto done = compiler.finished()) return std::move (*done);
+}
+}   // namespace
+
 std::string compiledFusion (const host::FusedCode& code)
 {
-    static host::FusionCompiler compiler { { .optimisation = "-O1" } };   // keeps the files until the process ends
-    const auto started = compiler.start (code);
-    INFO ((started ? std::string {} : started.error().text));
-    REQUIRE (started);
-    for (;;)
-    {
-        if (const auto done = compiler.finished())
-        {
-            INFO ((*done ? std::string {} : done->error().text));
-            REQUIRE (*done);
-            return (**done).string();
-        }
-        std::this_thread::sleep_for (std::chrono::milliseconds (5));
-    }
+    const auto done = compile (code);
+    INFO ((done ? std::string {} : done.error().text));
+    REQUIRE (done);
+    return (*done).string();
+}
+
+std::shared_ptr<const FusedTick> fusedByLlvm (const Plan& plan)
+{
+    auto code = host::FusedCode::wiringOf (plan);
+    const auto object = compile (code);
+    if (! object && object.error().id == "fuse/no_llvm") return nullptr;
+    INFO ((object ? std::string {} : object.error().text));
+    REQUIRE (object);
+    auto loaded = host::loadFused (*object, std::move (code.objects));
+    INFO ((loaded ? std::string {} : loaded.error().text));
+    REQUIRE (loaded);
+    return std::move (*loaded);
+}
+
+bool hasLlvm()
+{
+    static const bool has_bitcode = ! host::allBitcode().empty();
+    if (! has_bitcode) return false;
+    const auto plan = Sketch {}.node ("a", "filter.one_pole").compile ({ .records = { "a.out" } }).plan;
+    return fusedByLlvm (*plan) != nullptr;
 }
 
 void FusedPlans::add (const Plan& plan)

@@ -15,6 +15,12 @@ namespace tactus::test
 /// process is not compiled again.
 std::string compiledFusion (const host::FusedCode&);
 
+/// Waits for LLVM to compile the code of a plan, and loads it. Null if no LLVM is installed.
+std::shared_ptr<const FusedTick> fusedByLlvm (const Plan&);
+
+/// False if no LLVM is installed, or the program was built without clang.
+bool hasLlvm();
+
 /// The code of several plans as one source, because each run of the compiler spends most of its time on the headers.
 class FusedPlans
 {

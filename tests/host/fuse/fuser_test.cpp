@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fused_plans.hpp"
 
+#include <host/fuse/bitcode.hpp>
 #include <host/fuse/fuser.hpp>
 #include <support/sketch.hpp>
 #include <support/temporary_folder.hpp>
@@ -39,17 +40,19 @@ std::vector<double> outputs (Plan& plan, int ticks)
     return all;
 }
 
-/// A program that takes the place of the compiler.
+/// A program that takes the place of the compiler, and one that takes that of tactus-fuse-llvm.
 class FakeCompiler
 {
 public:
-    explicit FakeCompiler (const std::string& script)
+    explicit FakeCompiler (const std::string& script, const std::string& llvm = {})
     {
-        folder.write ("compiler", "#!/bin/sh\necho run >> '" + (folder / "runs").string() + "'\n" + script + "\n");
-        fs::permissions (folder / "compiler", fs::perms::owner_all);
+        write ("compiler", "echo run >> '" + (folder / "runs").string() + "'\n" + script);
+        write ("llvm", llvm);
+        how = { .compiler = { .compiler = (folder / "compiler").string(), .llvm = (folder / "llvm").string(), .cache = folder / "cache" },
+                .uses_llvm = ! llvm.empty() };
     }
 
-    Fuser::Options options() const { return { .compiler = { .compiler = (folder / "compiler").string(), .cache = folder / "cache" } }; }
+    const Fuser::Options& options() const { return how; }
 
     int runs() const
     {
@@ -61,7 +64,14 @@ public:
     }
 
 private:
+    void write (const std::string& name, const std::string& script)
+    {
+        folder.write (name, "#!/bin/sh\n" + script + "\n");
+        fs::permissions (folder / name, fs::perms::owner_all);
+    }
+
     TemporaryFolder folder;
+    Fuser::Options how;
 };
 
 /// Looks until the fuser has finished what it does.
@@ -116,7 +126,7 @@ TEST_CASE ("a compiler that hangs is ended, and the plan runs on by its records"
 
 TEST_CASE ("without a compiler, no plan is fused, and this is said once", "[fuse]")
 {
-    Fuser fuser { { .compiler = { .compiler = "/no/such/compiler" } } };
+    Fuser fuser { { .compiler = { .compiler = "/no/such/compiler", .llvm = "/no/such/program" } } };
     const auto plan = smallPlan(), next = smallPlan();
     const auto said = fuser.look (plan, 0.0);
     REQUIRE (said);
@@ -151,4 +161,45 @@ TEST_CASE ("an edited plan runs by its records until there have been no edits fo
     CHECK (again->isFused());
     CHECK (compiler.runs() == 1);   // the code is the same: a parameter is not part of it
     CHECK (outputs (*again, 50) == outputs (*compared, 50));
+}
+
+TEST_CASE ("if LLVM fails, is killed, makes nonsense or is not installed, the compiler takes its place", "[fuse]")
+{
+    if (host::allBitcode().empty())
+    {
+        WARN ("skipped: this was built without clang");
+        return;
+    }
+    const auto script = GENERATE (as<std::string> {}, "echo 'error: no' >&2; exit 1", "kill -9 $$", "exit 0", "exit 3", "cp /etc/passwd \"$2\"");
+    INFO (script);
+    const auto plan = smallPlan(), other = smallPlan();
+    const FakeCompiler compiler { copies (test::compiledFusion (host::FusedCode::of (*plan))), script };
+    Fuser fuser { compiler.options() };
+    CHECK_FALSE (fuser.look (plan, 0.0));
+    CHECK (fuser.describe() == "plan, fusing");
+    CHECK (compiler.runs() == 0);
+    CHECK_FALSE (finish (fuser, plan, 0.0));
+    CHECK (fuser.state() == Fuser::State::fused);
+    CHECK (fuser.account().find ("by the compiler") != std::string::npos);
+    CHECK (compiler.runs() == 1);
+    CHECK (plan->isFused());
+    CHECK (outputs (*plan, 50) == outputs (*other, 50));
+}
+
+TEST_CASE ("if LLVM hangs, it is ended, and the compiler takes its place", "[fuse]")
+{
+    if (host::allBitcode().empty())
+    {
+        WARN ("skipped: this was built without clang");
+        return;
+    }
+    const auto plan = smallPlan();
+    const FakeCompiler compiler { copies (test::compiledFusion (host::FusedCode::of (*plan))), "while true; do sleep 1; done" };
+    Fuser fuser { compiler.options() };
+    CHECK_FALSE (fuser.look (plan, 0.0));
+    CHECK_FALSE (fuser.look (plan, 59.0));
+    CHECK (compiler.runs() == 0);
+    CHECK_FALSE (finish (fuser, plan, 61.0));
+    CHECK (fuser.state() == Fuser::State::fused);
+    CHECK (compiler.runs() == 1);
 }
