@@ -3,7 +3,7 @@
 
 #include "is_digit.hpp"
 #include "quote.hpp"
-#include "right_json.hpp"
+#include "valid_json.hpp"
 #include "seen_keys.hpp"
 
 #include <nlohmann/json.hpp>
@@ -427,7 +427,7 @@ JsonText readJson (std::string_view text, double most_values)
         result.messages.push_back (overBudget ("file/too_large", &Budgets::file, "the text", size, "put meshes and samples into separate files"));
         return result;
     }
-    if (auto right = readRightJson (text, most_values)) return *std::move (right);
+    if (auto valid = readValidJson (text, most_values)) return *std::move (valid);
     return readAnyJson (text, most_values);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <tactus/text/right_json.hpp>
+#include <tactus/text/valid_json.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -13,7 +13,7 @@ using namespace tactus;
 
 namespace
 {
-/// Writes JSON of all kinds, in odd ways that are right.
+/// Writes JSON of all kinds, in odd ways that are valid.
 class OddWriter
 {
 public:
@@ -75,10 +75,10 @@ bool samePositions (const JsonText& a, const JsonText& b, const Json& value, con
 }
 
 /// Numbers of different types compare as equal, but are written differently.
-bool isSame (const JsonText& right, const JsonText& any)
+bool isSame (const JsonText& valid, const JsonText& any)
 {
-    return any.messages.empty() && right.messages.empty() && right.root == any.root && right.root.dump() == any.root.dump() && right.values == any.values
-           && samePositions (right, any, any.root, "");
+    return any.messages.empty() && valid.messages.empty() && valid.root == any.root && valid.root.dump() == any.root.dump() && valid.values == any.values
+           && samePositions (valid, any, any.root, "");
 }
 
 constexpr double most = 1e6;
@@ -86,24 +86,24 @@ constexpr double most = 1e6;
 /// True if the text is refused, or read as the other parser does.
 bool agree (std::string_view text)
 {
-    const auto right = readRightJson (text, most);
-    return ! right || isSame (*right, readAnyJson (text, most));
+    const auto valid = readValidJson (text, most);
+    return ! valid || isSame (*valid, readAnyJson (text, most));
 }
 }   // namespace
 
-TEST_CASE ("right JSON is read in one pass as the careful parser reads it", "[json][property]")
+TEST_CASE ("valid JSON is read in one pass as the careful parser reads it", "[json][property]")
 {
-    int right = 0, refused = 0;
+    int valid = 0, refused = 0;
     rc::prop ("any text", [&] {
         OddWriter odd (*rc::gen::arbitrary<unsigned>());
         for (int k = 0; k < 20; ++k)
         {
             auto text = (odd.dice (10) == 0 ? "\xEF\xBB\xBF" : "") + odd.value (4);
             const auto any = readAnyJson (text, most);
-            const auto read = readRightJson (text, most);
+            const auto read = readValidJson (text, most);
             RC_ASSERT (read.has_value() == any.messages.empty());   // the only mistake so far is a key that occurs twice
             RC_ASSERT (! read || isSame (*read, any));
-            ++right;
+            ++valid;
 
             static constexpr std::string_view bytes ("\0\x01\n\"\\/{}[],:0129-+.eEutfn \x7f\x80\xBF\xC0\xC2\xE0\xED\xF0\xF4\xF5\xFF", 40);
             for (auto n = odd.dice (3); n > 0 && ! text.empty(); --n)
@@ -122,30 +122,30 @@ TEST_CASE ("right JSON is read in one pass as the careful parser reads it", "[js
                 }
             }
             RC_ASSERT (agree (text));
-            refused += ! readRightJson (text, most);
+            refused += ! readValidJson (text, most);
         }
     });
-    CHECK (right > 1000);
+    CHECK (valid > 1000);
     CHECK (refused > 300);
 }
 
-TEST_CASE ("right JSON is also refused where a limit or the careful parser would complain", "[json]")
+TEST_CASE ("valid JSON is also refused where a limit or the careful parser would complain", "[json]")
 {
     for (const auto* text : { "", " ", "{", "[1,]", "{\"a\":1,}", "{\"a\":1,\"a\":2}", "01", "1.", ".5", "-", "+1", "1e", "1e400", "nul", "NaN", "\"a", "\"\n\"", "\"\\x\"",
                               "\"\\ud800\"", "\"\\udc00\"", "\"\\ud800\\u0041\"", "\"\xC0\x80\"", "\"\xED\xA0\x80\"", "\"\xF4\x90\x80\x80\"", "\"\xE2\x82\"", "1 2", "'a'", "// c\n1" })
     {
         INFO (text);
-        CHECK_FALSE (readRightJson (text, most).has_value());
+        CHECK_FALSE (readValidJson (text, most).has_value());
         CHECK_FALSE (readAnyJson (text, most).messages.empty());
     }
-    CHECK (readRightJson ("[1, 2]", 3.0));
-    CHECK_FALSE (readRightJson ("[1, 2]", 2.0));
+    CHECK (readValidJson ("[1, 2]", 3.0));
+    CHECK_FALSE (readValidJson ("[1, 2]", 2.0));
     const auto nested = [] (int n) { return std::string (static_cast<std::size_t> (n), '[') + std::string (static_cast<std::size_t> (n), ']'); };
-    CHECK (readRightJson (nested (deepest_nesting), most));
-    CHECK_FALSE (readRightJson (nested (deepest_nesting + 1), most));
+    CHECK (readValidJson (nested (deepest_nesting), most));
+    CHECK_FALSE (readValidJson (nested (deepest_nesting + 1), most));
 }
 
-TEST_CASE ("right JSON: a string is read right whatever its length, and wherever a special character is", "[json]")
+TEST_CASE ("valid JSON: a string is read correctly whatever its length, and wherever a special character is", "[json]")
 {
     const std::vector<std::string> specials { "\\\"", "\\\\", "\\n", "\\u00e4", "ü", "€", "\U0001F600", "\x7f", " ", "!", "#", "[", "]" };
     const std::vector<std::string> meanings { "\"", "\\", "\n", "ä", "ü", "€", "\U0001F600", "\x7f", " ", "!", "#", "[", "]" };
@@ -155,11 +155,11 @@ TEST_CASE ("right JSON: a string is read right whatever its length, and wherever
             for (std::size_t k = 0; k < specials.size(); ++k)
             {
                 const std::string before (where, 'a'), after (size - where, 'z');
-                const auto read = readRightJson ('"' + before + specials[k] + after + '"', most);
+                const auto read = readValidJson ('"' + before + specials[k] + after + '"', most);
                 wrong += ! read || read->root != Json (before + meanings[k] + after);
                 for (const auto* bad : { "\n", "\x1f", "\x01", "\xff", "\x80" })
-                    wrong += readRightJson ('"' + before + bad + after + '"', most).has_value();
-                wrong += readRightJson ('"' + before + '"' + after + "\"", most).has_value();
+                    wrong += readValidJson ('"' + before + bad + after + '"', most).has_value();
+                wrong += readValidJson ('"' + before + '"' + after + "\"", most).has_value();
             }
     CHECK (wrong == 0);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "right_json.hpp"
+#include "valid_json.hpp"
 
 #include "is_digit.hpp"
 #include "seen_keys.hpp"
@@ -18,10 +18,10 @@ namespace tactus
 namespace
 {
 /// Each function reads one thing at `here` and returns false if it is not there.
-class RightReader
+class ValidReader
 {
 public:
-    RightReader (std::string_view text, JsonText& r, double most) : here (text.data()), end (here + text.size()), result (r), most_values (most)
+    ValidReader (std::string_view text, JsonText& r, double most) : here (text.data()), end (here + text.size()), result (r), most_values (most)
     {
         if (text.starts_with ("\xEF\xBB\xBF")) here += 3;
         line_begin = here;
@@ -293,10 +293,10 @@ private:
 };
 }   // namespace
 
-std::optional<JsonText> readRightJson (std::string_view text, double most_values)
+std::optional<JsonText> readValidJson (std::string_view text, double most_values)
 {
     JsonText result;
-    if (! RightReader (text, result, most_values).file()) return std::nullopt;
+    if (! ValidReader (text, result, most_values).file()) return std::nullopt;
     return result;
 }
 
