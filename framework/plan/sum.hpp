@@ -104,7 +104,10 @@ auto sumOf (T a, T b, T c, T d) noexcept
 }
 
 #ifdef __SSE2__
-inline double sumOf (double a, double b, double c) noexcept { return sumOf<Lane> (a, b, c); }
+inline double sumOf (double a, double b, double c) noexcept
+{
+    return sumOf<Lane> (a, b, c);
+}
 inline double sumOf (double a, double b, double c, double d) noexcept { return sumOf<Lane> (a, b, c, d); }
 #endif
 

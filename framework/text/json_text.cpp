@@ -3,8 +3,8 @@
 
 #include "is_digit.hpp"
 #include "quote.hpp"
-#include "valid_json.hpp"
 #include "seen_keys.hpp"
+#include "valid_json.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -23,8 +23,8 @@ struct JsonText
     Messages messages;     ///< file/syntax, file/too_deep, file/too_large, file/duplicate_key
 };
 
-/// Reads JSON (RFC 8259, UTF-8). Does not throw, and recurses at most `deepest_nesting` times; accepts any text, and refuses one that exceeds the budget `file` or has
-/// more values than `most_values`. [any thread]
+/// Reads JSON (RFC 8259, UTF-8). Does not throw, and recurses at most `deepest_nesting` times; accepts any text, and refuses one that
+/// exceeds the budget `file` or has more values than `most_values`. [any thread]
 JsonText readJson (std::string_view text, double most_values = budgets().values);
 
 /// A key in the form used in JSON pointers.

@@ -16,13 +16,18 @@ struct SignalAdd
     using Settings = InputCount;
     using Outputs = Out<double>;
 
-    static constexpr Info info { .id = "signal.add", .name = "Add", .summary = "Adds signals.", .source = "definition" };
+    static constexpr Info info {
+        .id = "signal.add",
+        .name = "Add",
+        .summary = "Adds signals.",
+        .source = "definition",
+        .keywords = "sum plus",
+    };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "signals", 0.0),
         inputCount (&Settings::inputs),
         output (&Outputs::out, "out", sameAs ("in"), "the sum"),
-        .keywords = "sum plus",
     };
 
     Params params;

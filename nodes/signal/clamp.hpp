@@ -24,14 +24,19 @@ struct SignalClamp
 
     using Outputs = Out<double>;
 
-    static constexpr Info info { .id = "signal.clamp", .name = "Clamp", .summary = "Limits a signal to a range.", .source = "definition" };
+    static constexpr Info info {
+        .id = "signal.clamp",
+        .name = "Clamp",
+        .summary = "Limits a signal to a range.",
+        .source = "definition",
+        .keywords = "limit saturate minimum maximum",
+    };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "signal"),
         param (&Params::min, "min", sameAs ("in"), "lower bound", { .usual = { -10, 10 } }),
         param (&Params::max, "max", sameAs ("in"), "upper bound", { .usual = { -10, 10 } }),
         output (&Outputs::out, "out", sameAs ("in"), "the signal within the bounds"),
-        .keywords = "limit saturate minimum maximum",
     };
 
     Params params;

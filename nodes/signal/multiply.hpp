@@ -16,13 +16,18 @@ struct SignalMultiply
     using Settings = InputCount;
     using Outputs = Out<double>;
 
-    static constexpr Info info { .id = "signal.multiply", .name = "Multiply", .summary = "Multiplies signals.", .source = "definition" };
+    static constexpr Info info {
+        .id = "signal.multiply",
+        .name = "Multiply",
+        .summary = "Multiplies signals.",
+        .source = "definition",
+        .keywords = "vca product modulator",
+    };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", each_its_unit, "signals", 1.0),
         inputCount (&Settings::inputs),
         output (&Outputs::out, "out", productOf ("in"), "the product"),
-        .keywords = "vca product modulator",
     };
 
     Params params;

@@ -14,13 +14,18 @@ struct VectorAdd
     using Settings = InputCount;
     using Outputs = Out<Vec3>;
 
-    static constexpr Info info { .id = "vector.add", .name = "Add", .summary = "Adds vectors.", .source = "definition" };
+    static constexpr Info info {
+        .id = "vector.add",
+        .name = "Add",
+        .summary = "Adds vectors.",
+        .source = "definition",
+        .keywords = "sum plus",
+    };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "vectors", 0.0),
         inputCount (&Settings::inputs),
         output (&Outputs::out, "out", sameAs ("in"), "the sum"),
-        .keywords = "sum plus",
     };
 
     Params params;

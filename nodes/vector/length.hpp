@@ -14,12 +14,17 @@ struct VectorLength
     using Params = Empty;
     using Outputs = Amount<double>;
 
-    static constexpr Info info { .id = "vector.length", .name = "Length", .summary = "The length of a vector.", .source = "definition" };
+    static constexpr Info info {
+        .id = "vector.length",
+        .name = "Length",
+        .summary = "The length of a vector.",
+        .source = "definition",
+        .keywords = "norm magnitude",
+    };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "vector"),
         output (&Outputs::amount, "amount", sameAs ("in"), "its length, never negative"),
-        .keywords = "norm magnitude",
     };
 
     Params params;

@@ -69,7 +69,8 @@ TEST_CASE ("functions of two numbers in single precision are right", "[kit][sing
 {
     std::mt19937 random { 4 };
     const auto number = [&random] (int least, int most) {
-        return std::ldexp (1.0f + static_cast<float> (random() >> 9) * 0x1p-23f, least + static_cast<int> (random() % static_cast<unsigned> (most - least + 1)));
+        const int exponent = least + static_cast<int> (random() % static_cast<unsigned> (most - least + 1));
+        return std::ldexp (1.0f + static_cast<float> (random() >> 9) * 0x1p-23f, exponent);
     };
     double power = 0.0, angle = 0.0, length = 0.0;
     int wrong = 0;

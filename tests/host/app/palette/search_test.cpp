@@ -28,7 +28,23 @@ bool isAmong (const std::vector<std::string>& types, const std::string& type, st
 TEST_CASE ("palette: a node is among the first three entries for the names that other programs give it")
 {
     const std::multimap<std::string, std::string> wanted {
-        { "motor", "device.force" }, { "output", "device.force" }, { "mouse", "device.position" }, { "hand", "device.position" }, { "sine", "signal.lfo" }, { "LFO", "signal.lfo" }, { "knob", "signal.constant" }, { "knob", "signal.gain" }, { "noise", "signal.noise" }, { "noise", "texture.noise" }, { "wall", "deform.plane" }, { "stick slip", "friction.elasto_plastic" }, { "mixer", "layer.mix" }, { "adsr", "signal.envelope" }, { "lowpass", "filter.butterworth2" }, { "speed", "motion.velocity" }, { "formula", "signal.expression" }
+        { "motor", "device.force" },
+        { "output", "device.force" },
+        { "mouse", "device.position" },
+        { "hand", "device.position" },
+        { "sine", "signal.lfo" },
+        { "LFO", "signal.lfo" },
+        { "knob", "signal.constant" },
+        { "knob", "signal.gain" },
+        { "noise", "signal.noise" },
+        { "noise", "texture.noise" },
+        { "wall", "deform.plane" },
+        { "stick slip", "friction.elasto_plastic" },
+        { "mixer", "layer.mix" },
+        { "adsr", "signal.envelope" },
+        { "lowpass", "filter.butterworth2" },
+        { "speed", "motion.velocity" },
+        { "formula", "signal.expression" },
     };
     for (const auto& [query, type] : wanted)
     {
