@@ -100,7 +100,7 @@ private:
     bool oneIn (int n) { return upTo (n - 1) == 0; }
     std::string oneOf (std::initializer_list<const char*> list) { return *(list.begin() + upTo (static_cast<int> (list.size()) - 1)); }
     std::optional<Json> maybe (Json value) { return oneIn (3) ? std::nullopt : std::optional (std::move (value)); }
-    Place place() { return oneIn (2) ? std::nullopt : Place (static_cast<std::size_t> (upTo (4))); }
+    graph::Place place() { return oneIn (2) ? std::nullopt : graph::Place (static_cast<std::size_t> (upTo (4))); }
     std::string name() { return oneOf ({ "n1", "n2", "n3", "n7", "ghost", "fresh", "Bad Name" }); }
 
     std::string anyPatch (const Graph& g)
