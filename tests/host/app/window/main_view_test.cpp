@@ -87,7 +87,12 @@ TEST_CASE ("while a real device is driven, Esc stops the forces whatever is open
         "roles": { "stylus": { "driver": "hid", "profile": "woodenhaptics_usb" } } })");
     o.view->begin ({ o.home.path(), false, false, { o.wood } });
     REQUIRE (o.view->run().isWanted());
-    REQUIRE (o.view->run().drivesDevice());   // it is awaited, and may be plugged in at any time
+    for (int i = 0; i < 1000 && ! o.view->run().drivesDevice(); ++i)   // the session is read after the graph, and then binds its roles
+    {
+        o.view->run().attend();
+        juce::Thread::sleep (5);
+    }
+    REQUIRE (o.view->run().drivesDevice());   // the device is awaited, and may be plugged in at any time
     o.press ("F1");
     REQUIRE (o.view->helpPanel().isOpen());
     o.press ("escape");
