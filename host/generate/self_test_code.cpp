@@ -52,8 +52,8 @@ template <typename Number>
 void check (Count& count, std::size_t tick, const char* name, const Number& number, const double* expected, double size)
 {
     ++count.compared;
-    count.bits = 31 * count.bits + std::bit_cast<std::uint32_t> (static_cast<float> (number));   // the same on all machines
     const auto value = static_cast<double> (number);
+    count.bits = 31 * count.bits + (value == value ? std::bit_cast<std::uint32_t> (static_cast<float> (number)) : 0u);   // the same on all machines
     const std::size_t first = tick > 0 ? tick - 1 : 0, last = tick + 1 < @TICKS@ ? tick + 1 : tick;
     double error = value != value && expected[tick] != expected[tick] ? 0.0 : std::abs (value - expected[tick]) / size;
     for (std::size_t k = first; k < last; ++k)
