@@ -43,7 +43,7 @@ struct Count
         std::printf ("@STEM@: %lu values compared, %lu differ by more than %g of the largest; largest difference %.2g, bits %08lx\n", compared, different,
                      tolerance, largest, static_cast<unsigned long> (bits));
     }
-    bool isRight() const { return 100 * different <= compared && compared > 0; }
+    bool isRight() const { return 1000 * different <= compared && compared > 0; }
 };
 
 /// Compares a value with the one in double precision; with those of the ticks before and after it too, because an event such as a slip may
