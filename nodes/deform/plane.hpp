@@ -51,7 +51,7 @@ struct Plane
 {
     struct Inputs
     {
-        Place position = Place::Zero();
+        Position position = Position::Zero();
     };
 
     struct Params

@@ -113,7 +113,7 @@ struct ElastoPlastic
 
     struct Inputs
     {
-        Place position = Place::Zero();
+        Position position = Position::Zero();
         Vec3 normal = Vec3::UnitZ();
         double normal_force = 1.0;
     };
@@ -221,11 +221,11 @@ private:
     struct Contact
     {
         bool touching = false;
-        Place p = Place::Zero();      // position of the tool
-        Vec3 n = Vec3::UnitZ();       // unit normal
-        Vec3 given = Vec3::UnitZ();   // the normal input, of any length
-        Vec3 home = Vec3::UnitZ();    // unit normal of the plane in which d is kept, at most 60 degrees from n
-        Vec3 d = Vec3::Zero();        // stretch, before it is turned from `home` to n
+        Position p = Position::Zero();   // position of the tool
+        Vec3 n = Vec3::UnitZ();          // unit normal
+        Vec3 given = Vec3::UnitZ();      // the normal input, of any length
+        Vec3 home = Vec3::UnitZ();       // unit normal of the plane in which d is kept, at most 60 degrees from n
+        Vec3 d = Vec3::Zero();           // stretch, before it is turned from `home` to n
         double sigma = 0.0;
         double d_max0 = 0.0;   // d_max in file and knobs at the touch, in m
         Load load {};

@@ -30,7 +30,7 @@ struct Grating
 {
     struct Inputs
     {
-        Place position = Place::Zero();
+        Position position = Position::Zero();
     };
 
     struct Params
