@@ -27,7 +27,9 @@ void PlanWriter::findKnown()
         const auto [entry, is_new] = classes.try_emplace (std::string (type.info.id));
         if (is_new) entry->second = classOf (type.info.id);
         const auto& [name, header] = entry->second;
-        if (! name.empty() && has (header)) known.emplace (node.get(), Known { i, name, header });
+        if (name.empty() || ! has (header)) continue;
+        known.emplace (node.get(), Known { i, name, header });
+        ++uses[header];
     }
 }
 
