@@ -47,7 +47,7 @@ public:
         if (patch->find (c.node.name) != nullptr) return nameTaken ("a node", c.node.name);
         if (checked())
         {
-            if (usedIds (graph).contains (c.node.id)) return idTaken ("node", c.node.name);
+            if (isUsed (c.node.id, graph)) return idTaken ("node", c.node.name);
             if (auto wrong = check (c.node); ! wrong.empty()) return wrong.front();
         }
         patch->nodes.insert (iteratorAt (patch->nodes, c.place), c.node);
@@ -162,7 +162,7 @@ public:
         if (patch == nullptr) return noPatch (c.patch);
         if (checked())
         {
-            if (usedIds (graph).contains (c.wire.id)) return idTaken ("wire", toText (c.wire));
+            if (isUsed (c.wire.id, graph)) return idTaken ("wire", toText (c.wire));
             if (auto wrong = problemWith (c.wire, *patch, c.patch)) return *wrong;
         }
         patch->wires.insert (iteratorAt (patch->wires, c.place), c.wire);

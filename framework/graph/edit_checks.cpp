@@ -53,6 +53,14 @@ bool anythingTwice (const Graph& graph)
            || std::ranges::any_of (graph.graphs, [&] (const auto& g) { return in (g.second); });
 }
 
+bool isUsed (Id id, const Graph& g)
+{
+    const auto in = [id] (const Patch& patch) {
+        return std::ranges::find (patch.wires, id, &Wire::id) != patch.wires.end() || std::ranges::find (patch.nodes, id, &Node::id) != patch.nodes.end();
+    };
+    return in (g.root) || std::ranges::any_of (g.graphs, [&in] (const auto& named) { return in (named.second); });
+}
+
 std::unordered_set<Id> usedIds (const Graph& g)
 {
     std::unordered_set<Id> ids;
