@@ -46,6 +46,7 @@ public:
         parts.fed = outside.feeds;
         makeNodes();
         connectDrivers();
+        findRead();
         auto all = recordsOf (0);
         parts.records = std::move (all.records);
         parts.owners = std::move (all.owners);
@@ -103,6 +104,7 @@ private:
     std::shared_ptr<KnobBoard> board = std::make_shared<KnobBoard>();
     std::optional<Grouped<Driver>> drivers;   // by slot; within a slot, first the wires, then the feeds
     std::vector<SectionSteps> steps;          // by section
+    std::vector<bool> is_read;                // by node: whether anything reads its outputs; empty if that is not known
 
     static const PlanParts* partsOf (const Plan* other) { return other ? &other->parts : nullptr; }
     void* outputsOf (int n) { return parts.instances[at (n)].outputs; }
@@ -394,7 +396,7 @@ private:
     {
         const auto& n = flat.node (i);
         const double* const* sources = sourcesOf (i);
-        if (n.type->peek) stepsOf (i).peeks.add ({ n.type->peek, nodeOf (i), sources, outputsOf (i) }, i);
+        if (n.type->peek && isRead (i)) stepsOf (i).peeks.add ({ n.type->peek, nodeOf (i), sources, outputsOf (i) }, i);
 
         auto drives = drivesOf (i);
         if (drives.empty())
@@ -409,6 +411,19 @@ private:
         d.faulted.assign (Slots::inputsOf (n), &not_a_number);
         if (n.type->tickStored) d.params.resize (n.type->params_size);
         stepsOf (i).body.add ({ &DrivenNode::step, &d, sources, outputsOf (i) }, i);
+    }
+
+    /// False if nothing reads the outputs of a node, so that it need not peek. In a section that rests on some ticks, outputs keep their
+    /// values until it runs, and a later plan may read them.
+    bool isRead (int i) const { return flat.node (i).section != 0 || is_read.empty() || is_read[at (i)]; }
+
+    void findRead()
+    {
+        is_read.assign (flat.nodes.size(), false);
+        for (const auto& w : flat.wires)
+            if (w.from) is_read[at (w.from->node)] = true;
+        for (const auto& tapped : outside.records)
+            if (tapped.port && tapped.port->role == Role::output) is_read[at (tapped.port->node)] = true;
     }
 
     std::vector<DrivenNode::Drive> drivesOf (int i)

@@ -101,7 +101,22 @@ private:
         if (last.size() > most_wires) return false;
         for (const auto& step : last)
             if (! remove (step.id)) return false;
-        return std::ranges::all_of (last, [this] (const auto& step) { return step.now == nullptr || add (*step.now); });
+        return std::ranges::all_of (last, [this] (const auto& step) { return step.now == nullptr || add (*step.now); }) && keepsPeeks (gone)
+               && keepsPeeks (come);
+    }
+
+    /// True if the nodes where these wires start peek as before: only those whose outputs something reads do.
+    bool keepsPeeks (const std::vector<FlatWire>& wires) const
+    {
+        return std::ranges::all_of (wires, [this] (const FlatWire& w) {
+            if (! w.from || binds (w.from->node)) return true;
+            const int node = w.from->node;
+            const auto peeks = [&] (const Record& r) { return r.step == flat.node (node).type->peek && r.self == parts.instances[at (node)].node.get(); };
+            const auto starts = [node] (const auto& ends) { return ends.first == node; };
+            const auto taps = [node] (const PortRef& port) { return port.role == Role::output && port.node == node; };
+            return std::ranges::any_of (parts.records, peeks)
+                   == (std::ranges::any_of (parts.wire_ends.ends, starts) || std::ranges::any_of (background->tapped, taps));
+        });
     }
 
     bool remove (graph::Id id)
@@ -208,12 +223,8 @@ private:
     int position (int node) const { return background->position[at (node)]; }
 
     /// True if the end of the wire must wait for its start within a tick.
-    bool binds (const FlatWire& w) const
-    {
-        if (! w.from || w.delay > 0) return false;
-        const auto& start = flat.node (*w.from);
-        return start.type->peek == nullptr || start.bypass;
-    }
+    bool binds (const FlatWire& w) const { return w.from && w.delay == 0 && binds (w.from->node); }
+    bool binds (int start) const { return flat.node (start).type->peek == nullptr || flat.node (start).bypass; }
 
     /// True if the node where a removed wire ended still does not run before any node whose path comes later.
     bool staysInPlace (const FlatWire& removed) const
@@ -305,6 +316,7 @@ private:
         for (const auto& peek : made.peeks)
         {
             if (first == owners.end()) return false;
+            if (records[at (first - owners.begin())].step != peek.step) continue;   // nothing reads the outputs
             records[at (first - owners.begin())] = peek;
             first = std::find (first + 1, owners.end(), node);
         }

@@ -189,10 +189,34 @@ TEST_CASE ("edits that are more than a wire compile everything", "[plan][live]")
 
     SECTION ("another kind of edit") { REQUIRE (twins.edit (graph::SetParam { "", "half", "gain", Json (0.25) })); }
     SECTION ("a delay") { REQUIRE (twins.edit (graph::AddWire { "", wire ("half.out -> [1] -> all.in[2]") })); }
+    SECTION ("outputs that nothing has read") { REQUIRE (twins.edit (graph::AddWire { "", wire ("motor.applied.x -> all.in[2]") })); }
     SECTION ("another node") { REQUIRE (twins.edit (graph::AddNode { "", Sketch::makeNode ("idle", "signal.abs") })); }
     CHECK (twins.quick.newest().rewired() == 0);
     CHECK (twins.agree());
     CHECK (twins.same_messages);
+}
+
+TEST_CASE ("a node peeks only if something reads its outputs", "[plan][live]")
+{
+    const auto peeks = [] (const Plan& plan) { return std::ranges::count (plan.records(), catalogue().find ("device.force")->peek, &Record::step); };
+    CHECK (peeks (*chain().compile().plan) == 0);
+    CHECK (peeks (*chain().compile ({ .records = { "motor.force" } }).plan) == 0);
+    CHECK (peeks (*chain().compile ({ .records = { "motor.applied" } }).plan) == 1);
+
+    Twins twins { chain().graph, { "motor.force" } };
+    REQUIRE (twins.edit (graph::AddWire { "", wire ("motor.applied.x -> all.in[2]") }));
+    CHECK (twins.agree());
+    CHECK (peeks (twins.quick.plan()) == 1);
+    const auto id = twins.graph.root.wires.back().id;
+    REQUIRE (twins.edit (graph::AddWire { "", wire ("motor.applied.x -> all.in[1]") }));
+    CHECK (twins.quick.newest().rewired() == 1);
+    CHECK (twins.agree());
+    REQUIRE (twins.edit (graph::RemoveWire { "", id }));
+    CHECK (twins.quick.newest().rewired() == 2);
+    CHECK (twins.agree());
+    REQUIRE (twins.edit (graph::RemoveWire { "", twins.graph.root.wires.back().id }));
+    CHECK (twins.agree());
+    CHECK (peeks (twins.quick.plan()) == 0);
 }
 
 TEST_CASE ("a graph that was changed without its history is compiled as it is", "[plan][live]")
