@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 namespace tactus
 {
@@ -33,17 +34,14 @@ public:
     }
 
     /// Stores parts of a value whose other parts are as they were last stored. `parts` calls its argument for each of them: where it begins
-    /// in the value, and how long it is, in bytes. Parts begin at multiples of 8 bytes. [writing thread]
+    /// in the value, and how long it is, in bytes; the length may be a std::integral_constant. Parts begin at multiples of 8 bytes.
+    /// [writing thread]
     template <typename Parts>
     void storeParts (const T& value, Parts&& parts) noexcept
     {
         const auto n = sequence.load (std::memory_order_relaxed);
         sequence.store (n + 1, std::memory_order_relaxed);
-        const auto* from = reinterpret_cast<const std::byte*> (&value);
-        parts ([&] (std::size_t begin, std::size_t bytes) noexcept {
-            const auto first = begin / sizeof (std::uint64_t);
-            put (from, first, std::min (first + (bytes + sizeof (std::uint64_t) - 1) / sizeof (std::uint64_t), words.size()));
-        });
+        parts (Part { *this, reinterpret_cast<const std::byte*> (&value) });
         sequence.store (n + 2, std::memory_order_release);
     }
 
@@ -64,24 +62,37 @@ public:
     }
 
 private:
-    /// Stores some of the words of a value.
-    [[gnu::always_inline]] inline void put (const std::byte* from, std::size_t first, std::size_t end) noexcept
+    /// Stores a part of a value.
+    struct Part
     {
-        const auto one = [&] (std::size_t i) {
-            std::uint64_t word = 0;
-            std::memcpy (&word, from + i * sizeof word, sizeof word);
-            words[i].store (word, std::memory_order_release);
-        };
-        for (; first + 4 <= end; first += 4)   // a run publishes its status on every tick: this takes half of the instructions
+        Snapshot& to;
+        const std::byte* from;
+
+        void operator() (std::size_t begin, std::size_t bytes) const noexcept
         {
-            one (first);
-            one (first + 1);
-            one (first + 2);
-            one (first + 3);
+            const auto end = std::min (begin / word_size + (bytes + word_size - 1) / word_size, to.words.size());
+            for (auto i = begin / word_size; i < end; ++i)
+                put (i);
         }
-        for (; first < end; ++first)
-            one (first);
-    }
+
+        /// Without a loop: a run publishes its status on every tick.
+        template <std::size_t bytes>
+        void operator() (std::size_t begin, std::integral_constant<std::size_t, bytes>) const noexcept
+        {
+            static_assert (bytes % word_size == 0);
+            [&]<std::size_t... i> (std::index_sequence<i...>) noexcept { (put (begin / word_size + i), ...); }
+            (std::make_index_sequence<bytes / word_size>());
+        }
+
+        void put (std::size_t i) const noexcept
+        {
+            std::uint64_t word = 0;
+            std::memcpy (&word, from + i * word_size, word_size);
+            to.words[i].store (word, std::memory_order_release);
+        }
+    };
+
+    static constexpr auto word_size = sizeof (std::uint64_t);
 
     std::atomic<std::uint64_t> sequence = 0;
     std::array<std::atomic<std::uint64_t>, sizeof (T) / sizeof (std::uint64_t)> words {};

@@ -111,7 +111,7 @@ void Ramps::head (std::size_t i, std::size_t k, double to, bool at_once) noexcep
     moving.push_back (static_cast<std::uint32_t> (i));
 }
 
-void Ramps::step() noexcept
+void Ramps::move() noexcept
 {
     for (std::size_t m = 0; m < moving.size();)
     {

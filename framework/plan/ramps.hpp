@@ -50,8 +50,13 @@ public:
 
     void look (Journal* = nullptr) noexcept;    ///< starts ramps to all targets set since the last call, and passes hits on   [tick thread]
     void goOn (const Ramps& before) noexcept;   ///< continues the ramps of the previous plan                                     [tick thread]
-    void step() noexcept;                       ///< advances all ramps by one tick                                            [tick thread]
     void startAll() noexcept;                   ///< from now on, new targets of all nodes start ramps                          [tick thread]
+
+    /// Advances all ramps by one tick. [tick thread]
+    void step() noexcept
+    {
+        if (! moving.empty()) move();
+    }
 
     void head (std::size_t instance, std::size_t knob, double to, bool at_once = false) noexcept;   // [tick thread]
 
@@ -61,6 +66,7 @@ public:
     const std::shared_ptr<const KnobIndex>& sharedIndex() const noexcept { return index; }
 
 private:
+    void move() noexcept;
     void turn (std::size_t instance, Journal*) noexcept;
     static void strike (std::size_t instance, const Instance&, Journal*) noexcept;
 

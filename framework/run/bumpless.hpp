@@ -27,7 +27,21 @@ public:
 
     const Effort& operator() (const Effort& wanted) noexcept   // [tick thread]
     {
-        if (now == length) return last = wanted;
+        return now == length ? last = wanted : fade (wanted);
+    }
+
+    /// The guard has applied a different effort to the device, so there is nothing left to fade. [tick thread]
+    void stop (const Effort& applied) noexcept
+    {
+        now = length;
+        last = applied;
+    }
+
+private:
+    static constexpr double pi = 3.14159265358979323846;
+
+    const Effort& fade (const Effort& wanted) noexcept
+    {
         if (now == 0)
         {
             difference = { last.force - wanted.force, last.torque - wanted.torque, sum (last.axes, -1.0, wanted.axes),
@@ -46,16 +60,6 @@ public:
                  sum (wanted.signals, w, difference.signals) };
         return last;
     }
-
-    /// The guard has applied a different effort to the device, so there is nothing left to fade. [tick thread]
-    void stop (const Effort& applied) noexcept
-    {
-        now = length;
-        last = applied;
-    }
-
-private:
-    static constexpr double pi = 3.14159265358979323846;
 
     /// a + w b
     static Channels sum (const Channels& a, double w, const Channels& b) noexcept

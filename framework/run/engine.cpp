@@ -15,7 +15,7 @@ namespace tactus
 {
 
 /// The sum of the efforts of all sinks of a role.
-Effort Engine::total (const Plan::RoleUse& role, Scratch& scratch) noexcept
+inline Effort Engine::total (const Plan::RoleUse& role, Scratch& scratch) noexcept
 {
     if (role.sinks.size() == 1) return role.sinks[0].effort (role.sinks[0].node);
 
@@ -283,20 +283,22 @@ void Engine::beforePlan() noexcept
 
 void Engine::afterPlan() noexcept
 {
+    static_assert (std::is_trivially_destructible_v<Effort>, "a new effort replaces the last one in place");
     auto& [plan, used, bound, scratch] = *running;
     for (std::size_t i = 0; i < used.size(); ++i)
     {
         const auto& role = plan->roles()[i];
         auto& channel = *used[i];
+        auto& [reading, applied, layout] = *role.state;
         const auto& wanted = channel.bumpless (total (role, scratch));
         const auto events = channel.guard.events();
-        role.state->applied = channel.guard (wanted, role.state->reading, lost_s);
+        new (&applied) Effort (channel.guard (wanted, reading, lost_s));   // in place, as the reading
         if (channel.guard.stop() != Guard::Stop::none)
         {
-            channel.bumpless.stop (role.state->applied);
+            channel.bumpless.stop (applied);
             if (channel.device) channel.device->withhold();
         }
-        if (channel.device) channel.device->write (role.state->applied);
+        if (channel.device) channel.device->write (applied);
         if (channel.guard.events() != events) stops.note ({ ticks, channel.role, channel.guard.latest() });   // last, so as not to delay the effort
     }
     lost_s = 0.0;
@@ -321,12 +323,6 @@ void Engine::resume() noexcept
     if (journal) journal->resumed();
     for (auto* channel : running->channels)
         channel->guard.resume();
-}
-
-void Engine::loseTime (double s) noexcept
-{
-    lost_s = s > 0.0 ? s : 0.0;
-    if (journal && lost_s > 0.0) journal->lost (lost_s);
 }
 
 bool Engine::isAtRest() const noexcept

@@ -114,7 +114,11 @@ public:
     void invalidateReadings (bool so) noexcept { readings_invalid = so; }
 
     /// Tells the guards that this much time has passed without ticks before the next tick, in s. 0 for none. [tick thread]
-    void loseTime (double s) noexcept;
+    void loseTime (double s) noexcept
+    {
+        lost_s = s > 0.0 ? s : 0.0;
+        if (journal && lost_s > 0.0) journal->lost (lost_s);
+    }
 
     /// Like halt, but callable from anywhere, including a signal handler, and it also applies to roles that join later. It
     /// takes effect on the next tick; resume does not end it. [any thread]

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tactus
 {
@@ -38,26 +39,39 @@ void NodeCosts::begin() noexcept
     }
     look_s = std::max (look_s, 1e-9);
     credit_s = first_looks * look_s;
+    priced = none;
+}
+
+/// The time it takes to measure this many records.
+double NodeCosts::priceOf (std::size_t records) const noexcept
+{
+    return static_cast<double> (static_cast<std::int64_t> (records + 1)) * look_s;   // signed numbers convert in one instruction
+}
+
+void NodeCosts::price (std::size_t records) noexcept
+{
+    priced = records;
+    most_credit_s = 2.0 * priceOf (records);
+    wanted_s = records > 0 ? patience * priceOf (std::min (records, fewest)) : std::numeric_limits<double>::infinity();
 }
 
 void NodeCosts::tick (Plan& plan) noexcept
 {
+    if (const auto n = plan.records().size(); n != priced) price (n);
+    credit_s < wanted_s ? plan.tick() : measure (plan);
+}
+
+void NodeCosts::measure (Plan& plan) noexcept
+{
     const auto n = plan.records().size();
-    // Signed numbers convert in one instruction.
-    const auto price_s = [this] (std::size_t records) { return static_cast<double> (static_cast<std::int64_t> (records + 1)) * look_s; };
-    most_credit_s = 2.0 * price_s (n);
-    if (n == 0 || credit_s < patience * price_s (std::min (n, fewest)))
-    {
-        plan.tick();
-        return;
-    }
     const auto first = next < n ? next : 0;
     const auto affordable = std::max (fewest, static_cast<std::size_t> (credit_s / look_s));
     const auto end = first + std::min (n - first, affordable);
     look (plan, first, end);
     next = end;
-    credit_s -= price_s (end - first);
+    credit_s -= priceOf (end - first);
     patience = 0.5 + random.uniform();
+    price (n);
 }
 
 void NodeCosts::look (Plan& plan, std::size_t first, std::size_t end) noexcept

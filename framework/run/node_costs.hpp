@@ -65,9 +65,13 @@ private:
         void add (double x) noexcept;
     };
 
+    double priceOf (std::size_t records) const noexcept;
+    void price (std::size_t records) noexcept;
+    void measure (Plan&) noexcept;
     void look (Plan&, std::size_t first, std::size_t end) noexcept;
 
     static constexpr std::size_t capacity = 8192, fewest = 64;   // capacity in samples; fewest records measured at a time
+    static constexpr std::size_t none = ~std::size_t {};
 
     const TickClock& clock;
 
@@ -75,6 +79,10 @@ private:
     Random random;
     double look_s = 0.0, credit_s = 0.0, most_credit_s = 0.0, patience = 1.0;
     std::size_t next = 0;   // index of the next record to measure
+
+    // Follow from the number of records and from `patience`, so that a tick need not compute them.
+    std::size_t priced = none;   // for how many records
+    double wanted_s = 0.0;       // the credit from which on a tick measures
 
     SpscRing<Sample> samples { capacity };
 

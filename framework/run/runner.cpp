@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cfenv>
 #include <cstddef>
+#include <type_traits>
 
 namespace tactus
 {
@@ -16,15 +17,16 @@ namespace
 void noteEfforts (const Plan& plan, RunStatus& now) noexcept
 {
     now.force = 0.0;
-    const auto& roles = plan.roles();
-    for (std::size_t i = 0; i < roles.size(); ++i)
+    std::size_t i = 0;
+    for (const auto& role : plan.roles())
     {
-        const auto& applied = roles[i].state->applied;
+        const auto& applied = role.state->applied;
         const double force = applied.force.norm();
         now.force = std::max (now.force, force);
-        if (i >= RunStatus::most_roles) continue;
+        if (i == RunStatus::most_roles) continue;
         now.roles[i].force = force;
         now.roles[i].torque = applied.torque.norm();
+        ++i;
     }
     now.peak = std::max (now.peak, now.force);
 }
@@ -68,7 +70,8 @@ bool Runner::tick (double late_s) noexcept
     const double begin = clock.now();
     now.clock_replaced = clock.isReplaced();
     engine.invalidateReadings (now.clock_replaced);
-    if (clock.isRealTime()) engine.loseTime (lost_time (begin, clock.block_s()));
+    is_real_time = clock.isRealTime();
+    if (is_real_time) engine.loseTime (lost_time (begin, clock.block_s()));
     if (options.hooks) options.hooks->before (k);
     engine.tick ([this] (Plan& plan) noexcept {
         noteEfforts (plan, now);
@@ -86,7 +89,7 @@ bool Runner::tick (double late_s) noexcept
 
 RunStatus::End Runner::whyItEnds() const noexcept
 {
-    if (clock.isRealTime() && ticks_so_far.isOverrun()) return RunStatus::End::overrun;
+    if (is_real_time && ticks_so_far.isOverrun()) return RunStatus::End::overrun;
     if (asked.load (std::memory_order_relaxed) || (options.stop_wanted && options.stop_wanted())) return RunStatus::End::asked;
     if (options.length && ticks_so_far.ticks() >= *options.length) return RunStatus::End::length;
     return RunStatus::End::none;
@@ -119,7 +122,7 @@ void Runner::publish() noexcept
     constexpr std::size_t roles_at = offsetof (RunStatus, roles), often = offsetof (RunStatus::Role, name), all = sizeof (RunStatus::Role);
     static_assert (roles_at % 8 == 0 && often % 8 == 0 && all % 8 == 0, "a snapshot stores words");
     published.storeParts (now, [&] (auto part) {
-        part (0, roles_at);
+        part (0, std::integral_constant<std::size_t, roles_at>());
         for (std::size_t i = 0; i < now.shown().size(); ++i)
         {
             const auto [name, applied, guard] = engine.role (i);
@@ -136,7 +139,8 @@ void Runner::publish() noexcept
                 role.latest = role.event.why;
                 seen[i] = guard.changes();
             }
-            part (roles_at + i * all, is_new ? all : often);
+            const auto begin = roles_at + i * all;
+            is_new ? part (begin, all) : part (begin, std::integral_constant<std::size_t, often>());
         }
     });
 }

@@ -103,6 +103,7 @@ private:
     RunStatus now;
     std::array<std::uint64_t, RunStatus::most_roles> seen {};   // by role: Guard::changes() when its name and latest stop were published
     std::uint64_t halted_at = 0;                                // tick number
+    bool is_real_time = false;                                  // the clock's answer on the last tick: there are deadlines
 
     std::jthread thread;   // declared last: it uses the other members
 };
