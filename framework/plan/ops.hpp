@@ -9,7 +9,9 @@
 
 #include <tactus/node/catalogue.hpp>
 
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <vector>
 
@@ -27,7 +29,7 @@ struct Strike
     {
         auto& s = *static_cast<Strike*> (self);
         s.out = *s.from;
-        if (s.pulse->pending == 0.0) return;
+        if (std::bit_cast<std::uint64_t> (s.pulse->pending) == 0) return;   // it is never -0, and doubles take two jumps to compare
         s.out += s.pulse->pending;
         s.pulse->pending = 0.0;
     }

@@ -11,6 +11,13 @@ void Plan::fuse (std::shared_ptr<const FusedTick> code)
     fused_now.store (next, std::memory_order_release);
 }
 
+void Plan::tickRecords() noexcept
+{
+    for (const auto& r : parts.records)
+        r.step (r.self, r.sources, r.outputs);
+    ++parts.number;
+}
+
 void Plan::forgetGraph()
 {
     parts.flat = {};

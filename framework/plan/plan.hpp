@@ -163,11 +163,12 @@ public:
     void tick() noexcept
     {
         if (const auto* code = fused_now.load (std::memory_order_acquire))
+        {
             code->tick (code->objects.data());
+            ++parts.number;
+        }
         else
-            for (const auto& r : parts.records)
-                r.step (r.self, r.sources, r.outputs);
-        ++parts.number;
+            tickRecords();
     }
 
     /// From the next tick on, tick() calls this code in place of the records; null: the records again. The plan keeps all code that it has
@@ -241,6 +242,8 @@ public:
 private:
     friend class plan::PlanBuilder;
     friend class plan::Rewirer;
+
+    void tickRecords() noexcept;
 
     std::uint64_t own_serial = plan::newSerial();
     plan::PlanParts parts;

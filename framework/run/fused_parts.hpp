@@ -9,6 +9,7 @@
 #include <tactus/node/node.hpp>
 #include <tactus/plan/sum.hpp>
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -66,7 +67,7 @@ double sumOf (T... values) noexcept
 /// What reaches a hit input: the hits of wires, and those from outside.
 inline double struck (double by_wires, double& pending) noexcept
 {
-    if (pending == 0.0) return by_wires;
+    if (std::bit_cast<std::uint64_t> (pending) == 0) return by_wires;   // it is never -0, and doubles take two jumps to compare
     by_wires += pending;
     pending = 0.0;
     return by_wires;
