@@ -52,7 +52,8 @@ private:
     Sound& sound;
     HandView surface { playback };
     SceneView space { playback };
-    LabelButton from_above { "2D", "The surface from above" }, in_space { "3D", "The scene in space" }, larger { "Enlarge", "Shows the scene in place of the canvas" };
+    LabelButton from_above { "2D", "The surface from above" }, in_space { "3D", "The scene in space" };
+    LabelButton larger { "Enlarge", "Shows the scene in place of the canvas" };
     bool is_scene = false, is_large = false;
     juce::ComboBox source;
     std::unique_ptr<juce::Button> play, listen;

@@ -1,28 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "host/app/support/canvas_rig.hpp"
-
-#include <host/app/scene/bodies.hpp>
-#include <host/assets/file_assets.hpp>
-#include <tactus/plan/compile.hpp>
+#include "preset_bodies.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <iterator>
+#include <map>
+
 using namespace tactus;
 using namespace tactus::host;
-using host::test::CanvasRig;
+using host::test::bodiesIn;
 using scene::Body;
 using Kind = Appearance::Kind;
 
 namespace
 {
-std::vector<Body> bodiesIn (const std::string& preset)
-{
-    FileAssets assets;
-    const auto compiled = compile (CanvasRig::preset (preset), catalogue(), { .assets = &assets });
-    REQUIRE (compiled.plan);
-    return scene::bodiesOf (*compiled.plan);
-}
-
 std::vector<Body> ofKind (const std::vector<Body>& all, Kind kind)
 {
     std::vector<Body> found;
@@ -96,15 +88,13 @@ TEST_CASE ("blades and scissors follow a tool through nodes that compute a depth
 
 TEST_CASE ("controls and knobs reach what a body looks like, and a bypassed node has no body", "[app][scene]")
 {
-    auto graph = CanvasRig::preset ("notched_rail");
+    auto graph = host::test::presetGraph ("notched_rail");
     for (auto& n : graph.root.nodes)
     {
         if (n.name == "notches") n.params["spatial_frequency"] = 400.0;
         if (n.name == "rail") n.bypass = true;
     }
-    const auto compiled = compile (graph, catalogue(), {});
-    REQUIRE (compiled.plan);
-    const auto bodies = scene::bodiesOf (*compiled.plan);
+    const auto bodies = host::test::bodiesOf (graph);
     CHECK (ofKind (bodies, Kind::plane).empty());
     CHECK (ofKind (bodies, Kind::ridges)[0].number (&Appearance::frequency, 0.0) == 400.0);
 }
