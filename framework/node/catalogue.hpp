@@ -11,6 +11,7 @@
 #include <functional>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace tactus
@@ -42,6 +43,7 @@ struct NodeType
     std::vector<PortSheet> inputs, params, outputs;
     std::vector<SettingSheet> settings;
     std::size_t outputs_size, outputs_align, params_size;
+    std::optional<Appearance> appearance {};   ///< empty: the node has no place in a picture of the scene
 
     std::string origin {};                  ///< the file of the plugin that the type comes from; empty: it is compiled in
     std::shared_ptr<const void> owner {};   ///< keeps the plugin loaded; null: compiled in
@@ -333,12 +335,28 @@ void describePorts (NodeType& t)
     [&]<std::size_t... i> (std::index_sequence<i...>) { (add (std::integral_constant<std::size_t, i> {}), ...); }
     (std::make_index_sequence<std::tuple_size_v<std::remove_cvref_t<decltype (N::ports)>>> {});
 }
+
+/// True if each part of the node's appearance is the id of a row.
+template <typename N>
+constexpr bool namesRows()
+{
+    if constexpr (Visible<N>)
+        for (const auto& part : appearance_parts)
+        {
+            const auto id = N::appearance.*part.row;
+            const bool exists = std::apply ([&] (const auto&... row) { return ((row.id == id) || ...); },
+                                            N::ports);
+            if (! id.empty() && ! exists) return false;
+        }
+    return true;
+}
 }   // namespace detail
 
 /// The catalogue entry of a node. The code that the build generates calls it.
 template <Node N>
 NodeType describe()
 {
+    static_assert (detail::namesRows<N>(), "each part of an appearance names a row of the datasheet");
     static_assert (std::is_trivially_destructible_v<typename N::Outputs>, "each tick overwrites the outputs without calling a destructor");
     using E = detail::Erased<N>;
     NodeType t {};
@@ -347,6 +365,7 @@ NodeType describe()
     t.outputs_align = alignof (typename N::Outputs);
     t.params_size = sizeof (typename N::Params);
     detail::describePorts<N> (t);
+    if constexpr (Visible<N>) t.appearance = N::appearance;
 
     t.make = []() -> std::shared_ptr<void> { return std::make_shared<N>(); };
     t.paramsOf = [] (void* n) noexcept -> void* { return &static_cast<N*> (n)->params; };

@@ -10,6 +10,7 @@
 ///   Settings                  optional; what shapes the node and is fixed while it runs
 ///   info, ports               its datasheet: names, units, ranges, sources (framework/node/datasheet.hpp)
 ///   tick (in) -> Outputs      one sample; the only function on the hot path
+///   appearance                optional; what it looks like in a picture of the scene (framework/node/appearance.hpp)
 ///
 /// Optional hooks, which the compiler detects:
 ///
@@ -46,6 +47,7 @@
 /// The line TACTUS_NODE (MyNode) at the end of the header checks all this at compile time. The build looks for this line to put
 /// the node in the catalogue; there is no other list to edit.
 
+#include "appearance.hpp"
 #include "datasheet.hpp"
 #include "device.hpp"
 
@@ -115,6 +117,9 @@ concept Node = std::default_initializable<N>
            requires (Peekable<N> && requires { { node.tick (in) } noexcept -> std::same_as<void>; })
                || (! Peekable<N> && requires { { node.tick (in) } noexcept -> std::same_as<typename N::Outputs>; });
        };
+
+template <typename N>
+concept Visible = requires { requires std::same_as<std::remove_cvref_t<decltype (N::appearance)>, Appearance>; };
 
 template <typename N>
 concept KnowsStored = requires (N node, const typename N::Inputs in, const typename N::Params stored) {

@@ -115,7 +115,7 @@ public:
 
     std::string fault()
     {
-        for (auto step : { &NodeCheck::head, &NodeCheck::hooks, &NodeCheck::collectPorts, &NodeCheck::checkPorts, &NodeCheck::checkSettings })
+        for (auto step : { &NodeCheck::head, &NodeCheck::hooks, &NodeCheck::collectPorts, &NodeCheck::checkPorts, &NodeCheck::checkSettings, &NodeCheck::appearance })
             if (auto why = (this->*step)(); ! why.empty()) return why;
         return {};
     }
@@ -197,6 +197,24 @@ private:
                 has_length = s->kind == TACTUS_PLUGIN_INTEGER && range.hard_min >= 1.0 && range.hard_max <= TACTUS_PLUGIN_LIST_CAPACITY;
         }
         return has_list && ! has_length ? "it has a list, and so needs a whole number `inputs` from 1 to 64 among its settings" : "";
+    }
+
+    /// An unknown kind or part is fine: a later version may know it.
+    std::string appearance()
+    {
+        tactus_plugin_node known {};
+        copyKnown (known, &node);
+        const auto* a = known.appearance;
+        if (a == nullptr) return {};
+        if (! isWhole (a) || a->kind == nullptr || (a->part_count > 0 && (a->parts == nullptr || a->rows == nullptr)))
+            return "its appearance has the wrong size, or lacks its kind, parts or rows";
+        for (std::size_t i = 0; i < a->part_count; ++i)
+        {
+            if (isEmpty (a->parts[i]) || isEmpty (a->rows[i])) return "a part of its appearance has no name or no row";
+            if (! in_names.contains (a->rows[i]) && ! out_names.contains (a->rows[i]))
+                return quote (a->parts[i]) + " of its appearance is the row " + quote (a->rows[i]) + ", which does not exist";
+        }
+        return {};
     }
 
     const tactus_plugin_node& node;

@@ -23,6 +23,7 @@ Described::Described (const NodeType& type)
     node.params_size = type.params_size;
     node.outputs_size = type.outputs_size;
     node.outputs_align = type.outputs_align;
+    if (type.appearance) node.appearance = look (*type.appearance);
 }
 
 Described::~Described() = default;
@@ -66,6 +67,18 @@ const tactus_plugin_setting* Described::setting (const SettingSheet& s)
     return &settings.emplace_back (tactus_plugin_setting { sizeof (tactus_plugin_setting), static_cast<int> (s.kind), text (s.id), text (s.about),
                                                            unit (s.unit), unit (s.x_unit), limit (s.limits), kept.data(), kept.size(),
                                                            initial (initials.emplace_back (s.initial)) });
+}
+
+const tactus_plugin_appearance* Described::look (const Appearance& a)
+{
+    for (const auto& part : appearance_parts)
+    {
+        if ((a.*part.row).empty()) continue;
+        part_names.push_back (text (part.name));
+        part_rows.push_back (text (a.*part.row));
+    }
+    appearance = { sizeof appearance, text (name (a.kind)), part_names.data(), part_rows.data(), part_names.size() };
+    return &appearance;
 }
 
 }   // namespace tactus::plugin

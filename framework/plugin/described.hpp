@@ -31,6 +31,7 @@ private:
     const tactus_plugin_limits* limit (const Limits&);
     const tactus_plugin_port* port (const PortSheet&);
     const tactus_plugin_setting* setting (const SettingSheet&);
+    const tactus_plugin_appearance* look (const Appearance&);
 
     std::deque<std::string> texts;
     std::deque<tactus_plugin_unit> units;
@@ -43,6 +44,8 @@ private:
     ValueWriter initial;
     std::vector<const tactus_plugin_port*> port_list;
     std::vector<const tactus_plugin_setting*> setting_list;
+    tactus_plugin_appearance appearance {};
+    std::vector<const char*> part_names, part_rows;   // of the appearance
 };
 
 }   // namespace tactus::plugin

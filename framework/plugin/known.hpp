@@ -39,6 +39,8 @@ inline constexpr std::size_t first_size<tactus_plugin_setting> = offsetof (tactu
 template <>
 inline constexpr std::size_t first_size<tactus_plugin_node> = offsetof (tactus_plugin_node, learn) + sizeof (void (*)());
 template <>
+inline constexpr std::size_t first_size<tactus_plugin_appearance> = offsetof (tactus_plugin_appearance, part_count) + sizeof (std::size_t);
+template <>
 inline constexpr std::size_t first_size<tactus_plugin> = offsetof (tactus_plugin, extension) + sizeof (void (*)());
 
 /// True if the plugin provides this struct, with all members of the first version of the interface.

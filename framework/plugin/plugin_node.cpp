@@ -9,6 +9,7 @@
 #include <tactus/node/node_fault.hpp>
 #include <tactus/text/quote.hpp>
 
+#include <algorithm>
 #include <deque>
 
 namespace tactus::plugin
@@ -104,6 +105,18 @@ SettingSheet readSetting (const tactus_plugin_setting& s)
     return sheet;
 }
 
+/// Empty if this host does not know the kind.
+std::optional<Appearance> readAppearance (const tactus_plugin_appearance& a)
+{
+    const auto kind = std::ranges::find (appearance_kinds, std::string_view (a.kind));
+    if (kind == appearance_kinds.end()) return std::nullopt;
+    Appearance read { .kind = static_cast<Appearance::Kind> (kind - appearance_kinds.begin()) };
+    for (std::size_t i = 0; i < a.part_count; ++i)
+        for (const auto& part : appearance_parts)
+            if (part.name == a.parts[i]) read.*part.row = a.rows[i];
+    return read;
+}
+
 void readSheet (NodeType& t, Guest& guest)
 {
     const auto& c = guest.hooks;
@@ -122,6 +135,7 @@ void readSheet (NodeType& t, Guest& guest)
             g->ask ("set", [&] (auto* r) { return g->hooks.set (node, i, shown (value), r); });
         };
     }
+    if (c.appearance != nullptr) t.appearance = readAppearance (*c.appearance);
     t.outputs_size = c.outputs_size;
     t.outputs_align = c.outputs_align;
     t.params_size = c.params_size;

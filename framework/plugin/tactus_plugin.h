@@ -347,6 +347,17 @@ typedef struct tactus_plugin_claims
     double stiffness, damping, spatial_frequency, amplitude;
 } tactus_plugin_claims;
 
+/** What a node looks like in a picture of the scene; see framework/node/appearance.hpp. A host that does not know the kind or a part
+ *  leaves it out. */
+typedef struct tactus_plugin_appearance
+{
+    uint32_t size;
+    const char* kind;         /**< "plane", "body", … */
+    const char* const* parts; /**< "tool", "normal", … */
+    const char* const* rows;  /**< by part: the id of a port or setting of the node */
+    size_t part_count;
+} tactus_plugin_appearance;
+
 /* ============================================================================ A node type */
 
 /** `node` is what `create` returned. Functions marked optional may be NULL. `report` takes the answer of `problem`, `warning` and
@@ -408,6 +419,7 @@ typedef struct tactus_plugin_node
     void (*effort) (const void* node, tactus_plugin_effort*) TACTUS_PLUGIN_NOEXCEPT;
     /** Optional, not for device nodes. [main or tick thread] */
     void (*learn) (void* node, const tactus_plugin_mechanics*) TACTUS_PLUGIN_NOEXCEPT;
+    const tactus_plugin_appearance* appearance; /**< optional; plugins built before this member was added do not have it */
 } tactus_plugin_node;
 
 /* ============================================================================ The plugin */

@@ -81,6 +81,10 @@ struct VirtualCoupling
         output (&Outputs::state, "state", unit::state, "-1 fault, 0 open, 1 the proxy is in the wall"),
     };
 
+    static constexpr Appearance appearance {
+        .kind = Appearance::Kind::plane, .tool = "position", .normal = "normal", .offset = "offset", .touch = "proxy"
+    };
+
     Params params;
 
     void prepare (const Setup& setup) noexcept

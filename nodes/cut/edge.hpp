@@ -135,6 +135,17 @@ struct Edge
         output (&Outputs::state, "state", unit::state, "-1 fault, 0 open, 1 virgin, 2 rupture, 3 elastic with crack, 4 cutting, 5 cut through"),
     };
 
+    static constexpr Appearance appearance {
+        .kind = Appearance::Kind::blade,
+        .tool = "position",
+        .normal = "normal",
+        .offset = "offset",
+        .rotation = "rotation",
+        .width = "width",
+        .crack = "crack",
+        .thickness = "thickness",
+    };
+
     Params params;
     Settings settings;
 

@@ -89,6 +89,10 @@ struct Scissors
         output (&Outputs::state, "state", unit::state, "-1 fault, 0 open, 3 elastic, 4 cutting"),
     };
 
+    static constexpr Appearance appearance {
+        .kind = Appearance::Kind::scissors, .angle = "angle", .crack = "crack_front", .thickness = "thickness", .pivot = "pivot_distance"
+    };
+
     Params params;
 
     void prepare (const Setup&) noexcept { plate = { .front = params.pivot_distance }; }

@@ -107,6 +107,10 @@ struct Plane
         output (&Outputs::state, "state", unit::state, "-1 fault, 0 open, 1 contact"),
     };
 
+    static constexpr Appearance appearance {
+        .kind = Appearance::Kind::plane, .tool = "position", .normal = "normal", .offset = "offset", .depth = "depth"
+    };
+
     Params params;
     Settings settings;
 

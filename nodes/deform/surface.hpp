@@ -178,6 +178,18 @@ struct ElasticSurface
         output (&Outputs::state, "state", unit::state, "-1 fault, 0 open, 1 stuck, 2 slipping or frictionless"),
     };
 
+    static constexpr Appearance appearance {
+        .kind = Appearance::Kind::body,
+        .tool = "position",
+        .normal = "normal",
+        .depth = "depth",
+        .touch = "contact",
+        .surface = "surface",
+        .scale = "scale",
+        .origin = "origin",
+        .rotation = "rotation",
+    };
+
     Params params;
     Settings settings;
 

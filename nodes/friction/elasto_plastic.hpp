@@ -181,6 +181,8 @@ struct ElastoPlastic
         output (&Outputs::state, "state", unit::state, "-1 fault, 0 open, 1 stuck, 2 slipping"),
     };
 
+    static constexpr Appearance appearance { .kind = Appearance::Kind::contact, .tool = "position", .normal = "normal", .stretch = "deflection" };
+
     Params params;
     Settings settings;
 

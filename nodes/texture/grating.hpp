@@ -66,6 +66,10 @@ struct Grating
         output (&Outputs::value, "value", unit::newton, "signed value of the force"),
     };
 
+    static constexpr Appearance appearance {
+        .kind = Appearance::Kind::ridges, .tool = "position", .frequency = "spatial_frequency", .angle = "angle", .phase = "phase"
+    };
+
     Params params;
 
     void update() noexcept { along = { math::cos (params.angle), math::sin (params.angle), 0.0 }; }

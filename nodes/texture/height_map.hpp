@@ -115,6 +115,8 @@ struct HeightMap
         output (&Outputs::value, "value", unit::metre, "height of the relief under the tool"),
     };
 
+    static constexpr Appearance appearance { .kind = Appearance::Kind::relief, .tool = "position", .map = "map" };
+
     Params params;
     Settings settings;
 

@@ -106,11 +106,51 @@ HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (st
         else if (const auto started = sound.start(); ! started && onHint)
             onHint ("No sound: " + juce::String (messageText (started.error())));
     };
+    connectScene();
     addAndMakeVisible (surface);
     addAndMakeVisible (source);
     addAndMakeVisible (*listen);
     for (auto* c : std::initializer_list<juce::Component*> { play.get(), &position, &speed })
         addChildComponent (c);
+}
+
+void HandPanel::connectScene()
+{
+    space.onSteer = [this] (double x, double y, bool presses) { surface.steer (x, y, presses); };
+    space.onDeeper = [this] (double octaves) { surface.pressDeeper (octaves); };
+    const auto choose = [this] (bool scene) {
+        showScene (scene);
+        if (onSceneToggled) onSceneToggled();
+    };
+    from_above.onClick = [choose] { choose (false); };
+    in_space.onClick = [choose] { choose (true); };
+    larger.onClick = [this] { enlarge (! is_large); };
+    addChildComponent (space);
+    for (auto* b : { &from_above, &in_space, &larger })
+        addAndMakeVisible (*b);
+    showScene (false);
+}
+
+void HandPanel::showScene (bool scene)
+{
+    is_scene = scene;
+    if (! scene && is_large) enlarge (false);
+    from_above.setToggleState (! is_scene, juce::dontSendNotification);
+    in_space.setToggleState (is_scene, juce::dontSendNotification);
+    space.setVisible (is_scene);
+    space.watch (is_scene);
+    surface.setVisible (! is_scene || showsBoth());
+    larger.setVisible (is_scene);
+    resized();
+    repaint();
+}
+
+void HandPanel::enlarge (bool large)
+{
+    if (std::exchange (is_large, large) == large) return;
+    larger.setToggleState (large, juce::dontSendNotification);
+    if (onEnlarge) onEnlarge();
+    showScene (is_scene);
 }
 
 void HandPanel::choose()
@@ -126,6 +166,7 @@ void HandPanel::refresh()
 {
     const auto& run = playback.current();
     surface.refresh();
+    if (is_scene) space.refresh();
     listen->setToggleState (sound.isOn(), juce::dontSendNotification);
     showSource (run.hand());
     showTransport (run);
@@ -173,7 +214,8 @@ void HandPanel::showTransport (const LiveRun& run)
 juce::String HandPanel::noteFor (const LiveRun& run) const
 {
     if (! run.isRunning()) return "Not running. Press START at the top right.";
-    if (run.hand().kind != LiveRun::Hand::Kind::pointer) return "The tool follows its device.";
+    if (run.hand().kind != LiveRun::Hand::Kind::pointer) return is_scene ? "Drag: turn. Shift-drag: move. Wheel: zoom." : "The tool follows its device.";
+    if (is_scene && ! showsBoth()) return "Drag the tool to press. Elsewhere: turn; Shift: move; wheel: zoom.";
     const auto depth = juce::String (1000.0 * surface.depth(), 1) + " mm. ";
     return surface.isHeld() ? "Held at a depth of " + depth + "H: release" : "Press and drag. The wheel sets the depth: " + depth + "H: hold";
 }
@@ -203,14 +245,29 @@ void HandPanel::resized()
     auto area = getLocalBounds();
     auto head = area.removeFromTop (bar_height).reduced (margin, 4);
     listen->setBounds (head.removeFromRight (28));
-    source.setBounds (head.removeFromRight (std::min (200, head.getWidth() - 80)));
+    head.removeFromLeft (52);   // the title
+    for (auto* b : { &from_above, &in_space, &larger })
+    {
+        b->setBounds (head.removeFromLeft (b->wantedWidth()));
+        head.removeFromLeft (b == &in_space ? 8 : 2);
+    }
+    source.setBounds (head.removeFromRight (std::min (200, head.getWidth() - 4)));
     auto low = area.removeFromBottom (bar_height).reduced (margin, 4);
     play->setBounds (low.removeFromLeft (24));
     low.removeFromLeft (4);
     speed.setBounds (low.removeFromRight (72));
     low.removeFromRight (4);
     position.setBounds (low);
-    surface.setBounds (area.reduced (margin, 0));
+    area.reduce (margin, 0);
+    surface.setVisible (! is_scene || showsBoth());
+    if (is_scene && showsBoth())
+    {
+        surface.setBounds (area.removeFromLeft (area.getWidth() * 2 / 5));
+        area.removeFromLeft (margin);
+    }
+    else
+        surface.setBounds (area);
+    space.setBounds (area);
 }
 
 }   // namespace tactus::host

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hand_view.hpp"
+#include "scene_view.hpp"
 
 namespace tactus::host
 {
@@ -15,6 +16,17 @@ public:
     void refresh();   ///< call many times a second
 
     HandView& view() noexcept { return surface; }
+    SceneView& scene() noexcept { return space; }
+
+    /// Shows the scene in space instead of the surface from above. While enlarged, a wide panel shows both.
+    void showScene (bool);
+    bool showsScene() const noexcept { return is_scene; }
+    std::function<void()> onSceneToggled;   ///< called when the user has switched
+
+    /// An enlarged panel takes the place of the canvas. The caller has to lay it out again when onEnlarge is called.
+    void enlarge (bool);
+    bool isEnlarged() const noexcept { return is_large; }
+    std::function<void()> onEnlarge;
 
     std::function<void (const juce::String&)> onHint;   ///< receives the reason why something is not possible
 
@@ -31,10 +43,18 @@ private:
     void showSource (const LiveRun::Hand&);
     void showTransport (const LiveRun&);
     juce::String noteFor (const LiveRun&) const;
+    bool showsBoth() const noexcept { return is_large && getWidth() >= least_width_for_both; }
+    void connectScene();
+
+    static constexpr int least_width_for_both = 760;
 
     Playback& playback;
     Sound& sound;
     HandView surface { playback };
+    SceneView space { playback };
+    LabelButton from_above { "2D", "The surface from above" }, in_space { "3D", "The scene in space" };
+    LabelButton larger { "Enlarge", "Shows the scene in place of the canvas" };
+    bool is_scene = false, is_large = false;
     juce::ComboBox source;
     std::unique_ptr<juce::Button> play, listen;
     juce::Slider position, speed;

@@ -57,6 +57,15 @@ void HandView::point (const juce::MouseEvent& e)
     repaint();
 }
 
+void HandView::steer (double x, double y, bool presses)
+{
+    pressed = presses;
+    held = held && ! presses;
+    target = { x, y, pressed || held ? -press_depth : hover_m };
+    if (! by_pointer && pressed) playback.start (LiveRun::Hand::pointer());
+    moveTool();
+}
+
 void HandView::mouseMove (const juce::MouseEvent& e)
 {
     if (! held) point (e);
@@ -104,7 +113,11 @@ bool HandView::keyPressed (const juce::KeyPress& key)
     return true;
 }
 
-void HandView::pressDeeper (double octaves) { press_depth = std::clamp (press_depth * std::exp2 (octaves), least_depth_m, most_depth_m); }
+void HandView::pressDeeper (double octaves)
+{
+    press_depth = std::clamp (press_depth * std::exp2 (octaves), least_depth_m, most_depth_m);
+    if (pressed || held) target.z() = -press_depth;
+}
 
 void HandView::paint (juce::Graphics& g)
 {

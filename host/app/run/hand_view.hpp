@@ -28,6 +28,10 @@ public:
     void hold();
     bool isHeld() const noexcept { return held; }
 
+    /// Moves the tool as the pointer on this view does, to a place in m. A press takes the tool from its device, gesture or recording.
+    void steer (double x, double y, bool presses);
+    void pressDeeper (double octaves);
+
     void paint (juce::Graphics&) override;
     void mouseMove (const juce::MouseEvent&) override;
     void mouseDown (const juce::MouseEvent&) override;
@@ -44,7 +48,6 @@ private:
     juce::Point<float> toPixels (const Vec3&) const;
     void paintHeight (juce::Graphics&) const;
     void point (const juce::MouseEvent&);
-    void pressDeeper (double octaves);
     void moveTool() { playback.run().point (target); }
 
     Playback& playback;

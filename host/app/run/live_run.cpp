@@ -28,7 +28,7 @@ Message stopped() { return Message::error ("run/stopped", {}, "nothing is runnin
 LiveRun::LiveRun (Document& d, const Catalogue& c, Sound* s) : document (d), catalogue (c), sound (s)
 {
     document.add (*this);
-    probes.onWanted = [this] {
+    probes.onWanted = scene_feed.onWanted = [this] {
         if (isLive()) takeOver();
     };
     documentChanged();
@@ -120,6 +120,7 @@ std::unique_ptr<Run> LiveRun::makeRun (Run::Queries queries)
         [this] (const std::string& role, const graph::Graph&, const Plan& plan, Messages& messages) { return open (role, plan, messages); },
         queries);
     made->add (probes);
+    made->add (scene_feed);
     if (rig) made->add (*rig);
     made->add (*this);
     return made;
@@ -182,6 +183,7 @@ void LiveRun::end()
     watch = HealthWatch {};
     clock_role.clear();
     hand_damping = 0.0;
+    scene_feed.clear();
     pointer.reset();
     transported.reset();
     delay_ticks.reset();
@@ -194,7 +196,11 @@ void LiveRun::documentChanged()
     if (is_same_run) return takeOver();
     auto checked = makeRun (Run::Queries::within_tick)->check (graph);   // reports problems now: the previous run may take a moment to end
     said = std::move (checked.messages);
-    if (checked.plan) needed = needsOf (*checked.plan);
+    if (checked.plan)
+    {
+        needed = needsOf (*checked.plan);
+        scene_feed.show (*checked.plan);
+    }
     if (wanted) restart (true);   // the edited graph may compile now
 }
 
@@ -221,6 +227,7 @@ void LiveRun::takeOver()
 void LiveRun::note (const Plan& plan)
 {
     needed = needsOf (plan);
+    scene_feed.show (plan);
     delay_ticks.reset();
     for (const auto& d : plan.delays())
         delay_ticks = std::max (delay_ticks.value_or (0), d.shortest);

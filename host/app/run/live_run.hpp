@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pointer_path.hpp"
+#include "scene_feed.hpp"
 #include "sound.hpp"
 #include "stop_switch.hpp"
 #include "traces.hpp"
@@ -142,6 +143,9 @@ public:
     /// The values of the ports that are being watched.
     Traces& traces() noexcept { return probes; }
 
+    /// What a picture of the scene shows.
+    SceneFeed& scene() noexcept { return scene_feed; }
+
     /// The costs of the nodes measured so far, the most expensive first.
     std::vector<NodeCost> costs();
 
@@ -202,6 +206,7 @@ private:
     FileAssets assets;
     Messages said;
     Traces probes;
+    SceneFeed scene_feed;
     Sound* sound;
     bool mutes_sound = false;   // a role of this run limits a channel that the sound may share
     Hand moved_by;

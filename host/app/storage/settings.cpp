@@ -100,6 +100,10 @@ ReadSettings readSettings (const std::string& text)
         s.welcomed = v.get<bool>();
         return true;
     });
+    reader.take ("scene", &Json::is_boolean, [&] (const Json& v) {
+        s.scene = v.get<bool>();
+        return true;
+    });
     reader.take ("fuse", &Json::is_boolean, [&] (const Json& v) {
         s.fuse = v.get<bool>();
         return true;
@@ -132,6 +136,7 @@ std::string writeSettings (const Settings& s)
         { "theme", s.light ? "light" : "dark" },
         { "scale", s.scale },
         { "welcomed", s.welcomed },
+        { "scene", s.scene },
         { "fuse", s.fuse },
         { "panels", Json::object() },
         { "recent", pathsToJson (s.recent) },

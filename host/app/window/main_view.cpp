@@ -55,6 +55,11 @@ void MainView::addPanels()
 {
     for (auto* c : std::initializer_list<juce::Component*> { &strip, &hand, &left, &bottom, &top, &patching, &inspector, &status })
         addAndMakeVisible (c);
+    hand.onSceneToggled = [this] {
+        settings.scene = hand.showsScene();
+        saveSettingsSoon();
+    };
+    hand.onEnlarge = [this] { resized(); };
     for (auto* edge : { &left_edge, &right_edge, &bottom_edge })
     {
         edge->onMove = [this] {
@@ -133,6 +138,7 @@ void MainView::applySettings()
         if (const auto share = settings.panels.find (name); share != settings.panels.end()) edge->setShare (share->second);
     applyTheme (*getTopLevelComponent(), light ? Theme::light() : Theme::dark());
     applyScale (settings.scale);
+    hand.showScene (settings.scene);
     applyFusion();
     resized();
 }
@@ -250,9 +256,11 @@ void MainView::resized()
     auto low = bottom_edge.take (area, least_canvas);
     left.setBounds (left_edge.take (area, least_canvas));
     inspector.setBounds (right_edge.take (area, least_canvas));
-    hand.setBounds (low.removeFromLeft (std::min (hand_width, low.getWidth() / 2)));
+    if (! hand.isEnlarged()) hand.setBounds (low.removeFromLeft (std::min (hand_width, low.getWidth() / 2)));
     bottom.setBounds (low);
     patching.setBounds (area);
+    patching.setVisible (! hand.isEnlarged());
+    if (hand.isEnlarged()) hand.setBounds (area);
     welcome.setBounds (area.withRight (getWidth()));
     help.setArea (area.withRight (getWidth()).withBottom (hand.getBottom()).reduced (16));
     question.setBounds (getLocalBounds().withTrimmedTop (SafetyStrip::height));   // STOP stays within reach

@@ -95,6 +95,7 @@ void MainView::escape (const juce::KeyPress& key)
     if (playback.current().isWanted() && (key.getModifiers().isShiftDown() || escStops())) return stopBy (key);
     if (question.isOpen()) return question.cancel();
     if (help.isOpen()) return help.close();
+    if (hand.isEnlarged() && ! palette.isVisible()) return hand.enlarge (false);
     palette.close();
 }
 

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene_view.hpp"
+
+#include <host/app/look/focus.hpp>
+#include <host/app/scene/overlay.hpp>
+
+#include <cmath>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr double radians_per_pixel = 0.008;
+constexpr float key_step = 24.0f;   // pixels that an arrow key turns or moves
+constexpr int rest_after = 6;       // calls to refresh() until a picture is at rest
+
+bool isSame (const scene::Now& a, const scene::Now& b)
+{
+    const auto same = [] (const scene::Tool& s, const scene::Tool& t) { return s.role == t.role && s.position == t.position && s.force == t.force; };
+    return std::ranges::equal (a.tools, b.tools, same) && a.live == b.live;
+}
+}   // namespace
+
+SceneView::SceneView (Playback& p) : playback (p)
+{
+    setTitle ("Scene");
+    setWantsKeyboardFocus (true);
+    follow_button.setClickingTogglesState (true);
+    follow_button.onClick = [this] { changed(); };
+    frame_button.onClick = [this] { frameAll(); };
+    addAndMakeVisible (follow_button);
+    addAndMakeVisible (frame_button);
+}
+
+void SceneView::watch (bool w)
+{
+    is_watched = w;
+    if (w) return;
+    playback.run().scene().watch (false);
+    playback.current().scene().watch (false);   // that of a preview
+    shown_feed = nullptr;
+}
+
+void SceneView::refresh()
+{
+    if (! is_watched) return;
+    auto& feed = playback.current().scene();
+    feed.watch (true);
+    if (shown_feed != &feed || shown_version != feed.version())
+    {
+        const auto differ = [] (const Vec3& a, const Vec3& b) { return (a - b).norm() > 1e-3; };
+        const auto before = stage.bounds();
+        shown_feed = &feed;
+        shown_version = feed.version();
+        stage.setBodies (feed.bodies());
+        const auto after = stage.bounds();
+        const bool is_same = before.isEmpty() == after.isEmpty() && (after.isEmpty() || ! (differ (before.low, after.low) || differ (before.high, after.high)));
+        if (! is_same || ! is_framed) frameAll();
+        is_dirty = true;
+    }
+    auto latest = feed.now();
+    const bool is_news = ! isSame (latest, now);
+    now = std::move (latest);
+    if (follows() && ! now.tools.empty())
+    {
+        const Vec3 away = now.tools.front().position - seen_by.target;
+        if (away.norm() > 2e-4)
+        {
+            seen_by.target += 0.25 * away;   // glides, so that a tremor does not shake the picture
+            is_dirty = true;
+        }
+    }
+    still_for = is_news || is_dirty ? 0 : still_for + 1;
+    if (is_news) describe();
+    const bool refines = still_for == rest_after && raster.fineness() == 1;   // at rest, the edges are smoothed
+    if (! is_news && ! is_dirty && ! refines) return;
+    is_dirty = false;
+    repaint();
+}
+
+void SceneView::changed()
+{
+    is_dirty = true;
+    still_for = 0;
+    repaint();
+}
+
+void SceneView::describe()
+{
+    juce::String text;
+    for (const auto& tool : now.tools)
+        text += juce::String (tool.role) + ": " + scene::Overlay::forceText (tool.force.norm()) + ". ";
+    setDescription (text.trim());
+}
+
+std::unique_ptr<juce::AccessibilityHandler> SceneView::createAccessibilityHandler()
+{
+    return std::make_unique<juce::AccessibilityHandler> (*this, juce::AccessibilityRole::image);
+}
+
+void SceneView::frameAll()
+{
+    follow_button.setToggleState (false, juce::dontSendNotification);
+    seen_by.setSize (static_cast<float> (getWidth()), static_cast<float> (getHeight()));
+    seen_by.frame (stage.bounds());
+    is_framed = ! stage.bounds().isEmpty() && getWidth() > 0;
+    changed();
+}
+
+void SceneView::lookAlong (int axis)
+{
+    constexpr double quarter = juce::MathConstants<double>::halfPi;
+    const double before_yaw = seen_by.yaw, before_pitch = seen_by.pitch;
+    const auto set = [&] (double yaw, double pitch) {
+        seen_by.yaw = yaw;
+        seen_by.pitch = pitch;
+    };
+    const double level = 0.02, above = quarter - 0.02;
+    const std::array<std::array<double, 4>, 3> views {
+        { { quarter, level, -quarter, level }, { 0.0, level, 2.0 * quarter, level }, { 0.0, above, 0.0, -above } }
+    };
+    const auto& v = views[static_cast<std::size_t> (axis)];
+    set (v[0], v[1]);
+    if (std::abs (seen_by.yaw - before_yaw) < 1e-9 && std::abs (seen_by.pitch - before_pitch) < 1e-9) set (v[2], v[3]);
+    changed();
+}
+
+void SceneView::follow (bool f)
+{
+    follow_button.setToggleState (f, juce::dontSendNotification);
+    changed();
+}
+
+void SceneView::resized()
+{
+    auto row = getLocalBounds().reduced (8).removeFromTop (24);
+    for (auto* b : { &follow_button, &frame_button })
+    {
+        b->setBounds (row.removeFromLeft (b->wantedWidth()));
+        row.removeFromLeft (4);
+    }
+    seen_by.setSize (static_cast<float> (getWidth()), static_cast<float> (getHeight()));
+    if (! is_framed) frameAll();
+    changed();
+}
+
+/// Draws all surfaces into the image, with as many samples as there is time for.
+void SceneView::drawSurfaces (float pixels_per_unit)
+{
+    const auto inPixels = [pixels_per_unit] (int units) { return juce::roundToInt (static_cast<float> (units) * pixels_per_unit); };
+    const int width = inPixels (getWidth()), height = inPixels (getHeight());
+    if (surfaces.getWidth() != width || surfaces.getHeight() != height) surfaces = juce::Image (juce::Image::ARGB, width, height, true);
+    const auto begin = juce::Time::getMillisecondCounterHiRes();
+    auto camera = seen_by;
+    camera.setSize (static_cast<float> (width), static_cast<float> (height));
+    const bool is_at_rest = still_for >= rest_after;
+    const int fineness = is_at_rest || ! is_slow ? 2 : 1;
+    raster.begin (width, height, fineness);
+    stage.draw (raster, camera, scene::Paint (themeOf (*this)), now);
+    raster.write (surfaces);
+    took_s = 1e-3 * (juce::Time::getMillisecondCounterHiRes() - begin);
+    if (fineness == 2 && ! is_at_rest) is_slow = took_s > slow_s;
+    if (fineness == 1 && took_s < 0.2 * slow_s) is_slow = false;
+}
+
+void SceneView::paint (juce::Graphics& g)
+{
+    const auto& look = lookOf (*this);
+    const auto area = getLocalBounds().toFloat();
+    g.setColour (look.theme().canvas);
+    g.fillRoundedRectangle (area, 4.0f);
+    if (getWidth() < 2 || getHeight() < 2) return;
+    const juce::Graphics::ScopedSaveState clipped (g);
+    g.reduceClipRegion (getLocalBounds());
+    scene::Overlay overlay (g, look, seen_by, area);
+    if (stage.isEmpty() && now.tools.empty())
+    {
+        g.setColour (look.theme().dim);
+        g.setFont (look.font (13.0f));
+        g.drawFittedText ("Nodes with a surface appear here, such as a plane or a mesh.", getLocalBounds().reduced (24), juce::Justification::centred, 2);
+        return;
+    }
+    overlay.drawGround (stage);
+    drawSurfaces (std::clamp (g.getInternalContext().getPhysicalPixelScaleFactor(), 1.0f, 3.0f));
+    g.drawImage (surfaces, area);
+    overlay.drawMarks (stage, now);
+    overlay.drawScale (stage, now);
+    overlay.drawAxes();
+}
+
+bool SceneView::isOnTool (juce::Point<float> at) const
+{
+    constexpr float reach = 14.0f;
+    return ! now.tools.empty() && seen_by.pixel (now.tools.front().position).getDistanceFrom (at) < reach;
+}
+
+/// Moves the tool to where the pointer meets the plane z = 0.
+void SceneView::steer (juce::Point<float> at, bool presses)
+{
+    const Vec3 ray = seen_by.ray (at), eye = seen_by.eye();
+    if (! onSteer || std::abs (ray.z()) < 1e-3) return;
+    const double reach = -eye.z() / ray.z();
+    if (! (reach > 0.0)) return;
+    const Vec3 p = eye + reach * ray;
+    constexpr double far = scene::Sheet3D::half_width;
+    onSteer (std::clamp (p.x(), -far, far), std::clamp (p.y(), -far, far), presses);
+}
+
+void SceneView::mouseMove (const juce::MouseEvent& e)
+{
+    const bool is_gizmo = scene::Overlay::axisAt (seen_by, getLocalBounds().toFloat(), e.position).has_value();
+    const auto plain = is_gizmo ? juce::MouseCursor::PointingHandCursor : juce::MouseCursor::NormalCursor;
+    setMouseCursor (isOnTool (e.position) ? juce::MouseCursor::CrosshairCursor : plain);
+}
+
+void SceneView::mouseDown (const juce::MouseEvent& e)
+{
+    takeFocus (*this);
+    dragged_to = e.position;
+    drag = e.mods.isShiftDown() || e.mods.isRightButtonDown() ? Drag::move : Drag::turn;
+    if (drag == Drag::turn && e.mods.isLeftButtonDown() && isOnTool (e.position))
+    {
+        drag = Drag::tool;
+        return steer (e.position, true);
+    }
+    if (const auto axis = scene::Overlay::axisAt (seen_by, getLocalBounds().toFloat(), e.position))
+    {
+        drag = Drag::none;
+        lookAlong (*axis);
+    }
+}
+
+void SceneView::mouseDrag (const juce::MouseEvent& e)
+{
+    const auto by = e.position - dragged_to;
+    dragged_to = e.position;
+    if (drag == Drag::tool) return steer (e.position, true);
+    if (drag == Drag::turn) seen_by.orbit (-radians_per_pixel * static_cast<double> (by.x), radians_per_pixel * static_cast<double> (by.y));
+    if (drag == Drag::move)
+    {
+        seen_by.pan (by);
+        follow_button.setToggleState (false, juce::dontSendNotification);
+    }
+    changed();
+}
+
+void SceneView::mouseUp (const juce::MouseEvent& e)
+{
+    if (drag == Drag::tool) steer (e.position, false);
+    drag = Drag::none;
+}
+
+void SceneView::mouseDoubleClick (const juce::MouseEvent& e)
+{
+    if (! isOnTool (e.position)) frameAll();
+}
+
+void SceneView::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel)
+{
+    if (drag == Drag::tool && onDeeper) return onDeeper (-2.0 * static_cast<double> (wheel.deltaY));
+    seen_by.zoomAbout (follows() ? getLocalBounds().toFloat().getCentre() : e.position, std::exp2 (1.6 * static_cast<double> (wheel.deltaY)));
+    changed();
+}
+
+void SceneView::mouseMagnify (const juce::MouseEvent& e, float factor)
+{
+    seen_by.zoomAbout (e.position, static_cast<double> (factor));
+    changed();
+}
+
+bool SceneView::keyPressed (const juce::KeyPress& key)
+{
+    using K = juce::KeyPress;
+    const auto centre = getLocalBounds().toFloat().getCentre();
+    const auto character = juce::CharacterFunctions::toLowerCase (key.getTextCharacter());
+    const bool moves = key.getModifiers().isShiftDown();
+    if (key.getModifiers().isCommandDown() || key.getModifiers().isAltDown()) return false;
+    const std::array<std::pair<int, juce::Point<float>>, 4> arrows {
+        { { K::leftKey, { -1, 0 } }, { K::rightKey, { 1, 0 } }, { K::upKey, { 0, -1 } }, { K::downKey, { 0, 1 } } }
+    };
+    for (const auto& [code, way] : arrows)
+        if (key.getKeyCode() == code)
+        {
+            if (moves)
+                seen_by.pan (-key_step * way);
+            else
+                seen_by.orbit (radians_per_pixel * static_cast<double> (key_step * way.x), -radians_per_pixel * static_cast<double> (key_step * way.y));
+            changed();
+            return true;
+        }
+    if (character == '+' || character == '=' || character == '-')
+    {
+        seen_by.zoomAbout (centre, character == '-' ? 1.0 / 1.2 : 1.2);
+        changed();
+        return true;
+    }
+    if (character == 'f') return frameAll(), true;
+    if (character == 't') return follow (! follows()), true;
+    if (key.getKeyCode() != K::homeKey) return false;
+    const scene::Camera fresh;
+    seen_by.yaw = fresh.yaw;
+    seen_by.pitch = fresh.pitch;
+    frameAll();
+    return true;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "playback.hpp"
+
+#include <host/app/look/label_button.hpp>
+#include <host/app/scene/scene.hpp>
+
+namespace tactus::host
+{
+
+/// The scene in space: what the nodes of the graph look like, the tools, and the forces on them. Dragging turns the camera; with Shift
+/// or the right button it moves; the wheel zooms about the pointer. Dragging the tool itself presses with it. [main thread]
+class SceneView final : public juce::Component
+{
+public:
+    explicit SceneView (Playback&);
+
+    void refresh();   ///< call many times a second while it is visible
+
+    /// Starts or stops asking the run for values. A view that nobody sees must not cost the run anything.
+    void watch (bool);
+
+    void frameAll();             ///< shows the whole scene, from the current direction
+    void lookAlong (int axis);   ///< looks along x, y or z; the second time from the other side
+    void follow (bool);          ///< keeps the first tool in the middle
+    bool follows() const noexcept { return follow_button.getToggleState(); }
+
+    const scene::Camera& camera() const noexcept { return seen_by; }
+    const scene::Raster::Count& triangles() const noexcept { return raster.count(); }   ///< of the last picture
+    double pictureTime() const noexcept { return took_s; }                              ///< what the last picture took to draw, in s
+
+    /// Called while the tool is dragged: where to, in m, and whether it presses.
+    std::function<void (double x, double y, bool presses)> onSteer;
+    std::function<void (double octaves)> onDeeper;   ///< the wheel while the tool is dragged
+
+    void paint (juce::Graphics&) override;
+    void resized() override;
+    void mouseMove (const juce::MouseEvent&) override;
+    void mouseDown (const juce::MouseEvent&) override;
+    void mouseDrag (const juce::MouseEvent&) override;
+    void mouseUp (const juce::MouseEvent&) override;
+    void mouseDoubleClick (const juce::MouseEvent&) override;
+    void mouseWheelMove (const juce::MouseEvent&, const juce::MouseWheelDetails&) override;
+    void mouseMagnify (const juce::MouseEvent&, float factor) override;
+    bool keyPressed (const juce::KeyPress&) override;
+    std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override;
+
+private:
+    void drawSurfaces (float pixels_per_unit);
+    void steer (juce::Point<float>, bool presses);
+    bool isOnTool (juce::Point<float>) const;
+    void describe();
+    void changed();
+
+    static constexpr double slow_s = 0.02;   ///< a picture that takes longer is drawn with fewer samples while it moves
+
+    Playback& playback;
+    scene::Camera seen_by;
+    scene::Scene stage;
+    scene::Now now;
+    scene::Raster raster;
+    juce::Image surfaces;
+    LabelButton follow_button { "Follow", "Keeps the tool in the middle (T)" }, frame_button { "Frame", "Shows the whole scene (F, or double-click)" };
+    const void* shown_feed = nullptr;
+    std::uint64_t shown_version = 0;
+    bool is_watched = false, is_dirty = true, is_framed = false, is_slow = false;
+    int still_for = 0;   // calls to refresh() without news
+    double took_s = 0.0;
+
+    enum class Drag
+    {
+        none,
+        turn,
+        move,
+        tool
+    };
+    Drag drag = Drag::none;
+    juce::Point<float> dragged_to;
+};
+
+}   // namespace tactus::host

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "overlay.hpp"
+
+namespace tactus::host::scene
+{
+
+namespace
+{
+constexpr float gizmo_reach = 22.0f, gizmo_dot = 8.0f;   // pixels
+constexpr double least_force = 5e-3;                     // N; smaller ones have no arrow
+
+juce::String lengthText (double metres)
+{
+    const double mm = 1000.0 * metres;
+    return juce::String (mm, std::abs (mm) < 10.0 ? 2 : 1) + " mm";
+}
+
+juce::Colour axisColour (const Theme& theme, int axis)
+{
+    constexpr std::array quantities { Quantity::force, Quantity::energy, Quantity::length };   // three hues that colour-blind eyes can tell apart
+    return theme.of (quantities[static_cast<std::size_t> (axis)]);
+}
+}   // namespace
+
+double Overlay::arrowLength (double newtons, double height) noexcept { return std::min (48.0 * newtons, 0.42 * height); }
+
+juce::String Overlay::forceText (double newtons) { return juce::String (newtons, newtons < 0.1 ? 3 : 2) + " N"; }
+
+void Overlay::backdrop (juce::Rectangle<float> box) const
+{
+    graphics.setColour (look.theme().panel.withAlpha (0.82f));
+    graphics.fillRoundedRectangle (box, 4.0f);
+}
+
+void Overlay::label (const juce::String& text, juce::Point<float> at, Side side, juce::Colour ink)
+{
+    constexpr float height = 18.0f;
+    const auto font = look.font (12.0f, true);
+    const float width = font.getStringWidthFloat (text) + 10.0f;
+    auto box = juce::Rectangle<float> (side == Side::left ? at.x - width : at.x, at.y - 0.5f * height, width, height);
+    box = box.constrainedWithin (area.reduced (2.0f));
+    for (const auto& other : labels)
+        if (box.intersects (other)) box.setY (other.getY() - height - 2.0f);
+    labels.push_back (box);
+    backdrop (box);
+    graphics.setColour (ink);
+    graphics.setFont (font);
+    graphics.drawText (text, box, juce::Justification::centred, false);
+}
+
+void Overlay::drawGround (const Scene& scene)
+{
+    const auto box = scene.bounds();
+    if (box.isEmpty() || camera.pitch <= 0.0) return;
+    const double step = Scene::gridFor (camera), z = scene.hasSolid() ? box.low.z() : 0.0;
+    const Vec3 middle = box.centre();
+    const int lines = std::clamp (static_cast<int> (std::ceil (0.8 * box.radius() / step)) + 2, 4, 40);
+    const double x0 = step * std::round (middle.x() / step), y0 = step * std::round (middle.y() / step), reach = step * lines;
+    const auto draw = [&] (const Vec3& from, const Vec3& to) {
+        const auto a = camera.see (from), b = camera.see (to);
+        if (a.depth > camera.near() && b.depth > camera.near()) graphics.drawLine (a.x, a.y, b.x, b.y, 1.0f);
+    };
+    graphics.setColour (look.theme().dots);
+    for (int i = -lines; i <= lines; ++i)
+    {
+        draw ({ x0 + i * step, y0 - reach, z }, { x0 + i * step, y0 + reach, z });
+        draw ({ x0 - reach, y0 + i * step, z }, { x0 + reach, y0 + i * step, z });
+    }
+}
+
+void Overlay::drawForce (const Tool& tool, bool names_role)
+{
+    const double newtons = tool.force.norm();
+    const auto seen = camera.see (tool.position);
+    if (! (seen.depth > camera.near()) || ! isFinite (tool.force) || newtons < least_force) return;
+    const double metres = arrowLength (newtons, static_cast<double> (area.getHeight())) / camera.scaleAt (seen.depth);
+    const auto from = juce::Point<float> (seen.x, seen.y), to = camera.pixel (tool.position + metres / newtons * tool.force);
+    const auto colour = look.theme().of (Quantity::force);
+    const float length = from.getDistanceFrom (to);
+    if (length > 4.0f)
+    {
+        const float head = std::min (11.0f, 0.6f * length);
+        graphics.setColour (look.theme().canvas.withAlpha (0.55f));   // a rim, so that the arrow is seen on any surface
+        graphics.drawArrow ({ from, to }, 5.5f, head + 3.0f, head + 3.0f);
+        graphics.setColour (colour);
+        graphics.drawArrow ({ from, to }, 3.0f, head, head);
+    }
+    label ((names_role ? juce::String (tool.role) + "  " : juce::String()) + forceText (newtons), to.translated (to.x < from.x ? -8.0f : 8.0f, -4.0f),
+           to.x < from.x ? Side::left : Side::right, colour);
+}
+
+/// Shows how far above the surface a hovering tool is.
+void Overlay::drawPlumb (const Tool& tool, const Scene& scene, const std::vector<Touch>& touches)
+{
+    if (std::ranges::find (touches, tool.role, &Touch::role) != touches.end()) return;
+    const auto plane = std::ranges::find_if (scene.bodies(), [&] (const Body& b) { return b.kind == Appearance::Kind::plane && b.role == tool.role; });
+    if (plane == scene.bodies().end()) return;
+    const Vec3 n = direction (plane->vector (&Appearance::normal, Vec3::UnitZ()));
+    const double height = n.dot (tool.position) - plane->number (&Appearance::offset, 0.0);
+    if (! (height > 1e-4)) return;
+    const auto top = camera.pixel (tool.position), foot = camera.pixel (tool.position - height * n);
+    const float dashes[] { 3.0f, 3.0f };
+    graphics.setColour (look.theme().text.withAlpha (0.6f));
+    graphics.drawDashedLine ({ top, foot }, dashes, 2, 1.0f);
+    graphics.drawEllipse (juce::Rectangle<float> (7.0f, 4.0f).withCentre (foot), 1.2f);
+}
+
+void Overlay::drawMarks (const Scene& scene, const Now& now)
+{
+    const auto& theme = look.theme();
+    const auto touches = scene.touches (now);
+    for (const auto& crack : scene.cracks (now))
+    {
+        juce::Path wall;
+        wall.startNewSubPath (camera.pixel (crack.begin));
+        for (const Vec3& p : { crack.end, Vec3 (crack.end + crack.down), Vec3 (crack.begin + crack.down) })
+            wall.lineTo (camera.pixel (p));
+        wall.closeSubPath();
+        graphics.setColour (theme.of (Quantity::length).withAlpha (0.22f));
+        graphics.fillPath (wall);
+        graphics.setColour (theme.of (Quantity::length));
+        graphics.strokePath (wall, juce::PathStrokeType (1.2f));
+        const Vec3 tip = 0.5 * (crack.begin + crack.end) + crack.down;
+        label ("crack " + lengthText (crack.down.norm()), camera.pixel (tip).translated (10.0f, 10.0f), Side::right, theme.of (Quantity::length));
+    }
+    for (const auto& touch : touches)
+    {
+        const auto at = camera.pixel (touch.at), tool = camera.pixel (touch.tool);
+        const auto colour = theme.of (Quantity::length);
+        graphics.setColour (colour);
+        if (at.getDistanceFrom (tool) > 2.0f) graphics.drawLine ({ at, tool }, 2.0f);
+        graphics.setColour (theme.canvas);
+        graphics.fillEllipse (juce::Rectangle<float> (7.0f, 7.0f).withCentre (at));
+        graphics.setColour (colour);
+        graphics.drawEllipse (juce::Rectangle<float> (7.0f, 7.0f).withCentre (at), 1.6f);
+    }
+    for (const auto& tool : now.tools)
+    {
+        drawPlumb (tool, scene, touches);
+        drawForce (tool, now.tools.size() > 1);
+    }
+}
+
+void Overlay::drawScale (const Scene& scene, const Now& now)
+{
+    const auto& theme = look.theme();
+    const double step = Scene::gridFor (camera);
+    auto line = area.reduced (8.0f, 6.0f).removeFromBottom (18.0f);
+    const auto grid = line.removeFromLeft (76.0f);
+    backdrop (grid);
+    graphics.setFont (look.font (11.0f));
+    graphics.setColour (theme.text);
+    graphics.drawText ("Grid " + juce::String (juce::roundToInt (1000.0 * step)) + " mm", grid, juce::Justification::centred, false);
+    double depth = 0.0;
+    for (const auto& t : scene.touches (now))
+        depth = std::max (depth, t.depth);
+    const bool is_touched = depth > 0.0;
+    const double full = scene.hasSolid() ? Solid::full_colour_m : 2e-3;
+    auto bar = line.removeFromRight (158.0f);
+    backdrop (bar);
+    bar.removeFromRight (6.0f);
+    const auto text = bar.removeFromRight (80.0f);
+    bar = bar.withSizeKeepingCentre (64.0f, 6.0f);
+    const auto rest = theme.is_dark ? juce::Colour (0xff788593) : juce::Colour (0xffb4bfcb);
+    graphics.setGradientFill ({ rest, bar.getTopLeft(), theme.of (Quantity::length), bar.getTopRight(), false });
+    graphics.fillRoundedRectangle (bar, 3.0f);
+    graphics.setColour (theme.text);
+    if (is_touched)
+    {
+        const float x = bar.getX() + bar.getWidth() * static_cast<float> (std::min (1.0, depth / full));
+        graphics.fillRect (juce::Rectangle<float> (2.0f, 12.0f).withCentre ({ x, bar.getCentreY() }));
+    }
+    graphics.setColour (is_touched ? theme.text : theme.dim);
+    drawNumber (graphics, is_touched ? lengthText (depth) + " deep" : juce::String ("no contact"), text);
+}
+
+juce::Point<float> Overlay::gizmoEnd (const Camera& camera, juce::Rectangle<float> area, int axis)
+{
+    const Vec3 a = Vec3::Unit (axis);
+    return gizmoCentre (area) + juce::Point<float> (static_cast<float> (a.dot (camera.right())), -static_cast<float> (a.dot (camera.up()))) * gizmo_reach;
+}
+
+std::optional<int> Overlay::axisAt (const Camera& camera, juce::Rectangle<float> area, juce::Point<float> at)
+{
+    std::optional<int> nearest;
+    float least = 12.0f;
+    for (int i = 0; i < 3; ++i)
+        if (const float away = gizmoEnd (camera, area, i).getDistanceFrom (at); away < least)
+        {
+            least = away;
+            nearest = i;
+        }
+    return nearest;
+}
+
+void Overlay::drawAxes()
+{
+    std::array order { 0, 1, 2 };   // the farthest first
+    std::ranges::sort (order, [&] (int a, int b) { return Vec3::Unit (a).dot (camera.view()) > Vec3::Unit (b).dot (camera.view()); });
+    const auto& theme = look.theme();
+    const auto centre = gizmoCentre (area);
+    graphics.setFont (look.font (10.0f, true));
+    for (const int axis : order)
+    {
+        const auto end = gizmoEnd (camera, area, axis);
+        const auto colour = axisColour (theme, axis);
+        graphics.setColour (colour);
+        graphics.drawLine ({ centre, end }, 2.0f);
+        const auto dot = juce::Rectangle<float> (2.0f * gizmo_dot, 2.0f * gizmo_dot).withCentre (end);
+        graphics.fillEllipse (dot);
+        graphics.setColour (theme.is_dark ? theme.canvas : juce::Colours::white);
+        graphics.drawText (juce::String::charToString (static_cast<juce::juce_wchar> ('x' + axis)).toUpperCase(), dot, juce::Justification::centred, false);
+    }
+}
+
+}   // namespace tactus::host::scene

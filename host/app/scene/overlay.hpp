@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "scene.hpp"
+
+#include <host/app/look/look.hpp>
+
+namespace tactus::host::scene
+{
+
+/// What a picture writes over the surfaces: forces with their numbers, stretched contacts, cracks, heights, the axes and the scale.
+class Overlay
+{
+public:
+    Overlay (juce::Graphics& g, const Look& l, const Camera& c, juce::Rectangle<float> a) : graphics (g), look (l), camera (c), area (a) {}
+
+    void drawGround (const Scene&);   ///< lines below everything, for a scene without a plane; call it before the surfaces are drawn
+    void drawMarks (const Scene&, const Now&);
+    void drawScale (const Scene&, const Now&);
+    void drawAxes();
+
+    /// The axis of the gizmo at this place: 0, 1 or 2 for x, y or z; empty: none.
+    static std::optional<int> axisAt (const Camera&, juce::Rectangle<float> area, juce::Point<float>);
+
+    /// The length of the arrow of a force on the screen, in pixels, if it lies in the picture: 48 pixels per newton, up to a limit.
+    static double arrowLength (double newtons, double height) noexcept;
+
+    static juce::String forceText (double newtons);
+
+private:
+    static juce::Point<float> gizmoCentre (juce::Rectangle<float> area) { return area.getTopRight() + juce::Point<float> (-34.0f, 36.0f); }
+    static juce::Point<float> gizmoEnd (const Camera&, juce::Rectangle<float> area, int axis);
+
+    void drawForce (const Tool&, bool names_role);
+    void drawPlumb (const Tool&, const Scene&, const std::vector<Touch>&);
+    enum class Side
+    {
+        left,
+        right
+    };
+    void label (const juce::String&, juce::Point<float>, Side, juce::Colour);   ///< on this side of the point, above earlier labels
+    void backdrop (juce::Rectangle<float>) const;
+
+    juce::Graphics& graphics;
+    const Look& look;
+    const Camera& camera;
+    juce::Rectangle<float> area;
+    std::vector<juce::Rectangle<float>> labels;   // drawn so far
+};
+
+}   // namespace tactus::host::scene

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene.hpp"
+#include "parts.hpp"
+
+#include <tactus/kit/rotation.hpp>
+
+namespace tactus::host::scene
+{
+
+namespace
+{
+using Kind = Appearance::Kind;
+
+/// The plane that a body lies in; empty for kinds that have none.
+std::optional<Sheet3D> planeOf (const Body& b)
+{
+    if (b.kind != Kind::plane && b.kind != Kind::blade) return std::nullopt;
+    Sheet3D sheet;
+    sheet.normal = direction (b.vector (&Appearance::normal, Vec3::UnitZ()));
+    if (sheet.normal.isZero()) return std::nullopt;
+    sheet.offset = b.number (&Appearance::offset, 0.0);
+    return sheet;
+}
+
+bool isSame (const Sheet3D& a, const Sheet3D& b) noexcept { return (a.normal - b.normal).norm() < 1e-6 && std::abs (a.offset - b.offset) < 1e-6; }
+}   // namespace
+
+const Tool* Now::tool (const std::string& role) const noexcept
+{
+    const auto found = std::ranges::find (tools, role, &Tool::role);
+    return found == tools.end() ? nullptr : &*found;
+}
+
+void Scene::setBodies (std::vector<Body> bodies)
+{
+    all = std::move (bodies);
+    auto before = std::move (solids);
+    solids.clear();
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+        const auto& b = all[i];
+        if (b.kind != Kind::body || ! b.surface || ! b.surface->mesh) continue;
+        const double scale = b.number (&Appearance::scale, 1.0);
+        const Vec3 origin = b.vector (&Appearance::origin, Vec3::Zero()), rotation = b.vector (&Appearance::rotation, Vec3::Zero());
+        const auto kept = std::ranges::find_if (before, [&] (const auto& s) { return s.second->isOf (b.surface, scale, origin, rotation); });
+        solids.emplace_back (i, kept != before.end() ? kept->second : std::make_shared<const Solid> (b.surface, scale, origin, rotation));
+    }
+}
+
+Bounds Scene::bounds() const noexcept
+{
+    Bounds box;
+    for (const auto& [i, solid] : solids)
+        box.add (solid->bounds());
+    if (! box.isEmpty()) return box;
+    constexpr double half = 0.028;   // m; tools rarely go farther
+    const auto sheets = sheetsOf ({});
+    const Vec3 middle = sheets.empty() ? Vec3 (Vec3::Zero()) : sheets.front().centre();
+    box.add (middle - Vec3 (half, half, 0.004));
+    box.add (middle + Vec3 (half, half, 0.012));
+    for (const auto& b : all)
+        if (b.kind == Kind::scissors) box.add (Vec3 (0.07, 0.0, 0.0));
+    return box;
+}
+
+int Scene::triangles() const noexcept
+{
+    int sum = 0;
+    for (const auto& [i, solid] : solids)
+        sum += solid->triangles();
+    return sum;
+}
+
+double Scene::gridFor (const Camera& camera) noexcept
+{
+    if (camera.distance < 0.06) return 1e-3;
+    return camera.distance < 0.9 ? 1e-2 : 1e-1;
+}
+
+/// Where the origin of a texture's coordinates is: a node before it may have moved the position.
+Vec3 Scene::originOf (std::size_t body, const Now& now) const
+{
+    const auto* tool = now.tool (all[body].role);
+    const auto there = now.of (body, &Appearance::tool);
+    if (tool == nullptr || ! there || ! isFinite (*there)) return Vec3::Zero();
+    const Vec3 from = tool->position - *there;
+    return from.norm() < 1e-4 ? Vec3 (Vec3::Zero()) : from;   // the two are not of the same tick
+}
+
+std::vector<Sheet3D> Scene::sheetsOf (const Now& now) const
+{
+    std::vector<Sheet3D> sheets;
+    bool has_texture = false;
+    for (const auto& b : all)
+    {
+        if (auto sheet = planeOf (b); sheet && std::ranges::none_of (sheets, [&] (const auto& s) { return isSame (s, *sheet); })) sheets.push_back (*sheet);
+        has_texture = has_texture || (b.is_placed && (b.kind == Kind::ridges || b.kind == Kind::relief));
+    }
+    if (sheets.empty() && has_texture && solids.empty()) sheets.emplace_back();
+    if (sheets.empty()) return sheets;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+        const auto& b = all[i];
+        if (! b.is_placed) continue;
+        if (b.kind == Kind::ridges)
+            sheets.front().ridges.push_back ({ b.number (&Appearance::frequency, 0.0),
+                                               b.number (&Appearance::angle, 0.0), b.number (&Appearance::phase, 0.0), originOf (i, now) });
+        if (b.kind == Kind::relief) sheets.front().grains.push_back ({ b.relief, originOf (i, now) });
+    }
+    for (const auto& touch : touches (now))
+    {
+        if (! (touch.depth > 0.0)) continue;
+        for (auto& sheet : sheets)
+            if (std::abs (sheet.normal.dot (touch.at) - sheet.offset) < 1e-5) sheet.dents.push_back ({ touch.at, touch.tool - touch.at });
+    }
+    return sheets;
+}
+
+std::vector<Touch> Scene::touches (const Now& now) const
+{
+    std::vector<Touch> found;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+        const auto& b = all[i];
+        const auto* tool = now.tool (b.role);
+        if (tool == nullptr) continue;
+        if (b.kind == Kind::body)
+        {
+            const auto at = now.of (i, &Appearance::touch), depth = now.of (i, &Appearance::depth);
+            if (at && depth && depth->x() > 0.0) found.push_back ({ b.role, *at, tool->position, depth->x() });
+        }
+        if (const auto sheet = planeOf (b))
+        {
+            double depth = sheet->offset - sheet->normal.dot (tool->position);
+            const Vec3 foot = tool->position + depth * sheet->normal;
+            if (b.kind == Kind::blade) depth -= now.of (i, &Appearance::crack).value_or (Vec3::Zero()).x();   // a cut surface closes again
+            const bool is_known = std::ranges::any_of (found, [&] (const Touch& t) { return t.role == b.role; });
+            if (depth > 0.0 && ! is_known) found.push_back ({ b.role, foot, foot - depth * sheet->normal, depth, sheet->normal });
+        }
+    }
+    for (auto& touch : found)   // what friction holds on to is dragged along the plane
+        for (std::size_t i = 0; i < all.size(); ++i)
+        {
+            const auto stretch = now.of (i, &Appearance::stretch);
+            if (! stretch || all[i].kind != Kind::contact || all[i].role != touch.role || touch.normal.isZero()) continue;
+            touch.at -= *stretch - stretch->dot (touch.normal) * touch.normal;
+            break;
+        }
+    return found;
+}
+
+std::vector<Crack> Scene::cracks (const Now& now) const
+{
+    std::vector<Crack> found;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+        const auto& b = all[i];
+        const auto* tool = now.tool (b.role);
+        const auto crack = now.of (i, &Appearance::crack);
+        const auto sheet = planeOf (b);
+        if (b.kind != Kind::blade || tool == nullptr || ! crack || ! (crack->x() > 0.0) || ! sheet) continue;
+        const auto along = bladeDirection (b, i, now, sheet->normal);
+        const Vec3 foot = tool->position + (sheet->offset - sheet->normal.dot (tool->position)) * sheet->normal;
+        const double half = 0.5 * b.number (&Appearance::width, 0.02);
+        found.push_back ({ foot - half * along, foot + half * along, -crack->x() * sheet->normal });
+    }
+    return found;
+}
+
+void Scene::draw (Raster& raster, const Camera& camera, const Paint& paint, const Now& now) const
+{
+    auto sheets = sheetsOf (now);
+    for (auto& sheet : sheets)
+    {
+        sheet.grid = gridFor (camera);
+        sheet.draw (raster, camera, paint);
+    }
+    const auto felt = touches (now);
+    for (const auto& [i, solid] : solids)
+    {
+        std::vector<Dent> dents;
+        for (const auto& t : felt)
+            if (t.role == all[i].role) dents.push_back ({ t.at, t.tool - t.at });
+        solid->draw (raster, camera, paint, dents);
+    }
+    std::vector<std::string> with_blade;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+        if (all[i].kind == Kind::scissors) drawScissors (raster, camera, paint, all[i], i, now);
+        if (all[i].kind == Kind::blade) drawBlade (raster, camera, paint, all[i], i, now);
+        if (all[i].kind == Kind::scissors || all[i].kind == Kind::blade) with_blade.push_back (all[i].role);
+    }
+    for (const auto& tool : now.tools)
+        if (std::ranges::count (with_blade, tool.role) == 0) drawTool (raster, camera, paint, tool);
+}
+
+}   // namespace tactus::host::scene

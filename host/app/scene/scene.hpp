@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "solid.hpp"
+
+namespace tactus::host::scene
+{
+
+/// A tool, as its device measures it, and the force on it.
+struct Tool
+{
+    std::string role {};
+    Vec3 position = Vec3::Zero();   ///< m
+    Vec3 force = Vec3::Zero();      ///< N
+};
+
+/// What changes from picture to picture.
+struct Now
+{
+    std::vector<Tool> tools {};
+    std::vector<PartValues> live {};   ///< by body: values of its ports; empty where nothing runs
+
+    const Tool* tool (const std::string& role) const noexcept;
+    std::optional<Vec3> of (std::size_t body, std::string_view Appearance::*part) const noexcept
+    {
+        return body < live.size() ? live[body][partNumber (part)] : std::nullopt;
+    }
+};
+
+/// A tool that is held at a point of a surface: in contact, or caught in a sideways stretch.
+struct Touch
+{
+    std::string role {};
+    Vec3 at = Vec3::Zero();       ///< the point of the surface, before it moved
+    Vec3 tool = Vec3::Zero();     ///< the position of the tool
+    double depth = 0.0;           ///< m
+    Vec3 normal = Vec3::Zero();   ///< of the plane that is touched; 0 for a mesh
+};
+
+/// An open crack under a blade: a rectangle that hangs from the surface.
+struct Crack
+{
+    Vec3 begin = Vec3::Zero(), end = Vec3::Zero();   ///< its upper edge, on the surface
+    Vec3 down = Vec3::Zero();                        ///< from there to its tip
+};
+
+/// The bodies of a graph as a picture shows them.
+class Scene
+{
+public:
+    /// Meshes that are still there are kept.
+    void setBodies (std::vector<Body>);
+    const std::vector<Body>& bodies() const noexcept { return all; }
+    bool isEmpty() const noexcept { return all.empty(); }
+
+    /// What a picture should show as a whole, wherever the tools are.
+    Bounds bounds() const noexcept;
+
+    /// Draws everything that has a surface: planes, meshes, blades, plates and tools.
+    void draw (Raster&, const Camera&, const Paint&, const Now&) const;
+
+    std::vector<Touch> touches (const Now&) const;
+    std::vector<Crack> cracks (const Now&) const;
+
+    /// Distance of the lines of the ground grid, for a camera: 1, 10 or 100 mm.
+    static double gridFor (const Camera&) noexcept;
+
+    int triangles() const noexcept;
+    bool hasSolid() const noexcept { return ! solids.empty(); }
+
+private:
+    std::vector<Sheet3D> sheetsOf (const Now&) const;
+    Vec3 originOf (std::size_t body, const Now&) const;
+    void drawBlade (Raster&, const Camera&, const Paint&, const Body&, std::size_t number, const Now&) const;
+    void drawScissors (Raster&, const Camera&, const Paint&, const Body&, std::size_t number, const Now&) const;
+    void drawTool (Raster&, const Camera&, const Paint&, const Tool&) const;
+
+    std::vector<Body> all;
+    std::vector<std::pair<std::size_t, std::shared_ptr<const Solid>>> solids;   // the number of the body, and its mesh
+};
+
+}   // namespace tactus::host::scene

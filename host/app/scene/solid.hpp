@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sheet.hpp"
+
+namespace tactus::host::scene
+{
+
+/// A mesh at its place in the world, drawn as the tool has moved it.
+class Solid
+{
+public:
+    Solid (std::shared_ptr<const Surface>, double scale, const Vec3& origin, const Vec3& rotation);
+
+    /// True if it was made of these.
+    bool isOf (const std::shared_ptr<const Surface>& s, double sc, const Vec3& o, const Vec3& r) const
+    {
+        return s == surface && sc == scale && o == origin && r == rotation;
+    }
+
+    /// Colours each point by how far it has moved; points that have not moved by their stiffness, if the surface has one for each.
+    void draw (Raster&, const Camera&, const Paint&, const std::vector<Dent>&) const;
+
+    const Bounds& bounds() const noexcept { return box; }
+    int triangles() const noexcept { return static_cast<int> (faces.size()); }
+    bool hasStiffnesses() const noexcept { return ! stiffness.empty(); }
+
+    /// How far the colour of depth reaches, in m.
+    static constexpr double full_colour_m = 5e-3;
+
+private:
+    void findStiffness();
+
+    std::shared_ptr<const Surface> surface;
+    double scale;
+    Vec3 origin, rotation;
+    std::vector<Vec3> points, normals;
+    std::vector<std::array<int, 3>> faces;
+    std::vector<float> stiffness;   // by point, 0 (softest) to 1; empty: the same everywhere
+    Bounds box;
+};
+
+}   // namespace tactus::host::scene

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "preset_bodies.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+using namespace tactus;
+using namespace tactus::host;
+using host::test::bodiesIn;
+using scene::Body;
+using Kind = Appearance::Kind;
+
+namespace
+{
+std::vector<Body> ofKind (const std::vector<Body>& all, Kind kind)
+{
+    std::vector<Body> found;
+    std::ranges::copy_if (all, std::back_inserter (found), [kind] (const Body& b) { return b.kind == kind; });
+    return found;
+}
+}   // namespace
+
+TEST_CASE ("a mesh is a body with its place and the ports that say where it is touched", "[app][scene]")
+{
+    const auto bodies = bodiesIn ("liver");
+    REQUIRE (bodies.size() == 1);
+    const auto& liver = bodies[0];
+    CHECK (liver.kind == Kind::body);
+    REQUIRE (liver.surface);
+    CHECK (liver.surface->mesh->triangles.size() > 1000);
+    CHECK (liver.number (&Appearance::scale, 0.0) == 1e-3);
+    CHECK (liver.role == "finger");
+    CHECK (liver.is_placed);
+    CHECK (liver.ports[scene::partNumber (&Appearance::touch)] == "liver.contact");
+    const auto ports = scene::portsOf (bodies, 32);
+    CHECK (std::ranges::count (ports, "liver.depth") == 1);
+    CHECK (std::ranges::count (ports, "liver.contact") == 1);
+    CHECK (scene::portsOf (bodies, 2) == std::vector<std::string> { "liver.depth" });
+}
+
+TEST_CASE ("ridges have a place only if the position of a tool reaches them", "[app][scene]")
+{
+    const auto wood = ofKind (bodiesIn ("notched_rail"), Kind::ridges);
+    REQUIRE (wood.size() == 2);
+    CHECK (wood[0].is_placed);
+    CHECK (wood[0].number (&Appearance::frequency, 0.0) == 200.0);
+    const auto threads = ofKind (bodiesIn ("scissors_cloth"), Kind::ridges);   // along the crack, not along the way of the hand
+    REQUIRE (threads.size() == 1);
+    CHECK_FALSE (threads[0].is_placed);
+}
+
+TEST_CASE ("a relief is found behind nodes that move the position", "[app][scene]")
+{
+    const auto grain = ofKind (bodiesIn ("pebbled_leather"), Kind::relief);
+    REQUIRE (grain.size() == 1);
+    CHECK (grain[0].is_placed);
+    CHECK (grain[0].role == "stylus");
+    REQUIRE (grain[0].relief.grid);
+    CHECK (grain[0].relief.is_picture);
+    CHECK (grain[0].relief.pitch == Approx (0.12e-3));
+    CHECK (grain[0].relief.height == Approx (0.2e-3));
+}
+
+TEST_CASE ("each instance of a subgraph has its own bodies and its own tool", "[app][scene]")
+{
+    const auto planes = ofKind (bodiesIn ("two_fingers"), Kind::plane);
+    REQUIRE (planes.size() == 2);
+    CHECK (planes[0].path == "finger[0]/face");
+    CHECK (planes[0].role == "thumb");
+    CHECK (planes[1].role == "index");
+}
+
+TEST_CASE ("blades and scissors follow a tool through nodes that compute a depth or an angle", "[app][scene]")
+{
+    const std::map<std::string, Kind> cutting { { "potato_cut", Kind::blade }, { "liver_cut", Kind::blade }, { "scissors_cloth", Kind::scissors } };
+    for (const auto& [preset, kind] : cutting)
+    {
+        INFO (preset);
+        const auto found = ofKind (bodiesIn (preset), kind);
+        REQUIRE (found.size() == 1);
+        CHECK_FALSE (found[0].role.empty());
+        CHECK_FALSE (found[0].ports[scene::partNumber (&Appearance::crack)].empty());
+    }
+}
+
+TEST_CASE ("controls and knobs reach what a body looks like, and a bypassed node has no body", "[app][scene]")
+{
+    auto graph = host::test::presetGraph ("notched_rail");
+    for (auto& n : graph.root.nodes)
+    {
+        if (n.name == "notches") n.params["spatial_frequency"] = 400.0;
+        if (n.name == "rail") n.bypass = true;
+    }
+    const auto bodies = host::test::bodiesOf (graph);
+    CHECK (ofKind (bodies, Kind::plane).empty());
+    CHECK (ofKind (bodies, Kind::ridges)[0].number (&Appearance::frequency, 0.0) == 400.0);
+}
+
+TEST_CASE ("every part of an appearance is a row of the right size", "[nodes][contract]")
+{
+    int visible = 0;
+    for (const auto& type : catalogue())
+    {
+        if (! type.appearance) continue;
+        ++visible;
+        for (const auto& part : appearance_parts)
+        {
+            const auto id = (*type.appearance).*part.row;
+            if (id.empty()) continue;
+            INFO (type.info.id << ": " << part.name);
+            std::size_t width = 0;
+            bool exists = false;
+            for (const auto* rows : { &type.inputs, &type.params, &type.outputs })
+                for (const auto& row : *rows)
+                    if (row.id == id)
+                    {
+                        exists = true;
+                        width = static_cast<std::size_t> (row.width);
+                    }
+            for (const auto& setting : type.settings)
+                if (setting.id == id)
+                {
+                    exists = true;
+                    if (setting.kind == SettingSheet::Kind::vector) width = 3;
+                    if (setting.kind == SettingSheet::Kind::number) width = 1;
+                }
+            CHECK (exists);
+            CHECK (width == part.width);
+        }
+    }
+    CHECK (visible >= 9);
+}

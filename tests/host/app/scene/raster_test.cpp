@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/scene/raster.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+using namespace tactus;
+using host::scene::Camera;
+using host::scene::Raster;
+
+namespace
+{
+constexpr int width = 40, height = 30;
+
+Raster::Corner<1> corner (float x, float y, float depth = 1.0f) { return { x, y, 1.0f / depth, { 0.0f } }; }
+
+auto paint (std::uint32_t colour)
+{
+    return [colour] (const std::array<float, 1>&) { return colour; };
+}
+
+void quad (Raster& r, float x0, float y0, float x1, float y1, float depth, std::uint32_t colour)
+{
+    const auto a = corner (x0, y1, depth), b = corner (x1, y1, depth), c = corner (x1, y0, depth), d = corner (x0, y0, depth);
+    r.triangle (a, b, c, Raster::Sides::front, paint (colour));
+    r.triangle (a, c, d, Raster::Sides::front, paint (colour));
+}
+
+juce::Image pictureOf (const Raster& r)
+{
+    juce::Image image (juce::Image::ARGB, width, height, true);
+    r.write (image);
+    return image;
+}
+}   // namespace
+
+TEST_CASE ("two triangles that share an edge cover each sample once", "[app][scene]")
+{
+    rc::check ([] {
+        const auto place = [] (int most) { return static_cast<float> (*rc::gen::inRange (-20, 10 * most + 20)) / 10.0f; };
+        const float x = place (width), y = place (height);
+        // A fan around any point covers the picture without a gap and without an overlap.
+        const std::array<std::array<float, 2>, 4> rim { { { -50.0f, 80.0f }, { 90.0f, 80.0f }, { 90.0f, -50.0f }, { -50.0f, -50.0f } } };
+        double sum = 0.0;
+        for (std::size_t i = 0; i < 4; ++i)
+        {
+            Raster one;
+            one.begin (width, height, 1);
+            const auto &p = rim[i], &q = rim[(i + 1) % 4];
+            one.triangle (corner (x, y), corner (p[0], p[1]), corner (q[0], q[1]), Raster::Sides::front, paint (0xff112233));
+            sum += one.coverage();
+        }
+        RC_ASSERT (std::abs (sum - 1.0) < 1e-9);
+    });
+}
+
+TEST_CASE ("what is nearer covers what is farther, in either order", "[app][scene]")
+{
+    for (const bool near_first : { true, false })
+    {
+        Raster r;
+        r.begin (width, height, 1);
+        if (near_first) quad (r, 10.0f, 10.0f, 20.0f, 20.0f, 1.0f, 0xffff0000);
+        quad (r, 0.0f, 0.0f, 40.0f, 30.0f, 2.0f, 0xff0000ff);
+        if (! near_first) quad (r, 10.0f, 10.0f, 20.0f, 20.0f, 1.0f, 0xffff0000);
+        const auto image = pictureOf (r);
+        CHECK (image.getPixelAt (15, 15) == juce::Colour (0xffff0000));
+        CHECK (image.getPixelAt (5, 5) == juce::Colour (0xff0000ff));
+        CHECK (image.getPixelAt (20, 20) == juce::Colour (0xff0000ff));
+        CHECK (r.coverage() == 1.0);
+    }
+}
+
+TEST_CASE ("triangles that face away, or lie outside or behind the camera, are not drawn", "[app][scene]")
+{
+    Raster r;
+    r.begin (width, height, 1);
+    const auto a = corner (5.0f, 25.0f), b = corner (25.0f, 25.0f), c = corner (15.0f, 5.0f);
+    r.triangle (a, c, b, Raster::Sides::front, paint (0xffffffff));
+    CHECK (r.count().turned_away == 1);
+    CHECK (r.coverage() == 0.0);
+    r.triangle (corner (50.0f, 25.0f), corner (70.0f, 25.0f), corner (60.0f, 5.0f), Raster::Sides::front, paint (0xffffffff));
+    auto behind = c;
+    behind.nearness = 0.0f;
+    r.triangle (a, b, behind, Raster::Sides::front, paint (0xffffffff));
+    CHECK (r.count().outside == 2);
+    CHECK (r.coverage() == 0.0);
+    r.triangle (a, c, b, Raster::Sides::both, paint (0xffffffff));
+    r.triangle (a, b, c, Raster::Sides::front, paint (0xffffffff));
+    CHECK (r.count().drawn == 2);
+    CHECK (r.coverage() > 0.1);
+}
+
+TEST_CASE ("values are interpolated in space, not over the picture", "[app][scene]")
+{
+    Raster r;
+    r.begin (width, height, 1);
+    // From depth 1 at the left to depth 3 at the right, the middle of the picture is a quarter of the way in space.
+    const Raster::Corner<1> left { 0.0f, 60.0f, 1.0f, { 0.0f } }, right { 40.0f, 60.0f, 1.0f / 3.0f, { 1.0f } };
+    const Raster::Corner<1> high_left { 0.0f, -60.0f, 1.0f, { 0.0f } }, high_right { 40.0f, -60.0f, 1.0f / 3.0f, { 1.0f } };
+    const auto shade = [] (const std::array<float, 1>& v) { return 0xff000000u | static_cast<std::uint32_t> (v[0] * 200.0f); };
+    r.triangle (left, right, high_right, Raster::Sides::front, shade);
+    r.triangle (left, high_right, high_left, Raster::Sides::front, shade);
+    CHECK (static_cast<int> (pictureOf (r).getPixelAt (20, 15).getBlue()) == Approx (52).margin (3));
+}
+
+TEST_CASE ("finer samples smooth an edge", "[app][scene]")
+{
+    Raster r;
+    r.begin (width, height, 2);
+    quad (r, 0.0f, 0.0f, 2.0f * 10.5f, 2.0f * 30.0f, 1.0f, 0xffffffff);   // in samples, of which there are two per pixel
+    const auto image = pictureOf (r);
+    CHECK (image.getPixelAt (9, 10).getAlpha() == 255);
+    CHECK (static_cast<int> (image.getPixelAt (10, 10).getAlpha()) == Approx (127).margin (1));
+    CHECK (image.getPixelAt (11, 10).getAlpha() == 0);
+}
+
+TEST_CASE ("a ball is round and hides what is behind it", "[app][scene]")
+{
+    Camera camera;
+    camera.setSize (width, height);
+    camera.distance = 0.1;
+    Raster r;
+    r.begin (width, height, 1);
+    const double radius = 8.0 / camera.scaleAt (camera.distance);
+    r.ball (camera, camera.target, radius, [] (const std::array<float, 3>&) { return 0xff00ff00u; });
+    CHECK (r.coverage() * width * height == Approx (3.14159 * 64.0).epsilon (0.05));
+    CHECK (r.isVisible (camera.see (camera.target - 2.0 * radius * camera.view()), 0.0));
+    CHECK_FALSE (r.isVisible (camera.see (camera.target + 2.0 * radius * camera.view()), 0.0));
+}

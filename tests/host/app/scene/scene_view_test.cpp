@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "host/app/support/hand.hpp"
+#include "preset_bodies.hpp"
+
+#include <host/app/run/hand_panel.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <thread>
+
+using namespace tactus;
+using namespace tactus::host;
+using host::test::Hand;
+
+namespace
+{
+struct Rig
+{
+    struct Dressed
+    {
+        Look look;
+        Dressed() { juce::LookAndFeel::setDefaultLookAndFeel (&look); }
+        ~Dressed() { juce::LookAndFeel::setDefaultLookAndFeel (nullptr); }
+    } dressed;
+    Document document;
+    Sound sound;
+    DeviceSetup setup;
+    Playback playback { document, catalogue(), sound, setup, [] {} };
+    HandPanel panel { playback, sound };
+    SceneView& view = panel.scene();
+    Hand hand { view };
+
+    explicit Rig (const std::string& preset) : document (host::test::presetGraph (preset))
+    {
+        panel.setSize (420, 300);
+        panel.showScene (true);
+        panel.refresh();
+    }
+    ~Rig() { playback.run().letGo(); }
+
+    juce::Point<float> middle() const { return view.getLocalBounds().toFloat().getCentre(); }
+    /// How far away the camera is when it shows everything from where it looks now.
+    double framedDistance()
+    {
+        scene::Scene all;
+        all.setBodies (playback.run().scene().bodies());
+        auto framed = view.camera();
+        framed.frame (all.bounds());
+        return framed.distance;
+    }
+
+    juce::Image picture() { return view.createComponentSnapshot (view.getLocalBounds()); }
+
+    /// Attends to the run until the condition holds, for at most 10 s.
+    template <typename F>
+    bool until (F&& isSo)
+    {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (10);
+        while (! isSo() && std::chrono::steady_clock::now() < end)
+        {
+            playback.attend();
+            panel.refresh();
+            std::this_thread::sleep_for (std::chrono::milliseconds (2));
+        }
+        return isSo();
+    }
+};
+}   // namespace
+
+TEST_CASE ("dragging turns the scene, with Shift it moves, and the wheel zooms", "[app][scene]")
+{
+    Rig rig { "liver" };
+    const auto& camera = rig.view.camera();
+    const double yaw = camera.yaw, pitch = camera.pitch, distance = camera.distance;
+    rig.hand.drag (rig.middle(), rig.middle() + juce::Point<float> (40.0f, 20.0f));
+    CHECK (camera.yaw < yaw);
+    CHECK (camera.pitch > pitch);
+    CHECK (camera.distance == distance);
+    const Vec3 target = camera.target;
+    const double turned = camera.yaw;
+    rig.hand.drag (rig.middle(), rig.middle() + juce::Point<float> (40.0f, 0.0f), Hand::left (juce::ModifierKeys::shiftModifier));
+    CHECK (camera.yaw == turned);
+    CHECK ((camera.target - target).norm() > 1e-3);
+    rig.hand.wheel (rig.middle(), 0.5f);
+    CHECK (camera.distance < distance);
+    rig.hand.doubleClick (rig.middle());
+    CHECK (camera.distance == Approx (rig.framedDistance()));
+}
+
+TEST_CASE ("the keyboard does what the mouse does in the scene", "[app][scene]")
+{
+    Rig rig { "liver" };
+    const auto& camera = rig.view.camera();
+    const double yaw = camera.yaw, distance = camera.distance;
+    CHECK (rig.view.keyPressed (juce::KeyPress (juce::KeyPress::leftKey)));
+    CHECK (camera.yaw != yaw);
+    CHECK (rig.view.keyPressed (juce::KeyPress ('+', {}, '+')));
+    CHECK (camera.distance < distance);
+    CHECK (rig.view.keyPressed (juce::KeyPress ('f', {}, 'f')));
+    CHECK (camera.distance == Approx (rig.framedDistance()));
+    CHECK (rig.view.keyPressed (juce::KeyPress ('t', {}, 't')));
+    CHECK (rig.view.follows());
+    CHECK_FALSE (rig.view.keyPressed (juce::KeyPress ('z', juce::ModifierKeys::ctrlModifier, 'z')));
+    CHECK (rig.view.keyPressed (juce::KeyPress (juce::KeyPress::homeKey)));
+    CHECK (camera.yaw == scene::Camera {}.yaw);
+}
+
+TEST_CASE ("a scene that nobody sees asks the run for nothing", "[app][scene]")
+{
+    Rig rig { "liver" };
+    auto& feed = rig.playback.run().scene();
+    CHECK_FALSE (feed.ports().empty());
+    rig.panel.showScene (false);
+    rig.panel.refresh();
+    CHECK (feed.ports().empty());
+    CHECK_FALSE (rig.view.isVisible());
+    CHECK (rig.panel.view().isVisible());
+}
+
+TEST_CASE ("the scene shows what is on the surface before anything runs, and the tool while it runs", "[app][scene]")
+{
+    Rig rig { "dry_wood" };
+    rig.picture();
+    CHECK (rig.view.triangles().drawn > 1000);
+    CHECK (rig.playback.run().scene().now().tools.empty());
+    rig.playback.start ({ LiveRun::Hand::Kind::path, "stroke" });
+    CHECK (rig.until ([&] {
+        const auto now = rig.playback.run().scene().now();
+        return ! now.tools.empty() && now.tools[0].force.norm() > 0.01;
+    }));
+    rig.picture();
+    rig.playback.run().letGo();
+    CHECK (rig.playback.run().scene().now().tools.empty());
+}
+
+TEST_CASE ("the scene gets the values of ports while it is watched, and of edits as they are made", "[app][scene]")
+{
+    Rig rig { "liver" };
+    rig.playback.start ({});
+    auto& feed = rig.playback.run().scene();
+    const auto touch = [&] { return feed.now().of (0, &Appearance::touch).has_value(); };
+    CHECK (rig.until (touch));
+    const auto before = feed.version();
+    rig.document.renew();
+    CHECK (feed.version() > before);
+}
+
+TEST_CASE ("dragging the tool in the scene presses with it", "[app][scene]")
+{
+    Rig rig { "dry_wood" };
+    rig.playback.start (LiveRun::Hand::pointer());
+    REQUIRE (rig.until ([&] { return ! rig.playback.run().scene().now().tools.empty(); }));
+    const auto tool = [&] { return rig.playback.run().scene().now().tools[0]; };
+    rig.panel.refresh();
+    rig.hand.press (rig.view.camera().pixel (tool().position));
+    CHECK (rig.until ([&] { return tool().force.z() > 0.05; }));
+    rig.hand.release (rig.view.camera().pixel (tool().position));
+    CHECK (rig.until ([&] { return tool().force.z() < 0.05; }));
+}
+
+TEST_CASE ("an enlarged scene is shown beside the view from above", "[app][scene]")
+{
+    Rig rig { "liver" };
+    int laid_out = 0;
+    rig.panel.onEnlarge = [&] {
+        ++laid_out;
+        rig.panel.setSize (1000, 600);
+    };
+    rig.panel.enlarge (true);
+    CHECK (laid_out == 1);
+    CHECK (rig.panel.view().isVisible());
+    CHECK (rig.view.isVisible());
+    CHECK_FALSE (rig.panel.view().getBounds().intersects (rig.view.getBounds()));
+    rig.panel.showScene (false);
+    CHECK_FALSE (rig.panel.isEnlarged());
+}
