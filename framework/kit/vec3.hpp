@@ -22,7 +22,7 @@ inline bool isFinite (double v) noexcept { return v - v == 0.0; }
 inline bool isFinite (const Vec3& v) noexcept { return isFinite (v.x()) && isFinite (v.y()) && isFinite (v.z()); }
 
 template <typename... T>
-requires (sizeof...(T) > 1) bool isFinite (const T&... values) noexcept
+requires (sizeof...(T) > 1) auto isFinite (const T&... values) noexcept
 {
     return (isFinite (values) && ...);
 }
