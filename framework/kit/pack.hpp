@@ -143,9 +143,18 @@ TACTUS_INLINE Vector<V> select (MaskOf<V> where, const Vector<V>& yes, const Vec
     return { select (where, yes.x(), no.x()), select (where, yes.y(), no.y()), select (where, yes.z(), no.z()) };
 }
 
+// clang-format 14 breaks requirements badly.
+// clang-format off
+template <typename S>
+concept ListsMembers = requires (S s) { s.members(); };
+
+template <typename S, int W>
+concept OfPacks = std::is_aggregate_v<S> && ! ListsMembers<S> && sizeof (S) % sizeof (Pack<W>) == 0;
+// clang-format on
+
 /// Chooses between two structs that consist of packs.
-template <int W, typename S>
-requires std::is_aggregate_v<S> &&(sizeof (S) % sizeof (Pack<W>) == 0) && (! requires (S s) { s.members(); })TACTUS_INLINE S select (Mask<W> where, const S& yes, const S& no) noexcept
+template <int W, OfPacks<W> S>
+TACTUS_INLINE S select (Mask<W> where, const S& yes, const S& no) noexcept
 {
     S chosen = yes;
     auto* to = reinterpret_cast<Pack<W>*> (&chosen);
@@ -156,8 +165,7 @@ requires std::is_aggregate_v<S> &&(sizeof (S) % sizeof (Pack<W>) == 0) && (! req
 }
 
 /// Chooses between two structs that list their members.
-template <int W, typename S>
-requires requires (S s) { s.members(); }
+template <int W, ListsMembers S>
 TACTUS_INLINE S select (Mask<W> where, const S& yes, const S& no) noexcept
 {
     S chosen = yes;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "lane_form.hpp"
 
+#include <algorithm>
+#include <cstdlib>
+
 namespace tactus
 {
 
@@ -13,6 +16,13 @@ std::size_t widestLanes() noexcept
 #else
     return 2;
 #endif
+}
+
+std::size_t usualLanes() noexcept
+{
+    const auto* wanted = std::getenv ("TACTUS_LANES");
+    const auto most = wanted != nullptr ? std::strtoul (wanted, nullptr, 10) : widestLanes();
+    return std::clamp<std::size_t> (most, 1, widestLanes());
 }
 
 }   // namespace tactus
