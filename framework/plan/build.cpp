@@ -5,6 +5,7 @@
 #include "compile.hpp"
 #include "find_param.hpp"
 #include "grouped.hpp"
+#include "lane_wiring.hpp"
 #include "lateness.hpp"
 #include "make_node.hpp"
 #include "owned_records.hpp"
@@ -30,8 +31,8 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 class PlanBuilder
 {
 public:
-    PlanBuilder (Flat& f, const PortUnits& u, const Order& o, Outside out, const Setup& s, const CompileOptions& options)
-        : flat (f), units (u), order (o), outside (std::move (out)), setup (s), kept (options.kept), before (partsOf (options.before)),
+    PlanBuilder (Flat& f, const PortUnits& u, const Order& o, const LaneGroups& l, Outside out, const Setup& s, const CompileOptions& options)
+        : flat (f), units (u), order (o), lanes (l), outside (std::move (out)), setup (s), kept (options.kept), before (partsOf (options.before)),
           diff (f, before, partsOf (options.withdrawn), s.rate_hz), in_order (inOrder (f, o)), slots (f, in_order), steps (f.sections.size())
     {
     }
@@ -64,7 +65,8 @@ public:
         keepFlat (flat, parts);
         diff.compare (parts);
         keepValues();
-        keep (std::move (background));
+        keepOrder (in_order, *background);
+        parts.background = std::move (background);
         return std::move (plan);
     }
 
@@ -89,6 +91,7 @@ private:
     Flat& flat;
     const PortUnits& units;
     const Order& order;
+    const LaneGroups& lanes;
     Outside outside;
     const Setup& setup;
     const std::vector<std::string>& kept;
@@ -114,7 +117,7 @@ private:
     void layOut()
     {
         std::size_t size = 0;
-        const auto output_at = outputOffsets (flat, in_order, size);
+        const auto output_at = outputOffsets (flat, lanes, in_order, size);
         storage = std::make_shared<Storage> (size);
         makeRoomForInputs();
         parts.instances.resize (flat.nodes.size());
@@ -123,6 +126,7 @@ private:
             auto& instance = parts.instances.change (at (i));
             instance.outputs = storage->outputs.bytes + output_at[at (i)];
             instance.sources = sourcesOf (i);
+            if (const auto* group = lanes.find (i)) instance.stride = static_cast<std::uint32_t> (group->form->width);
         }
         layOutSections();
     }
@@ -157,7 +161,12 @@ private:
             else if (const auto& node = flat.node (step.node); ! node.muted)
             {
                 connectInputs (step.node);
-                node.bypass ? addBypass (step.node) : addNode (step.node);
+                if (const auto* group = lanes.find (step.node))
+                {
+                    if (step.node == group->nodes.back()) addLanes (*group);
+                }
+                else
+                    node.bypass ? addBypass (step.node) : addNode (step.node);
             }
         if (peeks.records.empty() && writes.records.empty()) return std::move (body);
         peeks.append (body);
@@ -188,6 +197,7 @@ private:
         for (int i = 0; i < flat.nodeCount(); ++i)
             begin (i);
         std::ranges::sort (parts.roles, {}, &RoleUse::name);
+        makeLaneGroups (lanes, flat, before, parts);
         parts.ramps.prepare (parts.instances, std::make_shared<KnobIndex> (parts.instances), setup.rate_hz);
     }
 
@@ -218,7 +228,7 @@ private:
             std::memset (outputsOf (i), 0, n.type->outputs_size);
             return;
         }
-        n.type->initialiseOutputs (outputsOf (i));
+        parts.instances[at (i)].initialiseOutputs (*n.type);
         if ((n.type->bind || n.type->learn) && n.runs()) parts.bound.push_back (static_cast<std::uint32_t> (i));
         if (n.type->bind && n.runs()) use (i, is_shared);
         if (! is_shared) prepare (i);
@@ -286,7 +296,7 @@ private:
     const double* output (const PortRef& r, int component)
     {
         const auto& sheet = flat.sheet (r);
-        return reinterpret_cast<const double*> (static_cast<std::byte*> (outputsOf (r.node)) + sheet.offset) + slotWithin (r, component, sheet.width);
+        return parts.instances[at (r.node)].output (sheet.offset + sizeof (double) * at (slotWithin (r, component, sheet.width)));
     }
 
     void connectDrivers()
@@ -411,6 +421,16 @@ private:
         stepsOf (i).body.add ({ &DrivenNode::step, &d, sources, outputsOf (i) }, i);
     }
 
+    /// The inputs of all nodes of the group must be connected. The owner of the record is the first node.
+    void addLanes (const LaneGroups::Group& group)
+    {
+        const int first = group.nodes.front();
+        auto& step = storage->lanes.emplace_back();
+        step.group = parts.instances[at (first)].lanes;
+        connect (step, group, flat, slots, *storage, outputsOf (first));
+        stepsOf (first).body.add ({ &LaneStep::step, &step, sourcesOf (first), outputsOf (first) }, first);
+    }
+
     std::vector<DrivenNode::Drive> drivesOf (int i)
     {
         const auto& n = flat.node (i);
@@ -455,21 +475,12 @@ private:
         std::erase_if (parts.takeover.changes,
                        [&] (const Takeover::Change& change) { return std::ranges::count (kept, nameOf (parts.flat, change.instance, change.knob)) > 0; });
     }
-
-    void keep (std::shared_ptr<Background> background)
-    {
-        background->position.resize (in_order.size());
-        for (std::size_t r = 0; r < in_order.size(); ++r)
-            background->position[at (in_order[r])] = static_cast<int> (r);
-        background->running = in_order;
-        parts.background = std::move (background);
-    }
 };
 
-std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, const Order& order, Outside outside, const Setup& setup, const CompileOptions& options,
-                             std::shared_ptr<Background> background)
+std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, const Order& order, const LaneGroups& lanes, Outside outside, const Setup& setup,
+                             const CompileOptions& options, std::shared_ptr<Background> background)
 {
-    return PlanBuilder { flat, units, order, std::move (outside), setup, options }.run (std::move (background));
+    return PlanBuilder { flat, units, order, lanes, std::move (outside), setup, options }.run (std::move (background));
 }
 
 NodePart buildNode (Flat& flat, std::vector<std::vector<PortRef>> fed, std::span<const Instance> instances, std::span<double> feeds)
@@ -479,7 +490,7 @@ NodePart buildNode (Flat& flat, std::vector<std::vector<PortRef>> fed, std::span
         steps.push_back ({ .node = i });
     Outside outside;
     outside.feeds = std::move (fed);
-    return PlanBuilder { flat, {}, { std::move (steps) }, std::move (outside), {}, {} }.runNode (instances, feeds);
+    return PlanBuilder { flat, {}, { std::move (steps) }, {}, std::move (outside), {}, {} }.runNode (instances, feeds);
 }
 
 }   // namespace tactus::plan

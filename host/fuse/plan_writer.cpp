@@ -146,6 +146,9 @@ void PlanWriter::needSources (const Record& r)
             for (int k = 0; k < flat.slots (row); ++k, ++slot)
                 if (! flat.muted) values.need (r.sources[slot]);
     }
+    if (r.step == &plan::LaneStep::step)
+        for (const auto& copy : static_cast<plan::LaneStep*> (r.self)->copies)   // everything else comes from other lanes
+            values.need (copy.from);
     if (r.step != &plan::DrivenNode::step) return;
     for (const auto& drive : static_cast<plan::DrivenNode*> (r.self)->drives)
         for (const auto* from : { drive.replace, drive.add })
