@@ -12,6 +12,11 @@ if (CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$" AND CMAKE_CXX_COMPIL
     set (TACTUS_LANE_WIDTHS 2 4 8)
     set (TACTUS_LANES_4_FLAGS -mavx2 -mno-fma)
     set (TACTUS_LANES_8_FLAGS -mavx2 -mavx512f -mno-fma -fno-tree-slp-vectorize)
+    if (CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 12)
+        # Otherwise GCC copies packs in parts of 16 bytes, and a load of a whole pack must wait for all of them.
+        list (APPEND TACTUS_LANES_4_FLAGS -mmove-max=256 -mstore-max=256)
+        list (APPEND TACTUS_LANES_8_FLAGS -mmove-max=512 -mstore-max=512)
+    endif ()
     if (CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
         list (APPEND TACTUS_LANES_8_FLAGS -Wno-uninitialized -Wno-maybe-uninitialized)   # GCC 12 warns of its own header
     endif ()
