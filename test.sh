@@ -16,8 +16,8 @@
 #   ./test.sh --sound   plays a ring on a virtual sound card, strokes a board in the host with the mouse, and listens to both
 #   ./test.sh --devices drives the virtual HID devices
 #   ./test.sh --export  exports all presets and 500 random graphs as C++ code, compiles it with g++ and clang++, and compares the
-#                       bits; does this for the presets on a Cortex-M7 in QEMU, too; builds and loads a unit for co-simulation;
-#                       runs all presets fused
+#                       bits; does this for the presets on a Cortex-M7 in QEMU, too, and in single precision on a Cortex-M4; builds and
+#                       loads a unit for co-simulation; runs all presets fused
 #   ./test.sh --figures redraws docs/figures/ and recounts docs/instructions.md
 #   ./test.sh --packages makes the Debian packages, and installs, uses and removes them in a clean Debian (needs root); before that,
 #                       it builds all nodes as plugins and examines them
@@ -99,8 +99,13 @@ if [ "$mode" = --export ]; then
     build/release/bin/tactus_tests "[export],[export_targets]"
     say "Fused graphs"
     build/release/bin/tactus_tests "[fuse_all]"
-    say "On a Cortex-M7"
-    build/release/bin/tactus_tests "[export_m7]"
+    say "On a Cortex-M7, and in single precision on a Cortex-M4"
+    jobs=()
+    for board in m7 m4; do
+        build/release/bin/tactus_tests "[export_$board]" &
+        jobs+=($!)
+    done
+    for job in "${jobs[@]}"; do wait "$job"; done
     exit
 fi
 

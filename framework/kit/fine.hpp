@@ -10,6 +10,6 @@ namespace tactus
 /// feels as noise. In a single-precision export, all other numbers are floats, and these are sums of two floats (kit/single/extended.hpp).
 /// Differences of nearby ones may be stored as double or Vec3.
 using Fine = double;
-using Place = Vec3;
+using Position = Vec3;
 
 }   // namespace tactus

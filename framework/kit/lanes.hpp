@@ -19,11 +19,11 @@ inline constexpr bool is_single = std::is_same_v<V, double>;
 template <typename V>
 using Vector = Eigen::Matrix<V, 3, 1>;
 
-/// Fine and Place of a single instance, for positions and what follows from them.
+/// Fine and Position of a single instance, for positions and what follows from them.
 template <typename V>
 using FineOf = std::conditional_t<is_single<V>, Fine, V>;
 template <typename V>
-using PlaceOf = std::conditional_t<is_single<V>, Place, Vector<V>>;
+using PositionOf = std::conditional_t<is_single<V>, Position, Vector<V>>;
 
 /// What a comparison of two V gives.
 template <typename V>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "vec3.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -75,15 +75,15 @@ struct Reading
 {
     static constexpr int most_buttons = 32;
 
-    Place position = Place::Zero();        ///< as measured, so quantised; in m
-    Vec3 rotation = Vec3::Zero();          ///< rotation vector, in rad
-    double pressure = 0.0;                 ///< in N, if the device measures it
-    std::uint32_t buttons = 0;             ///< bit i: button i is down
-    ReadingFault fault {};                 ///< why the reading is not valid, or why it gets old, if the driver knows
-    double age = 0.0;                      ///< time since the device took this reading, in s
-    bool valid = true;                     ///< false while the device has nothing to report
-    Place true_position = Place::Zero();   ///< in m; known only for a simulated device
-    Vec3 true_velocity = Vec3::Zero();     ///< in m/s; known only for a simulated device
+    Position position = Position::Zero();        ///< as measured, so quantised; in m
+    Vec3 rotation = Vec3::Zero();                ///< rotation vector, in rad
+    double pressure = 0.0;                       ///< in N, if the device measures it
+    std::uint32_t buttons = 0;                   ///< bit i: button i is down
+    ReadingFault fault {};                       ///< why the reading is not valid, or why it gets old, if the driver knows
+    double age = 0.0;                            ///< time since the device took this reading, in s
+    bool valid = true;                           ///< false while the device has nothing to report
+    Position true_position = Position::Zero();   ///< in m; known only for a simulated device
+    Vec3 true_velocity = Vec3::Zero();           ///< in m/s; known only for a simulated device
 
     // The part of the last written effort that the limits of the motors removed.
     Vec3 unrendered_force = Vec3::Zero();    ///< written minus rendered, in N

@@ -20,7 +20,7 @@ template <typename T>
 T withOneNan (T v) noexcept
 {
     // A jump that is never taken costs less than a choice, for which the sum would have to be known first.
-    if (__builtin_expect_with_probability (v == v, 1, 1.0)) return v;
+    if (__builtin_expect_with_probability (v == v, 1, 1)) return v;
     return T (std::numeric_limits<double>::quiet_NaN());
 }
 

@@ -68,7 +68,7 @@ private:
         return step.vec() * (2.0 * math::atan2 (std::copysign (sine, step.w()), std::abs (step.w())) / sine);
     }
 
-    Place position = Place::Zero();
+    Position position = Position::Zero();
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
     Vec3 measured = Vec3::Zero();   // what `rotation` was computed from; not a number if that is no rotation
     std::array<double, Channels::most> axes {};
@@ -146,7 +146,7 @@ class StillWatch
 public:
     /// Only a change resets a count. Without a force the counts are kept: if they were reset, a stop would end itself by taking the
     /// force away, and the force would push the hand again and again. [tick thread]
-    void operator() (const Place& position, const Vec3& force, double least_force, double dt_s) noexcept
+    void operator() (const Position& position, const Vec3& force, double least_force, double dt_s) noexcept
     {
         whole = position == before ? whole + (force.norm() >= least_force ? dt_s : 0.0) : 0.0;
         for (int i = 0; i < 3; ++i)
@@ -174,7 +174,7 @@ public:
     }
 
 private:
-    Place before = Place::Zero();
+    Position before = Position::Zero();
     Vec3 still = Vec3::Zero();   // by coordinate
     double whole = 0.0;
     bool has_changed[3] {};   // by coordinate, since the first reading

@@ -32,7 +32,7 @@ auto sumOf (T... values) noexcept
 {
     using Sum = std::remove_cvref_t<decltype ((values + ...))>;
     if constexpr (sizeof...(T) <= plan::most_in_network)
-        return plan::sumOf<Sum> (Sum (values)...);
+        return plan::sumOf (Sum (values)...);
     else
     {
         Sum all[] { values... };

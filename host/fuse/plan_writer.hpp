@@ -4,6 +4,7 @@
 #include "fused_code.hpp"
 #include "fused_values.hpp"
 
+#include <map>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -55,6 +56,9 @@ protected:
 
     void records (std::span<const Record>, bool is_inner);
 
+    /// True if few nodes of the plan have the type of this one.
+    bool isRare (const Known& n) const { return uses.at (n.header) <= most_copies; }
+
     bool isLarge() const { return values.plan.records().size() > records_in_part; }
     const auto& flatOf (const Known& n) const { return values.plan.flat().nodes[n.instance]; }
 
@@ -64,6 +68,9 @@ protected:
 private:
     /// A compiler takes much longer for one function of thousands of nodes than for several smaller ones.
     static constexpr std::size_t records_in_part = 150;
+
+    /// A compiler takes much longer if the code of a large node is repeated many times.
+    static constexpr std::size_t most_copies = 4;
 
     void findKnown();
     void writeOnce();
@@ -75,6 +82,7 @@ private:
 
     const FusedCode::Classes more;
     std::unordered_map<const void*, Known> known;   // by address of the node
+    std::map<std::string, std::size_t> uses;        // nodes by header
     std::size_t in_part = 0;
     FusedCode made;
 };

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bitcode.hpp"
 #include "wiring_writer.hpp"
 
 #include <algorithm>
@@ -27,7 +26,7 @@ void WiringWriter::tick (const Known& n, const std::string& function, const std:
     const auto outputs = bytes (std::max<std::size_t> (flatOf (n).type->outputs_size, 1));
     auto all = arguments;
     all.push_back ("i8* " + outputs);
-    run (bitcodeName (function, n.header), all);
+    runNode (n, function, all);
     if (function == "peek" || ! flatOf (n).type->peek) takeOutputs (n, outputs, is_inner);
 }
 
@@ -108,7 +107,7 @@ void WiringWriter::driven (const Known& n, const Record& r, bool is_inner)
         const auto moved = label(), then = label();
         branch (result ("icmp ne i8 " + load ("i8", flags) + ", 0"), moved, then);
         startBlock (moved);
-        run (bitcodeName ("update", n.header), { self });
+        runNode (n, "update", { self });
         jump (then);
         startBlock (then);
     }
@@ -116,16 +115,16 @@ void WiringWriter::driven (const Known& n, const Record& r, bool is_inner)
     const auto all = sources (n, r.sources, fault);
     const auto outputs = bytes (std::max<std::size_t> (d.type->outputs_size, 1));
     if (d.params.empty())
-        run (bitcodeName ("tick", n.header), { self, all, "i8* " + outputs });
+        runNode (n, "tick", { self, all, "i8* " + outputs });
     else
-        run (bitcodeName ("tick_stored", n.header), { self, "i8* " + stored (d), all, "i8* " + outputs });
+        runNode (n, "tick_stored", { self, "i8* " + stored (d), all, "i8* " + outputs });
     if (d.type->peek) return;
     if (d.faulted.empty())
     {
         const auto failed = label(), then = label();
         branch (fault, failed, then);
         startBlock (failed);
-        run (bitcodeName ("initialise", n.header), { "i8* " + outputs });
+        runNode (n, "initialise", { "i8* " + outputs });
         jump (then);
         startBlock (then);
     }

@@ -108,10 +108,16 @@ std::string WiringWriter::called (const std::string& type, const std::string& fu
     return result ("call " + type + " @" + function + " (" + listed (arguments) + ")");
 }
 
-void WiringWriter::run (const std::string& function, const std::vector<std::string>& arguments)
+void WiringWriter::run (const std::string& function, const std::vector<std::string>& arguments, const std::string& how)
 {
     declare ("void", function, arguments);
-    line ("call void @" + function + " (" + listed (arguments) + ")");
+    line ("call void @" + function + " (" + listed (arguments) + ")" + how);
+}
+
+/// Calls a function of the bitcode of a node. It is inlined, however large it is, unless it would be repeated too often.
+void WiringWriter::runNode (const Known& n, const std::string& function, const std::vector<std::string>& arguments)
+{
+    run (bitcodeName (function, n.header), arguments, isRare (n) ? " alwaysinline" : "");
 }
 
 void WiringWriter::declare (const std::string& type, const std::string& function, const std::vector<std::string>& arguments)

@@ -83,7 +83,8 @@ private:
     /// The result of an instruction, or of a call. Arguments have their types.
     std::string result (const std::string& instruction);
     std::string called (const std::string& type, const std::string& function, const std::vector<std::string>& arguments);
-    void run (const std::string& function, const std::vector<std::string>& arguments);
+    void run (const std::string& function, const std::vector<std::string>& arguments, const std::string& how = {});
+    void runNode (const Known&, const std::string& function, const std::vector<std::string>& arguments);
     void declare (const std::string& type, const std::string& function, const std::vector<std::string>& arguments);
 
     /// A block of instructions that can be jumped to.

@@ -170,7 +170,7 @@ std::string bitsOf (const Exported& e)
 {
     if (! e.is_single)
         return "- The bits are those of Tactus if the code is compiled without contraction into fused multiply-adds (see `CMakeLists.txt`). No function\n";
-    return "- All numbers are floats, and nothing here needs a unit for doubles. Positions, which are inputs of type `tactus::Place`, are sums of two\n"
+    return "- All numbers are floats, and nothing here needs a unit for doubles. Positions, which are inputs of type `tactus::Position`, are sums of two\n"
            "  floats, because a float at 0.1 m has steps of 7.5 nm. `tactus::Extended::steps (count, step)` makes one from an encoder. The self-test\n"
            "  compares with double precision and prints the largest difference.\n"
            "- The bits are the same on all machines if the code is compiled without contraction into fused multiply-adds (see `CMakeLists.txt`). No function\n";

@@ -38,7 +38,7 @@ struct VirtualCoupling
 {
     struct Inputs
     {
-        Place position = Place::Zero();
+        Position position = Position::Zero();
     };
 
     struct Params
@@ -52,7 +52,7 @@ struct VirtualCoupling
 
     struct Outputs
     {
-        Place proxy = Place::Zero();
+        Position proxy = Position::Zero();
         Vec3 force = Vec3::Zero();
         double depth = 0.0;
         double state = 0.0;

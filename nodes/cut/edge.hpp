@@ -69,7 +69,7 @@ struct Edge
 {
     struct Inputs
     {
-        Place position = Place::Zero();
+        Position position = Position::Zero();
         Vec3 rotation = Vec3::Zero();
     };
 
@@ -193,7 +193,7 @@ private:
     };
 
     const Law& cracked() const noexcept { return settings.cracked_law ? settings.cracked_law : settings.law; }
-    double depthOf (const Place& p) const noexcept { return settings.offset - n.dot (p); }
+    double depthOf (const Position& p) const noexcept { return settings.offset - n.dot (p); }
     static double stateOf (const Sum&) noexcept;
 
     Cutting read (const Params&) const noexcept;
@@ -223,7 +223,7 @@ inline Edge::Outputs Edge::tick (const Inputs& in) noexcept
     double width = contact.touching ? contact.params.width : params.width;
     if (contact.inside) width = std::min (width, CutPlaces::longest * places[contact.cut].spacing());
     const Vec3 edge = rotationMatrix (in.rotation).col (0);
-    const Place a = in.position - 0.5 * width * edge, b = in.position + 0.5 * width * edge;
+    const Position a = in.position - 0.5 * width * edge, b = in.position + 0.5 * width * edge;
     Line line { .depth = { depthOf (a), depthOf (b) } };
     if (! isFinite (a, b, line.depth[0], line.depth[1])) return fault();
 

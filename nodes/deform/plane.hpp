@@ -53,7 +53,7 @@ struct PlaneOf
 {
     struct Inputs
     {
-        PlaceOf<V> position = PlaceOf<V>::Zero();
+        PositionOf<V> position = PositionOf<V>::Zero();
     };
 
     struct Params

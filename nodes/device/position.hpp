@@ -19,7 +19,7 @@ struct DevicePosition
 
     struct Outputs
     {
-        Place position = Place::Zero();
+        Position position = Position::Zero();
         Vec3 rotation = Vec3::Zero();
         double valid = 0.0;
         double age = 0.0;
@@ -57,7 +57,7 @@ struct DevicePosition
 private:
     const DeviceState* device = &no_device;
     // The last valid values.
-    Place position = Place::Zero();
+    Position position = Position::Zero();
     Vec3 rotation = Vec3::Zero();
 };
 

@@ -19,7 +19,7 @@ struct DeviceTruth
 
     struct Outputs
     {
-        Place position = Place::Zero();
+        Position position = Position::Zero();
         Vec3 velocity = Vec3::Zero();
     };
 

@@ -116,7 +116,7 @@ struct ElastoPlasticOf
 
     struct Inputs
     {
-        PlaceOf<V> position = PlaceOf<V>::Zero();
+        PositionOf<V> position = PositionOf<V>::Zero();
         Vector<V> normal = Vector<V>::UnitZ();
         V normal_force = 1.0;
     };
@@ -228,7 +228,7 @@ private:
     struct Contact
     {
         MaskOf<V> touching {};
-        PlaceOf<V> p = PlaceOf<V>::Zero();      // position of the tool
+        PositionOf<V> p = PositionOf<V>::Zero();      // position of the tool
         Vector<V> n = Vector<V>::UnitZ();       // unit normal
         Vector<V> given = Vector<V>::UnitZ();   // the normal input, of any length
         Vector<V> home = Vector<V>::UnitZ();    // unit normal of the plane in which d is kept, at most 60 degrees from n

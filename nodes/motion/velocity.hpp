@@ -48,7 +48,7 @@ struct Velocity
 {
     struct Inputs
     {
-        Place position = Place::Zero();
+        Position position = Position::Zero();
     };
 
     struct Params

@@ -54,7 +54,7 @@ struct PassivityObserver
 
     struct Inputs
     {
-        Place position = Place::Zero();
+        Position position = Position::Zero();
         Vec3 force = Vec3::Zero();
         double contact = 1.0;
     };
@@ -149,10 +149,10 @@ private:
 
     struct Account
     {
-        Place p = Place::Zero();     // position of the tool on the last sample
-        Vec3 force = Vec3::Zero();   // applied on the last sample
-        double energy = 0.0;         // J
-        double braked = 0.0;         // energy that the damper took on the last sample, J
+        Position p = Position::Zero();   // position of the tool on the last sample
+        Vec3 force = Vec3::Zero();       // applied on the last sample
+        double energy = 0.0;             // J
+        double braked = 0.0;             // energy that the damper took on the last sample, J
         Pairing pairing = Pairing::zoh;
         bool known = false;   // false until the first finite sample
     };

@@ -35,7 +35,7 @@ struct AntiAlias
 {
     struct Inputs
     {
-        Place position = Place::Zero();
+        Position position = Position::Zero();
     };
 
     struct Params
@@ -109,7 +109,7 @@ private:
     }
 
     Vec3 along = Vec3::UnitX();
-    PastWindow<Place> past { Setup {}.dt_s() };   // positions, in m
+    PastWindow<Position> past { Setup {}.dt_s() };   // positions, in m
 };
 
 }   // namespace tactus::nodes

@@ -32,7 +32,7 @@ struct GratingOf
 {
     struct Inputs
     {
-        PlaceOf<V> position = PlaceOf<V>::Zero();
+        PositionOf<V> position = PositionOf<V>::Zero();
     };
 
     struct Params

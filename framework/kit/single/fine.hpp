@@ -9,16 +9,16 @@ namespace tactus
 {
 
 using Fine = Extended;
-using Place = Eigen::Matrix<Extended, 3, 1>;
+using Position = Eigen::Matrix<Extended, 3, 1>;
 
 // Not for expressions, which become a Vec3.
-template <std::same_as<Place> P>
+template <std::same_as<Position> P>
 bool isFinite (const P& v) noexcept
 {
     return isFinite (v.x()) && isFinite (v.y()) && isFinite (v.z());
 }
 
-template <std::same_as<Place> P>
+template <std::same_as<Position> P>
 P finiteOrZero (const P& v) noexcept
 {
     return isFinite (v) ? v : P (P::Zero());

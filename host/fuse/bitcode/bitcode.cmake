@@ -55,6 +55,12 @@ function (tactus_make_bitcode result)
         list (APPEND names tactus/nodes/${header})
     endforeach ()
 
+    # The table also includes a header that changes with these files, because ccache does not see that the assembler reads them.
+    set (digest ${bitcode_folder}/digest.hpp)
+    list (JOIN files " " list)
+    set (script ${CMAKE_CURRENT_SOURCE_DIR}/bitcode/digest.cmake)
+    add_custom_command (OUTPUT ${digest} COMMAND ${CMAKE_COMMAND} -D "files=${list}" -D output=${digest} -P ${script} DEPENDS ${files} ${script} VERBATIM)
+
     set (number 0)
     foreach (file name IN ZIP_LISTS files names)
         string (APPEND data ".balign 16\ntactus_bitcode_${number}:\n.incbin \"${file}\"\ntactus_bitcode_${number}_end:\n")
@@ -63,7 +69,7 @@ function (tactus_make_bitcode result)
         math (EXPR number "${number} + 1")
     endforeach ()
     if (number EQUAL 0)
-        set (text "std::span<const Bitcode> tactus::host::allBitcode() noexcept { return {}; }\n")
+        set (text "std::span<const tactus::host::Bitcode> tactus::host::allBitcode() noexcept { return {}; }\n")
     else ()
         set (text
 "asm (R\"(.section .rodata
@@ -81,7 +87,7 @@ ${rows}    };
 ")
     endif ()
     set (${result} ${CMAKE_CURRENT_BINARY_DIR}/bitcode_table.cpp)
-    file (CONFIGURE OUTPUT ${${result}} CONTENT "#include <host/fuse/bitcode.hpp>\n${text}" @ONLY)
-    set_source_files_properties (${${result}} PROPERTIES OBJECT_DEPENDS "${files}" SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
+    file (CONFIGURE OUTPUT ${${result}} CONTENT "#include <host/fuse/bitcode.hpp>\n#include \"${digest}\"\n${text}" @ONLY)
+    set_source_files_properties (${${result}} PROPERTIES OBJECT_DEPENDS "${files};${digest}" SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
     set (${result} ${${result}} PARENT_SCOPE)
 endfunction ()

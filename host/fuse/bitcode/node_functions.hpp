@@ -34,23 +34,23 @@ struct NodeFunctions
 
 }   // namespace tactus::host
 
-/// Defines the functions. All of them are inlined into fused code, because their arguments are then known there.
-#define TACTUS_NODE_FUNCTIONS(N, name)                                                                                                  \
-    extern "C"                                                                                                                          \
-    {                                                                                                                                   \
-        [[gnu::always_inline]] void tactus_fused_tick_##name (void* node, const double* const* sources, void* outputs) noexcept         \
-        {                                                                                                                               \
-            tactus::detail::Erased<N>::tick (node, sources, outputs);                                                                   \
-        }                                                                                                                               \
-        [[gnu::always_inline]] void tactus_fused_tick_stored_##name (void* node, const void* stored, const double* const* sources,      \
-                                                                     void* outputs) noexcept                                            \
-        {                                                                                                                               \
-            tactus::host::NodeFunctions<N>::tickStored (node, stored, sources, outputs);                                                \
-        }                                                                                                                               \
-        [[gnu::always_inline]] void tactus_fused_peek_##name (void* node, void* outputs) noexcept                                       \
-        {                                                                                                                               \
-            tactus::host::NodeFunctions<N>::peek (node, outputs);                                                                       \
-        }                                                                                                                               \
-        [[gnu::always_inline]] void tactus_fused_update_##name (void* node) noexcept { tactus::host::NodeFunctions<N>::update (node); } \
-        [[gnu::always_inline]] void tactus_fused_initialise_##name (void* outputs) noexcept { new (outputs) N::Outputs(); }             \
+/// Defines the functions. Wiring asks that they are inlined, because their arguments are known there.
+#define TACTUS_NODE_FUNCTIONS(N, name)                                                                           \
+    extern "C"                                                                                                   \
+    {                                                                                                            \
+        void tactus_fused_tick_##name (void* node, const double* const* sources, void* outputs) noexcept         \
+        {                                                                                                        \
+            tactus::detail::Erased<N>::tick (node, sources, outputs);                                            \
+        }                                                                                                        \
+        void tactus_fused_tick_stored_##name (void* node, const void* stored, const double* const* sources,      \
+                                              void* outputs) noexcept                                            \
+        {                                                                                                        \
+            tactus::host::NodeFunctions<N>::tickStored (node, stored, sources, outputs);                         \
+        }                                                                                                        \
+        void tactus_fused_peek_##name (void* node, void* outputs) noexcept                                       \
+        {                                                                                                        \
+            tactus::host::NodeFunctions<N>::peek (node, outputs);                                                \
+        }                                                                                                        \
+        void tactus_fused_update_##name (void* node) noexcept { tactus::host::NodeFunctions<N>::update (node); } \
+        void tactus_fused_initialise_##name (void* outputs) noexcept { new (outputs) N::Outputs(); }             \
     }

@@ -126,15 +126,15 @@ TEST_CASE ("valid JSON is read in one pass as the careful parser reads it", "[js
             refused += ! readValidJson (text, most);
         }
     });
-    CHECK (valid > 1000);
-    CHECK (refused > 300);
+    CHECK (valid >= 400);
+    CHECK (4 * refused > valid);
 }
 
 TEST_CASE ("valid JSON is also refused where a limit or the careful parser would complain", "[json]")
 {
-    for (const auto* text : { "", " ", "{", "[1,]", "{\"a\":1,}", "{\"a\":1,\"a\":2}", "01", "1.", ".5", "-", "+1", "1e", "1e400", "nul", "NaN", "\"a", "\"\n\"",
-                              "\"\\x\"",
-                              "\"\\ud800\"", "\"\\udc00\"", "\"\\ud800\\u0041\"", "\"\xC0\x80\"", "\"\xED\xA0\x80\"", "\"\xF4\x90\x80\x80\"",
+    for (const auto* text : { "", " ", "{", "[1,]", "{\"a\":1,}", "{\"a\":1,\"a\":2}", "01", "1.", ".5", "-", "+1", "1e", "1e400", "nul", "NaN", "\"a",
+                              "\"\n\"", "\"\\x\"", "\"\\ud800\"", "\"\\udc00\"", "\"\\ud800\\u0041\"", "\"\xC0\x80\"", "\"\xED\xA0\x80\"",
+                              "\"\xF4\x90\x80\x80\"",
                               "\"\xE2\x82\"", "1 2", "'a'", "// c\n1" })
     {
         INFO (text);

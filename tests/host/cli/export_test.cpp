@@ -64,3 +64,22 @@ TEST_CASE ("export replaces only its own folders, and writes nothing if somethin
     checkRefused ({ "export", graph, "-o", other }, 1, "is not empty", other + "/g.hpp");
     CHECK (std::filesystem::exists (other + "/mine.json"));
 }
+
+TEST_CASE ("export --float writes a class without doubles, and only the class", "[cli][export]")
+{
+    const Scratch scratch;
+    const auto folder = scratch.path ("small");
+    checkRefused ({ "export", TACTUS_SOURCE_DIR "/graphs/soft_pad.json", "-o", folder, "--float", "--to", "fmu" }, 1, "export/float", folder);
+    const auto large = scratch.write ("large.json", R"({ "format": "tactus-graph", "version": 2, "devices": {},
+        "nodes": { "a": { "type": "signal.constant", "params": { "value": 1e100 } } }, "wires": [] })");
+    checkRefused ({ "export", large, "-o", folder, "--float" }, 1, "1e+100", folder);
+
+    REQUIRE (runTactus ({ "export", TACTUS_SOURCE_DIR "/graphs/soft_pad.json", "-o", folder, "--float" }).status == 0);
+    const auto header = textOf (folder + "/soft_pad.hpp"), source = textOf (folder + "/soft_pad.cpp");
+    CHECK (header.find ("static constexpr float rate_hz = ") != std::string::npos);
+    for (const auto& text : { header, source })
+        CHECK (text.find ("double") == std::string::npos);
+    CHECK (textOf (folder + "/tactus/kit/fine.hpp").find ("using Fine = Extended;") != std::string::npos);
+    CHECK (textOf (folder + "/README.md").find ("tactus::Extended::steps") != std::string::npos);
+    CHECK_FALSE (std::filesystem::exists (folder + "/tactus/kit/math/exp.hpp"));
+}

@@ -68,10 +68,12 @@ Run::OpenDevice randomHands (unsigned seed)
     };
 }
 
-host::ExportedFolder exportedRandomGraph (unsigned seed, int size)
+host::ExportedFolder exportedRandomGraph (unsigned seed, int size, bool is_single)
 {
     const auto graph = randomGraph (seed, size);
-    host::ExportOptions options { .file = "random_" + std::to_string (seed) + ".json", .program = "tactus", .compile = {}, .open = randomHands (seed) };
+    host::ExportOptions options {
+        .file = "random_" + std::to_string (seed) + ".json", .program = "tactus", .compile = {}, .is_single = is_single, .open = randomHands (seed)
+    };
     for (const auto& [name, value] : Interpreter { graph, graph.rate_hz }.outputs())
         options.compile.records.push_back (name);
     return host::exportGraph (graph, options);

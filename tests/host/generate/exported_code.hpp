@@ -15,7 +15,7 @@ namespace tactus::test
 Run::OpenDevice randomHands (unsigned seed);
 
 /// A random graph (support/random_graph.hpp) as C++ code, with every component of every output recorded and some inputs fed.
-host::ExportedFolder exportedRandomGraph (unsigned seed, int size);
+host::ExportedFolder exportedRandomGraph (unsigned seed, int size, bool is_single = false);
 
 /// A preset as C++ code; the devices are those that it describes.
 host::ExportedFolder exportedPreset (const std::string& name, bool is_single = false);

@@ -80,7 +80,7 @@ TEST_CASE ("a compiler that cannot be started is a warning in the window, and th
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     LiveRun p { rig.document, catalogue() };
-    p.fuse (Fuser::Options { .compiler = { .compiler = "/no/such/compiler" } });
+    p.fuse (Fuser::Options { .compiler = { .compiler = "/no/such/compiler", .llvm = "/no/such/program" } });
     p.start ({});
     const auto isWarning = [] (const Message& m) { return m.id == "fuse/no_compiler" && m.severity == Message::Severity::warning; };
     REQUIRE (until (p, [&] { return std::ranges::any_of (p.messages(), isWarning); }));

@@ -37,6 +37,18 @@ struct Opened
         return made;
     }
 
+    /// Does what the timer does for the run, until the condition holds. False after 20 s.
+    template <typename F>
+    bool until (F&& isSo)
+    {
+        for (int i = 0; i < 4000 && ! isSo(); ++i)
+        {
+            view->run().attend();
+            juce::Thread::sleep (5);
+        }
+        return isSo();
+    }
+
     void press (const char* key) { view->keyPressed (juce::KeyPress::createFromDescription (key)); }
 };
 }   // namespace
@@ -72,7 +84,7 @@ TEST_CASE ("with simulated devices, Esc closes what is open, and then stops the 
     CHECK (o.view->run().isWanted());
     o.press ("F1");
     o.press ("shift + escape");
-    CHECK (o.view->run().isStoppedForGood());
+    CHECK (o.until ([&] { return o.view->run().isStoppedForGood(); }));
     CHECK (o.view->helpPanel().isOpen());
     o.press ("escape");
     CHECK (o.view->run().isWanted());
@@ -87,7 +99,8 @@ TEST_CASE ("while a real device is driven, Esc stops the forces whatever is open
         "roles": { "stylus": { "driver": "hid", "profile": "woodenhaptics_usb" } } })");
     o.view->begin ({ o.home.path(), false, false, { o.wood } });
     REQUIRE (o.view->run().isWanted());
-    REQUIRE (o.view->run().drivesDevice());   // it is awaited, and may be plugged in at any time
+    // The session is read after the graph, and then binds its roles. The device is awaited, and may be plugged in at any time.
+    REQUIRE (o.until ([&] { return o.view->run().drivesDevice(); }));
     o.press ("F1");
     REQUIRE (o.view->helpPanel().isOpen());
     o.press ("escape");
