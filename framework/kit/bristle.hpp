@@ -171,7 +171,7 @@ inline V BristleOf<V>::afterSlip (V r) const noexcept
     const V gap = d_stick - d_max;
     const auto collapses = adhesion == Adhesion::stick && gap > d_max * eps_slip;
     if (none (collapses)) return d_max;
-    return select (collapses, d_max + math::fmod (select (r > d_stick, r - d_stick, V { 0.0 }), gap), d_max);
+    return select (collapses, d_max + math::fmod (select (r > d_stick, r - d_stick, 0.0), gap), d_max);
 }
 
 template <typename V>

@@ -8,7 +8,7 @@
 
 /// What a node is written with if it can compute several instances at once (docs/lanes.md). Such a node is a template over its scalar V: double,
 /// or a Pack of 2, 4 or 8 doubles, one for each instance (<pack.hpp>). A comparison of scalars gives a bool, or a mask with a bool for each
-/// instance, and select() takes the place of `?:`. With double, these functions are plain C++, and cost nothing.
+/// instance; select() takes the place of `?:`, and where() that of `if`. With double, these functions are plain C++, and cost nothing.
 namespace tactus
 {
 
@@ -58,6 +58,30 @@ template <typename T>
 inline T select (bool where, const T& yes, const T& no) noexcept
 {
     return where ? yes : no;
+}
+
+/// For `where (mask, to) = value`, which sets `to` in those instances where the mask is true.
+template <typename M, typename T>
+struct Where
+{
+    const M mask;
+    T& to;
+
+    void operator= (const T& value) noexcept
+    {
+        if constexpr (std::is_same_v<M, bool>)
+        {
+            if (mask) to = value;
+        }
+        else
+            to = select (mask, value, to);
+    }
+};
+
+template <typename M, typename T>
+inline Where<M, T> where (M mask, T& to) noexcept
+{
+    return { mask, to };
 }
 
 inline bool any (bool mask) noexcept { return mask; }

@@ -119,8 +119,9 @@ struct Pack
     };
 };
 
+/// Plain numbers will do, too.
 template <int W>
-TACTUS_INLINE Pack<W> select (Mask<W> where, Pack<W> yes, Pack<W> no) noexcept
+TACTUS_INLINE Pack<W> select (Mask<W> where, std::type_identity_t<Pack<W>> yes, std::type_identity_t<Pack<W>> no) noexcept
 {
     return where.bits ? yes.v : no.v;
 }

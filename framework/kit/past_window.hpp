@@ -122,7 +122,7 @@ public:
 
     explicit PastTick (double dt_s) : dt (dt_s) {}
 
-    Change to (V sample) const noexcept { return { select (known, sample - newest, V { 0.0 }), select (known, dt, V { 0.0 }) }; }
+    Change to (V sample) const noexcept { return { select (known, sample - newest, 0.0), select (known, dt, 0.0) }; }
     V last() const noexcept { return newest; }
     MaskOf<V> isEmpty() const noexcept { return ! known; }
 
@@ -139,5 +139,9 @@ private:
     MaskOf<V> known {};
     V dt;   // s
 };
+
+/// A window of any length for a single instance, and of one tick for several.
+template <typename V>
+using PastOf = std::conditional_t<is_single<V>, PastWindow<double>, PastTick<V>>;
 
 }   // namespace tactus

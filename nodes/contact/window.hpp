@@ -54,7 +54,7 @@ struct ContactWindowOf
 
     Outputs tick (const Inputs& in) noexcept
     {
-        return { .gain = select (isFinite (in.depth), clamped<V> (in.depth / params.window, 0.0, 1.0), V { 0.0 }) };
+        return { .gain = select (isFinite (in.depth), clamped<V> (in.depth / params.window, 0.0, 1.0), 0.0) };
     }
 };
 

@@ -145,36 +145,34 @@ struct PlaneOf
 
     Outputs tick (const Inputs& in) noexcept
     {
-        const V zero = 0.0;
         const FineOf<V> depth = params.offset - n.dot (in.position);
         const V rate = rateAt (depth);
         const auto inside = depth > 0.0, onset = inside && ! past.isEmpty() && past.last() <= 0.0;
 
-        V stored = 0.0, N = 0.0, lost = 0.0;
+        V stored = 0.0, N = 0.0;
         if (any (inside))
         {
-            stored = select (inside, energy (depth), zero);
-            N = select (inside, push (larger (zero, law (depth)), rate), zero);
+            where (inside, stored) = energy (depth);
+            where (inside, N) = push (larger<V> (0.0, law (depth)), rate);
         }
-        if (! every (past.isEmpty())) lost = select (past.isEmpty(), zero, loss (depth, stored, rate));
-        const V total = dissipated + lost;
+        const V total = dissipated + loss (depth, stored, rate);
 
-        const Outputs out {
+        Outputs out {
             .force = N * n,
             .resistance = N,
             .depth = depth,
-            .hit = select (onset, rate, zero),
+            .hit = select (onset, rate, 0.0),
             .stored_energy = stored,
             .dissipated_energy = select (isFinite (total), total, dissipated),
-            .state = select (inside, V { 1.0 }, zero),
+            .state = select (inside, 1.0, 0.0),
         };
         const auto is_fine = ! isZero (n) && isFinite (in.position, depth, rate, out.force, out.resistance, out.stored_energy);
-        const Outputs fault { .dissipated_energy = dissipated, .state = -1.0 };
+        where (! is_fine, out) = { .dissipated_energy = dissipated, .state = -1.0 };
+
         past.remember (depth, is_fine);
-        if (none (is_fine)) return fault;
-        stored_before = select (is_fine, stored, stored_before);
-        dissipated = select (is_fine, out.dissipated_energy, dissipated);
-        return select (is_fine, out, fault);
+        where (is_fine, stored_before) = stored;
+        dissipated = out.dissipated_energy;
+        return out;
     }
 
 private:
@@ -197,7 +195,7 @@ private:
     {
         const auto change = past.to (depth);
         const auto turns = (depth - past.last()) * change.by < 0.0;
-        return select (! (change.time > 0.0) || turns, V { 0.0 }, change.by / change.time);
+        return select (change.time > 0.0 && ! turns, change.by / change.time, 0.0);
     }
 
     /// The force N of a tool inside the wall: eq. (10), with `elastic` for K, plus viscous damping.
@@ -210,21 +208,15 @@ private:
     /// gives, because the wall does not pull.
     V loss (V depth, V stored, V rate) const noexcept
     {
-        const V zero = 0.0;
-        const auto is_damped = params.dissipation != 0.0 || params.damping != 0.0;
-        if (none (is_damped)) return zero;
-        const V before = larger (zero, past.last()), now = larger (zero, depth);
-        const V earlier = storedAt (before);
-        const V damped = rate * (params.dissipation * (stored - earlier) + params.damping * (now - before));
-        return select (is_damped, larger (zero, select (rate < 0.0, smaller (damped, earlier - stored), damped)), zero);
-    }
-
-    /// The energy at the last sample. Without a law, a knob may have changed the stiffness since.
-    V storedAt (V depth_before) const noexcept
-    {
+        const auto is_damped = ! past.isEmpty() && (params.dissipation != 0.0 || params.damping != 0.0);
+        if (none (is_damped)) return 0.0;
+        const V before = larger<V> (0.0, past.last()), now = larger<V> (0.0, depth);
+        V earlier = energy (before);   // a knob may have changed the stiffness since
         if constexpr (is_single<V>)
-            if (settings.law) return stored_before;
-        return energy (depth_before);
+            if (settings.law) earlier = stored_before;
+        const V damped = rate * (params.dissipation * (stored - earlier) + params.damping * (now - before));
+        const V taken = select (rate < 0.0, smaller<V> (damped, earlier - stored), damped);
+        return select (is_damped, larger<V> (0.0, taken), 0.0);
     }
 
     double returned (double rate_hz, double phase) const;
@@ -238,9 +230,9 @@ private:
     };
 
     Vector<V> n = Vector<V>::UnitZ();
-    std::conditional_t<is_single<V>, PastWindow<double>, PastTick<V>> past { Setup {}.dt_s() };   // depths, in m
-    V stored_before = 0.0;                                                                        // J, at the last sample
-    V dissipated = 0.0;                                                                           // J
+    PastOf<V> past { Setup {}.dt_s() };   // depths, in m
+    V stored_before = 0.0;                // J, at the last sample
+    V dissipated = 0.0;                   // J
     OnlySingle<V, Tool> tool;
 };
 

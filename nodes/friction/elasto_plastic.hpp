@@ -228,11 +228,11 @@ private:
     struct Contact
     {
         MaskOf<V> touching {};
-        PositionOf<V> p = PositionOf<V>::Zero();      // position of the tool
-        Vector<V> n = Vector<V>::UnitZ();       // unit normal
-        Vector<V> given = Vector<V>::UnitZ();   // the normal input, of any length
-        Vector<V> home = Vector<V>::UnitZ();    // unit normal of the plane in which d is kept, at most 60 degrees from n
-        Vector<V> d = Vector<V>::Zero();        // stretch, before it is turned from `home` to n
+        PositionOf<V> p = PositionOf<V>::Zero();   // position of the tool
+        Vector<V> n = Vector<V>::UnitZ();          // unit normal
+        Vector<V> given = Vector<V>::UnitZ();      // the normal input, of any length
+        Vector<V> home = Vector<V>::UnitZ();       // unit normal of the plane in which d is kept, at most 60 degrees from n
+        Vector<V> d = Vector<V>::Zero();           // stretch, before it is turned from `home` to n
         V sigma = 0.0;
         V d_max0 = 0.0;   // d_max in file and knobs at the touch, in m
         ChoiceOf<V, Load> load {};
@@ -254,9 +254,9 @@ private:
     static Vector<V> tangential (const Vector<V>& v, const Vector<V>& n) noexcept { return v - n * n.dot (v); }
     static Vector<V> turned (const Vector<V>& v, const Vector<V>& from, const Vector<V>& to) noexcept;
     V stiffnessAtTouch (const Params& stored) const noexcept;
-    void touch (Contact&, MaskOf<V> begins, const Params& stored) const noexcept;
-    MaskOf<V> setBound (Contact&, V normal_force) const noexcept;
-    Outputs leave (MaskOf<V> opens) noexcept;
+    void touch (MaskOf<V> begins, const PositionOf<V>&, const Params& stored) noexcept;
+    void setBound (V normal_force) noexcept;
+    MaskOf<V> follow (Outputs&, const Inputs&, const Params& stored) noexcept;
 
     Contact contact;
     V dissipated = 0.0;   // J
@@ -271,65 +271,59 @@ template <typename V>
 inline auto ElastoPlasticOf<V>::tick (const Inputs& in, const Params& stored) noexcept -> Outputs
 {
     const auto is_number = isFinite (in.position, in.normal, in.normal_force), opens = is_number && in.normal_force <= 0.0;
-    const V longest = largest (in.normal);
-    auto touches = is_number && in.normal_force > 0.0 && longest != 0.0;
-    if (none (touches)) return leave (opens);
+    auto touches = is_number && in.normal_force > 0.0 && ! isZero (in.normal);
+    const V total = dissipated + contact.stored();
 
-    const auto touched = contact.touching;
-    Contact now = contact;
-    if (const auto turns = ! isEqual (in.normal, contact.given); any (turns))
-        now.n = select (turns, normalized (Vector<V> { in.normal / longest }), now.n);
-    if (const auto flips = touched && now.n.dot (now.home) < 0.0; any (flips)) now.n = select (flips, Vector<V> { -now.n }, now.n);
-    now.given = in.normal;
-    now.p = in.position;
-    if (! every (touched)) touch (now, ! touched, stored);
-    touches = touches && setBound (now, in.normal_force);
-    if (none (touches)) return leave (opens);
+    Outputs out;
+    if (any (touches)) touches = touches && follow (out, in, stored);
+    if (! every (touches))
+    {
+        where (opens && isFinite (total), dissipated) = total;
+        where (! touches, contact) = {};
+        where (! touches, out) = { .dissipated_energy = dissipated, .state = select (opens, 0.0, -1.0) };
+    }
+    dissipated = out.dissipated_energy;
+    return out;
+}
 
+/// The contact follows the tool. False if a result is not finite.
+template <typename V>
+inline MaskOf<V> ElastoPlasticOf<V>::follow (Outputs& out, const Inputs& in, const Params& stored) noexcept
+{
+    auto& c = contact;
+    if (const auto turns = ! isEqual (in.normal, c.given); any (turns)) where (turns, c.n) = normalized<V> (in.normal / largest (in.normal));
+    c.given = in.normal;
+    if (const auto begins = ! c.touching; any (begins)) touch (begins, in.position, stored);
+    where (c.n.dot (c.home) < 0.0, c.n) = -c.n;
+
+    // Changes since the last sample take effect where the tool was, before it moves.
+    const Contact before = c;
+    setBound (in.normal_force);
+    const auto stiffens = c.sigma > before.sigma && (c.load == Load::passive || params.stiffness > 0.0);
+    if (any (stiffens)) where (stiffens, c.d) = c.d * (before.sigma / c.sigma);
     MaskOf<V> slips {};
-    V lost = 0.0;
+    if (any (c.bristle.d_max < before.bristle.d_max || c.bristle.d_stick < before.bristle.d_stick)) slips = c.bristle.letGo (c.d);
+    const V released = before.stored() - c.stored();
 
-    if (any (touched))
+    const Vector<V> dp = turned (tangential (in.position - c.p, c.n), c.n, c.home);
+    const auto step = c.bristle.stretch (c.d, dp);
+    c.p = in.position;
+    c.d = step.d;
+
+    const Vector<V> d = turned (c.d, c.home, c.n);
+    if (const auto is_far = c.n.dot (c.home) < far; any (is_far))
     {
-        // Changes since the last sample take effect where the tool was, before it moves.
-        const auto &bristle = now.bristle, &before = contact.bristle;
-        const auto eases = touched && now.sigma > contact.sigma && (now.load == Load::passive || params.stiffness > 0.0);
-        if (any (eases)) now.d = select (eases, Vector<V> { now.d * (contact.sigma / now.sigma) }, now.d);
-        if (any (touched && (bristle.d_max < before.d_max || bristle.d_stick < before.d_stick))) slips = bristle.letGo (now.d);
-        const V released = contact.stored() - now.stored();
-
-        const Vector<V> dp = turned (tangential (now.p - contact.p, now.n), now.n, now.home);
-        touches = touches && (! touched || isFinite (dp.squaredNorm()));
-        if (none (touches)) return leave (opens);
-
-        const auto step = bristle.stretch (now.d, dp);
-        now.d = select (touched, step.d, now.d);
-        lost = select (touched, released + now.sigma * step.loss, lost);
-        slips = touched && (slips || step.slips);
+        where (is_far, c.d) = d;
+        where (is_far, c.home) = c.n;
     }
-
-    const Vector<V> d = turned (now.d, now.home, now.n);
-    if (const auto is_far = now.n.dot (now.home) < far; any (is_far))
-    {
-        now.d = select (is_far, d, now.d);
-        now.home = select (is_far, now.n, now.home);
-    }
-    const Outputs out {
-        .force = -now.sigma * d,
+    out = {
+        .force = -c.sigma * d,
         .deflection = d,
-        .stored_energy = now.stored(),
-        .dissipated_energy = dissipated + lost,
-        .state = select (slips, V { 2.0 }, V { 1.0 }),
+        .stored_energy = c.stored(),
+        .dissipated_energy = dissipated + (released + c.sigma * step.loss),
+        .state = select (slips || step.slips, 2.0, 1.0),
     };
-    touches = touches && isFinite (out.force, out.deflection, out.stored_energy, out.dissipated_energy);
-    if (none (touches)) return leave (opens);
-
-    // Where the tool does not touch, as in leave().
-    const V left = dissipated + contact.stored();
-    dissipated = select (touches, out.dissipated_energy, select (opens && isFinite (left), left, dissipated));
-    contact = select (touches, now, Contact {});
-    const Outputs apart { .dissipated_energy = dissipated, .state = select (opens, V { 0.0 }, V { -1.0 }) };
-    return select (touches, out, apart);
+    return isFinite (c.sigma, c.bristle.d_max, dp.squaredNorm(), out.force, out.deflection, out.stored_energy, out.dissipated_energy);
 }
 
 /// Turns a vector in the plane with the unit normal `from` together with this plane, by the smallest angle, into the plane with the
@@ -349,49 +343,40 @@ inline V ElastoPlasticOf<V>::stiffnessAtTouch (const Params& stored) const noexc
     return select (params.stiffness > 0.0, params.stiffness, stored.mu * params.reference_load / stored.d_max);
 }
 
-/// Sets what stays the same until the contact opens.
+/// Begins a contact, at rest. Most of this stays the same until the contact opens.
 template <typename V>
-inline void ElastoPlasticOf<V>::touch (Contact& c, MaskOf<V> begins, const Params& stored) const noexcept
+inline void ElastoPlasticOf<V>::touch (MaskOf<V> begins, const PositionOf<V>& p, const Params& stored) noexcept
 {
+    auto& c = contact;
     c.touching = ! MaskOf<V> {};
-    c.home = select (begins, c.n, c.home);
-    c.d = select (begins, Vector<V> { Vector<V>::Zero() }, c.d);
-    c.load = select (begins, params.load, c.load);
-    c.bristle.adhesion = select (begins, params.adhesion, c.bristle.adhesion);
-    c.bristle.integrator = select (begins, params.integrator, c.bristle.integrator);
-    c.d_max0 = select (begins, stored.d_max, c.d_max0);
-    c.sigma = select (begins, stiffnessAtTouch (stored), c.sigma);
+    where (begins, c.p) = p;
+    where (begins, c.home) = c.n;
+    where (begins, c.d) = Vector<V>::Zero();
+    where (begins, c.load) = params.load;
+    where (begins, c.bristle.adhesion) = params.adhesion;
+    where (begins, c.bristle.integrator) = params.integrator;
+    where (begins, c.d_max0) = stored.d_max;
+    where (begins && c.load == Load::bound, c.sigma) = stiffnessAtTouch (stored);
 }
 
-/// Sets the stiffness and the lengths of Fig. 2 for this load. False if they are not finite.
+/// Sets the stiffness and the lengths of Fig. 2 for this load.
 template <typename V>
-inline MaskOf<V> ElastoPlasticOf<V>::setBound (Contact& c, V normal_force) const noexcept
+inline void ElastoPlasticOf<V>::setBound (V normal_force) noexcept
 {
-    const auto is_bound = c.load == Load::bound;
+    auto& c = contact;
     V d_max = params.d_max;
+    const auto is_bound = c.load == Load::bound;
     if (any (is_bound))
     {
         const V slides = params.mu * normal_force / c.sigma * (params.d_max / c.d_max0);
-        d_max = select (is_bound, select (c.sigma > 0.0, larger<V> (shortest, slides), V { shortest }), d_max);
+        where (is_bound, d_max) = select (c.sigma > 0.0, larger<V> (shortest, slides), shortest);
     }
-    if (! every (is_bound))
-        c.sigma = select (is_bound, c.sigma, select (params.stiffness > 0.0, params.stiffness, params.mu * normal_force / params.d_max));
+    if (! every (is_bound)) where (! is_bound, c.sigma) = select (params.stiffness > 0.0, params.stiffness, params.mu * normal_force / params.d_max);
 
     c.bristle.d_max = d_max;
     c.bristle.d_stick = params.static_ratio * d_max;
     c.bristle.d_ba = params.break_away * d_max;
     if constexpr (is_single<V>) c.bristle.own = &settings.adhesion_curve;
-    return isFinite (c.sigma, d_max);
-}
-
-/// Ends the contact: where it `opens`, with what is left of its energy lost, everywhere else by a fault.
-template <typename V>
-inline auto ElastoPlasticOf<V>::leave (MaskOf<V> opens) noexcept -> Outputs
-{
-    const V lost = dissipated + contact.stored();
-    contact = {};
-    dissipated = select (opens && isFinite (lost), lost, dissipated);
-    return { .dissipated_energy = dissipated, .state = select (opens, V { 0.0 }, V { -1.0 }) };
 }
 
 }   // namespace tactus::nodes

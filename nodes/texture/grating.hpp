@@ -86,9 +86,7 @@ struct GratingOf
     {
         const FineOf<V> s = along.dot (in.position);
         const V value = params.amplitude * math::sin (2.0 * std::numbers::pi * params.spatial_frequency * s + params.phase);
-        const auto is_fine = isFinite (value, in.position.z());
-        if (none (is_fine)) return {};
-        return select (is_fine, Outputs { .force = value * along, .value = value }, Outputs {});
+        return select (isFinite (value, in.position.z()), Outputs { .force = value * along, .value = value }, Outputs {});
     }
 
 private:

@@ -43,9 +43,7 @@ struct VectorAddOf
             y += v.y();
             z += v.z();
         }
-        const auto is_finite = isFinite (x, y, z);
-        if (none (is_finite)) return {};
-        return select (is_finite, Outputs { .out = { x, y, z } }, Outputs {});
+        return select (isFinite (x, y, z), Outputs { .out = { x, y, z } }, Outputs {});
     }
 };
 

@@ -39,9 +39,7 @@ struct VectorScaleOf
     Outputs tick (const Inputs& in) const noexcept
     {
         const V x = in.gain * in.in.x(), y = in.gain * in.in.y(), z = in.gain * in.in.z();   // as in VectorAdd
-        const auto is_finite = isFinite (x, y, z);
-        if (none (is_finite)) return {};
-        return select (is_finite, Outputs { .out = { x, y, z } }, Outputs {});
+        return select (isFinite (x, y, z), Outputs { .out = { x, y, z } }, Outputs {});
     }
 };
 
