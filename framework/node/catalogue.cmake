@@ -5,20 +5,21 @@
 # their TACTUS_NODE lines, so that an edit does not rerun CMake.
 
 # The widths of packs for which nodes with a TACTUS_LANES line are also compiled, and their flags (framework/kit/pack.hpp). Without fused
-# multiply-adds, which AVX-512 has, too: no code asks for them, and -ffp-contract=off keeps the compiler from making any.
+# multiply-adds, which AVX-512 has, too: no code asks for them, and -ffp-contract=off keeps the compiler from making any. To clang, -mno-fma
+# means that there is no AVX-512 either.
 set (TACTUS_LANE_WIDTHS 2)
 set (TACTUS_LANES_2_FLAGS "")
 if (CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$" AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
     set (TACTUS_LANE_WIDTHS 2 4 8)
     set (TACTUS_LANES_4_FLAGS -mavx2 -mno-fma)
-    set (TACTUS_LANES_8_FLAGS -mavx2 -mavx512f -mno-fma -fno-tree-slp-vectorize)
+    set (TACTUS_LANES_8_FLAGS -mavx2 -mavx512f)
     if (CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 12)
         # Otherwise GCC copies packs in parts of 16 bytes, and a load of a whole pack must wait for all of them.
         list (APPEND TACTUS_LANES_4_FLAGS -mmove-max=256 -mstore-max=256)
         list (APPEND TACTUS_LANES_8_FLAGS -mmove-max=512 -mstore-max=512)
     endif ()
     if (CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-        list (APPEND TACTUS_LANES_8_FLAGS -Wno-uninitialized -Wno-maybe-uninitialized)   # GCC 12 warns of its own header
+        list (APPEND TACTUS_LANES_8_FLAGS -mno-fma -fno-tree-slp-vectorize -Wno-uninitialized -Wno-maybe-uninitialized)   # GCC 12 warns of its own header
     endif ()
 endif ()
 

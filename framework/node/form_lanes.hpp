@@ -21,6 +21,11 @@ namespace tactus
 
 namespace detail
 {
+template <typename T>
+inline constexpr bool is_list = false;
+template <typename T>
+inline constexpr bool is_list<InputList<T>> = true;
+
 template <typename N>
 struct InLanes
 {
@@ -34,7 +39,7 @@ struct InLanes
     };
 
     template <typename T>
-    static T load (const double* const*& sources) noexcept
+    static T load ([[maybe_unused]] const N& node, const double* const*& sources) noexcept
     {
         if constexpr (is_vector<T>)
         {
@@ -42,6 +47,8 @@ struct InLanes
             sources += 3;
             return { V::load (sources[-3]), V::load (sources[-2]), V::load (sources[-1]) };
         }
+        else if constexpr (is_list<T>)
+            return { sources, node.settings.inputs };   // the only input of its node
         else
             return T::load (*sources++);
     }
@@ -51,14 +58,7 @@ struct InLanes
         Inputs in;
         const auto fill = [&] (const auto& row) {
             using R = std::remove_cvref_t<decltype (row)>;
-            if constexpr (R::role == Role::input)
-            {
-                using T = typename R::Value;
-                if constexpr (requires (T list) { list.size(); list[0]; } && ! is_vector<T>)
-                    in.*row.member = T { sources, node.settings.inputs };   // the only input of its node
-                else
-                    in.*row.member = load<T> (sources);
-            }
+            if constexpr (R::role == Role::input) in.*row.member = load<typename R::Value> (node, sources);
         };
         std::apply ([&] (const auto&... row) { (fill (row), ...); },
                     N::ports);
