@@ -251,7 +251,11 @@ private:
 
     void keepOutputs (int i)
     {
-        if (const auto* old = diff.heldFrom (at (i))) parts.takeover.held.push_back ({ outputsOf (i), old->outputs, flat.node (i).type->outputs_size });
+        const auto* old = diff.heldFrom (at (i));
+        if (old == nullptr) return;
+        const auto size = flat.node (i).type->outputs_size, step = old->stride == 1 ? size : sizeof (double);
+        for (std::size_t offset = 0; offset < size; offset += step)
+            parts.takeover.held.push_back ({ parts.instances[at (i)].output (offset), old->output (offset), step });
     }
 
     /// Keeps the previous values of the sums and strikes at the inputs of a node until the node runs; meanwhile, only a tap can

@@ -50,6 +50,16 @@ public:
             if (oneIn (3)) c.overrides["[" + std::to_string (k) + "]/board0.stiffness"] = within (0.0, 3000.0);
     }
 
+    /// With a rate of its own, the subgraph has no lanes.
+    void setEvery (int n)
+    {
+        auto& c = s.graph.root.nodes.front();
+        if (n > 1)
+            c.extra["every"] = n;
+        else
+            c.extra.erase ("every");
+    }
+
     /// A param of some instance, and a new value for it.
     std::pair<std::string, double> knob()
     {
@@ -195,7 +205,7 @@ int groupsOf (const Plan& plan)
 
 TEST_CASE ("lanes have the bits of single instances", "[plan][lanes][property]")
 {
-    rc::prop ("for random contacts with faults, turned knobs, and edits that change the number of instances and of lanes", [] {
+    rc::prop ("for random contacts with faults, turned knobs, and edits that change the number of instances and of lanes, and the rate", [] {
         const auto seed = *rc::gen::arbitrary<unsigned>();
         Contacts contacts { seed };
         Player single, lanes;
@@ -222,6 +232,7 @@ TEST_CASE ("lanes have the bits of single instances", "[plan][lanes][property]")
             }
             if (! contacts.oneIn (60)) continue;
             if (contacts.oneIn (2)) contacts.setCount (1 + contacts.below (70));
+            if (contacts.oneIn (3)) contacts.setEvery (1 + contacts.below (2));
             follow();
         }
     });
