@@ -202,7 +202,7 @@ struct ElastoPlasticOf
     }
 
     /// Several contacts at once can only stick and slip.
-    bool fitsLanes() const noexcept { return params.adhesion == Adhesion::stick && contact.bristle.adhesion == Adhesion::stick; }
+    bool fitsLanes() const noexcept { return params.adhesion == Adhesion::stick && (! contact.touching || contact.bristle.adhesion == Adhesion::stick); }
     auto state() noexcept { return std::tuple_cat (contact.members(), std::tie (dissipated)); }
 
     /// Functions 2 to 4 are twice as stiff on a reversal. Unless `stiffness` is given, loads `scale` and `passive` make the contact
@@ -224,7 +224,7 @@ private:
     static constexpr double far = 0.5;          // cosine of 60 degrees
     static constexpr double shortest = 1e-30;   // m; replaces a bound of 0, because the bristle divides by the bound
 
-    /// The state from one sample to the next while the tool touches.
+    /// The state from one sample to the next. Only `touching` counts while the tool does not touch.
     struct Contact
     {
         MaskOf<V> touching {};
@@ -234,6 +234,7 @@ private:
         Vector<V> home = Vector<V>::UnitZ();       // unit normal of the plane in which d is kept, at most 60 degrees from n
         Vector<V> d = Vector<V>::Zero();           // stretch, before it is turned from `home` to n
         V sigma = 0.0;
+        V energy = 0.0;   // in the stretch, in J
         V d_max0 = 0.0;   // d_max in file and knobs at the touch, in m
         ChoiceOf<V, Load> load {};
         BristleOf<V> bristle {};
@@ -246,17 +247,17 @@ private:
         template <typename C>
         static auto membersOf (C& c) noexcept
         {
-            auto& b = c.bristle;
-            return std::tie (c.touching, c.p, c.n, c.given, c.home, c.d, c.sigma, c.d_max0, c.load, b.adhesion, b.integrator, b.d_max, b.d_stick, b.d_ba);
+            const auto bristle = [] (auto& b) { return std::tie (b.adhesion, b.integrator, b.d_max, b.d_stick, b.d_ba); };
+            return std::tuple_cat (std::tie (c.touching, c.p, c.n, c.given, c.home, c.d, c.sigma, c.energy, c.d_max0, c.load), bristle (c.bristle));
         }
     };
 
     static Vector<V> tangential (const Vector<V>& v, const Vector<V>& n) noexcept { return v - n * n.dot (v); }
     static Vector<V> turned (const Vector<V>& v, const Vector<V>& from, const Vector<V>& to) noexcept;
     V stiffnessAtTouch (const Params& stored) const noexcept;
-    void touch (MaskOf<V> begins, const PositionOf<V>&, const Params& stored) noexcept;
+    Contact atRest (const PositionOf<V>&, const Params& stored) const noexcept;
     void setBound (V normal_force) noexcept;
-    MaskOf<V> follow (Outputs&, const Inputs&, const Params& stored) noexcept;
+    MaskOf<V> follow (Outputs&, MaskOf<V> touches, const Inputs&, const Params& stored) noexcept;
 
     Contact contact;
     V dissipated = 0.0;   // J
@@ -272,28 +273,31 @@ inline auto ElastoPlasticOf<V>::tick (const Inputs& in, const Params& stored) no
 {
     const auto is_number = isFinite (in.position, in.normal, in.normal_force), opens = is_number && in.normal_force <= 0.0;
     auto touches = is_number && in.normal_force > 0.0 && ! isZero (in.normal);
-    const V total = dissipated + contact.stored();
+    const auto touched = contact.touching;
+    const V total = dissipated + contact.energy;
 
     Outputs out;
-    if (any (touches)) touches = touches && follow (out, in, stored);
+    if (any (touches)) touches = touches && follow (out, touches, in, stored);
     if (! every (touches))
     {
-        where (opens && isFinite (total), dissipated) = total;
-        where (! touches, contact) = {};
+        where (touched && opens && isFinite (total), dissipated) = total;
         where (! touches, out) = { .dissipated_energy = dissipated, .state = select (opens, 0.0, -1.0) };
     }
+    contact.touching = touches;
     dissipated = out.dissipated_energy;
     return out;
 }
 
-/// The contact follows the tool. False if a result is not finite.
+/// The contact follows the tool where this touches. False if a result is not finite.
 template <typename V>
-inline MaskOf<V> ElastoPlasticOf<V>::follow (Outputs& out, const Inputs& in, const Params& stored) noexcept
+inline MaskOf<V> ElastoPlasticOf<V>::follow (Outputs& out, MaskOf<V> touches, const Inputs& in, const Params& stored) noexcept
 {
     auto& c = contact;
+    const auto begins = touches && ! c.touching;
+    if (any (begins)) where (begins, c) = atRest (in.position, stored);
     if (const auto turns = ! isEqual (in.normal, c.given); any (turns)) where (turns, c.n) = normalized<V> (in.normal / largest (in.normal));
     c.given = in.normal;
-    if (const auto begins = ! c.touching; any (begins)) touch (begins, in.position, stored);
+    where (begins, c.home) = c.n;
     where (c.n.dot (c.home) < 0.0, c.n) = -c.n;
 
     // Changes since the last sample take effect where the tool was, before it moves.
@@ -303,7 +307,7 @@ inline MaskOf<V> ElastoPlasticOf<V>::follow (Outputs& out, const Inputs& in, con
     if (any (stiffens)) where (stiffens, c.d) = c.d * (before.sigma / c.sigma);
     MaskOf<V> slips {};
     if (any (c.bristle.d_max < before.bristle.d_max || c.bristle.d_stick < before.bristle.d_stick)) slips = c.bristle.letGo (c.d);
-    const V released = before.stored() - c.stored();
+    const V released = c.energy - c.stored();
 
     const Vector<V> dp = turned (tangential (in.position - c.p, c.n), c.n, c.home);
     const auto step = c.bristle.stretch (c.d, dp);
@@ -316,10 +320,11 @@ inline MaskOf<V> ElastoPlasticOf<V>::follow (Outputs& out, const Inputs& in, con
         where (is_far, c.d) = d;
         where (is_far, c.home) = c.n;
     }
+    c.energy = c.stored();
     out = {
         .force = -c.sigma * d,
         .deflection = d,
-        .stored_energy = c.stored(),
+        .stored_energy = c.energy,
         .dissipated_energy = dissipated + (released + c.sigma * step.loss),
         .state = select (slips || step.slips, 2.0, 1.0),
     };
@@ -343,20 +348,18 @@ inline V ElastoPlasticOf<V>::stiffnessAtTouch (const Params& stored) const noexc
     return select (params.stiffness > 0.0, params.stiffness, stored.mu * params.reference_load / stored.d_max);
 }
 
-/// Begins a contact, at rest. Most of this stays the same until the contact opens.
+/// A contact that begins. The tool has not pulled it yet.
 template <typename V>
-inline void ElastoPlasticOf<V>::touch (MaskOf<V> begins, const PositionOf<V>& p, const Params& stored) noexcept
+inline auto ElastoPlasticOf<V>::atRest (const PositionOf<V>& p, const Params& stored) const noexcept -> Contact
 {
-    auto& c = contact;
-    c.touching = ! MaskOf<V> {};
-    where (begins, c.p) = p;
-    where (begins, c.home) = c.n;
-    where (begins, c.d) = Vector<V>::Zero();
-    where (begins, c.load) = params.load;
-    where (begins, c.bristle.adhesion) = params.adhesion;
-    where (begins, c.bristle.integrator) = params.integrator;
-    where (begins, c.d_max0) = stored.d_max;
-    where (begins && c.load == Load::bound, c.sigma) = stiffnessAtTouch (stored);
+    Contact c;
+    c.p = p;
+    c.load = params.load;
+    c.bristle.adhesion = params.adhesion;
+    c.bristle.integrator = params.integrator;
+    c.d_max0 = stored.d_max;
+    c.sigma = select (c.load == Load::bound, stiffnessAtTouch (stored), 0.0);
+    return c;
 }
 
 /// Sets the stiffness and the lengths of Fig. 2 for this load.
