@@ -295,6 +295,11 @@ inline MaskOf<V> ElastoPlasticOf<V>::follow (Outputs& out, MaskOf<V> touches, co
     auto& c = contact;
     const auto begins = touches && ! c.touching;
     if (any (begins)) where (begins, c) = atRest (in.position, stored);
+    if (! every (touches))
+    {
+        where (! touches, c.p) = in.position;   // other lanes must not slip far, because long slips take time
+        where (! touches, c.d) = Vector<V>::Zero();
+    }
     if (const auto turns = ! isEqual (in.normal, c.given); any (turns)) where (turns, c.n) = normalized<V> (in.normal / largest (in.normal));
     c.given = in.normal;
     where (begins, c.home) = c.n;
