@@ -64,14 +64,14 @@ void Bench::tick() noexcept
 NodeForces::NodeForces (const Plan& plan, std::size_t node)
 {
     const auto& type = *plan.flat().nodes[node].type;
-    const auto* outputs = static_cast<const char*> (plan.instances()[node].outputs);
-    if (outputs == nullptr || type.effort != nullptr) return;   // the output of a sink is the force after the guard, not a force of its own
+    const auto& instance = plan.instances()[node];
+    if (instance.outputs == nullptr || type.effort != nullptr) return;   // the output of a sink is the force after the guard, not a force of its own
     for (const auto& row : type.outputs)
         if (row.unit.kind == UnitRule::Kind::fixed && row.unit.unit.symbol == "N" && ! row.list)
         {
             output_widths.push_back (static_cast<std::size_t> (row.width));
             for (int i = 0; i < row.width; ++i)
-                values.push_back (reinterpret_cast<const double*> (outputs + row.offset) + i);
+                values.push_back (instance.output (row.offset + sizeof (double) * static_cast<std::size_t> (i)));
         }
 }
 

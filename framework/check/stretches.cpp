@@ -112,7 +112,7 @@ double StretchWatch::output (const Plan& plan, std::string_view id, int componen
 {
     const auto* row = find (typeOf (plan, its_node).outputs, id);
     if (row == nullptr) return 0.0;
-    return reinterpret_cast<const double*> (static_cast<const char*> (plan.instances()[its_node].outputs) + row->offset)[component];
+    return *plan.instances()[its_node].output (row->offset + sizeof (double) * static_cast<std::size_t> (component));
 }
 
 Vec3 StretchWatch::vectorOutput (const Plan& plan, std::string_view id) const

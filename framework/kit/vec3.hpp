@@ -51,7 +51,7 @@ bool areFinite (const T&... values) noexcept
 inline bool isFinite (const Vec3& v) noexcept { return detail::areFinite (v); }
 
 template <typename... T>
-requires (sizeof...(T) > 1) bool isFinite (const T&... values) noexcept
+requires (sizeof...(T) > 1) auto isFinite (const T&... values) noexcept
 {
     if constexpr ((detail::NumberOrVector<T> && ...))
         return detail::areFinite (values...);

@@ -3,6 +3,7 @@
 
 /// The catalogue: every node in nodes/, by id, type-erased. The build fills it (catalogue.cmake).
 
+#include "lane_form.hpp"
 #include "node.hpp"
 #include "setting.hpp"
 
@@ -67,6 +68,7 @@ struct NodeType
     std::function<std::string (const void* node, const DeviceLayout&)> missing;
     std::function<void (void* node, const DeviceMechanics&)> learn {};   ///< allocates nothing  [main or tick thread]
     std::function<Effort (const void* node)> effort;
+    NodeLanes lanes {};   ///< empty if the type cannot run in lanes
 };
 
 /// Binds a node for the first time. [main thread]

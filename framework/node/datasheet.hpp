@@ -148,7 +148,7 @@ constexpr Row<Role::param, O, T> param (T O::*m, std::string_view id, UnitRule u
 /// A parameter with named alternatives. T is an enum of int size, 0 … n-1 in the order of the names.
 /// A node with a contact adopts a new choice only while the contact is open.
 template <typename O, typename T>
-requires std::is_enum_v<T>
+requires std::is_enum_v<T> || requires { typename T::Enum; }
 constexpr Row<Role::param, O, T> choice (T O::*m, std::string_view id, std::span<const std::string_view> names, std::string_view about)
 {
     return { m, id, unit::count, about, {}, names };

@@ -144,8 +144,10 @@ struct DeviceState
     DeviceLayout layout {};
 };
 
+#ifndef TACTUS_ONLY_LANES   // code for one kind of processor must not run when a program starts
 /// What a device node is bound to before its role has a state.
 inline const DeviceState no_device { .reading = { .valid = false }, .applied = {} };
+#endif
 
 /// A driver. On each tick the engine calls read, runs the graph, and calls write, in this order, on the tick thread. Neither
 /// may allocate, lock or wait.

@@ -20,8 +20,8 @@ namespace detail
 template <typename T>
 T zero() noexcept
 {
-    if constexpr (std::is_same_v<T, Vec3>)
-        return Vec3::Zero();
+    if constexpr (requires { typename T::Scalar; })
+        return T::Zero();
     else
         return T {};
 }

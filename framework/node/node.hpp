@@ -168,6 +168,9 @@ concept Sink = DeviceBound<N> && requires (const N node) { { node.effort() } noe
 // The build defines this where it adds a node to the catalogue (catalogue.cmake). It has no effect elsewhere.
 #define TACTUS_REGISTER(N)
 
+// The build defines this where it compiles a node for several lanes (lanes.hpp).
+#define TACTUS_LANES(N) static_assert (::tactus::Node<N<double>>, #N "<double> is not a node")
+
 #define TACTUS_NODE(N)                                                                   \
     TACTUS_REGISTER (N)                                                                  \
     static_assert (::tactus::Node<N>, #N " is not a node: see framework/node/node.hpp"); \

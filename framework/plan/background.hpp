@@ -18,6 +18,7 @@ namespace tactus::plan
 struct Background
 {
     std::vector<std::string> feeds, records;   ///< as in CompileOptions
+    std::size_t lanes = 1;                     ///< as in CompileOptions
     bool is_plain = false;                     ///< no messages, overrides, sections or bypassed subgraphs
     FileChecks files;                          ///< the files that settings name, also those of unused subgraphs
     Names names;                               ///< of the nodes of the graph itself

@@ -5,11 +5,13 @@
 #include "compile.hpp"
 #include "find_param.hpp"
 #include "grouped.hpp"
+#include "lane_wiring.hpp"
 #include "lateness.hpp"
 #include "make_node.hpp"
 #include "owned_records.hpp"
 #include "plan_diff.hpp"
 #include "rate_conversions.hpp"
+#include "read_nodes.hpp"
 #include "slots.hpp"
 #include "storage.hpp"
 #include "taps.hpp"
@@ -17,7 +19,6 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <set>
 
 namespace tactus::plan
 {
@@ -30,8 +31,8 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 class PlanBuilder
 {
 public:
-    PlanBuilder (Flat& f, const PortUnits& u, const Order& o, Outside out, const Setup& s, const CompileOptions& options)
-        : flat (f), units (u), order (o), outside (std::move (out)), setup (s), kept (options.kept), before (partsOf (options.before)),
+    PlanBuilder (Flat& f, const PortUnits& u, const Order& o, const LaneGroups& l, Outside out, const Setup& s, const CompileOptions& options)
+        : flat (f), units (u), order (o), lanes (l), outside (std::move (out)), setup (s), kept (options.kept), before (partsOf (options.before)),
           diff (f, before, partsOf (options.withdrawn), s.rate_hz), in_order (inOrder (f, o)), slots (f, in_order), steps (f.sections.size())
     {
     }
@@ -46,14 +47,11 @@ public:
         parts.fed = outside.feeds;
         makeNodes();
         connectDrivers();
-        findRead();
+        is_read = readNodes (flat, outside);
         auto all = recordsOf (0);
         parts.records = std::move (all.records);
         parts.owners = std::move (all.owners);
-        std::set<int> rests;
-        for (int s = 1; s < flat.sectionCount(); ++s)
-            if (flat.rests (s)) rests.insert (flat.ticksOf (s));
-        parts.rests.assign (rests.begin(), rests.end());
+        parts.rests = flat.restPeriods();
         Taps taps { flat, units, *storage, parts.taps, [this] (const PortRef& r) { return valueOf (r); } };
         for (const auto& read : outside.records)
             taps.add (read);
@@ -65,7 +63,8 @@ public:
         keepFlat (flat, parts);
         diff.compare (parts);
         keepValues();
-        keep (std::move (background));
+        keepOrder (in_order, *background);
+        parts.background = std::move (background);
         return std::move (plan);
     }
 
@@ -82,6 +81,7 @@ public:
         first.is_struck = false;
         connectDrivers();
         connectInputs (0);
+        is_read = { true };
         addNode (0);
         return { std::move (steps[0].peeks.records), std::move (steps[0].body.records), parts.instances[0], storage };
     }
@@ -90,6 +90,7 @@ private:
     Flat& flat;
     const PortUnits& units;
     const Order& order;
+    const LaneGroups& lanes;
     Outside outside;
     const Setup& setup;
     const std::vector<std::string>& kept;
@@ -104,7 +105,7 @@ private:
     std::shared_ptr<KnobBoard> board = std::make_shared<KnobBoard>();
     std::optional<Grouped<Driver>> drivers;   // by slot; within a slot, first the wires, then the feeds
     std::vector<SectionSteps> steps;          // by section
-    std::vector<bool> is_read;                // by node: whether anything reads its outputs; empty if that is not known
+    std::vector<bool> is_read;                // by node: only such nodes need to peek
 
     static const PlanParts* partsOf (const Plan* other) { return other ? &other->parts : nullptr; }
     void* outputsOf (int n) { return parts.instances[at (n)].outputs; }
@@ -116,7 +117,7 @@ private:
     void layOut()
     {
         std::size_t size = 0;
-        const auto output_at = outputOffsets (flat, in_order, size);
+        const auto output_at = outputOffsets (flat, lanes, in_order, size);
         storage = std::make_shared<Storage> (size);
         makeRoomForInputs();
         parts.instances.resize (flat.nodes.size());
@@ -125,6 +126,7 @@ private:
             auto& instance = parts.instances.change (at (i));
             instance.outputs = storage->outputs.bytes + output_at[at (i)];
             instance.sources = sourcesOf (i);
+            if (const auto* group = lanes.find (i)) instance.stride = static_cast<std::uint32_t> (group->form->width);
         }
         layOutSections();
     }
@@ -159,7 +161,12 @@ private:
             else if (const auto& node = flat.node (step.node); ! node.muted)
             {
                 connectInputs (step.node);
-                node.bypass ? addBypass (step.node) : addNode (step.node);
+                if (const auto* group = lanes.find (step.node))
+                {
+                    if (step.node == group->nodes.back()) addLanes (*group);
+                }
+                else
+                    node.bypass ? addBypass (step.node) : addNode (step.node);
             }
         if (peeks.records.empty() && writes.records.empty()) return std::move (body);
         peeks.append (body);
@@ -190,6 +197,7 @@ private:
         for (int i = 0; i < flat.nodeCount(); ++i)
             begin (i);
         std::ranges::sort (parts.roles, {}, &RoleUse::name);
+        makeLaneGroups (lanes, flat, before, parts);
         parts.ramps.prepare (parts.instances, std::make_shared<KnobIndex> (parts.instances), setup.rate_hz);
     }
 
@@ -220,7 +228,7 @@ private:
             std::memset (outputsOf (i), 0, n.type->outputs_size);
             return;
         }
-        n.type->initialiseOutputs (outputsOf (i));
+        parts.instances[at (i)].initialiseOutputs (*n.type);
         if ((n.type->bind || n.type->learn) && n.runs()) parts.bound.push_back (static_cast<std::uint32_t> (i));
         if (n.type->bind && n.runs()) use (i, is_shared);
         if (! is_shared) prepare (i);
@@ -243,7 +251,11 @@ private:
 
     void keepOutputs (int i)
     {
-        if (const auto* old = diff.heldFrom (at (i))) parts.takeover.held.push_back ({ outputsOf (i), old->outputs, flat.node (i).type->outputs_size });
+        const auto* old = diff.heldFrom (at (i));
+        if (old == nullptr) return;
+        const auto size = flat.node (i).type->outputs_size, step = old->stride == 1 ? size : sizeof (double);
+        for (std::size_t offset = 0; offset < size; offset += step)
+            parts.takeover.held.push_back ({ parts.instances[at (i)].output (offset), old->output (offset), step });
     }
 
     /// Keeps the previous values of the sums and strikes at the inputs of a node until the node runs; meanwhile, only a tap can
@@ -288,7 +300,7 @@ private:
     const double* output (const PortRef& r, int component)
     {
         const auto& sheet = flat.sheet (r);
-        return reinterpret_cast<const double*> (static_cast<std::byte*> (outputsOf (r.node)) + sheet.offset) + slotWithin (r, component, sheet.width);
+        return parts.instances[at (r.node)].output (sheet.offset + sizeof (double) * at (slotWithin (r, component, sheet.width)));
     }
 
     void connectDrivers()
@@ -396,7 +408,7 @@ private:
     {
         const auto& n = flat.node (i);
         const double* const* sources = sourcesOf (i);
-        if (n.type->peek && isRead (i)) stepsOf (i).peeks.add ({ n.type->peek, nodeOf (i), sources, outputsOf (i) }, i);
+        if (n.type->peek && is_read[at (i)]) stepsOf (i).peeks.add ({ n.type->peek, nodeOf (i), sources, outputsOf (i) }, i);
 
         auto drives = drivesOf (i);
         if (drives.empty())
@@ -413,17 +425,14 @@ private:
         stepsOf (i).body.add ({ &DrivenNode::step, &d, sources, outputsOf (i) }, i);
     }
 
-    /// False if nothing reads the outputs of a node, so that it need not peek. In a section that rests on some ticks, outputs keep their
-    /// values until it runs, and a later plan may read them.
-    bool isRead (int i) const { return flat.node (i).section != 0 || is_read.empty() || is_read[at (i)]; }
-
-    void findRead()
+    /// The inputs of all nodes of the group must be connected. The owner of the record is the first node.
+    void addLanes (const LaneGroups::Group& group)
     {
-        is_read.assign (flat.nodes.size(), false);
-        for (const auto& w : flat.wires)
-            if (w.from) is_read[at (w.from->node)] = true;
-        for (const auto& tapped : outside.records)
-            if (tapped.port && tapped.port->role == Role::output) is_read[at (tapped.port->node)] = true;
+        const int first = group.nodes.front();
+        auto& step = storage->lanes.emplace_back();
+        step.group = parts.instances[at (first)].lanes;
+        connect (step, group, flat, slots, *storage, outputsOf (first));
+        stepsOf (first).body.add ({ &LaneStep::step, &step, sourcesOf (first), outputsOf (first) }, first);
     }
 
     std::vector<DrivenNode::Drive> drivesOf (int i)
@@ -470,21 +479,12 @@ private:
         std::erase_if (parts.takeover.changes,
                        [&] (const Takeover::Change& change) { return std::ranges::count (kept, nameOf (parts.flat, change.instance, change.knob)) > 0; });
     }
-
-    void keep (std::shared_ptr<Background> background)
-    {
-        background->position.resize (in_order.size());
-        for (std::size_t r = 0; r < in_order.size(); ++r)
-            background->position[at (in_order[r])] = static_cast<int> (r);
-        background->running = in_order;
-        parts.background = std::move (background);
-    }
 };
 
-std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, const Order& order, Outside outside, const Setup& setup, const CompileOptions& options,
-                             std::shared_ptr<Background> background)
+std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, const Order& order, const LaneGroups& lanes, Outside outside, const Setup& setup,
+                             const CompileOptions& options, std::shared_ptr<Background> background)
 {
-    return PlanBuilder { flat, units, order, std::move (outside), setup, options }.run (std::move (background));
+    return PlanBuilder { flat, units, order, lanes, std::move (outside), setup, options }.run (std::move (background));
 }
 
 NodePart buildNode (Flat& flat, std::vector<std::vector<PortRef>> fed, std::span<const Instance> instances, std::span<double> feeds)
@@ -494,7 +494,7 @@ NodePart buildNode (Flat& flat, std::vector<std::vector<PortRef>> fed, std::span
         steps.push_back ({ .node = i });
     Outside outside;
     outside.feeds = std::move (fed);
-    return PlanBuilder { flat, {}, { std::move (steps) }, std::move (outside), {}, {} }.runNode (instances, feeds);
+    return PlanBuilder { flat, {}, { std::move (steps) }, {}, std::move (outside), {}, {} }.runNode (instances, feeds);
 }
 
 }   // namespace tactus::plan

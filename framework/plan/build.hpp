@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lane_groups.hpp"
 #include "plan.hpp"
 #include "unit_check.hpp"
 
@@ -18,26 +19,11 @@ struct CompileOptions;
 namespace tactus::plan
 {
 
-/// The resolved ports that are driven or read from outside the graph. A port of a placeholder is empty: values written to it
-/// are ignored, and it reads as 0.
-struct Outside
-{
-    /// A port or a part of it, with the name under which it was requested.
-    struct Read
-    {
-        std::string name;
-        std::optional<PortRef> port;
-    };
-
-    std::vector<std::vector<PortRef>> feeds;   ///< by feed: the ports it drives, each one component; several ports if there are several instances
-    std::vector<Read> records;
-    std::map<std::string, std::vector<PortRef>> exposed;   ///< params and inputs by the names under which subgraphs expose them
-};
-
 /// Makes the nodes, lays out their outputs, and writes the records in the given order. The graph must be free of errors. It is
 /// moved into the plan, except for its messages. Uses `before`, `withdrawn` and `kept` of the options.
 /// The plan keeps the background, and fills in the rest of it.
-std::shared_ptr<Plan> build (Flat&, const PortUnits&, const Order&, Outside, const Setup&, const CompileOptions&, std::shared_ptr<Background>);
+std::shared_ptr<Plan> build (Flat&, const PortUnits&, const Order&, const LaneGroups&, Outside, const Setup&, const CompileOptions&,
+                             std::shared_ptr<Background>);
 
 /// The result of building the inputs of a single node again. The pointers point into the storage.
 struct NodePart

@@ -3,6 +3,7 @@
 
 /// What a plan under construction is made of.
 
+#include "lane_groups.hpp"
 #include "ops.hpp"
 #include "owned_records.hpp"
 #include "plan.hpp"
@@ -39,7 +40,10 @@ std::vector<int> inOrder (const Flat&, const Order&);
 
 /// Reserves room for the outputs of all nodes, side by side in this order. Returns by node the offset of its outputs; `size` is that of
 /// the whole.
-std::vector<std::size_t> outputOffsets (const Flat&, const std::vector<int>& running, std::size_t& size);
+std::vector<std::size_t> outputOffsets (const Flat&, const LaneGroups&, const std::vector<int>& running, std::size_t& size);
+
+/// Keeps the running order for the next plan.
+void keepOrder (const std::vector<int>& running, Background&);
 
 /// Keeps the flat graph for the next plan, without the parts that only messages need. Leaves its messages.
 void keepFlat (Flat&, PlanParts&);

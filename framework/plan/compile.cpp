@@ -271,7 +271,8 @@ Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const Co
 
     flat.messages.clear();
     remember (*background, *top, flat, options);
-    auto made = build (flat, units, ordered, std::move (outside), setup, options, background);
+    const auto lanes = groupLanes (flat, ordered, outside, options.lanes, rate);
+    auto made = build (flat, units, ordered, lanes, std::move (outside), setup, options, background);
     std::ranges::move (flat.messages, std::back_inserter (messages));
     finish (*made, *background, std::move (units), g.trail.version(), messages.empty());
     return { std::move (made), std::move (messages) };

@@ -7,6 +7,7 @@
 ///   unit_check   checks units of wires and values, types generic nodes       unit_check.hpp
 ///   order        finds the running order, loops and delays                   order.hpp
 ///   sections     handles subgraphs that run at a different rate                  sections.hpp, aliasing.hpp, rate_conversions.hpp
+///   lane_groups  lets instances of subgraphs run together                    lane_groups.hpp, lane_group.hpp, lane_wiring.hpp
 ///   build        makes nodes, lays out storage, writes records               build.hpp
 ///   lateness     warns of delays on the way back to the hand                 lateness.hpp
 ///   rewire       follows an edit of a few wires without all of this          rewire.hpp
@@ -29,6 +30,7 @@ struct CompileOptions
     std::vector<plan::Override> overrides {};   ///< values that take precedence over the file
     Assets* assets = nullptr;                   ///< loads the files that settings name
     Services services {};                       ///< services that nodes may use
+    std::size_t lanes = 1;                      ///< the most instances of a subgraph that are computed at once; 1: each node runs on its own. See usualLanes()
     const Plan* before = nullptr;               ///< the plan that the new one will take over from, with Plan::takeOver
     const Plan* withdrawn = nullptr;            ///< a plan compiled to follow `before` that never ran: nodes that it added keep their turned values
     std::vector<std::string> kept {};           ///< parameters that an edit must not change, because they were turned after the edit

@@ -4,6 +4,7 @@
 #include <tactus/text/budget.hpp>
 
 #include <algorithm>
+#include <set>
 
 namespace tactus::plan
 {
@@ -108,6 +109,14 @@ int Flat::ticksOf (int s) const
 }
 
 bool Flat::rests (int s) const { return ticksOf (s) > 1; }
+
+std::vector<std::uint64_t> Flat::restPeriods() const
+{
+    std::set<std::uint64_t> all;
+    for (int s = 1; s < sectionCount(); ++s)
+        if (rests (s)) all.insert (static_cast<std::uint64_t> (ticksOf (s)));
+    return { all.begin(), all.end() };
+}
 
 bool Flat::spend (double work, double memory, Origin origin)
 {

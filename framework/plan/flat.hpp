@@ -12,6 +12,7 @@
 #include <tactus/node/catalogue.hpp>
 #include <tactus/text/message.hpp>
 
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <span>
@@ -193,6 +194,9 @@ struct Flat
 
     /// True if the section, or one that encloses it, does not run on every tick.
     bool rests (int section) const;
+
+    /// How many ticks the sections that rest last, in ascending order, each once.
+    std::vector<std::uint64_t> restPeriods() const;
 
     /// True once there are too many problems to store more. Callers can then skip writing the message.
     bool isFull() const noexcept { return messages.size() >= most_messages; }

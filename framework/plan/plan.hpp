@@ -109,6 +109,7 @@ struct PlanParts
     std::shared_ptr<const std::map<std::string, std::vector<PortRef>>> exposed = std::make_shared<std::map<std::string, std::vector<PortRef>>>();
     Ramps ramps;
     Takeover takeover;
+    std::vector<std::shared_ptr<LaneGroup>> lanes;   ///< the nodes that run together
 
     // For the next plan, if it differs only in a few wires (rewire.hpp).
     std::shared_ptr<const Background> background;

@@ -102,7 +102,7 @@ void Ramps::head (std::size_t i, std::size_t k, double to, bool at_once) noexcep
         knob.value = to;
         if (instance.isDriven (k)) return;
         instance.write (k, to);
-        if (knobs.type.update) knobs.type.update (instance.node.get());
+        instance.update (knobs.type);
         return;
     }
     knob.left = ticks;
@@ -128,7 +128,7 @@ void Ramps::move() noexcept
             instance.write (k, knob.value);
             moved = true;
         }
-        if (moved && knobs.type.update) knobs.type.update (instance.node.get());
+        if (moved) instance.update (knobs.type);
         if (more)
             ++m;
         else

@@ -54,7 +54,7 @@ private:
     bool isPossible (const CompileOptions& options) const
     {
         if (background == nullptr || ! background->is_plain || before.rewired >= most_rewired) return false;
-        if (options.withdrawn != nullptr || ! options.overrides.empty()) return false;
+        if (options.withdrawn != nullptr || ! options.overrides.empty() || options.lanes != background->lanes) return false;
         const double rate = options.rate_hz > 0.0 ? options.rate_hz : graph.rate_hz;
         return rate == before.rate_hz && options.feeds == background->feeds && options.records == background->records && hasSameFiles (options.assets);
     }
@@ -81,6 +81,7 @@ private:
         parts.lines = before.lines;
         parts.fed = before.fed;
         parts.bound = before.bound;
+        parts.lanes = before.lanes;
         parts.exposed = before.exposed;
         parts.ramps.prepare (parts.instances, before.ramps.sharedIndex(), parts.rate_hz);
         parts.background = before.background;
@@ -405,6 +406,7 @@ void remember (Background& background, Scope& top, Flat& flat, const CompileOpti
     constexpr std::size_t most_origins = 64;   // a plan that follows copies them
     background.feeds = options.feeds;
     background.records = options.records;
+    background.lanes = options.lanes;
     background.is_plain = options.overrides.empty() && flat.sections.size() == 1 && flat.made_types.empty() && flat.origins.size() <= most_origins;
     background.files = std::move (flat.files);
     background.names = std::move (top.names);

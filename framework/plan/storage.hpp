@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lane_group.hpp"
 #include "ops.hpp"
 #include "running_section.hpp"
 
@@ -22,12 +23,13 @@ struct Storage
     {
         static constexpr std::align_val_t alignment { 64 };
 
-        explicit Arena (std::size_t size) : bytes (static_cast<std::byte*> (::operator new (std::max (size, std::size_t { 1 }), alignment))) {}
+        explicit Arena (std::size_t s) : size (s), bytes (static_cast<std::byte*> (::operator new (std::max (size, std::size_t { 1 }), alignment))) {}
         ~Arena() { ::operator delete (bytes, alignment); }
         Arena (const Arena&) = delete;
         Arena& operator= (const Arena&) = delete;
 
-        std::byte* bytes;
+        const std::size_t size;
+        std::byte* const bytes;
     };
 
     explicit Storage (std::size_t outputs_size) : outputs (outputs_size) {}
@@ -42,6 +44,7 @@ struct Storage
     std::deque<DelayLine> delays;
     std::deque<DrivenNode> driven;
     std::deque<Bypass> bypasses;
+    std::deque<LaneStep> lanes;
     std::vector<RunningSection> sections;   // by number in Flat::sections; entry 0, the graph itself, stays unused
     std::deque<std::vector<double>> samples;
 };

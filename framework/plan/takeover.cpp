@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "takeover.hpp"
+#include "lane_group.hpp"
 
 #include <cstring>
 
@@ -14,6 +15,8 @@ void Takeover::carryOut (const Chunks<Instance>& instances, Ramps& ramps, const 
         converter->adopt (*old);
     for (const auto& [to, from, bytes] : held)
         std::memcpy (to, from, bytes);
+    for (auto* group : ended)
+        group->unload();
 
     for (const auto& [i, adopt, old] : successors)
     {
@@ -26,6 +29,8 @@ void Takeover::carryOut (const Chunks<Instance>& instances, Ramps& ramps, const 
         }
         if (adopt) adopt (instance.node.get(), old);
     }
+    for (auto* group : begun)
+        group->load();
 
     ramps.goOn (before);
     for (const auto& [i, old] : rebuilt)

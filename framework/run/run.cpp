@@ -23,6 +23,7 @@ Run::Run (const Catalogue& c, CompileOptions o, OpenDevice opener, Queries when)
         options.services.answers = queries.get();
     }
     if (options.assets != nullptr) options.assets = &assets;
+    options.lanes = usualLanes();
 }
 
 Run::~Run() { runner.reset(); }   // waits until the forces are zero, while all members still exist

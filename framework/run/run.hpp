@@ -82,7 +82,7 @@ public:
         on_thread      ///< live: they are answered on their own thread
     };
 
-    /// The catalogue, and the assets and services in the options, must outlive the run. The run sets CompileOptions::before and
+    /// The catalogue, and the assets and services in the options, must outlive the run. The run sets CompileOptions::lanes, before and
     /// withdrawn itself.
     Run (const Catalogue&, CompileOptions, OpenDevice = {}, Queries = Queries::within_tick);
     ~Run() override;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contest.hpp"
+#include "contacts.hpp"
 #include "dry_wood.hpp"
 #include "exported.hpp"
 #include "faust_chain.hpp"
@@ -13,6 +14,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 
 namespace tactus::bench
 {
@@ -52,7 +54,7 @@ std::vector<Contest> contests()
     const std::string juce = "JUCE AudioProcessorGraph", plan = "plan", hand = "hand-written", exported = "export";
     const auto stroke = strokeRows (reference());
     const auto lightPlan = [] { return std::make_unique<Planned> (lightGraph(), CompileOptions {}, lightTypes()); };
-    return {
+    std::vector<Contest> all {
         { "plan/hand", plan, hand, "reference graph", planOf (reference()), handwritten, stroke },
         { "light_plan/hand", plan, hand, "reference graph with light kernels", lightPlan, lightByHand, stroke },
         { "dry_wood_plan/hand", plan, hand, "dry wood", planOf (dryWood()), dryWoodByHand, strokeRows (dryWood()), 1e-12 },
@@ -65,6 +67,13 @@ std::vector<Contest> contests()
         { "export/faust_chain100", exported, "Faust", "chain of 100 one-poles", exportedChain, [] { return std::make_unique<FaustVariant>(); },
           chirp(), 1e-12 },
     };
+    constexpr std::size_t lanes = 4;   // of AVX2
+    if (widestLanes() >= lanes)
+        all.push_back ({ "simd64/scalar64", "lanes", "one by one", "plane, friction and grating for 64 contacts", [] { return manyContacts (lanes); },
+                         [] { return manyContacts (1); }, stroke });
+    else
+        std::fprintf (stderr, "note: this processor has no AVX2, so simd64/scalar64 is skipped\n");
+    return all;
 }
 
 Agreement compare (const Contest& contest)

@@ -14,7 +14,12 @@ FusedValues::FusedValues (const Plan& p) : plan (p)
     {
         const auto& instance = plan.instances()[i];
         if (instance.node) by_node.emplace (instance.node.get(), i);
-        if (plan.flat().nodes[i].type->outputs_size > 0) by_outputs.emplace (bytes (instance.outputs), i);
+        const auto size = plan.flat().nodes[i].type->outputs_size;
+        if (instance.lanes != nullptr)   // its outputs are among those of others
+            for (std::size_t offset = 0; offset < size; offset += sizeof (double))
+                changing.insert (instance.output (offset));
+        else if (size > 0)
+            by_outputs.emplace (bytes (instance.outputs), i);
         if (const auto& type = *plan.flat().nodes[i].type; instance.node && type.params_size > 0)
             by_params.emplace (bytes (type.paramsOf (instance.node.get())), i);
     }
@@ -26,7 +31,7 @@ FusedValues::FusedValues (const Plan& p) : plan (p)
 bool FusedValues::isStranger (const Record& r) const
 {
     for (const auto step : { &plan::Strike::step, &plan::DelayLine::read, &plan::DelayLine::write, &plan::RunningSection::every, &plan::RunningSection::times,
-                             &plan::DrivenNode::step, &plan::Bypass::step })
+                             &plan::DrivenNode::step, &plan::Bypass::step, &plan::LaneStep::step })
         if (r.step == step) return false;
     bool is_sum = false;
     plan::eachSum (r, [&is_sum] (const plan::Sum&) { is_sum = true; });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tactus/plan/fused_tick.hpp>
+#include <tactus/plan/lane_group.hpp>
 #include <tactus/plan/ops.hpp>
 #include <tactus/plan/plan.hpp>
 #include <tactus/plan/running_section.hpp>

@@ -23,7 +23,7 @@ void PlanWriter::findKnown()
     {
         const auto& type = *plan.flat().nodes[i].type;
         const auto& node = plan.instances()[i].node;
-        if (! node || ! plan.flat().nodes[i].runs() || type.owner || ! type.origin.empty()) continue;
+        if (! node || ! plan.flat().nodes[i].runs() || type.owner || ! type.origin.empty() || plan.instances()[i].lanes != nullptr) continue;
         const auto [entry, is_new] = classes.try_emplace (std::string (type.info.id));
         if (is_new) entry->second = classOf (type.info.id);
         const auto& [name, header] = entry->second;
@@ -147,6 +147,13 @@ void PlanWriter::needSources (const Record& r)
         for (const auto& row : flat.type->inputs)
             for (int k = 0; k < flat.slots (row); ++k, ++slot)
                 if (! flat.muted) values.need (r.sources[slot]);
+    }
+    if (r.step == &plan::LaneStep::step)
+    {
+        const auto& wiring = static_cast<plan::LaneStep*> (r.self)->wiring;
+        for (const auto* sources : wiring.sources)
+            for (std::size_t i = 0; i < wiring.inputs; ++i)
+                values.need (sources[i]);
     }
     if (r.step != &plan::DrivenNode::step) return;
     for (const auto& drive : static_cast<plan::DrivenNode*> (r.self)->drives)

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/lanes.hpp>
 #include <tactus/node/node.hpp>
-
-#include <algorithm>
 
 namespace tactus::nodes
 {
@@ -17,21 +16,22 @@ namespace tactus::nodes
 /// Beware: the gain times a force that depends on lateral position has no potential. A tool that goes in at one place and comes
 /// out at another can gain at most the work of the bare texture between the two places. A thin window keeps this small compared
 /// with the friction of any real contact.
-struct ContactWindow
+template <typename V>
+struct ContactWindowOf
 {
     struct Inputs
     {
-        double depth = 0.0;
+        V depth = 0.0;
     };
 
     struct Params
     {
-        double window = 5e-4;
+        V window = 5e-4;
     };
 
     struct Outputs
     {
-        double gain = 0.0;
+        V gain = 0.0;
     };
 
     static constexpr Info info {
@@ -54,11 +54,13 @@ struct ContactWindow
 
     Outputs tick (const Inputs& in) noexcept
     {
-        if (! isFinite (in.depth)) return {};
-        return { .gain = std::clamp (in.depth / params.window, 0.0, 1.0) };
+        return { .gain = select (isFinite (in.depth), clamped<V> (in.depth / params.window, 0.0, 1.0), 0.0) };
     }
 };
+
+using ContactWindow = ContactWindowOf<double>;
 
 }   // namespace tactus::nodes
 
 TACTUS_NODE (tactus::nodes::ContactWindow);
+TACTUS_LANES (tactus::nodes::ContactWindowOf);

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <tactus/kit/bristle.hpp>
+#include <tactus/kit/lanes.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 
 namespace tactus::nodes
 {
@@ -99,10 +101,11 @@ namespace tactus::nodes
 ///  - With functions 2 and 3 and static_ratio > 1, the exponential integrator slides at a stretch between d_max and d_stick,
 ///    while eq. (4) collapses to d_max and buzzes. Use function 1 for stick-slip.
 ///  - With a table that never reaches 1, the bristle stretches beyond d_max; with one that ends in 0, without limit.
-struct ElastoPlastic
+template <typename V>
+struct ElastoPlasticOf
 {
-    using Adhesion = Bristle::Adhesion;
-    using Integrator = Bristle::Integrator;
+    using Adhesion = BristleAdhesion;
+    using Integrator = BristleIntegrator;
 
     enum class Load
     {
@@ -113,22 +116,22 @@ struct ElastoPlastic
 
     struct Inputs
     {
-        Position position = Position::Zero();
-        Vec3 normal = Vec3::UnitZ();
-        double normal_force = 1.0;
+        PositionOf<V> position = PositionOf<V>::Zero();
+        Vector<V> normal = Vector<V>::UnitZ();
+        V normal_force = 1.0;
     };
 
     struct Params
     {
-        double mu = 0.4;
-        double d_max = 1e-4;
-        double static_ratio = 1.0;
-        double break_away = 0.7;
-        double stiffness = 0.0;
-        Adhesion adhesion = Adhesion::stick;
-        Integrator integrator = Integrator::exponential;
-        Load load = Load::bound;
-        double reference_load = 1.0;
+        V mu = 0.4;
+        V d_max = 1e-4;
+        V static_ratio = 1.0;
+        V break_away = 0.7;
+        V stiffness = 0.0;
+        ChoiceOf<V, Adhesion> adhesion = Adhesion::stick;
+        ChoiceOf<V, Integrator> integrator = Integrator::exponential;
+        ChoiceOf<V, Load> load = Load::bound;
+        V reference_load = 1.0;
     };
 
     struct Settings
@@ -138,11 +141,11 @@ struct ElastoPlastic
 
     struct Outputs
     {
-        Vec3 force = Vec3::Zero();
-        Vec3 deflection = Vec3::Zero();
-        double stored_energy = 0.0;
-        double dissipated_energy = 0.0;
-        double state = 0.0;
+        Vector<V> force = Vector<V>::Zero();
+        Vector<V> deflection = Vector<V>::Zero();
+        V stored_energy = 0.0;
+        V dissipated_energy = 0.0;
+        V state = 0.0;
     };
 
     static constexpr Info info {
@@ -184,7 +187,7 @@ struct ElastoPlastic
     static constexpr Appearance appearance { .kind = Appearance::Kind::contact, .tool = "position", .normal = "normal", .stretch = "deflection" };
 
     Params params;
-    Settings settings;
+    OnlySingle<V, Settings> settings;
 
     std::string problem() const
     {
@@ -194,11 +197,15 @@ struct ElastoPlastic
         return {};
     }
 
-    void adopt (const ElastoPlastic& old) noexcept
+    void adopt (const ElastoPlasticOf& old) noexcept
     {
         contact = old.contact;
         dissipated = old.dissipated;
     }
+
+    /// Several contacts at once can only stick and slip.
+    bool fitsLanes() const noexcept { return params.adhesion == Adhesion::stick && (! contact.touching || contact.bristle.adhesion == Adhesion::stick); }
+    auto state() noexcept { return std::tuple_cat (contact.members(), std::tie (dissipated)); }
 
     /// Functions 2 to 4 are twice as stiff on a reversal. Unless `stiffness` is given, loads `scale` and `passive` make the contact
     /// stiffer with normal_force, without limit.
@@ -219,152 +226,170 @@ private:
     static constexpr double far = 0.5;          // cosine of 60 degrees
     static constexpr double shortest = 1e-30;   // m; replaces a bound of 0, because the bristle divides by the bound
 
-    /// The state from one sample to the next while the tool touches.
+    /// The state from one sample to the next. Only `touching` counts while the tool does not touch.
     struct Contact
     {
-        bool touching = false;
-        Position p = Position::Zero();   // position of the tool
-        Vec3 n = Vec3::UnitZ();          // unit normal
-        Vec3 given = Vec3::UnitZ();      // the normal input, of any length
-        Vec3 home = Vec3::UnitZ();       // unit normal of the plane in which d is kept, at most 60 degrees from n
-        Vec3 d = Vec3::Zero();           // stretch, before it is turned from `home` to n
-        double sigma = 0.0;
-        double d_max0 = 0.0;   // d_max in file and knobs at the touch, in m
-        Load load {};
-        Bristle bristle {};
+        MaskOf<V> touching {};
+        PositionOf<V> p = PositionOf<V>::Zero();   // position of the tool
+        Vector<V> n = Vector<V>::UnitZ();          // unit normal
+        Vector<V> given = Vector<V>::UnitZ();      // the normal input, of any length
+        Vector<V> home = Vector<V>::UnitZ();       // unit normal of the plane in which d is kept, at most 60 degrees from n
+        Vector<V> d = Vector<V>::Zero();           // stretch, before it is turned from `home` to n
+        V sigma = 0.0;
+        V energy = 0.0;   // in the stretch, in J
+        V d_max0 = 0.0;   // d_max in file and knobs at the touch, in m
+        ChoiceOf<V, Load> load {};
+        BristleOf<V> bristle {};
 
-        double stored() const noexcept { return 0.5 * sigma * d.squaredNorm(); }
+        V stored() const noexcept { return 0.5 * sigma * d.squaredNorm(); }
+
+        auto members() noexcept { return membersOf (*this); }
+        auto members() const noexcept { return membersOf (*this); }
+
+        template <typename C>
+        static auto membersOf (C& c) noexcept
+        {
+            const auto bristle = [] (auto& b) { return std::tie (b.adhesion, b.integrator, b.d_max, b.d_stick, b.d_ba); };
+            return std::tuple_cat (std::tie (c.touching, c.p, c.n, c.given, c.home, c.d, c.sigma, c.energy, c.d_max0, c.load), bristle (c.bristle));
+        }
     };
 
-    static Vec3 tangential (const Vec3& v, const Vec3& n) noexcept { return v - n * n.dot (v); }
-    static Vec3 turned (const Vec3& v, const Vec3& from, const Vec3& to) noexcept;
-    double stiffnessAtTouch (const Params& stored) const noexcept;
-    void touch (Contact&, const Params& stored) const noexcept;
-    bool setBound (Contact&, double normal_force) const noexcept;
-    Outputs open() noexcept;
-    Outputs fault() noexcept;
+    static Vector<V> tangential (const Vector<V>& v, const Vector<V>& n) noexcept { return v - n * n.dot (v); }
+    static Vector<V> turned (const Vector<V>& v, const Vector<V>& from, const Vector<V>& to) noexcept;
+    V stiffnessAtTouch (const Params& stored) const noexcept;
+    Contact atRest (const PositionOf<V>&, const Params& stored) const noexcept;
+    void setBound (V normal_force) noexcept;
+    MaskOf<V> follow (Outputs&, MaskOf<V> touches, const Inputs&, const Params& stored) noexcept;
 
     Contact contact;
-    double dissipated = 0.0;   // J
+    V dissipated = 0.0;   // J
 };
+
+using ElastoPlastic = ElastoPlasticOf<double>;
 
 //==============================================================================
 // Implementation below.
 
-inline ElastoPlastic::Outputs ElastoPlastic::tick (const Inputs& in, const Params& stored) noexcept
+template <typename V>
+inline auto ElastoPlasticOf<V>::tick (const Inputs& in, const Params& stored) noexcept -> Outputs
 {
-    if (! isFinite (in.position, in.normal, in.normal_force)) return fault();
+    const auto is_number = isFinite (in.position, in.normal, in.normal_force), opens = is_number && in.normal_force <= 0.0;
+    auto touches = is_number && in.normal_force > 0.0 && ! isZero (in.normal);
+    const auto touched = contact.touching;
+    const V total = dissipated + contact.energy;
 
-    if (in.normal_force <= 0.0) return open();
-
-    const double longest = in.normal.cwiseAbs().maxCoeff();
-    if (longest == 0.0) return fault();
-
-    Contact now = contact;
-    if (in.normal != contact.given) now.n = (in.normal / longest).normalized();
-    if (contact.touching && now.n.dot (now.home) < 0.0) now.n = -now.n;
-    now.given = in.normal;
-    now.p = in.position;
-    if (! contact.touching) touch (now, stored);
-    if (! setBound (now, in.normal_force)) return fault();
-
-    bool slips = false;
-    double lost = 0.0;
-
-    if (contact.touching)
+    Outputs out;
+    if (any (touches)) touches = touches && follow (out, touches, in, stored);
+    if (! every (touches))
     {
-        // Changes since the last sample take effect where the tool was, before it moves.
-        const Bristle &bristle = now.bristle, &before = contact.bristle;
-        if (now.sigma > contact.sigma && (now.load == Load::passive || params.stiffness > 0.0)) now.d *= contact.sigma / now.sigma;
-        if (bristle.d_max < before.d_max || bristle.d_stick < before.d_stick) slips = bristle.letGo (now.d);
-        lost = contact.stored() - now.stored();
-
-        const Vec3 dp = turned (tangential (now.p - contact.p, now.n), now.n, now.home);
-        if (! isFinite (dp.squaredNorm())) return fault();
-
-        const auto step = bristle.stretch (now.d, dp);
-        now.d = step.d;
-        lost += now.sigma * step.loss;
-        slips = slips || step.slips;
+        where (touched && opens && isFinite (total), dissipated) = total;
+        where (! touches, out) = { .dissipated_energy = dissipated, .state = select (opens, 0.0, -1.0) };
     }
-
-    const Vec3 d = turned (now.d, now.home, now.n);
-    if (now.n.dot (now.home) < far)
-    {
-        now.d = d;
-        now.home = now.n;
-    }
-    const Outputs out {
-        .force = -now.sigma * d,
-        .deflection = d,
-        .stored_energy = now.stored(),
-        .dissipated_energy = dissipated + lost,
-        .state = slips ? 2.0 : 1.0,
-    };
-    if (! isFinite (out.force, out.deflection, out.stored_energy, out.dissipated_energy)) return fault();
-
-    contact = now;
+    contact.touching = touches;
     dissipated = out.dissipated_energy;
     return out;
 }
 
+/// The contact follows the tool where this touches. False if a result is not finite.
+template <typename V>
+inline MaskOf<V> ElastoPlasticOf<V>::follow (Outputs& out, MaskOf<V> touches, const Inputs& in, const Params& stored) noexcept
+{
+    auto& c = contact;
+    const auto begins = touches && ! c.touching;
+    if (any (begins)) where (begins, c) = atRest (in.position, stored);
+    if (! every (touches))
+    {
+        where (! touches, c.p) = in.position;   // other lanes must not slip far, because long slips take time
+        where (! touches, c.d) = Vector<V>::Zero();
+    }
+    if (const auto turns = ! isEqual (in.normal, c.given); any (turns)) where (turns, c.n) = normalized<V> (in.normal / largest (in.normal));
+    c.given = in.normal;
+    where (begins, c.home) = c.n;
+    where (c.n.dot (c.home) < 0.0, c.n) = -c.n;
+
+    // Changes since the last sample take effect where the tool was, before it moves.
+    const Contact before = c;
+    setBound (in.normal_force);
+    const auto stiffens = c.sigma > before.sigma && (c.load == Load::passive || params.stiffness > 0.0);
+    if (any (stiffens)) where (stiffens, c.d) = c.d * (before.sigma / c.sigma);
+    MaskOf<V> slips {};
+    if (any (c.bristle.d_max < before.bristle.d_max || c.bristle.d_stick < before.bristle.d_stick)) slips = c.bristle.letGo (c.d);
+    const V released = c.energy - c.stored();
+
+    const Vector<V> dp = turned (tangential (in.position - c.p, c.n), c.n, c.home);
+    const auto step = c.bristle.stretch (c.d, dp);
+    c.p = in.position;
+    c.d = step.d;
+
+    const Vector<V> d = turned (c.d, c.home, c.n);
+    if (const auto is_far = c.n.dot (c.home) < far; any (is_far))
+    {
+        where (is_far, c.d) = d;
+        where (is_far, c.home) = c.n;
+    }
+    c.energy = c.stored();
+    out = {
+        .force = -c.sigma * d,
+        .deflection = d,
+        .stored_energy = c.energy,
+        .dissipated_energy = dissipated + (released + c.sigma * step.loss),
+        .state = select (slips || step.slips, 2.0, 1.0),
+    };
+    return isFinite (c.sigma, c.bristle.d_max, dp.squaredNorm(), out.force, out.deflection, out.stored_energy, out.dissipated_energy);
+}
+
 /// Turns a vector in the plane with the unit normal `from` together with this plane, by the smallest angle, into the plane with the
 /// unit normal `to`. The normals are at most a right angle apart.
-inline Vec3 ElastoPlastic::turned (const Vec3& v, const Vec3& from, const Vec3& to) noexcept
+template <typename V>
+inline Vector<V> ElastoPlasticOf<V>::turned (const Vector<V>& v, const Vector<V>& from, const Vector<V>& to) noexcept
 {
-    if (from == to) return v;
-    return v - v.dot (to) / (1.0 + from.dot (to)) * (from + to);
+    const auto is_same = isEqual (from, to);
+    if (every (is_same)) return v;
+    return select (is_same, v, Vector<V> { v - v.dot (to) / (1.0 + from.dot (to)) * (from + to) });
 }
 
 /// The stiffness that a contact with load `bound` keeps until it opens.
-inline double ElastoPlastic::stiffnessAtTouch (const Params& stored) const noexcept
+template <typename V>
+inline V ElastoPlasticOf<V>::stiffnessAtTouch (const Params& stored) const noexcept
 {
-    return params.stiffness > 0.0 ? params.stiffness : stored.mu * params.reference_load / stored.d_max;
+    return select (params.stiffness > 0.0, params.stiffness, stored.mu * params.reference_load / stored.d_max);
 }
 
-/// Sets what stays the same until the contact opens.
-inline void ElastoPlastic::touch (Contact& c, const Params& stored) const noexcept
+/// A contact that begins. The tool has not pulled it yet.
+template <typename V>
+inline auto ElastoPlasticOf<V>::atRest (const PositionOf<V>& p, const Params& stored) const noexcept -> Contact
 {
-    c.touching = true;
-    c.home = c.n;
-    c.d.setZero();
+    Contact c;
+    c.p = p;
     c.load = params.load;
     c.bristle.adhesion = params.adhesion;
     c.bristle.integrator = params.integrator;
     c.d_max0 = stored.d_max;
-    c.sigma = stiffnessAtTouch (stored);
+    c.sigma = select (c.load == Load::bound, stiffnessAtTouch (stored), 0.0);
+    return c;
 }
 
-/// Sets the stiffness and the lengths of Fig. 2 for this load. False if they are not finite.
-inline bool ElastoPlastic::setBound (Contact& c, double normal_force) const noexcept
+/// Sets the stiffness and the lengths of Fig. 2 for this load.
+template <typename V>
+inline void ElastoPlasticOf<V>::setBound (V normal_force) noexcept
 {
-    double d_max = params.d_max;
-    if (c.load == Load::bound)
-        d_max = c.sigma > 0.0 ? std::max (shortest, params.mu * normal_force / c.sigma * (params.d_max / c.d_max0)) : shortest;
-    else
-        c.sigma = params.stiffness > 0.0 ? params.stiffness : params.mu * normal_force / params.d_max;
+    auto& c = contact;
+    V d_max = params.d_max;
+    const auto is_bound = c.load == Load::bound;
+    if (any (is_bound))
+    {
+        const V slides = params.mu * normal_force / c.sigma * (params.d_max / c.d_max0);
+        where (is_bound, d_max) = select (c.sigma > 0.0, larger<V> (shortest, slides), shortest);
+    }
+    if (! every (is_bound)) where (! is_bound, c.sigma) = select (params.stiffness > 0.0, params.stiffness, params.mu * normal_force / params.d_max);
 
     c.bristle.d_max = d_max;
     c.bristle.d_stick = params.static_ratio * d_max;
     c.bristle.d_ba = params.break_away * d_max;
-    c.bristle.own = &settings.adhesion_curve;
-    return isFinite (c.sigma, d_max);
-}
-
-inline ElastoPlastic::Outputs ElastoPlastic::open() noexcept
-{
-    const double lost = dissipated + contact.stored();
-    contact = {};
-    if (isFinite (lost)) dissipated = lost;
-    return { .dissipated_energy = dissipated };
-}
-
-inline ElastoPlastic::Outputs ElastoPlastic::fault() noexcept
-{
-    contact = {};
-    return { .dissipated_energy = dissipated, .state = -1.0 };
+    if constexpr (is_single<V>) c.bristle.own = &settings.adhesion_curve;
 }
 
 }   // namespace tactus::nodes
 
 TACTUS_NODE (tactus::nodes::ElastoPlastic);
+TACTUS_LANES (tactus::nodes::ElastoPlasticOf);

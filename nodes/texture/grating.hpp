@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/lanes.hpp>
 #include <tactus/kit/math/math.hpp>
 #include <tactus/node/node.hpp>
 
@@ -26,25 +27,26 @@ namespace tactus::nodes
 ///  - At speed v it sounds at k v Hz. Above the device's bandwidth it buzzes, and above half the sampling rate it aliases:
 ///    multiply by texture.antialias. Multiply by contact.window too, so that the force does not jump at a touch.
 ///  - Moving does no work over a closed path. Changing amplitude, frequency or angle in contact does work.
-struct Grating
+template <typename V>
+struct GratingOf
 {
     struct Inputs
     {
-        Position position = Position::Zero();
+        PositionOf<V> position = PositionOf<V>::Zero();
     };
 
     struct Params
     {
-        double amplitude = 0.1;
-        double spatial_frequency = 200.0;
-        double angle = 0.0;
-        double phase = 0.0;
+        V amplitude = 0.1;
+        V spatial_frequency = 200.0;
+        V angle = 0.0;
+        V phase = 0.0;
     };
 
     struct Outputs
     {
-        Vec3 force = Vec3::Zero();
-        double value = 0.0;
+        Vector<V> force = Vector<V>::Zero();
+        V value = 0.0;
     };
 
     static constexpr Info info {
@@ -86,16 +88,18 @@ struct Grating
 
     Outputs tick (const Inputs& in) noexcept
     {
-        const Fine s = along.dot (in.position);
-        const double value = params.amplitude * math::sin (2.0 * std::numbers::pi * params.spatial_frequency * s + params.phase);
-        if (! isFinite (value, in.position.z())) return {};
-        return { .force = value * along, .value = value };
+        const FineOf<V> s = along.dot (in.position);
+        const V value = params.amplitude * math::sin (2.0 * std::numbers::pi * params.spatial_frequency * s + params.phase);
+        return select (isFinite (value, in.position.z()), Outputs { .force = value * along, .value = value }, Outputs {});
     }
 
 private:
-    Vec3 along = Vec3::UnitX();
+    Vector<V> along = Vector<V>::UnitX();
 };
+
+using Grating = GratingOf<double>;
 
 }   // namespace tactus::nodes
 
 TACTUS_NODE (tactus::nodes::Grating);
+TACTUS_LANES (tactus::nodes::GratingOf);

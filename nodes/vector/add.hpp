@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/lanes.hpp>
 #include <tactus/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
 /// The sum of its vectors. An unwired input counts as 0.
-struct VectorAdd
+template <typename V>
+struct VectorAddOf
 {
-    using Inputs = In<InputList<Vec3>>;
+    using Inputs = In<InputList<Vector<V>>>;
     using Params = Empty;
     using Settings = InputCount;
-    using Outputs = Out<Vec3>;
+    using Outputs = Out<Vector<V>>;
 
     static constexpr Info info {
         .id = "vector.add",
@@ -33,19 +35,21 @@ struct VectorAdd
 
     Outputs tick (const Inputs& in) const noexcept
     {
-        double x = 0.0, y = 0.0, z = 0.0;   // GCC keeps these in registers; a Vec3 would go through memory
+        V x = 0.0, y = 0.0, z = 0.0;   // GCC keeps these in registers; a Vec3 would go through memory
         for (int i = 0; i < in.in.size(); ++i)
         {
-            const Vec3 v = in.in[i];
+            const Vector<V> v = in.in[i];
             x += v.x();
             y += v.y();
             z += v.z();
         }
-        if (! isFinite (x, y, z)) return {};
-        return { .out = { x, y, z } };
+        return select (isFinite (x, y, z), Outputs { .out = { x, y, z } }, Outputs {});
     }
 };
+
+using VectorAdd = VectorAddOf<double>;
 
 }   // namespace tactus::nodes
 
 TACTUS_NODE (tactus::nodes::VectorAdd);
+TACTUS_LANES (tactus::nodes::VectorAddOf);

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/lanes.hpp>
 #include <tactus/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
 /// Scales a vector by a signal, units included: a normal times a resistance is a force.
-struct VectorScale
+template <typename V>
+struct VectorScaleOf
 {
     struct Inputs
     {
-        Vec3 in = Vec3::Zero();
-        double gain = 1.0;
+        Vector<V> in = Vector<V>::Zero();
+        V gain = 1.0;
     };
 
     using Params = Empty;
-    using Outputs = Out<Vec3>;
+    using Outputs = Out<Vector<V>>;
 
     static constexpr Info info {
         .id = "vector.scale",
@@ -36,12 +38,14 @@ struct VectorScale
 
     Outputs tick (const Inputs& in) const noexcept
     {
-        const double x = in.gain * in.in.x(), y = in.gain * in.in.y(), z = in.gain * in.in.z();   // as in VectorAdd
-        if (! isFinite (x, y, z)) return {};
-        return { .out = { x, y, z } };
+        const V x = in.gain * in.in.x(), y = in.gain * in.in.y(), z = in.gain * in.in.z();   // as in VectorAdd
+        return select (isFinite (x, y, z), Outputs { .out = { x, y, z } }, Outputs {});
     }
 };
+
+using VectorScale = VectorScaleOf<double>;
 
 }   // namespace tactus::nodes
 
 TACTUS_NODE (tactus::nodes::VectorScale);
+TACTUS_LANES (tactus::nodes::VectorScaleOf);

@@ -33,8 +33,9 @@ inline double hypot (double x, double y, double z) noexcept
     return select ((a == infinity) | (b == infinity) | (c == infinity), infinity, std::sqrt ((u * u + v * v) + w * w) / scale);
 }
 
-/// The remainder for |x| >= |y|, or if one is not a number: a division of integers, 11 bits at a time.
-[[gnu::noinline]] inline double fmodDivided (double x, double y) noexcept
+/// The remainder for |x| >= |y|, or if one is not a number: a division of integers, 11 bits at a time. T as in reducedHuge().
+template <typename T>
+[[gnu::noinline]] double fmodDivided (double x, double y) noexcept
 {
     const double size = magnitude (x), by = magnitude (y);
     if (! (size < infinity) || ! (by > 0.0)) return not_a_number;
@@ -59,7 +60,17 @@ inline double hypot (double x, double y, double z) noexcept
 }
 
 /// The remainder of x / y towards zero, with the sign of x. It is exact.
-inline double fmod (double x, double y) noexcept { return magnitude (x) < magnitude (y) ? x : fmodDivided (x, y); }
+inline double fmod (double x, double y) noexcept { return magnitude (x) < magnitude (y) ? x : fmodDivided<double> (x, y); }
+
+template <typename T>
+T fmod (T x, T y) noexcept
+{
+    const auto is_divided = ! (magnitude (x) < magnitude (y));
+    if (any (is_divided))
+        for (std::size_t i = 0; i < lanes<T>; ++i)
+            if (isSet (is_divided, i)) setLane (x, i, fmodDivided<T> (laneOf (x, i), laneOf (y, i)));
+    return x;
+}
 
 /// x minus the multiple of y closest to x; of two, the even one. It is exact, and from -|y|/2 to |y|/2.
 inline double remainder (double x, double y) noexcept

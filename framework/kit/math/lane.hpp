@@ -5,6 +5,7 @@
 #include <cfloat>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 /// Elementary functions with the same bits on every machine. They use only operations that IEEE 754 defines exactly: add, subtract,
 /// multiply, divide, square root, comparisons and operations on the words of numbers. <math.hpp> lists the functions.
@@ -49,7 +50,11 @@ T all (double x) noexcept
     return T {} + x;
 }
 
-template <typename Mask, typename T>
+template <typename T>
+concept NotAClass = ! std::is_class_v<T>;
+
+/// Classes have a function of their own.
+template <typename Mask, NotAClass T>
 T select (Mask where, T yes, T no) noexcept
 {
     return where ? yes : no;

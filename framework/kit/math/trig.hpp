@@ -27,7 +27,7 @@ struct ReducedAngle
         const auto is_huge = ! (x < limit);
         if (! any (is_huge)) return;
         for (std::size_t i = 0; i < lanes<T>; ++i)
-            if (isSet (is_huge, i)) take (reducedHuge (laneOf (x, i)), i);
+            if (isSet (is_huge, i)) take (reducedHuge<T> (laneOf (x, i)), i);
     }
 
     T y, rest;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/cli/program.hpp"
 
+#include <tactus/node/lane_form.hpp>
 #include <tactus/text/json.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <vector>
 
 using namespace tactus;
 using tactus::test::runTactus;
@@ -21,9 +23,11 @@ TEST_CASE ("bench confirms that all variants agree, and reports every ratio", "[
     CHECK (result.at ("agree") == true);
     CHECK (result.at ("bytes_per_node").get<double>() > 0.0);
     CHECK (result.at ("bytes_per_node").get<double>() <= 128.0);
-    for (const auto* key : { "plan/hand", "light_plan/hand", "dry_wood_plan/hand", "export/hand", "export/faust_chain100", "juce/plan", "juce_tree100/plan",
-                             "plan/faust_chain100", "juce_rebuild1000/compile1000", "compile10000/compile1000", "fused/hand", "juce/fused",
-                             "juce_tree100/fused", "edit10000/compile10000", "takeover10000/tick", "knob10000/tick" })
+    std::vector keys { "plan/hand", "light_plan/hand", "dry_wood_plan/hand", "export/hand", "export/faust_chain100", "juce/plan", "juce_tree100/plan",
+                       "plan/faust_chain100", "juce_rebuild1000/compile1000", "compile10000/compile1000", "fused/hand", "juce/fused",
+                       "juce_tree100/fused", "edit10000/compile10000", "takeover10000/tick", "knob10000/tick" };
+    if (widestLanes() >= 4) keys.push_back ("simd64/scalar64");
+    for (const auto* key : keys)
     {
         INFO (key);
         const auto& ratio = result.at ("ratios").at (key);

@@ -141,6 +141,33 @@ std::unique_ptr<Twins> randomTwins (unsigned seed, bool records_all)
     return std::make_unique<Twins> (graph, options, test::randomHands (seed));
 }
 
+/// Contacts that run as lanes. Their gains lie side by side, as lanes do, but are two outputs of one node. Fused code keeps these in registers
+/// unless something else reads them.
+std::unique_ptr<Twins> contactTwins()
+{
+    test::Sketch s;
+    auto& part = s.subgraph ("contact");
+    s.add (part, "board", "deform.plane", { { "offset", 1e-3 }, { "damping", 1.0 } }).add (part, "drag", "friction.elasto_plastic");
+    s.add (part, "board.resistance -> drag.normal_force").add (part, "touch", "contact.window").add (part, "board.depth -> touch.depth");
+    s.add (part, "grain", "texture.grating").add (part, "felt", "vector.scale").add (part, "grain.force -> felt.in");
+    s.node ("c", "graph:contact");
+    s.graph.root.nodes.front().extra["count"] = 2;
+    for (const std::string axis : { "x", "y", "z" })
+        s.node (axis, "signal.lfo", { { "frequency", 30.0 + axis.front() }, { "amplitude", 2e-3 } }).node ("gain_" + axis, "signal.lfo");
+    s.node ("hand", "vector.join").node ("gains", "vector.join").node ("parts", "vector.split").wire ("gains.out -> parts.in");
+    for (const std::string axis : { "x", "y", "z" })
+        s.wire (axis + ".out -> hand." + axis).wire ("gain_" + axis + ".out -> gains." + axis);
+    for (const std::string k : { "c[0]/", "c[1]/" })
+        for (const auto* node : { "board", "drag", "grain" })
+            s.wire ("hand.out -> " + k + node + ".position");
+    s.wire ("parts.x -> c[0]/felt.gain").wire ("parts.y -> c[1]/felt.gain");
+    CompileOptions options;
+    for (const auto* output : { "board.force", "drag.force", "drag.state", "touch.gain", "felt.out" })
+        for (const std::string k : { "c[0]/", "c[1]/" })
+            options.records.push_back (k + output);
+    return std::make_unique<Twins> (s.graph, options, Run::OpenDevice {});
+}
+
 class PresetTwins
 {
 public:
@@ -196,6 +223,12 @@ TEST_CASE ("fused code gives the bits of the plan while they take turns and para
         random.push_back (randomTwins (seed, seed % 2 == 0));
         all.emplace_back ("random graph " + std::to_string (seed), random.back().get());
     }
+    const auto contacts = contactTwins();
+    std::size_t in_lanes = 0;
+    for (std::size_t i = 0; i < contacts->plan().instances().size(); ++i)
+        in_lanes += contacts->plan().instances()[i].lanes != nullptr;
+    REQUIRE ((in_lanes > 0) == (usualLanes() > 1));
+    all.emplace_back ("contacts", contacts.get());
     PresetTwins presets;
     for (const auto* name : { "dry_wood", "vibraphone_bar" })
         all.emplace_back (name, &presets.add (name));
@@ -214,6 +247,7 @@ TEST_CASE ("what LLVM makes gives the bits of the plan while they take turns and
         const auto twins = randomTwins (seed, seed % 2 == 0);
         requireSameBitsByLlvm ("random graph " + std::to_string (seed), *twins, 3200);
     }
+    requireSameBitsByLlvm ("contacts", *contactTwins(), 3200);
     PresetTwins presets;
     for (const auto* name : { "dry_wood", "vibraphone_bar" })
         requireSameBitsByLlvm (name, presets.add (name), 3200);
