@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "forbid_system_calls.hpp"
+#include "sanitizers.hpp"
 
 #include <cstddef>
 #include <iterator>
 
-#if defined(__linux__) && (defined(__x86_64__) || defined(__aarch64__)) && ! defined(__SANITIZE_ADDRESS__) && ! defined(__SANITIZE_THREAD__)
+#if defined(__linux__) && (defined(__x86_64__) || defined(__aarch64__)) && ! TACTUS_SANITIZED
 #define TACTUS_SECCOMP 1
 #include <linux/audit.h>
 #include <linux/filter.h>

@@ -33,7 +33,7 @@ int NoAllocation::allocations() const noexcept { return allocations_seen; }
 int NoAllocation::locks() const noexcept { return locks_seen; }
 }   // namespace tactus::examine
 
-#if ! defined(__SANITIZE_ADDRESS__) && ! defined(__SANITIZE_THREAD__) && defined(__GLIBC__)
+#if ! TACTUS_SANITIZED && defined(__GLIBC__)
 
 namespace
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "sanitizers.hpp"
+
 #include <cstddef>   // defines __GLIBC__, even if this header is included first
 
 namespace tactus::examine
@@ -13,7 +15,7 @@ class NoAllocation
 {
 public:
     static constexpr bool watches =
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || ! defined(__GLIBC__)
+#if TACTUS_SANITIZED || ! defined(__GLIBC__)
         false;
 #else
         true;

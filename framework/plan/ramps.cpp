@@ -41,8 +41,11 @@ void Ramps::prepare (const Chunks<Instance>& all, std::shared_ptr<const KnobInde
 void Ramps::look (Journal* journal) noexcept
 {
     if (index == nullptr) return;
-    for (const auto& [board, nodes] : index->boards())
+    for (const auto& [board, all] : index->boards())
+    {
+        const auto& nodes = all;   // before version 16, clang captures no structured bindings
         board->take ([&] (std::uint32_t place) { return nodes[place] != KnobIndex::none; }, [&] (std::uint32_t place) { turn (nodes[place], journal); });
+    }
 }
 
 void Ramps::turn (std::size_t i, Journal* journal) noexcept

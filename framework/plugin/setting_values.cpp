@@ -15,7 +15,7 @@ ValueWriter::~ValueWriter()
 
 const tactus_plugin_value* ValueWriter::operator() (const SettingValue& value)
 {
-    auto& made = all.emplace_back (std::visit ([this] (const auto& v) { return shown (v); }, static_cast<const SettingValue::variant&> (value)));
+    auto& made = all.emplace_back (std::visit ([this] (const auto& v) { return this->shown (v); }, static_cast<const SettingValue::variant&> (value)));
     return &made;
 }
 

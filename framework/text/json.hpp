@@ -338,7 +338,7 @@ T Json::get() const
         return static_cast<T> (asUnsigned());
     else if constexpr (std::constructible_from<T, const std::string&> && ! std::ranges::view<T>)
         return T (asString());
-    else if constexpr (requires (T all, typename T::mapped_type v) { all.emplace (std::string(), v); })
+    else if constexpr (requires { typename T::mapped_type; })
     {
         T all;
         for (const auto& [key, v] : asObject())

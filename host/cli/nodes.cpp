@@ -14,7 +14,9 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <iterator>
 #include <memory>
+#include <sstream>
 
 namespace tactus::host
 {
@@ -122,6 +124,12 @@ void printDatasheet (const NodeType& t)
 
 std::string familyOf (const NodeType& t) { return std::string (t.info.id.substr (0, t.info.id.find ('.'))); }
 
+std::vector<std::string> wordsOf (std::string_view text)
+{
+    std::istringstream words { std::string (text) };
+    return { std::istream_iterator<std::string> (words), {} };
+}
+
 /// Lists node types by family.
 void list (const std::function<bool (const NodeType&)>& isWanted)
 {
@@ -152,8 +160,7 @@ void run (const std::string& wanted, bool json)
     const auto* type = catalogue().find (wanted);
     const auto isInFamily = [&] (const NodeType& t) { return wanted.empty() || familyOf (t) == wanted; };
     const auto hasKeyword = [&] (const NodeType& t) {
-        return (' ' + std::string (t.info.keywords) + ' ').find (' ' + wanted + ' ') != std::string::npos
-               || std::string (t.info.id).ends_with ('.' + wanted);
+        return std::ranges::count (wordsOf (t.info.keywords), wanted) > 0 || t.info.id.ends_with ('.' + wanted);
     };
     for (const auto& isWanted : { std::function<bool (const NodeType&)> (isInFamily), std::function<bool (const NodeType&)> (hasKeyword) })
     {
@@ -172,6 +179,7 @@ void run (const std::string& wanted, bool json)
         {
             known.emplace_back (t.info.id);
             known.push_back (familyOf (t));
+            std::ranges::copy (wordsOf (t.info.keywords), std::back_inserter (known));
         }
         fail ("node/unknown_type", "there is no node type, family or keyword " + quote (wanted) + didYouMean (wanted, known), "`tactus nodes` lists them all");
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "counted_memory.hpp"
 
+#include <tactus/examine/sanitizers.hpp>
+
 #include <algorithm>
 #include <cstdlib>
 #include <new>
@@ -13,11 +15,7 @@ namespace
 thread_local CountedMemory* counting = nullptr;
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-const bool CountedMemory::counts = false;
-#else
-const bool CountedMemory::counts = true;
-#endif
+const bool CountedMemory::counts = ! TACTUS_SANITIZED;
 
 CountedMemory::CountedMemory() noexcept : outer (counting)
 {
@@ -77,7 +75,7 @@ namespace
 
 }   // namespace tactus::host
 
-#if ! defined(__SANITIZE_ADDRESS__) && ! defined(__SANITIZE_THREAD__)
+#if ! TACTUS_SANITIZED
 
 // The forms for arrays and without exceptions call these.
 void* operator new (std::size_t size) { return tactus::host::allocated (size, 0); }

@@ -24,13 +24,13 @@ extern "C"
 {
     // Callgrind finds these functions by name, so they must not be inlined.
     [[gnu::noinline]] void counted_tick (Engine&) noexcept;
-    [[gnu::noinline]] Compiled counted_compile (const graph::Graph&, const CompileOptions&);
-    [[gnu::noinline]] Compiled counted_load (const std::string&);
+    [[gnu::noinline]] void counted_compile (Compiled& result, const graph::Graph&, const CompileOptions&);
+    [[gnu::noinline]] void counted_load (Compiled& result, const std::string&);
     [[gnu::noinline]] void counted() noexcept;
 
     void counted_tick (Engine& engine) noexcept { engine.tick(); }
-    Compiled counted_compile (const graph::Graph& graph, const CompileOptions& options) { return compile (graph, catalogue(), options); }
-    Compiled counted_load (const std::string& text) { return compile (readGraph (text).graph, catalogue()); }
+    void counted_compile (Compiled& result, const graph::Graph& graph, const CompileOptions& options) { result = compile (graph, catalogue(), options); }
+    void counted_load (Compiled& result, const std::string& text) { result = compile (readGraph (text).graph, catalogue()); }
     void counted() noexcept { asm volatile(""); }
 }
 
@@ -90,9 +90,13 @@ int main (int argc, char** argv)
     const auto& graph = history.graph();
     const auto text = writeGraph (graph);
 
-    planOf (counted_load (text));
+    Compiled loaded;
+    counted_load (loaded, text);
+    planOf (std::move (loaded));
     done ("load");
-    Engine engine { planOf (counted_compile (graph, {})) };
+    Compiled compiled;
+    counted_compile (compiled, graph, {});
+    Engine engine { planOf (std::move (compiled)) };
     done ("compile");
     counted_tick (engine);
     counted_tick (engine);
@@ -110,7 +114,8 @@ int main (int argc, char** argv)
     const auto edit = [&] (graph::Command command) {
         if (! history.perform (std::move (command))) std::exit (1);
         const auto withdrawn = engine.withdraw();
-        auto plan = planOf (counted_compile (graph, { .before = &engine.newest(), .withdrawn = withdrawn.get() }));
+        counted_compile (compiled, graph, { .before = &engine.newest(), .withdrawn = withdrawn.get() });
+        auto plan = planOf (std::move (compiled));
         done ("edit");
         engine.submit (std::move (plan));
         counted_tick (engine);

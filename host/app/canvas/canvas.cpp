@@ -191,6 +191,7 @@ void Canvas::show (const std::string& patch_name, graph::Id id)
 void Canvas::frameAll()
 {
     window.frame (shown->bounds(), getLocalBounds().toFloat());
+    framed = window;
     repaint();
 }
 
@@ -260,9 +261,13 @@ void Canvas::paint (juce::Graphics& g)
 
 void Canvas::resized()
 {
-    if (framed || getWidth() < 50 || getHeight() < 50) return;
-    framed = true;
-    frameAll();
+    const auto now = getLocalBounds().toFloat();
+    if (now.getWidth() < 50.0f || now.getHeight() < 50.0f) return;
+    if (! framed || *framed == window)
+        frameAll();
+    else
+        window.origin += now.getCentre() - laid_out.getCentre();
+    laid_out = now;
 }
 
 std::unique_ptr<Drag> Canvas::dragFor (const juce::MouseEvent& e)

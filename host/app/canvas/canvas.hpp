@@ -177,7 +177,8 @@ private:
     std::unique_ptr<Drag> drag;
     std::unique_ptr<juce::TextEditor> editor;
     std::function<void (const juce::String&)> on_edited;
-    bool framed = false;   // true once the view has been fitted to the patch, at the first layout with enough room
+    std::optional<View> framed;        // the view as it was fitted to the patch: at the first layout with enough room, and on request
+    juce::Rectangle<float> laid_out;   // of the last layout: while the user has not moved the view, it stays fitted, else its centre stays
     bool with_map = true;
 };
 

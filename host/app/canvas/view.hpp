@@ -16,6 +16,8 @@ struct View
     float zoom = 1.0f;
     juce::Point<float> origin;   ///< where the canvas has its origin, in pixels of the component
 
+    bool operator== (const View&) const = default;
+
     juce::Point<float> toCanvas (juce::Point<float> pixel) const noexcept { return (pixel - origin) / zoom; }
     juce::Point<float> toPixels (juce::Point<float> p) const noexcept { return p * zoom + origin; }
     juce::AffineTransform transform() const noexcept { return juce::AffineTransform::scale (zoom).translated (origin); }

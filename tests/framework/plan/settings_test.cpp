@@ -290,7 +290,7 @@ Json square()
 {
     return { { "nodes", { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, "10 mm" } } },
              { "triangles", { { 0, 1, 2 }, { 0, 2, 3 } } },
-             { "curves", { axes } },
+             { "curves", Json::array ({ axes }) },
              { "mu", 0.3 } };
 }
 
@@ -322,7 +322,7 @@ TEST_CASE ("a surface is written in the graph or takes its mesh from a file", "[
     REQUIRE (s->mu.size() == 1);
     CHECK (s->mu[0](0.5) == 0.3);
 
-    const auto from_file = reads ("surface", { { "mesh", "liver.obj" }, { "curves", { axes } }, { "mu", { 0.1, 0.2, linear } } }).surface;
+    const auto from_file = reads ("surface", { { "mesh", "liver.obj" }, { "curves", Json::array ({ axes }) }, { "mu", { 0.1, 0.2, linear } } }).surface;
     CHECK (from_file->mesh->points.size() == 3);
     CHECK (from_file->mu.size() == 3);
     CHECK (from_file->mu[2](0.001) == Approx (1.0));
@@ -413,7 +413,7 @@ TEST_CASE ("every error in a surface is reported at its place", "[plan][settings
     CHECK (contains (fault ("mu", { { "power", 3 } }), "/mu/power: it must be a list of two numbers"));
     CHECK (contains (fault ("mu", "3 N"), "/mu: its unit is N, but it must be 1"));
 
-    const Json file = { { "mesh", "liver.obj" }, { "curves", { axes } }, { "mu", 0 } };
+    const Json file = { { "mesh", "liver.obj" }, { "curves", Json::array ({ axes }) }, { "mu", 0 } };
     CHECK (refusal ("surface", with (file, "nodes", Json::array())) == "/nodes: give either `mesh` or `nodes`, not both");
     CHECK (refusal ("surface", with (file, "frames", Json::array())) == "/frames: give either `mesh` or `frames`, not both");
     CHECK (refusal ("surface", with (file, "mesh", "gone.obj")) == "/mesh: gone.obj: there is no such file");

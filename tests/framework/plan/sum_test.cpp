@@ -55,7 +55,7 @@ TEST_CASE ("a sum of wires has the bits of the sum in order of value, whatever t
         {
             auto scratch = values;
             RC_ASSERT (bits (plan::sum (scratch.data(), static_cast<int> (scratch.size()))) == expected);
-            if (! values.empty()) std::ranges::rotate (values, values.begin() + 1);
+            if (! values.empty()) std::rotate (values.begin(), values.begin() + 1, values.end());
             if (turn % 2 == 1) std::ranges::reverse (values);
         }
     });

@@ -275,6 +275,7 @@ TEST_CASE ("a mistyped command, option or node type gets a suggestion", "[cli]")
     CHECK (runTactus ({ "render", wood, "--durration", "1" }).err.find ("did you mean '--duration'?") != std::string::npos);
     CHECK (runTactus ({ "render", wood, "--durration=1" }).err.find ("did you mean '--duration'?") != std::string::npos);
     CHECK (runTactus ({ "nodes", "fricton" }).err.find ("did you mean 'friction'?") != std::string::npos);
+    CHECK (runTactus ({ "nodes", "mouze" }).err.find ("did you mean 'mouse'?") != std::string::npos);
     CHECK (runTactus ({ "xyzzy" }).err.find ("There is no command 'xyzzy'") != std::string::npos);
 }
 

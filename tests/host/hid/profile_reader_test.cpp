@@ -166,7 +166,7 @@ TEST_CASE ("every error in a profile is reported with its position")
         { "/tables/curve/x", Json ({ 1, 0 }), "profile/kind" },
         { "/position", Json ({ "y", nullptr, nullptr }), "profile/unknown_name" },
         { "/position", Json ({ "rx", nullptr, nullptr }), "profile/unit" },
-        { "/position", Json ({ "x" }), "profile/kind" },
+        { "/position", Json (std::vector<std::string> { "x" }), "profile/kind" },
         { "/rotation/0", "x", "profile/unit" },
         { "/force/0", "hum", "profile/unit" },
         { "/force/1", "fx", "profile/twice" },

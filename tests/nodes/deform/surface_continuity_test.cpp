@@ -28,7 +28,8 @@ public:
     template <typename Visit>
     void stroke (double step, Visit visit)
     {
-        const Vec3 from = place, to = body.centre + 0.8 * Vec3 (one (dice), one (dice), one (dice)).cwiseProduct (body.reach);
+        const double x = one (dice), y = one (dice), z = one (dice);   // compilers evaluate arguments in different orders
+        const Vec3 from = place, to = body.centre + 0.8 * Vec3 (x, y, z).cwiseProduct (body.reach);
         const int n = static_cast<int> ((to - from).norm() / step) + 1;
         for (int k = 1; k <= n; ++k)
             visit (Vec3 { from + (to - from) * k / n });

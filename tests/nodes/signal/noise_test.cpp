@@ -98,7 +98,7 @@ TEST_CASE ("noise: without a band it is the white noise of files of version 1, n
 TEST_CASE ("noise: in a band it is the same function of time at every rate of at least twice the band", "[nodes][signal]")
 {
     const auto fast = lasting (20.0, 20000.0);
-    for (const std::size_t every : { 5, 20, 40 })
+    for (const std::size_t every : { 5U, 20U, 40U })
     {
         const auto slow = lasting (20.0, 20000.0 / static_cast<double> (every));
         for (std::size_t k = 0; k < slow.size(); ++k)

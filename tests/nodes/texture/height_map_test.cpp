@@ -234,7 +234,7 @@ TEST_CASE ("height map: with a given f_max it is the same relief at 1, 4 and 20 
         return scan (node, { 0.0, 1e-4, 0.0 }, { v / rate_hz, 0.0, 0.0 }, static_cast<int> (0.02 * rate_hz));
     };
     const auto expected = forces (20'000.0, 200.0);
-    for (const std::size_t every : { 5, 20 })
+    for (const std::size_t every : { 5U, 20U })
     {
         const auto is = forces (20'000.0 / static_cast<double> (every), 200.0);
         for (std::size_t k = 0; k < is.size(); ++k)

@@ -340,6 +340,28 @@ TEST_CASE ("zooming with the wheel keeps the point under the pointer in place", 
     CHECK (rig.canvas->getLocalBounds().toFloat().contains (rig.canvas->view().toPixels (rig.canvas->scene().bounds().getTopLeft())));
 }
 
+TEST_CASE ("a canvas that gets larger keeps its centre, and stays fitted to the patch until it is moved", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto centre = [&] { return rig.canvas->view().toCanvas (rig.canvas->getLocalBounds().toFloat().getCentre()); };
+    const auto shownOf = [&] { return rig.canvas->getLocalBounds().toFloat(); };
+    rig.canvas->setSize (500, 300);
+    for (const auto& n : rig.canvas->scene().nodes())
+        CHECK (shownOf().contains (rig.canvas->view().toPixels (n.bounds().getCentre())));
+    CHECK (rig.canvas->view().zoom < 1.0f);
+    rig.canvas->setSize (1200, 800);
+    const auto fitted = rig.canvas->view();
+    rig.canvas->frameAll();
+    CHECK (rig.canvas->view() == fitted);
+
+    rig.canvas->view().zoomAt ({ 300.0f, 200.0f }, 2.0f);
+    const auto before = centre();
+    const float zoom = rig.canvas->view().zoom;
+    rig.canvas->setSize (1000, 900);
+    CHECK (centre().getDistanceFrom (before) < 0.01f);
+    CHECK (rig.canvas->view().zoom == zoom);
+}
+
 TEST_CASE ("the canvas stays inside a subgraph when it and its node are renamed", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
