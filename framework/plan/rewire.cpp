@@ -259,6 +259,7 @@ private:
     bool rebuild (int node)
     {
         if (! flat.node (node).runs() || flat.node (node).type->make == nullptr) return false;
+        if (parts.instances[at (node)].lanes) return false;   // its record ticks other nodes, too
         Flat few;
         std::vector<int> numbers;   // of the few nodes
         std::vector<Instance> instances;

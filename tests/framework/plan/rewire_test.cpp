@@ -4,12 +4,14 @@
 #include "support/live.hpp"
 #include "support/sketch.hpp"
 
+#include <tactus/file/graph_file.hpp>
 #include <tactus/graph/history.hpp>
 #include <tactus/kit/at.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
 
+#include <algorithm>
 #include <bit>
 #include <random>
 
@@ -39,8 +41,8 @@ Sketch chain()
 /// empty, so that everything is compiled.
 struct Twins
 {
-    explicit Twins (const graph::Graph& g, std::vector<std::string> records, Assets* assets = nullptr)
-        : options { .records = std::move (records), .assets = assets }, history (g), quick (compile (graph, catalogue(), options).plan),
+    explicit Twins (const graph::Graph& g, std::vector<std::string> records, Assets* assets = nullptr, std::size_t lanes = 1)
+        : options { .records = std::move (records), .assets = assets, .lanes = lanes }, history (g), quick (compile (graph, catalogue(), options).plan),
           whole (compile (g, catalogue(), options).plan)
     {
     }
@@ -217,6 +219,29 @@ TEST_CASE ("a node peeks only if something reads its outputs", "[plan][live]")
     REQUIRE (twins.edit (graph::RemoveWire { "", twins.graph.root.wires.back().id }));
     CHECK (twins.agree());
     CHECK (peeks (twins.quick.plan()) == 0);
+}
+
+TEST_CASE ("an edit of a wire into an instance that runs as a lane compiles everything", "[plan][live][lanes]")
+{
+    const auto g = readGraph (R"({ "format": "tactus-graph", "version": 2, "rate_hz": 1000,
+        "nodes": { "a": { "type": "signal.lfo", "params": { "frequency": 20 } }, "b": { "type": "vector.join" }, "tip": { "type": "graph:tip", "count": 5 } },
+        "wires": ["a.out -> b.z", "b.out -> tip.place", "b.out -> tip[0].shake", "b.out -> tip[3].shake"],
+        "graphs": { "tip": {
+            "nodes": { "at": { "type": "vector.add", "settings": { "inputs": 2 } }, "wall": { "type": "deform.plane" } },
+            "wires": ["at.out -> wall.position"],
+            "expose": { "inputs": { "place": "at.in[0]", "shake": "at.in[1]" }, "outputs": { "force": "wall.force" } } } } })");
+    INFO (test::text (g.messages));
+    REQUIRE_FALSE (hasErrors (g.messages));
+    Twins twins { g.graph, { "tip[0]/wall.force", "tip[1]/wall.force", "tip[3]/wall.force", "tip[4]/wall.force", "tip[0]/at.out" }, nullptr, 8 };
+    REQUIRE (std::ranges::any_of (twins.quick.newest().instances(), [] (const auto& i) { return i.lanes != nullptr; }));
+    for (const auto index : { 3U, 2U })
+    {
+        CHECK (twins.agree());
+        REQUIRE (twins.edit (graph::RemoveWire { "", twins.graph.root.wires[index].id }));
+        CHECK (twins.quick.newest().rewired() == 0);
+        for (int k = 0; k < 40; ++k)
+            CHECK (twins.agree());
+    }
 }
 
 TEST_CASE ("a graph that was changed without its history is compiled as it is", "[plan][live]")
