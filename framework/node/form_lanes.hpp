@@ -84,6 +84,42 @@ struct InLanes
     }
 };
 
+template <typename T>
+consteval std::size_t wordsIn();
+
+template <typename... T>
+consteval std::size_t wordsIn (const std::tuple<T...>*)
+{
+    return (wordsIn<std::remove_cvref_t<T>>() + ... + 0);
+}
+
+/// The number of words that WordPlaces notes for a member.
+template <typename T>
+consteval std::size_t wordsIn()
+{
+    if constexpr (requires { typename T::Scalar; })
+        return 3;
+    else if constexpr (requires (T & member) { member.members(); })
+        return wordsIn (static_cast<const decltype (std::declval<T&>().members())*> (nullptr));
+    else
+        return 1;
+}
+
+template <typename N>
+consteval std::size_t wordsOf()
+{
+    constexpr auto param = [] (const auto& row) {
+        using R = std::remove_cvref_t<decltype (row)>;
+        if constexpr (R::role == Role::param)
+            return wordsIn<typename R::Value>();
+        else
+            return std::size_t { 0 };
+    };
+    auto words = std::apply ([param] (const auto&... row) { return (param (row) + ... + 0); }, N::ports);
+    if constexpr (requires (N & node) { node.state(); }) words += wordsIn (static_cast<const decltype (std::declval<N&>().state())*> (nullptr));
+    return words;
+}
+
 /// Notes where the words of lane 0 are.
 struct WordPlaces
 {
@@ -113,6 +149,9 @@ LaneForm formLanes() noexcept
     using Lanes = N<Pack<width>>;
     using Here = detail::InLanes<Lanes>;
     static_assert (std::is_trivially_destructible_v<Lanes>);
+    static_assert (detail::wordsOf<Lanes>() <= LaneForm::most_words, "too many params and members of state() for lanes");
+    static_assert (
+        ! requires (const Lanes& node) { node.peek(); }, "a node that peeks cannot run in lanes");
     static_assert (sizeof (typename Lanes::Outputs) == width * sizeof (typename N<double>::Outputs), "outputs are doubles and vectors");
 
     LaneForm form { .width = width, .size = sizeof (Lanes), .outputs_size = sizeof (typename Lanes::Outputs) };

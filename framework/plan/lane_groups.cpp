@@ -64,7 +64,8 @@ private:
     bool canJoin (int node) const
     {
         const auto& n = flat.node (node);
-        return ! n.type->lanes.empty() && n.runs() && n.section == 0 && ! driven[at (node)];
+        const bool has_device = n.type->bind || n.type->effort;
+        return ! n.type->lanes.empty() && ! has_device && n.runs() && n.section == 0 && ! driven[at (node)];
     }
 
     /// True if the node fits with the settings and params of the file.

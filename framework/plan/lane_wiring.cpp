@@ -61,9 +61,10 @@ public:
 
     std::vector<std::size_t> slots;   // of the instances
 
-    /// True if the values lie side by side where a pack can load them: in the outputs of another group.
+    /// True if the values lie side by side where a pack can load them: in the outputs of another group, for all lanes of a pack.
     bool areSideBySide() const
     {
+        if (slots.size() != width) return false;
         const auto* first = storage.sources[slots.front()];
         const auto* bytes = reinterpret_cast<const std::byte*> (first);
         if (bytes < storage.outputs.bytes || bytes >= storage.outputs.bytes + storage.outputs.size) return false;

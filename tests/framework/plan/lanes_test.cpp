@@ -50,7 +50,7 @@ public:
             if (oneIn (3)) c.overrides["[" + std::to_string (k) + "]/board0.stiffness"] = within (0.0, 3000.0);
     }
 
-    /// With a rate of its own, the subgraph has no lanes.
+    /// With a separate rate, the subgraph has no lanes.
     void setEvery (int n)
     {
         auto& c = s.graph.root.nodes.front();
@@ -257,7 +257,7 @@ Sketch walls (int count, const std::vector<std::string>& wires)
 }
 }   // namespace
 
-TEST_CASE ("nodes run as lanes where no wire stands in the way", "[plan][lanes]")
+TEST_CASE ("nodes run as lanes where no wire prevents it", "[plan][lanes]")
 {
     const auto groups = [] (const Sketch& s) { return groupsOf (*s.compile ({ .lanes = widestLanes() }).plan); };
     CHECK (groups (walls (8, {})) == 3);
