@@ -7,9 +7,12 @@
 # The widths of packs for which nodes with a TACTUS_LANES line are also compiled, and their flags (framework/kit/pack.hpp). Without fused
 # multiply-adds, which AVX-512 has, too: no code asks for them, and -ffp-contract=off keeps the compiler from making any. To clang, -mno-fma
 # means that there is no AVX-512 either.
+#
+# The wide packs are for Release only. Without optimisation, a compiler emits small functions that it would inline, such as those of <cmath>,
+# also with AVX2 instructions, and the linker may keep that copy for all code. tests/rooms/lanes.py looks for such copies.
 set (TACTUS_LANE_WIDTHS 2)
 set (TACTUS_LANES_2_FLAGS "")
-if (CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$" AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+if (CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$" AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND CMAKE_BUILD_TYPE STREQUAL Release)
     set (TACTUS_LANE_WIDTHS 2 4 8)
     set (TACTUS_LANES_4_FLAGS -mavx2 -mno-fma)
     set (TACTUS_LANES_8_FLAGS -mavx2 -mavx512f)
