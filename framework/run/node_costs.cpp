@@ -141,14 +141,23 @@ std::vector<NodeCost> NodeCosts::of (const Plan& plan)
     for (std::size_t i = 0; i < records.size(); ++i)
     {
         const auto [owner, share] = shares[i];
-        const auto mean = means.find (plan.instances()[owner].serial);
-        if (mean == means.end()) continue;
-        still_there.insert (*mean);
-        if (records[owner] == 0) continue;   // the node is muted
-        // Each sample times one of the node's records, and all its records are timed equally often.
+        double cost_s = 0.0;
+        bool is_known = false;
+        const auto add = [&] (std::size_t node, double part_of_it) {
+            const auto mean = means.find (plan.instances()[node].serial);
+            if (mean == means.end()) return;
+            still_there.insert (*mean);
+            if (records[node] == 0) return;   // the node is muted
+            // Each sample times one of the node's records, and all its records are timed equally often.
+            cost_s += mean->second.value * records[node] * part_of_it;
+            is_known = true;
+        };
+        add (owner, share);
+        if (owner != i) add (i, 1.0);   // the sums and hits of a node that runs as a lane
+        if (! is_known) continue;
         const auto* section = sectionAround (plan.flat(), plan.flat().nodes[i]);
         costs.push_back ({ section ? section->path : plan.flat().nodes[i].path, section ? "subgraph" : std::string (plan.flat().nodes[i].type->info.id),
-                           mean->second.value * records[owner] * share, 0.0 });
+                           cost_s, 0.0 });
         all += costs.back().mean_s;
     }
     means = std::move (still_there);
