@@ -8,8 +8,8 @@
 namespace tactus::plan
 {
 
-/// By node: whether a wire or a record reads any of its outputs. Always true in a section that rests on some ticks: there, outputs keep
-/// their values until the section runs again, and a later plan may read them.
+/// By node: whether a wire or a record reads any of its outputs. Always true in a section with its own rate: there, outputs may
+/// keep their values until the section runs again, and a later plan may read them.
 std::vector<bool> readNodes (const Flat& flat, const Outside& outside);
 
 }   // namespace tactus::plan

@@ -387,7 +387,7 @@ typedef struct tactus_plugin_node
     /** One sample. `sources` has one pointer per input component, in the order of the ports, with the entries of a list one after
      *  another. A node with `peek` leaves `outputs` alone. [tick thread] */
     void (*tick) (void* node, const double* const* sources, void* outputs) TACTUS_PLUGIN_NOEXCEPT;
-    /** Optional. [tick thread] */
+    /** Optional. Not called if nothing reads the outputs, so it must not change what tick does. [tick thread] */
     void (*peek) (void* node, const double* const* sources, void* outputs) TACTUS_PLUGIN_NOEXCEPT;
     /** Optional. Called instead of tick if wires or feeds set params of the node: `stored` holds the params as its file and knobs set
      *  them, in params_size bytes. [tick thread] */
