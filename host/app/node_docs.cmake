@@ -4,7 +4,7 @@
 file (GLOB_RECURSE headers ${folder}/*.hpp)
 foreach (header IN LISTS headers)
     file (READ ${header} text)
-    string (REGEX MATCH "((///[^\n]*\n)+)struct" doc "${text}")
+    string (REGEX MATCH "((///[^\n]*\n)+)(template <[^\n]*>\n)?struct" doc "${text}")
     string (REGEX REPLACE "(^|\n)/// ?" "\\1" doc "${CMAKE_MATCH_1}")
     string (REGEX MATCH "\\.id = \"([^\"]+)\"" id "${text}")
     string (APPEND docs "{ \"${CMAKE_MATCH_1}\", R\"doc(${doc})doc\" },\n")
