@@ -71,6 +71,7 @@ TEST_CASE ("surface: on any body, the force changes by little more than the stif
         {
             if (body.name == "box" && mu > 0.1) continue;   // a contact that has caught at a right angle may end while it is stretched
             const bool may_catch = body.name == "bumps";    // so may one between coarse bumps
+            const bool has_edges = body.name == "box";      // where the tool may leave while the contact is stretched
             double most = 0.0, usual = 0.0;
             for (unsigned seed = 0; seed < test::rounds (4u); ++seed)
             {
@@ -87,7 +88,7 @@ TEST_CASE ("surface: on any body, the force changes by little more than the stif
                         // A contact that is stretched as the tool leaves comes back within the depth that is left.
                         const double stretch = before.depth > 0.0 ? (p - before.contact).norm() / before.depth : 1.0;
                         if (! (ends && may_catch)) most = std::max (most, change / std::max (1.0, stretch));
-                        if (! may_catch) usual = std::max (usual, change);
+                        if (! may_catch && ! has_edges) usual = std::max (usual, change);
                         p = next;
                         before = out;
                     });
