@@ -225,6 +225,27 @@ TEST_CASE ("planes at one place are one sheet, with the dents of all tools", "[a
     CHECK (two.scene.touches (now).size() == 2);
 }
 
+TEST_CASE ("a tool that is far away has a short line to the plane or none", "[app][scene]")
+{
+    using scene::Overlay;
+    const juce::Rectangle<float> area (width, height);
+    scene::Camera camera;
+    camera.setSize (width, height);
+    const auto lineTo = [&] (const Vec3& p) { return Overlay::plumb (camera, area, { .role = "tool", .position = p }, plane()); };
+    const auto near = lineTo ({ 0.0, 0.0, 0.01 });
+    REQUIRE (near);
+    CHECK (near->getLength() > 10.0f);
+    const auto diagonal = std::hypot (static_cast<float> (width), static_cast<float> (height));
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    for (const double far : { 0.1, 10.0, 1e6, 1e300, inf })
+        for (const Vec3& way : { Vec3 (1, 0, 0.01), Vec3 (0, 1, 0.01), Vec3 (0, 0, 1), Vec3 (0, -1, 1), Vec3 (-1, 1, 1) })
+        {
+            const auto line = lineTo ({ way.x() == 0.0 ? 0.0 : way.x() * far, way.y() == 0.0 ? 0.0 : way.y() * far, way.z() * far });
+            if (line) CHECK (line->getLength() <= diagonal);
+            if (! std::isfinite (far)) CHECK_FALSE (line);
+        }
+}
+
 TEST_CASE ("an arrow grows with its force up to a limit, and its number has a unit", "[app][scene]")
 {
     using scene::Overlay;
