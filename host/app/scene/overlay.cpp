@@ -139,10 +139,12 @@ void Overlay::drawMarks (const Scene& scene, const Now& now)
     const auto touches = scene.touches (now);
     for (const auto& crack : scene.cracks (now))
     {
+        const std::array corners { crack.begin, crack.end, Vec3 (crack.end + crack.down), Vec3 (crack.begin + crack.down) };
+        if (! std::ranges::all_of (corners, [this] (const Vec3& p) { return isInFront (p); })) continue;
         juce::Path wall;
-        wall.startNewSubPath (camera.pixel (crack.begin));
-        for (const Vec3& p : { crack.end, Vec3 (crack.end + crack.down), Vec3 (crack.begin + crack.down) })
-            wall.lineTo (camera.pixel (p));
+        wall.startNewSubPath (camera.pixel (corners[0]));
+        for (std::size_t i = 1; i < corners.size(); ++i)
+            wall.lineTo (camera.pixel (corners[i]));
         wall.closeSubPath();
         graphics.setColour (theme.of (Quantity::length).withAlpha (0.22f));
         graphics.fillPath (wall);
@@ -153,6 +155,7 @@ void Overlay::drawMarks (const Scene& scene, const Now& now)
     }
     for (const auto& touch : touches)
     {
+        if (! isInFront (touch.at) || ! isInFront (touch.tool)) continue;
         const auto at = camera.pixel (touch.at), tool = camera.pixel (touch.tool);
         const auto colour = theme.of (Quantity::length);
         graphics.setColour (colour);
