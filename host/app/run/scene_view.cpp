@@ -37,6 +37,7 @@ void SceneView::watch (bool w)
 {
     is_watched = w;
     if (w) return;
+    release();
     playback.run().scene().watch (false);
     playback.current().scene().watch (false);   // that of a preview
     shown_feed = nullptr;
@@ -195,16 +196,20 @@ bool SceneView::isOnTool (juce::Point<float> at) const
     return ! now.tools.empty() && seen_by.pixel (now.tools.front().position).getDistanceFrom (at) < reach;
 }
 
-/// Moves the tool to where the pointer meets the plane z = 0.
-void SceneView::steer (juce::Point<float> at, bool presses)
+/// Presses the tool where the pointer meets the plane z = 0. Above the horizon, the tool stays where it is.
+void SceneView::press (juce::Point<float> at)
 {
     const Vec3 ray = seen_by.ray (at), eye = seen_by.eye();
-    if (! onSteer || std::abs (ray.z()) < 1e-3) return;
-    const double reach = -eye.z() / ray.z();
-    if (! (reach > 0.0)) return;
-    const Vec3 p = eye + reach * ray;
+    const double reach = std::abs (ray.z()) < 1e-3 ? 0.0 : -eye.z() / ray.z();
     constexpr double far = scene::Sheet3D::half_width;
-    onSteer (std::clamp (p.x(), -far, far), std::clamp (p.y(), -far, far), presses);
+    if (reach > 0.0) steered_to = (eye + reach * ray).cwiseMax (-far).cwiseMin (far);
+    if (onSteer) onSteer (steered_to.x(), steered_to.y(), true);
+}
+
+/// Ends a drag. The tool stops pressing wherever the pointer is.
+void SceneView::release()
+{
+    if (std::exchange (drag, Drag::none) == Drag::tool && onSteer) onSteer (steered_to.x(), steered_to.y(), false);
 }
 
 void SceneView::mouseMove (const juce::MouseEvent& e)
@@ -222,7 +227,9 @@ void SceneView::mouseDown (const juce::MouseEvent& e)
     if (drag == Drag::turn && e.mods.isLeftButtonDown() && isOnTool (e.position))
     {
         drag = Drag::tool;
-        return steer (e.position, true);
+        constexpr double far = scene::Sheet3D::half_width;
+        steered_to = now.tools.front().position.cwiseMax (-far).cwiseMin (far);
+        return press (e.position);
     }
     if (const auto axis = scene::Overlay::axisAt (seen_by, getLocalBounds().toFloat(), e.position))
     {
@@ -235,7 +242,7 @@ void SceneView::mouseDrag (const juce::MouseEvent& e)
 {
     const auto by = e.position - dragged_to;
     dragged_to = e.position;
-    if (drag == Drag::tool) return steer (e.position, true);
+    if (drag == Drag::tool) return press (e.position);
     if (drag == Drag::turn) seen_by.orbit (-radians_per_pixel * static_cast<double> (by.x), radians_per_pixel * static_cast<double> (by.y));
     if (drag == Drag::move)
     {
@@ -245,11 +252,7 @@ void SceneView::mouseDrag (const juce::MouseEvent& e)
     changed();
 }
 
-void SceneView::mouseUp (const juce::MouseEvent& e)
-{
-    if (drag == Drag::tool) steer (e.position, false);
-    drag = Drag::none;
-}
+void SceneView::mouseUp (const juce::MouseEvent&) { release(); }
 
 void SceneView::mouseDoubleClick (const juce::MouseEvent& e)
 {

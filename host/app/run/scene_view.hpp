@@ -48,7 +48,8 @@ public:
 
 private:
     void drawSurfaces (float pixels_per_unit);
-    void steer (juce::Point<float>, bool presses);
+    void press (juce::Point<float>);
+    void release();
     bool isOnTool (juce::Point<float>) const;
     void describe();
     void changed();
@@ -77,6 +78,7 @@ private:
     };
     Drag drag = Drag::none;
     juce::Point<float> dragged_to;
+    Vec3 steered_to = Vec3::Zero();   // where the dragged tool was moved last; z does not matter
 };
 
 }   // namespace tactus::host
