@@ -45,12 +45,13 @@ void SceneFeed::planComes (const Plan& plan)
             chosen_names.push_back (plan.taps()[i].name);
         }
     const auto interval = static_cast<std::uint32_t> (std::max (1.0, plan.rateHz() / pictures_per_second));
-    if (chosen != taps || chosen_names != names)
+    if (chosen != taps || chosen_names != names || interval != spacing)
     {
         ring.drain ([] (const ProbeRing::Frame&) {});
         selected.clear();
         taps = std::move (chosen);
         names = std::move (chosen_names);
+        spacing = interval;
         ring.select (taps, interval);
     }
     selected.push_back (plan.serial());

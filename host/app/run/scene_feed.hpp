@@ -61,6 +61,7 @@ private:
     ProbeRing ring;
     Snapshot<Tools> tools;
 
+    std::uint32_t spacing = 0;                                 // ticks between two samples, as of the latest plan
     std::vector<std::size_t> taps;                             // by value in a frame
     std::vector<std::string> names;                            // of these taps
     std::vector<std::uint64_t> selected;                       // serial numbers of plans that all have these taps

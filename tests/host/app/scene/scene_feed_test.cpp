@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "preset_bodies.hpp"
+
+#include <host/app/run/scene_feed.hpp>
+
+#include <catch2/catch.hpp>
+
+using namespace tactus;
+using namespace tactus::host;
+using host::test::presetGraph;
+
+namespace
+{
+/// Compiles what a feed wants of a graph, as a run does.
+std::unique_ptr<Plan> planFor (const SceneFeed& feed, const graph::Graph& graph)
+{
+    FileAssets assets;
+    auto compiled = compile (graph, catalogue(), { .records = feed.ports(), .assets = &assets });
+    if (! compiled.plan) throw std::runtime_error ("the graph does not compile");
+    return std::move (compiled.plan);
+}
+
+/// A feed that watches a graph which runs next.
+struct Watched
+{
+    SceneFeed feed;
+    graph::Graph graph;
+    std::unique_ptr<Plan> plan;
+
+    explicit Watched (const std::string& preset) : graph (presetGraph (preset))
+    {
+        feed.watch (true);
+        plan = planFor (feed, graph);
+        feed.show (*plan);
+        static_cast<void> (feed.now());   // asks for the ports
+        next();
+    }
+
+    void next()
+    {
+        plan = planFor (feed, graph);
+        feed.planComes (*plan);
+    }
+
+    bool hasDepth() { return feed.now().of (0, &Appearance::depth).has_value(); }
+};
+}   // namespace
+
+TEST_CASE ("the scene takes values as often at a new rate of the graph", "[app][scene]")
+{
+    Watched w { "liver" };
+    w.graph.rate_hz = 240.0;
+    w.next();
+    w.feed.after (*w.plan, 2, false);   // every second tick at this rate, and every 33rd at 4 kHz
+    CHECK (w.hasDepth());
+}
