@@ -10,6 +10,7 @@ namespace tactus::host
 void SceneFeed::watch (bool w)
 {
     if (std::exchange (is_watched, w) == w) return;
+    every.store (is_watched ? spacing : 0, std::memory_order_relaxed);
     wantPorts();
 }
 

@@ -54,3 +54,20 @@ TEST_CASE ("the scene takes values as often at a new rate of the graph", "[app][
     w.feed.after (*w.plan, 2, false);   // every second tick at this rate, and every 33rd at 4 kHz
     CHECK (w.hasDepth());
 }
+
+TEST_CASE ("a scene whose bodies need no ports shows the tools as soon as it is watched", "[app][scene]")
+{
+    const auto graph = presetGraph ("dry_wood");
+    SceneFeed feed;
+    const auto plan = planFor (feed, graph);
+    feed.planComes (*plan);
+    feed.after (*plan, 0, false);
+    CHECK (feed.now().tools.empty());
+    feed.watch (true);
+    feed.after (*plan, 0, false);
+    CHECK (feed.now().tools.size() == 1);
+    feed.clear();
+    feed.watch (false);
+    feed.after (*plan, 0, false);
+    CHECK (feed.now().tools.empty());
+}
