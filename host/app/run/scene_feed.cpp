@@ -53,6 +53,7 @@ void SceneFeed::planComes (const Plan& plan)
         taps = std::move (chosen);
         names = std::move (chosen_names);
         spacing = interval;
+        std::erase_if (values, [this] (const auto& value) { return std::ranges::count (names, value.first) == 0; });
         ring.select (taps, interval);
     }
     selected.push_back (plan.serial());

@@ -71,3 +71,15 @@ TEST_CASE ("a scene whose bodies need no ports shows the tools as soon as it is 
     feed.after (*plan, 0, false);
     CHECK (feed.now().tools.empty());
 }
+
+TEST_CASE ("the scene forgets the value of a port that is no longer recorded", "[app][scene]")
+{
+    Watched w { "liver" };
+    w.feed.after (*w.plan, 0, false);
+    REQUIRE (w.hasDepth());
+    FileAssets assets;
+    const auto without = compile (w.graph, catalogue(), { .records = { "motor.force" }, .assets = &assets });
+    REQUIRE (without.plan);
+    w.feed.planComes (*without.plan);
+    CHECK_FALSE (w.hasDepth());
+}
