@@ -25,7 +25,8 @@ void SceneFeed::wantPorts()
 void SceneFeed::show (const Plan& plan)
 {
     all = scene::bodiesOf (plan);
-    ++shown;
+    static std::uint64_t latest = 0;
+    shown = ++latest;
 }
 
 void SceneFeed::clear()

@@ -27,7 +27,7 @@ public:
     /// Takes the bodies from a plan that runs next, or from a plan that does not run.
     void show (const Plan&);
 
-    /// The bodies changed whenever this number did.
+    /// The bodies changed whenever this number did. No other feed in the process ever has the same number; 0: no bodies yet.
     std::uint64_t version() const noexcept { return shown; }
     const std::vector<scene::Body>& bodies() const noexcept { return all; }
 

@@ -40,7 +40,6 @@ void SceneView::watch (bool w)
     release();
     playback.run().scene().watch (false);
     playback.current().scene().watch (false);   // that of a preview
-    shown_feed = nullptr;
 }
 
 void SceneView::refresh()
@@ -48,11 +47,10 @@ void SceneView::refresh()
     if (! is_watched) return;
     auto& feed = playback.current().scene();
     feed.watch (true);
-    if (shown_feed != &feed || shown_version != feed.version())
+    if (shown_version != feed.version())
     {
         const auto differ = [] (const Vec3& a, const Vec3& b) { return (a - b).norm() > 1e-3; };
         const auto before = stage.bounds();
-        shown_feed = &feed;
         shown_version = feed.version();
         stage.setBodies (feed.bodies());
         const auto after = stage.bounds();

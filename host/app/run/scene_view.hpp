@@ -63,7 +63,6 @@ private:
     scene::Raster raster;
     juce::Image surfaces;
     LabelButton follow_button { "Follow", "Keeps the tool in the middle (T)" }, frame_button { "Frame", "Shows the whole scene (F, or double-click)" };
-    const void* shown_feed = nullptr;
     std::uint64_t shown_version = 0;
     bool is_watched = false, is_dirty = true, is_framed = false, is_slow = false;
     int still_for = 0;   // calls to refresh() without news
