@@ -187,6 +187,7 @@ private:
     std::unique_ptr<Run> makeRun (Run::Queries);
     std::string handRoleOf (const Plan&) const;
     void takeOver();
+    void showScene();
     Run::RoleDevice open (const std::string& role, const Plan&, Messages&);
     Run::RoleDevice openDescribed (const std::string& role, const Plan&, Messages&);
     Run::RoleDevice openBySession (const std::string& role, const Plan&, Messages&);

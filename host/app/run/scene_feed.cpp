@@ -11,6 +11,7 @@ void SceneFeed::watch (bool w)
 {
     if (std::exchange (is_watched, w) == w) return;
     every.store (is_watched ? spacing : 0, std::memory_order_relaxed);
+    if (is_watched && onWatched) onWatched();
     wantPorts();
 }
 
@@ -24,6 +25,7 @@ void SceneFeed::wantPorts()
 
 void SceneFeed::show (const Plan& plan)
 {
+    if (! is_watched) return;
     all = scene::bodiesOf (plan);
     static std::uint64_t latest = 0;
     shown = ++latest;

@@ -24,7 +24,7 @@ public:
     /// Starts or stops watching. Values arrive once the graph has been compiled again; see onWanted.
     void watch (bool);
 
-    /// Takes the bodies from a plan that runs next, or from a plan that does not run.
+    /// Takes the bodies from a plan that runs next, or from a plan that does not run. Does nothing while unwatched.
     void show (const Plan&);
 
     /// The bodies changed whenever this number did. No other feed in the process ever has the same number; 0: no bodies yet.
@@ -37,7 +37,8 @@ public:
     /// Nothing runs any more: forgets the values.
     void clear();
 
-    std::function<void()> onWanted;   ///< called when the watched ports have changed
+    std::function<void()> onWatched;   ///< called when watching begins, to show() the current plan
+    std::function<void()> onWanted;    ///< called when the watched ports have changed
 
     std::vector<std::string> ports() const override { return wanted; }
     void planComes (const Plan&) override;
