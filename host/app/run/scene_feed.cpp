@@ -62,8 +62,9 @@ void SceneFeed::planComes (const Plan& plan)
     selected.push_back (plan.serial());
     if (selected.size() > most_plans) selected.erase (selected.begin());
     auto& of_plan = roles[plan.serial()];
+    of_plan.clear();
     for (const auto& r : plan.roles())
-        of_plan.push_back (r.name);
+        of_plan.push_back (! hasPlace || hasPlace (r.name) ? r.name : std::string {});
     if (roles.size() > most_plans) roles.erase (roles.begin());
     every.store (is_watched ? interval : 0, std::memory_order_relaxed);
 }
@@ -97,8 +98,10 @@ scene::Now SceneFeed::now()
     if (of_plan == roles.end()) return now;
     for (std::size_t i = 0; i < t.count && i < of_plan->second.size(); ++i)
     {
+        if (of_plan->second[i].empty()) continue;
         scene::Tool tool { of_plan->second[i], Vec3 (t.values[i].data()), Vec3 (t.values[i].data() + 3) };
-        if (isFinite (tool.position, tool.force)) now.tools.push_back (std::move (tool));   // an unstable loop may throw the tool anywhere
+        constexpr double far = 100.0;   // m; an unstable loop may throw the tool anywhere
+        if (isFinite (tool.position, tool.force) && tool.position.norm() < far) now.tools.push_back (std::move (tool));
     }
     for (const auto& body : all)
     {

@@ -37,8 +37,9 @@ public:
     /// Nothing runs any more: forgets the values.
     void clear();
 
-    std::function<void()> onWatched;   ///< called when watching begins, to show() the current plan
-    std::function<void()> onWanted;    ///< called when the watched ports have changed
+    std::function<bool (const std::string& role)> hasPlace;   ///< false for the role of a sound card, which is not shown; unset: all have one
+    std::function<void()> onWatched;                          ///< called when watching begins, to show() the current plan
+    std::function<void()> onWanted;                           ///< called when the watched ports have changed
 
     std::vector<std::string> ports() const override { return wanted; }
     void planComes (const Plan&) override;
@@ -67,7 +68,7 @@ private:
     std::vector<std::string> names;                            // of these taps
     std::vector<std::uint64_t> selected;                       // serial numbers of plans that all have these taps
     std::map<std::string, double> values;                      // the latest ones, by name of the component
-    std::map<std::uint64_t, std::vector<std::string>> roles;   // of the latest plans, by serial number
+    std::map<std::uint64_t, std::vector<std::string>> roles;   // of the latest plans, by serial number; empty: has no place
 };
 
 }   // namespace tactus::host

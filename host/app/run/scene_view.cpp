@@ -61,9 +61,9 @@ void SceneView::refresh()
     auto latest = feed.now();
     const bool is_news = ! isSame (latest, now);
     now = std::move (latest);
-    if (follows() && ! now.tools.empty())
+    if (const auto* tool = handTool(); follows() && tool != nullptr)
     {
-        const Vec3 away = now.tools.front().position - seen_by.target;
+        const Vec3 away = tool->position - seen_by.target;
         if (away.norm() > 2e-4)
         {
             seen_by.target += 0.25 * away;   // glides, so that a tremor does not shake the picture
@@ -191,7 +191,8 @@ void SceneView::paint (juce::Graphics& g)
 bool SceneView::isOnTool (juce::Point<float> at) const
 {
     constexpr float reach = 14.0f;
-    return ! now.tools.empty() && seen_by.pixel (now.tools.front().position).getDistanceFrom (at) < reach;
+    const auto* tool = handTool();
+    return tool != nullptr && seen_by.pixel (tool->position).getDistanceFrom (at) < reach;
 }
 
 /// Presses the tool where the pointer meets the plane z = 0. Above the horizon, the tool stays where it is.
@@ -226,7 +227,7 @@ void SceneView::mouseDown (const juce::MouseEvent& e)
     {
         drag = Drag::tool;
         constexpr double far = scene::Sheet3D::half_width;
-        steered_to = now.tools.front().position.cwiseMax (-far).cwiseMin (far);
+        steered_to = handTool()->position.cwiseMax (-far).cwiseMin (far);
         return press (e.position);
     }
     if (const auto axis = scene::Overlay::axisAt (seen_by, getLocalBounds().toFloat(), e.position))

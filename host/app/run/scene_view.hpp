@@ -23,7 +23,7 @@ public:
 
     void frameAll();             ///< shows the whole scene, from the current direction
     void lookAlong (int axis);   ///< looks along x, y or z; the second time from the other side
-    void follow (bool);          ///< keeps the first tool in the middle
+    void follow (bool);          ///< keeps the tool of the hand in the middle
     bool follows() const noexcept { return follow_button.getToggleState(); }
 
     const scene::Camera& camera() const noexcept { return seen_by; }
@@ -50,6 +50,7 @@ private:
     void drawSurfaces (float pixels_per_unit);
     void press (juce::Point<float>);
     void release();
+    const scene::Tool* handTool() const { return now.tool (playback.current().handRole()); }   ///< the tool that a drag moves; null: none
     bool isOnTool (juce::Point<float>) const;
     void describe();
     void changed();

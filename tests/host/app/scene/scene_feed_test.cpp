@@ -83,3 +83,16 @@ TEST_CASE ("the scene forgets the value of a port that is no longer recorded", "
     w.feed.planComes (*without.plan);
     CHECK_FALSE (w.hasDepth());
 }
+
+TEST_CASE ("a sound card is not a tool in the scene", "[app][scene]")
+{
+    SceneFeed feed;
+    feed.hasPlace = [] (const std::string& role) { return role != "index"; };
+    const auto plan = planFor (feed, presetGraph ("two_fingers"));
+    feed.watch (true);
+    feed.planComes (*plan);
+    feed.after (*plan, 0, false);
+    const auto tools = feed.now().tools;
+    REQUIRE (tools.size() == 1);
+    CHECK (tools[0].role == "thumb");
+}
