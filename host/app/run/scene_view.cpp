@@ -255,7 +255,7 @@ void SceneView::mouseUp (const juce::MouseEvent&) { release(); }
 
 void SceneView::mouseDoubleClick (const juce::MouseEvent& e)
 {
-    if (! isOnTool (e.position)) frameAll();
+    if (! isOnTool (e.position) && ! scene::Overlay::axisAt (seen_by, getLocalBounds().toFloat(), e.position)) frameAll();
 }
 
 void SceneView::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel)
