@@ -111,6 +111,12 @@ TEST_CASE ("a scene that nobody sees asks the run for nothing", "[app][scene]")
     Rig rig { "liver" };
     auto& feed = rig.playback.run().scene();
     CHECK_FALSE (feed.ports().empty());
+    rig.panel.setSeen (false);
+    rig.panel.refresh();
+    CHECK (feed.ports().empty());
+    rig.panel.setSeen (true);
+    rig.panel.refresh();
+    CHECK_FALSE (feed.ports().empty());
     rig.panel.showScene (false);
     rig.panel.refresh();
     CHECK (feed.ports().empty());
