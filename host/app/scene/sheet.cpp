@@ -160,16 +160,6 @@ std::array<Vec3, 2> Sheet3D::axes() const noexcept
     return { v.cross (n), v };
 }
 
-Bounds Sheet3D::bounds() const noexcept
-{
-    Bounds all;
-    const auto [u, v] = axes();
-    for (const double a : { -half_width, half_width })
-        for (const double b : { -half_width, half_width })
-            all.add (centre() + a * u + b * v);
-    return all;
-}
-
 void Sheet3D::draw (Raster& raster, const Camera& camera, const Paint& paint) const
 {
     const auto [u, v] = axes();

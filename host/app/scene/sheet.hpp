@@ -58,8 +58,6 @@ public:
     std::array<Vec3, 2> axes() const noexcept;
 
     Vec3 centre() const noexcept { return offset * normal; }
-
-    Bounds bounds() const noexcept;
 };
 
 }   // namespace tactus::host::scene
