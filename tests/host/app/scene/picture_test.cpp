@@ -225,6 +225,40 @@ TEST_CASE ("planes at one place are one sheet, with the dents of all tools", "[a
     CHECK (two.scene.touches (now).size() == 2);
 }
 
+TEST_CASE ("a texture lies once on the plane of its tool", "[app][scene]")
+{
+    const auto pictureOf = [] (const std::vector<std::string>& roles) {
+        auto wall = plane(), floor = plane();
+        set (wall.fixed, &Appearance::normal, Vec3::UnitX());
+        set (wall.fixed, &Appearance::offset, { -0.02, 0.0, 0.0 });
+        wall.role = "other";
+        std::vector<Body> bodies { wall, floor };
+        for (const auto& role : roles)
+        {
+            Body ridges { .kind = Kind::ridges, .path = "ridges", .role = role, .is_placed = true };
+            set (ridges.fixed, &Appearance::frequency, { 150.0, 0.0, 0.0 });
+            set (ridges.fixed, &Appearance::angle, { std::numbers::pi / 2.0, 0.0, 0.0 });
+            bodies.push_back (ridges);
+        }
+        Studio studio (bodies);
+        studio.draw();
+        const auto steepest = [&] (const Vec3& from, const Vec3& step) {
+            int most = 0;
+            for (int i = 0; i < 8; ++i)
+                most = std::max (most, std::abs (studio.at (from + i * step).getGreen() - studio.at (from + (i + 1) * step).getGreen()));
+            return most;
+        };
+        const Vec3 step (0.0, 0.9e-3, 0.0);
+        return std::pair (steepest ({ 0.015, 0.001, 0.0 }, step), steepest ({ -0.02, 0.001, 0.013 }, step));   // on the floor, on the wall
+    };
+    const auto none = pictureOf ({}), floor = pictureOf ({ "tool" }), twice = pictureOf ({ "tool", "tool" }), wall = pictureOf ({ "other" });
+    CHECK (floor.first > none.first + 5);
+    CHECK (floor.second == none.second);
+    CHECK (twice == floor);
+    CHECK (wall.first == none.first);
+    CHECK (wall.second > none.second + 5);
+}
+
 TEST_CASE ("a tool that is far away has a short line to the plane or none", "[app][scene]")
 {
     using scene::Overlay;
