@@ -18,7 +18,7 @@ public:
 
     void refresh();   ///< call many times a second while it is visible
 
-    /// Starts or stops asking the run for values. A view that nobody sees must not cost the run anything.
+    /// Starts or stops asking the run for values. A hidden view costs the run nothing.
     void watch (bool);
 
     void frameAll();             ///< shows the whole scene, from the current direction

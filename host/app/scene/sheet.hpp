@@ -47,7 +47,7 @@ struct Grain
 class Sheet3D
 {
 public:
-    static constexpr double half_width = 0.06;   ///< m; as the view from above
+    static constexpr double half_width = 0.06;   ///< m; as in the view from above
 
     Vec3 normal = Vec3::UnitZ();
     double offset = 0.0;                 ///< m, along the normal

@@ -106,7 +106,7 @@ TEST_CASE ("the keyboard does what the mouse does in the scene", "[app][scene]")
     CHECK (camera.yaw == scene::Camera {}.yaw);
 }
 
-TEST_CASE ("a scene that nobody sees asks the run for nothing", "[app][scene]")
+TEST_CASE ("a hidden scene asks the run for nothing", "[app][scene]")
 {
     Rig rig { "liver" };
     auto& feed = rig.playback.run().scene();
@@ -194,7 +194,7 @@ TEST_CASE ("a tool that is released above the horizon stops pressing", "[app][sc
     CHECK (steered.back().y == last.y);
 }
 
-TEST_CASE ("an enlarged scene is shown beside the view from above", "[app][scene]")
+TEST_CASE ("an enlarged scene is shown next to the view from above", "[app][scene]")
 {
     Rig rig { "liver" };
     int laid_out = 0;
