@@ -193,9 +193,12 @@ std::vector<Crack> Scene::cracks (const Now& now) const
 void Scene::draw (Raster& raster, const Camera& camera, const Paint& paint, const Now& now) const
 {
     auto sheets = sheetsOf (now);
+    constexpr double most_cells = 8192.0;   // in all sheets together
+    const auto cells = static_cast<int> (std::sqrt (most_cells / static_cast<double> (std::max<std::size_t> (1, sheets.size()))));
     for (auto& sheet : sheets)
     {
         sheet.grid = gridFor (camera);
+        sheet.cells = std::clamp (cells, 2, sheet.cells);
         sheet.draw (raster, camera, paint);
     }
     const auto felt = touches (now);

@@ -56,6 +56,7 @@ public:
     std::vector<Grain> grains {};
     std::vector<Dent> dents {};
     double grid = 0.01;   ///< distance of the lines on it, in m
+    int cells = 64;       ///< along each side; each is drawn as two triangles
 
     void draw (Raster&, const Camera&, const Paint&) const;
 

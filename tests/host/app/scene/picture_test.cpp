@@ -225,6 +225,22 @@ TEST_CASE ("planes at one place are one sheet, with the dents of all tools", "[a
     CHECK (two.scene.touches (now).size() == 2);
 }
 
+TEST_CASE ("many planes are drawn with fewer triangles each", "[app][scene]")
+{
+    std::vector<Body> bodies;
+    for (int i = 0; i < 100; ++i)
+    {
+        bodies.push_back (plane());
+        set (bodies.back().fixed, &Appearance::offset, { 1e-3 * i, 0.0, 0.0 });
+    }
+    Studio one ({ plane() }), many (bodies);
+    one.draw();
+    many.draw();
+    CHECK (one.raster.count().all() == 8192);
+    CHECK (many.raster.count().all() > 8192);
+    CHECK (many.raster.count().all() <= 16384);
+}
+
 TEST_CASE ("a texture lies once on the plane of its tool", "[app][scene]")
 {
     const auto pictureOf = [] (const std::vector<std::string>& roles) {
