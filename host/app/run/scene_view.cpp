@@ -72,8 +72,10 @@ void SceneView::refresh()
     }
     still_for = is_news || is_dirty ? 0 : still_for + 1;
     if (is_news) describe();
-    const bool refines = still_for == rest_after && raster.fineness() == 1;   // at rest, the edges are smoothed
-    if (! is_news && ! is_dirty && ! refines) return;
+    is_dirty = is_dirty || is_news;
+    const bool refines = still_for >= rest_after && raster.fineness() == 1;   // at rest, the edges are smoothed
+    const double since_s = 1e-3 * (juce::Time::getMillisecondCounterHiRes() - painted_ms);
+    if (since_s < took_s || (! is_dirty && ! refines)) return;   // leaves half of the time to the rest of the window
     is_dirty = false;
     repaint();
 }
@@ -147,6 +149,8 @@ void SceneView::resized()
 /// Draws all surfaces into the image, with as many samples as there is time for.
 void SceneView::drawSurfaces (float pixels_per_unit)
 {
+    constexpr float most_pixels = 2.1e6f;   // as a window of 1920 x 1080; larger pictures are scaled up
+    pixels_per_unit = std::min (pixels_per_unit, std::sqrt (most_pixels / static_cast<float> (getWidth() * getHeight())));
     const auto inPixels = [pixels_per_unit] (int units) { return juce::roundToInt (static_cast<float> (units) * pixels_per_unit); };
     const int width = inPixels (getWidth()), height = inPixels (getHeight());
     if (surfaces.getWidth() != width || surfaces.getHeight() != height) surfaces = juce::Image (juce::Image::ARGB, width, height, true);
@@ -158,7 +162,8 @@ void SceneView::drawSurfaces (float pixels_per_unit)
     raster.begin (width, height, fineness);
     stage.draw (raster, camera, scene::Paint (themeOf (*this)), now);
     raster.write (surfaces);
-    took_s = 1e-3 * (juce::Time::getMillisecondCounterHiRes() - begin);
+    painted_ms = juce::Time::getMillisecondCounterHiRes();
+    took_s = 1e-3 * (painted_ms - begin);
     if (fineness == 2 && ! is_at_rest) is_slow = took_s > slow_s;
     if (fineness == 1 && took_s < 0.2 * slow_s) is_slow = false;
 }

@@ -67,7 +67,7 @@ private:
     std::uint64_t shown_version = 0;
     bool is_watched = false, is_dirty = true, is_framed = false, is_slow = false;
     int still_for = 0;   // calls to refresh() without news
-    double took_s = 0.0;
+    double took_s = 0.0, painted_ms = 0.0;
 
     enum class Drag
     {
