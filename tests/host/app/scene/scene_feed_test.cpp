@@ -12,12 +12,12 @@ using host::test::presetGraph;
 namespace
 {
 /// Compiles what a feed wants of a graph, as a run does.
-std::unique_ptr<Plan> planFor (const SceneFeed& feed, const graph::Graph& graph)
+std::shared_ptr<Plan> planFor (const SceneFeed& feed, const graph::Graph& graph)
 {
     FileAssets assets;
-    auto compiled = compile (graph, catalogue(), { .records = feed.ports(), .assets = &assets });
+    const auto compiled = compile (graph, catalogue(), { .records = feed.ports(), .assets = &assets });
     if (! compiled.plan) throw std::runtime_error ("the graph does not compile");
-    return std::move (compiled.plan);
+    return compiled.plan;
 }
 
 /// A feed that watches a graph which runs next.
@@ -25,7 +25,7 @@ struct Watched
 {
     SceneFeed feed;
     graph::Graph graph;
-    std::unique_ptr<Plan> plan;
+    std::shared_ptr<Plan> plan;
 
     explicit Watched (const std::string& preset) : graph (presetGraph (preset))
     {
