@@ -73,10 +73,10 @@ void SceneView::refresh()
     still_for = is_news || is_dirty ? 0 : still_for + 1;
     if (is_news) describe();
     is_dirty = is_dirty || is_news;
-    const bool refines = still_for >= rest_after && raster.fineness() == 1;   // at rest, the edges are smoothed
+    const bool refines = still_for >= rest_after && is_coarse;   // at rest, the edges are smoothed
     const double since_s = 1e-3 * (juce::Time::getMillisecondCounterHiRes() - painted_ms);
     if (since_s < took_s || (! is_dirty && ! refines)) return;   // leaves half of the time to the rest of the window
-    is_dirty = false;
+    is_dirty = is_coarse = false;
     repaint();
 }
 
@@ -159,6 +159,7 @@ void SceneView::drawSurfaces (float pixels_per_unit)
     camera.setSize (static_cast<float> (width), static_cast<float> (height));
     const bool is_at_rest = still_for >= rest_after;
     const int fineness = is_at_rest || ! is_slow ? 2 : 1;
+    is_coarse = fineness == 1;
     raster.begin (width, height, fineness);
     stage.draw (raster, camera, scene::Paint (themeOf (*this)), now);
     raster.write (surfaces);

@@ -65,7 +65,7 @@ private:
     juce::Image surfaces;
     LabelButton follow_button { "Follow", "Keeps the tool in the middle (T)" }, frame_button { "Frame", "Shows the whole scene (F, or double-click)" };
     std::uint64_t shown_version = 0;
-    bool is_watched = false, is_dirty = true, is_framed = false, is_slow = false;
+    bool is_watched = false, is_dirty = true, is_framed = false, is_slow = false, is_coarse = false;
     int still_for = 0;   // calls to refresh() without news
     double took_s = 0.0, painted_ms = 0.0;
 
