@@ -59,7 +59,7 @@ bool MainView::keyPressed (const juce::KeyPress& key)
         live.shows_costs = ! live.shows_costs;
         return true;
     }
-    const bool is_hidden = hand.isEnlarged();   // nobody should edit what is not to be seen
+    const bool is_hidden = hand.isEnlarged();   // you would not see what you edit
     return scopes.keyPressed (key) || (! is_hidden && patching.keyPressed (key));
 }
 

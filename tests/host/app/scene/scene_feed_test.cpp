@@ -49,9 +49,9 @@ struct Watched
 TEST_CASE ("the scene takes values as often at a new rate of the graph", "[app][scene]")
 {
     Watched w { "liver" };
-    w.graph.rate_hz = 240.0;
+    w.graph.rate_hz = 1000.0;
     w.next();
-    w.feed.after (*w.plan, 2, false);   // every second tick at this rate, and every 33rd at 4 kHz
+    w.feed.after (*w.plan, 8, false);   // every eighth tick at this rate, and every 33rd at 4 kHz
     CHECK (w.hasDepth());
 }
 
@@ -78,7 +78,7 @@ TEST_CASE ("the scene forgets the value of a port that is no longer recorded", "
     w.feed.after (*w.plan, 0, false);
     REQUIRE (w.hasDepth());
     FileAssets assets;
-    const auto without = compile (w.graph, catalogue(), { .records = { "motor.force" }, .assets = &assets });
+    const auto without = compile (w.graph, catalogue(), { .records = { "liver.force" }, .assets = &assets });
     REQUIRE (without.plan);
     w.feed.planComes (*without.plan);
     CHECK_FALSE (w.hasDepth());

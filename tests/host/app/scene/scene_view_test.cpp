@@ -161,9 +161,8 @@ TEST_CASE ("dragging the tool in the scene presses with it", "[app][scene]")
     rig.panel.refresh();
     rig.hand.press (rig.view.camera().pixel (tool().position));
     CHECK (rig.until ([&] { return tool().force.z() > 0.05; }));
-    const auto before = tool().position.z();
-    rig.hand.wheel (rig.view.camera().pixel (tool().position), -0.5f);   // twice as deep
-    CHECK (rig.until ([&] { return tool().position.z() < before - 0.5e-3; }));
+    rig.hand.wheel (rig.view.camera().pixel (tool().position), -2.0f);   // as deep as it goes, five times as deep as before
+    CHECK (rig.until ([&] { return tool().position.z() < -1e-3; }));
     rig.hand.release (rig.view.camera().pixel (tool().position));
     CHECK (rig.until ([&] { return tool().force.z() < 0.05; }));
 }
