@@ -9,11 +9,11 @@ namespace tactus
 {
 
 /// What a node looks like in a picture of the scene. This is data: each part names a row of the node's own datasheet, and a host draws
-/// from the values of these rows. It does not affect the tick. Optional; a node declares it beside its `ports`:
+/// from the values of these rows. It does not affect the tick. Optional; a node declares it next to its `ports`:
 ///
 ///     static constexpr Appearance appearance { .kind = Appearance::Kind::plane, .tool = "position", .offset = "offset", .depth = "depth" };
 ///
-/// All parts may be left out. A picture shows what the given parts tell.
+/// All parts may be left out. A picture shows what the given parts describe.
 struct Appearance
 {
     enum class Kind
@@ -44,7 +44,7 @@ struct Appearance
     std::string_view phase {};       ///< phase of the ridges at the origin, rad
     std::string_view width {};       ///< length of the edge of a blade, m
     std::string_view crack {};       ///< length of the crack, m; of scissors: distance from the pivot to its end
-    std::string_view thickness {};   ///< thickness of what is cut, m; 0: endless
+    std::string_view thickness {};   ///< thickness of what is cut, m; 0: unlimited
     std::string_view pivot {};       ///< distance from the pivot of scissors to the plate, m
 };
 

@@ -13,7 +13,7 @@ public:
     LabelButton (const juce::String& label, const juce::String& tip) : Button (label)
     {
         setTooltip (tip);
-        setWantsKeyboardFocus (false);
+        setMouseClickGrabsKeyboardFocus (false);   // after a click, keys still belong to what had the focus
     }
 
     int wantedWidth() const { return static_cast<int> (std::ceil (lookOf (*this).font (12.0f).getStringWidthFloat (getButtonText()))) + 14; }
@@ -26,6 +26,11 @@ public:
         const bool is_on = getToggleState();
         g.setColour (is_on ? theme.accent.withAlpha (0.22f) : theme.raised.withAlpha (over ? 1.0f : 0.75f));
         g.fillRoundedRectangle (area, 4.0f);
+        if (hasKeyboardFocus (false))
+        {
+            g.setColour (theme.accent);
+            g.drawRoundedRectangle (area, 4.0f, 1.0f);
+        }
         const auto plain = over ? theme.text : theme.dim;
         g.setColour (is_on ? theme.accent : plain);
         g.setFont (look.font (12.0f));

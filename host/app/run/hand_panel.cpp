@@ -138,11 +138,16 @@ void HandPanel::showScene (bool scene)
     from_above.setToggleState (! is_scene, juce::dontSendNotification);
     in_space.setToggleState (is_scene, juce::dontSendNotification);
     space.setVisible (is_scene);
-    space.watch (is_scene);
+    space.watch (is_scene && is_seen);
     surface.setVisible (! is_scene || showsBoth());
     larger.setVisible (is_scene);
     resized();
     repaint();
+}
+
+void HandPanel::setSeen (bool seen)
+{
+    if (std::exchange (is_seen, seen) != seen) space.watch (is_scene && is_seen);
 }
 
 void HandPanel::enlarge (bool large)

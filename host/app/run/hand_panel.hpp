@@ -21,6 +21,8 @@ public:
     /// Shows the scene in space instead of the surface from above. While enlarged, a wide panel shows both.
     void showScene (bool);
     bool showsScene() const noexcept { return is_scene; }
+    /// A scene that is not on the screen asks the run for nothing. Say so while the window is minimised or the panel is folded.
+    void setSeen (bool);
     std::function<void()> onSceneToggled;   ///< called when the user has switched
 
     /// An enlarged panel takes the place of the canvas. The caller has to lay it out again when onEnlarge is called.
@@ -54,7 +56,7 @@ private:
     SceneView space { playback };
     LabelButton from_above { "2D", "The surface from above" }, in_space { "3D", "The scene in space" };
     LabelButton larger { "Enlarge", "Shows the scene in place of the canvas" };
-    bool is_scene = false, is_large = false;
+    bool is_scene = false, is_large = false, is_seen = true;
     juce::ComboBox source;
     std::unique_ptr<juce::Button> play, listen;
     juce::Slider position, speed;

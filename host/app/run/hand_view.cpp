@@ -99,24 +99,22 @@ void HandView::mouseUp (const juce::MouseEvent& e)
 void HandView::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel)
 {
     pressDeeper (-2.0 * static_cast<double> (wheel.deltaY));
-    if (held) target.z() = -press_depth;
     if (! held) point (e);
-    if (held) moveTool();
 }
 
 bool HandView::keyPressed (const juce::KeyPress& key)
 {
     if (key != juce::KeyPress::pageDownKey && key != juce::KeyPress::pageUpKey) return false;
     pressDeeper (key == juce::KeyPress::pageDownKey ? 0.25 : -0.25);
-    if (pressed || held) target.z() = -press_depth;
-    moveTool();
     return true;
 }
 
 void HandView::pressDeeper (double octaves)
 {
     press_depth = std::clamp (press_depth * std::exp2 (octaves), least_depth_m, most_depth_m);
-    if (pressed || held) target.z() = -press_depth;
+    if (! pressed && ! held) return;
+    target.z() = -press_depth;
+    moveTool();
 }
 
 void HandView::paint (juce::Graphics& g)

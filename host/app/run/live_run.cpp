@@ -31,6 +31,8 @@ LiveRun::LiveRun (Document& d, const Catalogue& c, Sound* s) : document (d), cat
     probes.onWanted = scene_feed.onWanted = [this] {
         if (isLive()) takeOver();
     };
+    scene_feed.hasPlace = [this] (const std::string& role) { return ! isSoundCard (role); };
+    scene_feed.onWatched = [this] { showScene(); };
     documentChanged();
 }
 
@@ -202,6 +204,13 @@ void LiveRun::documentChanged()
         scene_feed.show (*checked.plan);
     }
     if (wanted) restart (true);   // the edited graph may compile now
+}
+
+/// Shows the plan that runs, or else that of the document, if it compiles.
+void LiveRun::showScene()
+{
+    if (isLive()) return scene_feed.show (run->engine().newest());
+    if (const auto checked = makeRun (Run::Queries::within_tick)->check (document.graph()); checked.plan) scene_feed.show (*checked.plan);
 }
 
 void LiveRun::takeOver()

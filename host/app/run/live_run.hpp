@@ -138,7 +138,8 @@ public:
         Vec3 position = Vec3::Zero();   ///< in m
         Vec3 force = Vec3::Zero();      ///< on the tool, in N
     };
-    std::optional<Tool> tool() const;   ///< empty while nothing runs
+    const std::string& handRole() const noexcept { return hand_role; }   ///< the role of that tool; empty before the first run
+    std::optional<Tool> tool() const;                                    ///< empty while nothing runs
 
     /// The values of the ports that are being watched.
     Traces& traces() noexcept { return probes; }
@@ -186,7 +187,9 @@ private:
     void end();
     std::unique_ptr<Run> makeRun (Run::Queries);
     std::string handRoleOf (const Plan&) const;
+    bool isSoundCard (const std::string& role) const;
     void takeOver();
+    void showScene();
     Run::RoleDevice open (const std::string& role, const Plan&, Messages&);
     Run::RoleDevice openDescribed (const std::string& role, const Plan&, Messages&);
     Run::RoleDevice openBySession (const std::string& role, const Plan&, Messages&);

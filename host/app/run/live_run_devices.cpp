@@ -29,12 +29,14 @@ bool LiveRun::isBound (const std::string& role) const { return setup != nullptr 
 /// The first role that is not a sound card. Its tool is the one that is drawn and heard, and that the mouse can move.
 std::string LiveRun::handRoleOf (const Plan& plan) const
 {
-    for (const auto& role : plan.roles())
-    {
-        const auto* description = isBound (role.name) ? setup->session().session.binding (role.name) : document.graph().device (role.name);
-        if (description == nullptr || ! audio::isAudio (*description)) return role.name;
-    }
-    return {};
+    const auto hand = std::ranges::find_if (plan.roles(), [this] (const auto& role) { return ! isSoundCard (role.name); });
+    return hand == plan.roles().end() ? std::string {} : hand->name;
+}
+
+bool LiveRun::isSoundCard (const std::string& role) const
+{
+    const auto* description = isBound (role) ? setup->session().session.binding (role) : document.graph().device (role);
+    return description != nullptr && audio::isAudio (*description);
 }
 
 /// True if the mouse, or a path that the user has chosen, moves the tool.

@@ -10,6 +10,8 @@ namespace tactus::host
 void SceneFeed::watch (bool w)
 {
     if (std::exchange (is_watched, w) == w) return;
+    every.store (is_watched ? spacing : 0, std::memory_order_relaxed);
+    if (is_watched && onWatched) onWatched();
     wantPorts();
 }
 
@@ -23,8 +25,10 @@ void SceneFeed::wantPorts()
 
 void SceneFeed::show (const Plan& plan)
 {
+    if (! is_watched) return;
     all = scene::bodiesOf (plan);
-    ++shown;
+    static std::uint64_t latest = 0;
+    shown = ++latest;
 }
 
 void SceneFeed::clear()
@@ -45,19 +49,22 @@ void SceneFeed::planComes (const Plan& plan)
             chosen_names.push_back (plan.taps()[i].name);
         }
     const auto interval = static_cast<std::uint32_t> (std::max (1.0, plan.rateHz() / pictures_per_second));
-    if (chosen != taps || chosen_names != names)
+    if (chosen != taps || chosen_names != names || interval != spacing)
     {
         ring.drain ([] (const ProbeRing::Frame&) {});
         selected.clear();
         taps = std::move (chosen);
         names = std::move (chosen_names);
+        spacing = interval;
+        std::erase_if (values, [this] (const auto& value) { return std::ranges::count (names, value.first) == 0; });
         ring.select (taps, interval);
     }
     selected.push_back (plan.serial());
     if (selected.size() > most_plans) selected.erase (selected.begin());
     auto& of_plan = roles[plan.serial()];
+    of_plan.clear();
     for (const auto& r : plan.roles())
-        of_plan.push_back (r.name);
+        of_plan.push_back (! hasPlace || hasPlace (r.name) ? r.name : std::string {});
     if (roles.size() > most_plans) roles.erase (roles.begin());
     every.store (is_watched ? interval : 0, std::memory_order_relaxed);
 }
@@ -91,8 +98,10 @@ scene::Now SceneFeed::now()
     if (of_plan == roles.end()) return now;
     for (std::size_t i = 0; i < t.count && i < of_plan->second.size(); ++i)
     {
+        if (of_plan->second[i].empty()) continue;
         scene::Tool tool { of_plan->second[i], Vec3 (t.values[i].data()), Vec3 (t.values[i].data() + 3) };
-        if (isFinite (tool.position, tool.force)) now.tools.push_back (std::move (tool));   // an unstable loop may throw the tool anywhere
+        constexpr double far = 100.0;   // m; an unstable loop may throw the tool anywhere
+        if (isFinite (tool.position, tool.force) && tool.position.norm() < far) now.tools.push_back (std::move (tool));
     }
     for (const auto& body : all)
     {

@@ -13,8 +13,8 @@
 namespace tactus::host
 {
 
-/// What a picture of the scene shows of a run: its bodies, its tools, and the values of their ports. While nobody watches, it costs a
-/// run one test per tick. [main thread]
+/// What a picture of the scene shows of a run: its bodies, its tools, and the values of their ports. Unwatched, it costs a run one
+/// test per tick. [main thread]
 class SceneFeed final : public RunListener
 {
 public:
@@ -24,10 +24,10 @@ public:
     /// Starts or stops watching. Values arrive once the graph has been compiled again; see onWanted.
     void watch (bool);
 
-    /// Takes the bodies from a plan that runs next, or from a plan that does not run.
+    /// Takes the bodies from a plan that runs next, or from a plan that does not run. Does nothing while unwatched.
     void show (const Plan&);
 
-    /// The bodies changed whenever this number did.
+    /// The bodies changed whenever this number did. No other feed in the process ever has the same number; 0: no bodies yet.
     std::uint64_t version() const noexcept { return shown; }
     const std::vector<scene::Body>& bodies() const noexcept { return all; }
 
@@ -37,7 +37,9 @@ public:
     /// Nothing runs any more: forgets the values.
     void clear();
 
-    std::function<void()> onWanted;   ///< called when the watched ports have changed
+    std::function<bool (const std::string& role)> hasPlace;   ///< false for the role of a sound card, which is not shown; unset: all have one
+    std::function<void()> onWatched;                          ///< called when watching begins, to show() the current plan
+    std::function<void()> onWanted;                           ///< called when the watched ports have changed
 
     std::vector<std::string> ports() const override { return wanted; }
     void planComes (const Plan&) override;
@@ -61,11 +63,12 @@ private:
     ProbeRing ring;
     Snapshot<Tools> tools;
 
+    std::uint32_t spacing = 0;                                 // ticks between two samples, as of the latest plan
     std::vector<std::size_t> taps;                             // by value in a frame
     std::vector<std::string> names;                            // of these taps
     std::vector<std::uint64_t> selected;                       // serial numbers of plans that all have these taps
     std::map<std::string, double> values;                      // the latest ones, by name of the component
-    std::map<std::uint64_t, std::vector<std::string>> roles;   // of the latest plans, by serial number
+    std::map<std::uint64_t, std::vector<std::string>> roles;   // of the latest plans, by serial number; empty: has no place
 };
 
 }   // namespace tactus::host

@@ -37,9 +37,9 @@ void SceneView::watch (bool w)
 {
     is_watched = w;
     if (w) return;
+    release();
     playback.run().scene().watch (false);
     playback.current().scene().watch (false);   // that of a preview
-    shown_feed = nullptr;
 }
 
 void SceneView::refresh()
@@ -47,11 +47,10 @@ void SceneView::refresh()
     if (! is_watched) return;
     auto& feed = playback.current().scene();
     feed.watch (true);
-    if (shown_feed != &feed || shown_version != feed.version())
+    if (shown_version != feed.version())
     {
         const auto differ = [] (const Vec3& a, const Vec3& b) { return (a - b).norm() > 1e-3; };
         const auto before = stage.bounds();
-        shown_feed = &feed;
         shown_version = feed.version();
         stage.setBodies (feed.bodies());
         const auto after = stage.bounds();
@@ -62,9 +61,9 @@ void SceneView::refresh()
     auto latest = feed.now();
     const bool is_news = ! isSame (latest, now);
     now = std::move (latest);
-    if (follows() && ! now.tools.empty())
+    if (const auto* tool = handTool(); follows() && tool != nullptr)
     {
-        const Vec3 away = now.tools.front().position - seen_by.target;
+        const Vec3 away = tool->position - seen_by.target;
         if (away.norm() > 2e-4)
         {
             seen_by.target += 0.25 * away;   // glides, so that a tremor does not shake the picture
@@ -73,9 +72,11 @@ void SceneView::refresh()
     }
     still_for = is_news || is_dirty ? 0 : still_for + 1;
     if (is_news) describe();
-    const bool refines = still_for == rest_after && raster.fineness() == 1;   // at rest, the edges are smoothed
-    if (! is_news && ! is_dirty && ! refines) return;
-    is_dirty = false;
+    is_dirty = is_dirty || is_news;
+    const bool refines = still_for >= rest_after && is_coarse;   // at rest, the edges are smoothed
+    const double since_s = 1e-3 * (juce::Time::getMillisecondCounterHiRes() - painted_ms);
+    if (since_s < took_s || (! is_dirty && ! refines)) return;   // leaves half of the time to the rest of the window
+    is_dirty = is_coarse = false;
     repaint();
 }
 
@@ -148,6 +149,8 @@ void SceneView::resized()
 /// Draws all surfaces into the image, with as many samples as there is time for.
 void SceneView::drawSurfaces (float pixels_per_unit)
 {
+    constexpr float most_pixels = 2.1e6f;   // as a window of 1920 x 1080; larger pictures are scaled up
+    pixels_per_unit = std::min (pixels_per_unit, std::sqrt (most_pixels / static_cast<float> (getWidth() * getHeight())));
     const auto inPixels = [pixels_per_unit] (int units) { return juce::roundToInt (static_cast<float> (units) * pixels_per_unit); };
     const int width = inPixels (getWidth()), height = inPixels (getHeight());
     if (surfaces.getWidth() != width || surfaces.getHeight() != height) surfaces = juce::Image (juce::Image::ARGB, width, height, true);
@@ -156,10 +159,12 @@ void SceneView::drawSurfaces (float pixels_per_unit)
     camera.setSize (static_cast<float> (width), static_cast<float> (height));
     const bool is_at_rest = still_for >= rest_after;
     const int fineness = is_at_rest || ! is_slow ? 2 : 1;
+    is_coarse = fineness == 1;
     raster.begin (width, height, fineness);
     stage.draw (raster, camera, scene::Paint (themeOf (*this)), now);
     raster.write (surfaces);
-    took_s = 1e-3 * (juce::Time::getMillisecondCounterHiRes() - begin);
+    painted_ms = juce::Time::getMillisecondCounterHiRes();
+    took_s = 1e-3 * (painted_ms - begin);
     if (fineness == 2 && ! is_at_rest) is_slow = took_s > slow_s;
     if (fineness == 1 && took_s < 0.2 * slow_s) is_slow = false;
 }
@@ -192,19 +197,24 @@ void SceneView::paint (juce::Graphics& g)
 bool SceneView::isOnTool (juce::Point<float> at) const
 {
     constexpr float reach = 14.0f;
-    return ! now.tools.empty() && seen_by.pixel (now.tools.front().position).getDistanceFrom (at) < reach;
+    const auto* tool = handTool();
+    return tool != nullptr && seen_by.pixel (tool->position).getDistanceFrom (at) < reach;
 }
 
-/// Moves the tool to where the pointer meets the plane z = 0.
-void SceneView::steer (juce::Point<float> at, bool presses)
+/// Presses the tool where the pointer meets the plane z = 0. Above the horizon, the tool stays where it is.
+void SceneView::press (juce::Point<float> at)
 {
     const Vec3 ray = seen_by.ray (at), eye = seen_by.eye();
-    if (! onSteer || std::abs (ray.z()) < 1e-3) return;
-    const double reach = -eye.z() / ray.z();
-    if (! (reach > 0.0)) return;
-    const Vec3 p = eye + reach * ray;
+    const double reach = std::abs (ray.z()) < 1e-3 ? 0.0 : -eye.z() / ray.z();
     constexpr double far = scene::Sheet3D::half_width;
-    onSteer (std::clamp (p.x(), -far, far), std::clamp (p.y(), -far, far), presses);
+    if (reach > 0.0) steered_to = (eye + reach * ray).cwiseMax (-far).cwiseMin (far);
+    if (onSteer) onSteer (steered_to.x(), steered_to.y(), true);
+}
+
+/// Ends a drag. The tool stops pressing wherever the pointer is.
+void SceneView::release()
+{
+    if (std::exchange (drag, Drag::none) == Drag::tool && onSteer) onSteer (steered_to.x(), steered_to.y(), false);
 }
 
 void SceneView::mouseMove (const juce::MouseEvent& e)
@@ -222,7 +232,9 @@ void SceneView::mouseDown (const juce::MouseEvent& e)
     if (drag == Drag::turn && e.mods.isLeftButtonDown() && isOnTool (e.position))
     {
         drag = Drag::tool;
-        return steer (e.position, true);
+        constexpr double far = scene::Sheet3D::half_width;
+        steered_to = handTool()->position.cwiseMax (-far).cwiseMin (far);
+        return press (e.position);
     }
     if (const auto axis = scene::Overlay::axisAt (seen_by, getLocalBounds().toFloat(), e.position))
     {
@@ -235,7 +247,7 @@ void SceneView::mouseDrag (const juce::MouseEvent& e)
 {
     const auto by = e.position - dragged_to;
     dragged_to = e.position;
-    if (drag == Drag::tool) return steer (e.position, true);
+    if (drag == Drag::tool) return press (e.position);
     if (drag == Drag::turn) seen_by.orbit (-radians_per_pixel * static_cast<double> (by.x), radians_per_pixel * static_cast<double> (by.y));
     if (drag == Drag::move)
     {
@@ -245,15 +257,11 @@ void SceneView::mouseDrag (const juce::MouseEvent& e)
     changed();
 }
 
-void SceneView::mouseUp (const juce::MouseEvent& e)
-{
-    if (drag == Drag::tool) steer (e.position, false);
-    drag = Drag::none;
-}
+void SceneView::mouseUp (const juce::MouseEvent&) { release(); }
 
 void SceneView::mouseDoubleClick (const juce::MouseEvent& e)
 {
-    if (! isOnTool (e.position)) frameAll();
+    if (! isOnTool (e.position) && ! scene::Overlay::axisAt (seen_by, getLocalBounds().toFloat(), e.position)) frameAll();
 }
 
 void SceneView::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel)

@@ -18,12 +18,12 @@ public:
 
     void refresh();   ///< call many times a second while it is visible
 
-    /// Starts or stops asking the run for values. A view that nobody sees must not cost the run anything.
+    /// Starts or stops asking the run for values. A hidden view costs the run nothing.
     void watch (bool);
 
     void frameAll();             ///< shows the whole scene, from the current direction
     void lookAlong (int axis);   ///< looks along x, y or z; the second time from the other side
-    void follow (bool);          ///< keeps the first tool in the middle
+    void follow (bool);          ///< keeps the tool of the hand in the middle
     bool follows() const noexcept { return follow_button.getToggleState(); }
 
     const scene::Camera& camera() const noexcept { return seen_by; }
@@ -48,7 +48,9 @@ public:
 
 private:
     void drawSurfaces (float pixels_per_unit);
-    void steer (juce::Point<float>, bool presses);
+    void press (juce::Point<float>);
+    void release();
+    const scene::Tool* handTool() const { return now.tool (playback.current().handRole()); }   ///< the tool that a drag moves; null: none
     bool isOnTool (juce::Point<float>) const;
     void describe();
     void changed();
@@ -62,11 +64,10 @@ private:
     scene::Raster raster;
     juce::Image surfaces;
     LabelButton follow_button { "Follow", "Keeps the tool in the middle (T)" }, frame_button { "Frame", "Shows the whole scene (F, or double-click)" };
-    const void* shown_feed = nullptr;
     std::uint64_t shown_version = 0;
-    bool is_watched = false, is_dirty = true, is_framed = false, is_slow = false;
+    bool is_watched = false, is_dirty = true, is_framed = false, is_slow = false, is_coarse = false;
     int still_for = 0;   // calls to refresh() without news
-    double took_s = 0.0;
+    double took_s = 0.0, painted_ms = 0.0;
 
     enum class Drag
     {
@@ -77,6 +78,7 @@ private:
     };
     Drag drag = Drag::none;
     juce::Point<float> dragged_to;
+    Vec3 steered_to = Vec3::Zero();   // where the dragged tool was moved last; z does not matter
 };
 
 }   // namespace tactus::host

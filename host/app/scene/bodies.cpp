@@ -2,68 +2,79 @@
 #include "bodies.hpp"
 
 #include <algorithm>
-#include <map>
-#include <set>
 
 namespace tactus::host::scene
 {
 
 namespace
 {
-/// Where the values of a node's inputs come from.
+/// Which tool the values of a node come from. Each wire is followed once, whatever the number of bodies.
 class Sources
 {
 public:
-    explicit Sources (const plan::Flat& f) : flat (f)
+    explicit Sources (const plan::Flat& f) : flat (f), into (at (f.nodeCount())), out_of (at (f.nodeCount()))
     {
         for (std::size_t i = 0; i < flat.wires.size(); ++i)
-            if (const auto& w = flat.wires[i]; w.from) into[w.to.node].push_back (&w);
+            if (const auto& w = flat.wires[i]; w.from)
+            {
+                into[at (w.to.node)].push_back (&w);
+                out_of[at (w.from->node)].push_back (&w);
+            }
+        by_any_path = spread ([] (const plan::FlatWire&) { return true; });
+        by_vectors = spread ([this] (const plan::FlatWire& w) { return isVector (w); });
     }
 
-    /// The role of the tool that a node follows by any path; empty if it follows none.
-    std::string roleOf (int node) const
-    {
-        std::set<int> seen;
-        return search (node, seen, [] (const plan::FlatWire&) { return true; });
-    }
+    /// The role of the nearest tool that a node follows by any path; empty if it follows none.
+    std::string roleOf (int node) const { return roleAmong (by_any_path, node); }
 
     /// The role of the tool whose position reaches this input by whole vectors; empty if none does.
     std::string roleAt (int node, std::string_view input) const
     {
-        const auto& inputs = flat.node (node).type->inputs;
-        const auto isWhole = [] (const plan::FlatWire& w) { return w.to.component < 0 && w.from->component < 0; };
-        const auto found = into.find (node);
-        if (found == into.end()) return {};
-        for (const auto* w : found->second)
-        {
-            if (inputs[at (w->to.port)].id != input || ! isWhole (*w) || flat.sheet (*w->from).width != 3) continue;
-            if (const auto& role = flat.node (w->from->node).role; ! role.empty()) return role;
-            std::set<int> seen { node };
-            const auto isVector = [&] (const plan::FlatWire& v) { return isWhole (v) && flat.sheet (*v.from).width == 3; };
-            if (auto role = search (w->from->node, seen, isVector); ! role.empty()) return role;
-        }
+        for (const auto* w : into[at (node)])
+            if (isVector (*w) && flat.sheet (w->to).id == input)
+                if (auto role = roleAmong (by_vectors, w->from->node); ! role.empty()) return role;
         return {};
     }
 
 private:
-    template <typename Follows>
-    std::string search (int node, std::set<int>& seen, const Follows& follows) const
+    static constexpr int none = -1;
+
+    /// True if the wire carries a position or another whole vector to an input.
+    bool isVector (const plan::FlatWire& w) const
     {
-        if (! seen.insert (node).second) return {};
-        const auto found = into.find (node);
-        if (found == into.end()) return {};
-        for (const auto* w : found->second)
-        {
-            if (! follows (*w)) continue;
-            const auto& before = flat.node (w->from->node);
-            if (! before.role.empty()) return before.role;
-            if (auto role = search (w->from->node, seen, follows); ! role.empty()) return role;
-        }
-        return {};
+        return w.to.role == Role::input && w.to.component < 0 && w.from->component < 0 && flat.sheet (*w.from).width == 3;
+    }
+
+    /// For each node, the nearest node with a role from which such wires lead to it.
+    template <typename Follows>
+    std::vector<int> spread (const Follows& follows) const
+    {
+        std::vector<int> source (at (flat.nodeCount()), none), reached;
+        for (int i = 0; i < flat.nodeCount(); ++i)
+            if (! flat.node (i).role.empty())
+            {
+                source[at (i)] = i;
+                reached.push_back (i);
+            }
+        for (std::size_t i = 0; i < reached.size(); ++i)   // grows meanwhile
+            for (const auto* w : out_of[at (reached[i])])
+            {
+                if (source[at (w->to.node)] != none || ! follows (*w)) continue;
+                source[at (w->to.node)] = source[at (reached[i])];
+                reached.push_back (w->to.node);
+            }
+        return source;
+    }
+
+    std::string roleAmong (const std::vector<int>& source, int node) const
+    {
+        const int from = source[at (node)];
+        return from == none ? std::string {} : flat.node (from).role;
     }
 
     const plan::Flat& flat;
-    std::map<int, std::vector<const plan::FlatWire*>> into;   // by the node where they end
+    std::vector<std::vector<const plan::FlatWire*>> into, out_of;   // by node
+    std::vector<int> by_any_path, by_vectors;                       // by node: a node with a role
 };
 
 const SettingValue* settingOf (const plan::FlatNode& n, std::string_view id)

@@ -31,6 +31,8 @@ struct Relief
     std::shared_ptr<const Grid> grid;
     double pitch = 1e-4, height = 1.0;   ///< m; m per unit of the grid
     bool is_picture = false;             ///< the last row is at y = 0, not the first
+
+    bool operator== (const Relief&) const = default;
 };
 
 /// A node that has an appearance, in a compiled graph.

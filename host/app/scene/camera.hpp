@@ -71,7 +71,7 @@ public:
     void orbit (double right_rad, double up_rad) noexcept;
     void pan (juce::Point<float> pixels) noexcept;   ///< what is at the target moves by this much
 
-    /// Comes nearer by a factor. What is under the pixel, as far away as the target, stays there.
+    /// Zooms in by a factor. What is under the pixel, as far away as the target, stays there.
     void zoomAbout (juce::Point<float>, double factor) noexcept;
 
     /// Shows these bounds as a whole, from the current direction.

@@ -15,6 +15,24 @@ juce::String lengthText (double metres)
     return juce::String (mm, std::abs (mm) < 10.0 ? 2 : 1) + " mm";
 }
 
+/// The part of a line that is inside of a rectangle; empty: none.
+std::optional<juce::Line<float>> clipped (juce::Line<float> line, juce::Rectangle<float> area)
+{
+    const auto from = line.getStart(), way = line.getEnd() - from;
+    float begin = 0.0f, end = 1.0f;                       // as parts of the line
+    const auto keep = [&] (float way_out, float room) {   // the part where way_out * t <= room
+        if (way_out < 0.0f) begin = std::max (begin, room / way_out);
+        if (way_out > 0.0f) end = std::min (end, room / way_out);
+        if (way_out == 0.0f && room < 0.0f) end = -1.0f;
+    };
+    keep (-way.x, from.x - area.getX());
+    keep (way.x, area.getRight() - from.x);
+    keep (-way.y, from.y - area.getY());
+    keep (way.y, area.getBottom() - from.y);
+    if (! (begin < end)) return std::nullopt;
+    return juce::Line<float> (from + way * begin, from + way * end);
+}
+
 juce::Colour axisColour (const Theme& theme, int axis)
 {
     constexpr std::array quantities { Quantity::force, Quantity::energy, Quantity::length };   // three hues that colour-blind eyes can tell apart
@@ -89,20 +107,30 @@ void Overlay::drawForce (const Tool& tool, bool names_role)
            to.x < from.x ? Side::left : Side::right, colour);
 }
 
+std::optional<juce::Line<float>> Overlay::plumb (const Camera& camera, juce::Rectangle<float> area, const Tool& tool, const Body& plane)
+{
+    const Vec3 n = direction (plane.vector (&Appearance::normal, Vec3::UnitZ()));
+    const double height = n.dot (tool.position) - plane.number (&Appearance::offset, 0.0);
+    if (! isFinite (tool.position) || ! (height > 1e-4)) return std::nullopt;
+    const auto top = camera.see (tool.position), foot = camera.see (tool.position - height * n);
+    if (! (top.depth > camera.near() && foot.depth > camera.near())) return std::nullopt;
+    return clipped ({ top.x, top.y, foot.x, foot.y }, area);
+}
+
+bool Overlay::isInFront (const Vec3& p) const { return camera.see (p).depth > camera.near(); }
+
 /// Shows how far above the surface a hovering tool is.
 void Overlay::drawPlumb (const Tool& tool, const Scene& scene, const std::vector<Touch>& touches)
 {
     if (std::ranges::find (touches, tool.role, &Touch::role) != touches.end()) return;
     const auto plane = std::ranges::find_if (scene.bodies(), [&] (const Body& b) { return b.kind == Appearance::Kind::plane && b.role == tool.role; });
     if (plane == scene.bodies().end()) return;
-    const Vec3 n = direction (plane->vector (&Appearance::normal, Vec3::UnitZ()));
-    const double height = n.dot (tool.position) - plane->number (&Appearance::offset, 0.0);
-    if (! (height > 1e-4)) return;
-    const auto top = camera.pixel (tool.position), foot = camera.pixel (tool.position - height * n);
+    const auto line = plumb (camera, area, tool, *plane);
+    if (! line) return;
     const float dashes[] { 3.0f, 3.0f };
     graphics.setColour (look.theme().text.withAlpha (0.6f));
-    graphics.drawDashedLine ({ top, foot }, dashes, 2, 1.0f);
-    graphics.drawEllipse (juce::Rectangle<float> (7.0f, 4.0f).withCentre (foot), 1.2f);
+    graphics.drawDashedLine (*line, dashes, 2, 1.0f);
+    graphics.drawEllipse (juce::Rectangle<float> (7.0f, 4.0f).withCentre (line->getEnd()), 1.2f);
 }
 
 void Overlay::drawMarks (const Scene& scene, const Now& now)
@@ -111,10 +139,12 @@ void Overlay::drawMarks (const Scene& scene, const Now& now)
     const auto touches = scene.touches (now);
     for (const auto& crack : scene.cracks (now))
     {
+        const std::array corners { crack.begin, crack.end, Vec3 (crack.end + crack.down), Vec3 (crack.begin + crack.down) };
+        if (! std::ranges::all_of (corners, [this] (const Vec3& p) { return isInFront (p); })) continue;
         juce::Path wall;
-        wall.startNewSubPath (camera.pixel (crack.begin));
-        for (const Vec3& p : { crack.end, Vec3 (crack.end + crack.down), Vec3 (crack.begin + crack.down) })
-            wall.lineTo (camera.pixel (p));
+        wall.startNewSubPath (camera.pixel (corners[0]));
+        for (std::size_t i = 1; i < corners.size(); ++i)
+            wall.lineTo (camera.pixel (corners[i]));
         wall.closeSubPath();
         graphics.setColour (theme.of (Quantity::length).withAlpha (0.22f));
         graphics.fillPath (wall);
@@ -125,6 +155,7 @@ void Overlay::drawMarks (const Scene& scene, const Now& now)
     }
     for (const auto& touch : touches)
     {
+        if (! isInFront (touch.at) || ! isInFront (touch.tool)) continue;
         const auto at = camera.pixel (touch.at), tool = camera.pixel (touch.tool);
         const auto colour = theme.of (Quantity::length);
         graphics.setColour (colour);

@@ -25,6 +25,9 @@ public:
     /// The length of the arrow of a force on the screen, in pixels, if it lies in the picture: 48 pixels per newton, up to a limit.
     static double arrowLength (double newtons, double height) noexcept;
 
+    /// The line from a hovering tool to the plane below it, as far as the area shows it; empty: none to draw.
+    static std::optional<juce::Line<float>> plumb (const Camera&, juce::Rectangle<float> area, const Tool&, const Body& plane);
+
     static juce::String forceText (double newtons);
 
 private:
@@ -33,6 +36,7 @@ private:
 
     void drawForce (const Tool&, bool names_role);
     void drawPlumb (const Tool&, const Scene&, const std::vector<Touch>&);
+    bool isInFront (const Vec3&) const;
     enum class Side
     {
         left,

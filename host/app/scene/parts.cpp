@@ -25,7 +25,7 @@ void flat (Raster& raster, const Camera& camera, const Paint& paint, const std::
     raster.triangle (c[0], c[2], c[3], Raster::Sides::both, shade);
 }
 
-/// A rod that grows from one end to the other.
+/// A rod that gets thicker from one end to the other.
 void rod (Raster& raster, const Camera& camera, const Paint& paint, const Vec3& from, const Vec3& to, double thin, double thick, const Ink& ink)
 {
     constexpr int sides = 14;
@@ -59,7 +59,7 @@ void Scene::drawTool (Raster& raster, const Camera& camera, const Paint& paint, 
 {
     const auto seen = camera.see (tool.position);
     if (! (seen.depth > camera.near())) return;
-    const double radius = std::clamp (5.0 / camera.scaleAt (seen.depth), 3e-4, 2.5e-3);   // easy to see, but never a boulder
+    const double radius = std::clamp (5.0 / camera.scaleAt (seen.depth), 3e-4, 2.5e-3);   // easy to see, but never too large
     const Vec3 lean = Vec3 (0.42, -0.30, 1.0).normalized(), tip = tool.position + Vec3 (0.0, 0.0, radius);
     rod (raster, camera, paint, tip, tip + 16.0 * radius * lean, 0.5 * radius, 1.15 * radius, mixed (paint.metal, paint.lines, 0.25f));
     const Vec3 right = camera.right(), up = camera.up(), back = -camera.view();

@@ -53,15 +53,7 @@ std::pair<int, int> Raster::span (const std::array<float, 3>& xs, const std::arr
         from = std::min (from, x);
         to = std::max (to, x);
     }
-    return { std::max (0, static_cast<int> (std::ceil (from - 0.5f))), std::min (columns, static_cast<int> (std::ceil (to - 0.5f))) };
-}
-
-bool Raster::isVisible (const Camera::Seen& s, double slack) const noexcept
-{
-    const auto x = static_cast<int> (std::floor (s.x * static_cast<float> (samples))), y = static_cast<int> (std::floor (s.y * static_cast<float> (samples)));
-    if (x < 0 || y < 0 || x >= columns || y >= rows) return true;
-    const float there = nearest[static_cast<std::size_t> (y) * static_cast<std::size_t> (columns) + static_cast<std::size_t> (x)];
-    return ! (there > 0.0f) || s.depth - slack <= 1.0 / static_cast<double> (there);
+    return { firstAfter (from, columns), firstAfter (to, columns) };
 }
 
 double Raster::coverage() const noexcept

@@ -64,9 +64,6 @@ public:
     /// transparent.
     void write (juce::Image&) const;
 
-    /// True if a point is in front of everything that was drawn there, or outside of the picture.
-    bool isVisible (const Camera::Seen&, double slack) const noexcept;
-
     const Count& count() const noexcept { return counted; }
     int fineness() const noexcept { return samples; }
 
@@ -74,6 +71,14 @@ public:
     double coverage() const noexcept;
 
 private:
+    /// The first of `count` samples whose middle is not before this place; `count` if all are. A place may be as far away as a float goes.
+    static int firstAfter (float place, int count) noexcept
+    {
+        const float number = std::ceil (place - 0.5f);
+        if (! (number > 0.0f)) return 0;
+        return number < static_cast<float> (count) ? static_cast<int> (number) : count;
+    }
+
     /// The samples of a row whose middles are inside a triangle with these corners. Triangles that share an edge share no sample.
     std::pair<int, int> span (const std::array<float, 3>& x, const std::array<float, 3>& y, float middle) const noexcept;
 
@@ -111,9 +116,7 @@ void Raster::triangle (const Corner<N>& a, const Corner<N>& b, const Corner<N>& 
         lay (i, a.values[i] * a.nearness, b.values[i] * b.nearness, c.values[i] * c.nearness);
     lay (N, a.nearness, b.nearness, c.nearness);
 
-    const int first = std::max (0, static_cast<int> (std::ceil (low_y - 0.5f)));
-    const int last = std::min (rows - 1, static_cast<int> (std::ceil (high_y - 0.5f)) - 1);
-    for (int y = first; y <= last; ++y)
+    for (int y = firstAfter (low_y, rows), last = firstAfter (high_y, rows); y < last; ++y)
     {
         const float py = static_cast<float> (y) + 0.5f;
         const auto [begin, end] = span ({ a.x, b.x, c.x }, { a.y, b.y, c.y }, py);
@@ -145,8 +148,7 @@ void Raster::ball (const Camera& camera, const Vec3& centre, double radius, Shad
     const auto seen = camera.see (centre);
     if (! (seen.depth > camera.near())) return;
     const float f = static_cast<float> (samples), cx = seen.x * f, cy = seen.y * f, r = static_cast<float> (camera.scaleAt (seen.depth) * radius) * f;
-    const int top = std::max (0, static_cast<int> (std::ceil (cy - r - 0.5f))), bottom = std::min (rows, static_cast<int> (std::ceil (cy + r - 0.5f)));
-    const int left = std::max (0, static_cast<int> (std::ceil (cx - r - 0.5f))), right = std::min (columns, static_cast<int> (std::ceil (cx + r - 0.5f)));
+    const int top = firstAfter (cy - r, rows), bottom = firstAfter (cy + r, rows), left = firstAfter (cx - r, columns), right = firstAfter (cx + r, columns);
     for (int y = top; y < bottom; ++y)
         for (int x = left; x < right; ++x)
         {

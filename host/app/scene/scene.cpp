@@ -19,7 +19,25 @@ std::optional<Sheet3D> planeOf (const Body& b)
     sheet.normal = direction (b.vector (&Appearance::normal, Vec3::UnitZ()));
     if (sheet.normal.isZero()) return std::nullopt;
     sheet.offset = b.number (&Appearance::offset, 0.0);
+    sheet.roles = { b.role };
     return sheet;
+}
+
+/// The sheet that a texture of this role is on: of those that the same tool touches, or else of all, the nearest to the tool.
+Sheet3D& nearestTo (const std::string& role, const Tool* tool, std::vector<Sheet3D>& sheets)
+{
+    const auto away = [&] (const Sheet3D& s) {
+        const double distance = tool != nullptr ? std::abs (s.normal.dot (tool->position) - s.offset) : 0.0;
+        return std::pair (std::ranges::count (s.roles, role) == 0, distance);
+    };
+    return *std::ranges::min_element (sheets, {}, away);
+}
+
+/// Two fingers on one plane have the same texture, which should not look twice as rough.
+template <typename T>
+void addOnce (std::vector<T>& all, const T& one)
+{
+    if (std::ranges::find (all, one) == all.end()) all.push_back (one);
 }
 
 bool isSame (const Sheet3D& a, const Sheet3D& b) noexcept { return (a.normal - b.normal).norm() < 1e-6 && std::abs (a.offset - b.offset) < 1e-6; }
@@ -93,7 +111,11 @@ std::vector<Sheet3D> Scene::sheetsOf (const Now& now) const
     bool has_texture = false;
     for (const auto& b : all)
     {
-        if (auto sheet = planeOf (b); sheet && std::ranges::none_of (sheets, [&] (const auto& s) { return isSame (s, *sheet); })) sheets.push_back (*sheet);
+        if (auto sheet = planeOf (b))
+        {
+            const auto there = std::ranges::find_if (sheets, [&] (const auto& s) { return isSame (s, *sheet); });
+            there == sheets.end() ? sheets.push_back (*sheet) : there->roles.push_back (b.role);
+        }
         has_texture = has_texture || (b.is_placed && (b.kind == Kind::ridges || b.kind == Kind::relief));
     }
     if (sheets.empty() && has_texture && solids.empty()) sheets.emplace_back();
@@ -102,10 +124,11 @@ std::vector<Sheet3D> Scene::sheetsOf (const Now& now) const
     {
         const auto& b = all[i];
         if (! b.is_placed) continue;
+        auto& sheet = nearestTo (b.role, now.tool (b.role), sheets);
         if (b.kind == Kind::ridges)
-            sheets.front().ridges.push_back ({ b.number (&Appearance::frequency, 0.0),
-                                               b.number (&Appearance::angle, 0.0), b.number (&Appearance::phase, 0.0), originOf (i, now) });
-        if (b.kind == Kind::relief) sheets.front().grains.push_back ({ b.relief, originOf (i, now) });
+            addOnce (sheet.ridges, { b.number (&Appearance::frequency, 0.0), b.number (&Appearance::angle, 0.0), b.number (&Appearance::phase, 0.0),
+                                     originOf (i, now) });
+        if (b.kind == Kind::relief) addOnce (sheet.grains, { b.relief, originOf (i, now) });
     }
     for (const auto& touch : touches (now))
     {
@@ -170,9 +193,12 @@ std::vector<Crack> Scene::cracks (const Now& now) const
 void Scene::draw (Raster& raster, const Camera& camera, const Paint& paint, const Now& now) const
 {
     auto sheets = sheetsOf (now);
+    constexpr double most_cells = 8192.0;   // in all sheets together
+    const auto cells = static_cast<int> (std::sqrt (most_cells / static_cast<double> (std::max<std::size_t> (1, sheets.size()))));
     for (auto& sheet : sheets)
     {
         sheet.grid = gridFor (camera);
+        sheet.cells = std::clamp (cells, 2, sheet.cells);
         sheet.draw (raster, camera, paint);
     }
     const auto felt = touches (now);

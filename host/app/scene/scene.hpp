@@ -27,7 +27,7 @@ struct Now
     }
 };
 
-/// A tool that is held at a point of a surface: in contact, or caught in a sideways stretch.
+/// A tool that is held at a point of a surface: in contact, or stretched sideways.
 struct Touch
 {
     std::string role {};

@@ -10,7 +10,6 @@ namespace tactus::host::scene
 
 namespace
 {
-constexpr int cells = 64;                // along each side
 constexpr double full_colour_m = 2e-3;   // depth at which the colour of depth is complete
 
 /// Heights of a grid as slopes at any place: linear between its points, mirrored beyond its ends.
@@ -140,7 +139,7 @@ private:
 };
 
 /// Places from -half to half that lie closer together around the middle.
-std::vector<double> places (double half, double middle)
+std::vector<double> places (double half, double middle, int cells)
 {
     const double centre = std::clamp (middle, -0.9 * half, 0.9 * half);
     std::vector<double> all;
@@ -160,21 +159,11 @@ std::array<Vec3, 2> Sheet3D::axes() const noexcept
     return { v.cross (n), v };
 }
 
-Bounds Sheet3D::bounds() const noexcept
-{
-    Bounds all;
-    const auto [u, v] = axes();
-    for (const double a : { -half_width, half_width })
-        for (const double b : { -half_width, half_width })
-            all.add (centre() + a * u + b * v);
-    return all;
-}
-
 void Sheet3D::draw (Raster& raster, const Camera& camera, const Paint& paint) const
 {
     const auto [u, v] = axes();
     const Vec3 busy = dents.empty() ? Vec3 (camera.target) : dents.front().at;
-    const auto us = places (half_width, (busy - centre()).dot (u)), vs = places (half_width, (busy - centre()).dot (v));
+    const auto us = places (half_width, (busy - centre()).dot (u), cells), vs = places (half_width, (busy - centre()).dot (v), cells);
     const Skin skin (*this, camera, paint);
     using Corner = Raster::Corner<Skin::count>;
     std::vector<Corner> corners;

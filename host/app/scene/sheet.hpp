@@ -30,6 +30,8 @@ struct Ridges
 {
     double frequency = 0.0, angle = 0.0, phase = 0.0;   ///< 1/m, rad, rad
     Vec3 from = Vec3::Zero();                           ///< the point of the world that is the origin of the node's coordinates
+
+    bool operator== (const Ridges&) const = default;
 };
 
 /// A relief in the coordinates of a sheet.
@@ -37,20 +39,24 @@ struct Grain
 {
     Relief map;
     Vec3 from = Vec3::Zero();   ///< as in Ridges
+
+    bool operator== (const Grain&) const = default;
 };
 
 /// A flat surface, with the ridges and reliefs on it and the dents in it.
 class Sheet3D
 {
 public:
-    static constexpr double half_width = 0.06;   ///< m; as the view from above
+    static constexpr double half_width = 0.06;   ///< m; as in the view from above
 
     Vec3 normal = Vec3::UnitZ();
-    double offset = 0.0;   ///< m, along the normal
+    double offset = 0.0;                 ///< m, along the normal
+    std::vector<std::string> roles {};   ///< of the tools that its planes follow
     std::vector<Ridges> ridges {};
     std::vector<Grain> grains {};
     std::vector<Dent> dents {};
     double grid = 0.01;   ///< distance of the lines on it, in m
+    int cells = 64;       ///< along each side; each is drawn as two triangles
 
     void draw (Raster&, const Camera&, const Paint&) const;
 
@@ -58,8 +64,6 @@ public:
     std::array<Vec3, 2> axes() const noexcept;
 
     Vec3 centre() const noexcept { return offset * normal; }
-
-    Bounds bounds() const noexcept;
 };
 
 }   // namespace tactus::host::scene

@@ -184,6 +184,7 @@ void MainView::timerCallback()
         if (const auto why = direct_stop->follow (strip, strip.stopPlace()))
             status.notify ("While the window is busy, Esc and STOP have to wait: " + juce::String (messageText (*why)));
     }
+    hand.setSeen (hand.isShowing() && ! hand.getBounds().isEmpty());
     hand.refresh();
     live.refresh();
     limits.attend();

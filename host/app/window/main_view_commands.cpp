@@ -59,7 +59,8 @@ bool MainView::keyPressed (const juce::KeyPress& key)
         live.shows_costs = ! live.shows_costs;
         return true;
     }
-    return scopes.keyPressed (key) || patching.keyPressed (key);
+    const bool is_hidden = hand.isEnlarged();   // you would not see what you edit
+    return scopes.keyPressed (key) || (! is_hidden && patching.keyPressed (key));
 }
 
 /// True if Esc would close something: a question, the help, the palette, a menu, a dialog, or a field in which text is typed.

@@ -99,6 +99,30 @@ TEST_CASE ("controls and knobs reach what a body looks like, and a bypassed node
     CHECK (ofKind (bodies, Kind::ridges)[0].number (&Appearance::frequency, 0.0) == 400.0);
 }
 
+TEST_CASE ("a wire to a param does not place a body, whichever row the param is", "[app][scene]")
+{
+    auto graph = host::test::presetGraph ("dry_wood");
+    auto& wires = graph.root.wires;
+    const auto drive = [&] (const std::string& node, const std::string& param, int component, const char* gain) {
+        std::erase_if (wires, [&] (const graph::Wire& w) { return w.to.node == node && w.to.port == "position"; });
+        graph::Wire w;
+        w.from = { "hand", "position", -1, component };
+        w.to = { node, param };
+        w.gain = Json (gain);
+        wires.push_back (std::move (w));
+    };
+    drive ("board", "normal", -1, "1 1/m");               // a vector, in the row where the inputs have the position
+    drive ("grain", "spatial_frequency", 0, "1 1/m^2");   // in a row that the inputs do not have
+    const auto bodies = host::test::bodiesOf (graph);
+    for (const auto kind : { Kind::plane, Kind::ridges })
+    {
+        const auto found = ofKind (bodies, kind);
+        REQUIRE (found.size() == 1);
+        CHECK_FALSE (found[0].is_placed);
+        CHECK (found[0].role == "stylus");
+    }
+}
+
 TEST_CASE ("every part of an appearance is a row of the right size", "[nodes][contract]")
 {
     int visible = 0;

@@ -225,6 +225,77 @@ TEST_CASE ("planes at one place are one sheet, with the dents of all tools", "[a
     CHECK (two.scene.touches (now).size() == 2);
 }
 
+TEST_CASE ("many planes are drawn with fewer triangles each", "[app][scene]")
+{
+    std::vector<Body> bodies;
+    for (int i = 0; i < 100; ++i)
+    {
+        bodies.push_back (plane());
+        set (bodies.back().fixed, &Appearance::offset, { 1e-3 * i, 0.0, 0.0 });
+    }
+    Studio one ({ plane() }), many (bodies);
+    one.draw();
+    many.draw();
+    CHECK (one.raster.count().all() == 8192);
+    CHECK (many.raster.count().all() > 8192);
+    CHECK (many.raster.count().all() <= 16384);
+}
+
+TEST_CASE ("a texture lies once on the plane of its tool", "[app][scene]")
+{
+    const auto pictureOf = [] (const std::vector<std::string>& roles) {
+        auto wall = plane(), floor = plane();
+        set (wall.fixed, &Appearance::normal, -Vec3::UnitX());   // towards the light
+        set (wall.fixed, &Appearance::offset, { 0.02, 0.0, 0.0 });
+        wall.role = "other";
+        std::vector<Body> bodies { wall, floor };
+        for (const auto& role : roles)
+        {
+            Body ridges { .kind = Kind::ridges, .path = "ridges", .role = role, .is_placed = true };
+            set (ridges.fixed, &Appearance::frequency, { 150.0, 0.0, 0.0 });
+            set (ridges.fixed, &Appearance::angle, { std::numbers::pi / 2.0, 0.0, 0.0 });
+            bodies.push_back (ridges);
+        }
+        Studio studio (bodies);
+        studio.draw();
+        const auto steepest = [&] (const Vec3& from, const Vec3& step) {
+            int most = 0;
+            for (int i = 0; i < 5; ++i)
+                most = std::max (most, std::abs (studio.at (from + i * step).getGreen() - studio.at (from + (i + 1) * step).getGreen()));
+            return most;
+        };
+        const Vec3 step (0.0, 1.6e-3, 0.0);
+        return std::pair (steepest ({ 0.015, 0.001, 0.0 }, step), steepest ({ -0.02, 0.001, 0.013 }, step));   // on the floor, on the wall
+    };
+    const auto none = pictureOf ({}), floor = pictureOf ({ "tool" }), twice = pictureOf ({ "tool", "tool" }), wall = pictureOf ({ "other" });
+    CHECK (floor.first > none.first + 5);
+    CHECK (floor.second == none.second);
+    CHECK (twice == floor);
+    CHECK (wall.first == none.first);
+    CHECK (wall.second > none.second + 5);
+}
+
+TEST_CASE ("a tool that is far away has a short line to the plane or none", "[app][scene]")
+{
+    using scene::Overlay;
+    const juce::Rectangle<float> area (width, height);
+    scene::Camera camera;
+    camera.setSize (width, height);
+    const auto lineTo = [&] (const Vec3& p) { return Overlay::plumb (camera, area, { .role = "tool", .position = p }, plane()); };
+    const auto near = lineTo ({ 0.0, 0.0, 0.01 });
+    REQUIRE (near);
+    CHECK (near->getLength() > 10.0f);
+    const auto diagonal = std::hypot (static_cast<float> (width), static_cast<float> (height));
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    for (const double far : { 0.1, 10.0, 1e6, 1e300, inf })
+        for (const Vec3& way : { Vec3 (1, 0, 0.01), Vec3 (0, 1, 0.01), Vec3 (0, 0, 1), Vec3 (0, -1, 1), Vec3 (-1, 1, 1) })
+        {
+            const auto line = lineTo ({ way.x() == 0.0 ? 0.0 : way.x() * far, way.y() == 0.0 ? 0.0 : way.y() * far, way.z() * far });
+            if (line) CHECK (line->getLength() <= diagonal);
+            if (! std::isfinite (far)) CHECK_FALSE (line);
+        }
+}
+
 TEST_CASE ("an arrow grows with its force up to a limit, and its number has a unit", "[app][scene]")
 {
     using scene::Overlay;

@@ -91,6 +91,24 @@ TEST_CASE ("triangles that face away, or lie outside or behind the camera, are n
     CHECK (r.coverage() > 0.1);
 }
 
+TEST_CASE ("what is far outside of the picture is drawn as far as the picture shows it", "[app][scene]")
+{
+    constexpr float far = 1e12f;
+    Raster r;
+    r.begin (width, height, 1);
+    quad (r, -far, -far, far, far, 1.0f, 0xff112233);
+    CHECK (r.coverage() == 1.0);
+    r.begin (width, height, 1);
+    quad (r, far, far, 2.0f * far, 2.0f * far, 1.0f, 0xff112233);
+    CHECK (r.coverage() == 0.0);
+    Camera camera;
+    camera.setSize (width, height);
+    const auto green = [] (const std::array<float, 3>&) { return 0xff00ff00u; };
+    r.ball (camera, camera.target + 1e12 * camera.right(), 1e-3, green);
+    r.ball (camera, camera.target - 1e12 * camera.up(), 1e-3, green);
+    CHECK (r.coverage() == 0.0);
+}
+
 TEST_CASE ("values are interpolated in space, not over the picture", "[app][scene]")
 {
     Raster r;
@@ -125,6 +143,10 @@ TEST_CASE ("a ball is round and hides what is behind it", "[app][scene]")
     const double radius = 8.0 / camera.scaleAt (camera.distance);
     r.ball (camera, camera.target, radius, [] (const std::array<float, 3>&) { return 0xff00ff00u; });
     CHECK (r.coverage() * width * height == Approx (3.14159 * 64.0).epsilon (0.05));
-    CHECK (r.isVisible (camera.see (camera.target - 2.0 * radius * camera.view()), 0.0));
-    CHECK_FALSE (r.isVisible (camera.see (camera.target + 2.0 * radius * camera.view()), 0.0));
+    const auto colour = [&r] (int x) { return pictureOf (r).getPixelAt (x, height / 2); };
+    quad (r, 0.0f, 0.0f, 40.0f, 30.0f, static_cast<float> (camera.distance + 2.0 * radius), 0xff0000ff);
+    CHECK (colour (width / 2) == juce::Colour (0xff00ff00));
+    CHECK (colour (2) == juce::Colour (0xff0000ff));
+    quad (r, 0.0f, 0.0f, 40.0f, 30.0f, static_cast<float> (camera.distance - 2.0 * radius), 0xffff0000);
+    CHECK (colour (width / 2) == juce::Colour (0xffff0000));
 }

@@ -106,10 +106,16 @@ TEST_CASE ("the keyboard does what the mouse does in the scene", "[app][scene]")
     CHECK (camera.yaw == scene::Camera {}.yaw);
 }
 
-TEST_CASE ("a scene that nobody sees asks the run for nothing", "[app][scene]")
+TEST_CASE ("a hidden scene asks the run for nothing", "[app][scene]")
 {
     Rig rig { "liver" };
     auto& feed = rig.playback.run().scene();
+    CHECK_FALSE (feed.ports().empty());
+    rig.panel.setSeen (false);
+    rig.panel.refresh();
+    CHECK (feed.ports().empty());
+    rig.panel.setSeen (true);
+    rig.panel.refresh();
     CHECK_FALSE (feed.ports().empty());
     rig.panel.showScene (false);
     rig.panel.refresh();
@@ -155,11 +161,39 @@ TEST_CASE ("dragging the tool in the scene presses with it", "[app][scene]")
     rig.panel.refresh();
     rig.hand.press (rig.view.camera().pixel (tool().position));
     CHECK (rig.until ([&] { return tool().force.z() > 0.05; }));
+    rig.hand.wheel (rig.view.camera().pixel (tool().position), -2.0f);   // as deep as it goes, five times as deep as before
+    CHECK (rig.until ([&] { return tool().position.z() < -1e-3; }));
     rig.hand.release (rig.view.camera().pixel (tool().position));
     CHECK (rig.until ([&] { return tool().force.z() < 0.05; }));
 }
 
-TEST_CASE ("an enlarged scene is shown beside the view from above", "[app][scene]")
+TEST_CASE ("a tool that is released above the horizon stops pressing", "[app][scene]")
+{
+    Rig rig { "dry_wood" };
+    rig.playback.start (LiveRun::Hand::pointer());
+    REQUIRE (rig.until ([&] { return ! rig.playback.run().scene().now().tools.empty(); }));
+    rig.view.lookAlong (0);   // from the side, so that the upper half of the picture is above the horizon
+    struct Steered
+    {
+        double x, y;
+        bool presses;
+    };
+    std::vector<Steered> steered;
+    rig.view.onSteer = [&] (double x, double y, bool presses) { steered.push_back ({ x, y, presses }); };
+    const auto at = rig.view.camera().pixel (rig.playback.run().scene().now().tools[0].position);
+    rig.panel.refresh();
+    rig.hand.press (at);
+    REQUIRE_FALSE (steered.empty());
+    CHECK (steered.back().presses);
+    rig.hand.dragTo ({ at.x, 2.0f });
+    const auto last = steered.back();
+    rig.hand.release ({ at.x, 2.0f });
+    CHECK_FALSE (steered.back().presses);
+    CHECK (steered.back().x == last.x);
+    CHECK (steered.back().y == last.y);
+}
+
+TEST_CASE ("an enlarged scene is shown next to the view from above", "[app][scene]")
 {
     Rig rig { "liver" };
     int laid_out = 0;
