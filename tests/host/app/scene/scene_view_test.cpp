@@ -17,6 +17,7 @@ namespace
 {
 struct Rig
 {
+    juce::ScopedJuceInitialiser_GUI juce_runs;
     struct Dressed
     {
         Look look;

@@ -86,6 +86,11 @@ std::string Monkey::act()
     };
     if (juce::ModalComponentManager::getInstance()->getNumModalComponents() > 0 && upTo (4) != 0) return chooseInMenu();
     if (view->asked().isOpen() && upTo (3) != 0) return answer();
+    if (! view->canvas().isShowing() && upTo (4) == 0)
+    {
+        stage->key (juce::String ("escape"));
+        return "leave the scene";
+    }
     int sum = 0;
     for (const auto& [weight, action] : actions)
         sum += weight;

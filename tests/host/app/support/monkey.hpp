@@ -107,6 +107,7 @@ private:
 
     //==========================================================================
     // monkey_canvas.cpp
+    void focusCanvas();
     juce::Point<float> onCanvas (juce::Point<float> of_scene);
     juce::Point<float> onNode (const SceneNode&, bool title);
     const SceneNode* someNode();

@@ -64,10 +64,16 @@ std::string Monkey::clickOnCanvas()
     return name + ": " + clickAt (onNode (*n, by_title));
 }
 
+/// Not while the enlarged scene hides the canvas.
+void Monkey::focusCanvas()
+{
+    if (view->canvas().isShowing()) view->canvas().grabKeyboardFocus();
+}
+
 std::string Monkey::canvasKey()
 {
     const auto& command = oneOf (canvasCommands());
-    if (upTo (3) != 0) view->canvas().grabKeyboardFocus();
+    if (upTo (3) != 0) focusCanvas();
     if (upTo (4) == 0 && ! view->canvas().scene().nodes().empty())
     {
         Selection some;
@@ -89,7 +95,7 @@ std::string Monkey::group()
     for (int i = 1 + upTo (3); --i >= 0;)
         some.insert (oneOf (nodes).id);
     view->canvas().select (some);
-    view->canvas().grabKeyboardFocus();
+    focusCanvas();
     stage->key (juce::String ("g"));
     if (upTo (2) == 0) stage->key (juce::String ("return"));
     return "group " + std::to_string (some.size());
@@ -129,7 +135,7 @@ const NodeType& Monkey::someType()
 
 std::string Monkey::addByPalette()
 {
-    view->canvas().grabKeyboardFocus();
+    focusCanvas();
     stage->key (juce::String ("spacebar"));
     const std::string type (someType().info.id);
     const auto query = type.substr (0, static_cast<std::size_t> (upTo (static_cast<int> (type.size()) + 1)));
