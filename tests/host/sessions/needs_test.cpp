@@ -129,11 +129,10 @@ TEST_CASE ("missing parts refer to the device in the session, or else in the gra
     CHECK_FALSE (fit.there);   // any HID device might be plugged in, so its layout is not known
     CHECK (fitsOf (needsOf (*plan), s.graph, bound ("stylus", { { "driver", "hid" } }), profiles, there).front().there);
 
-    fit = fitsOf (
-              needsOf (*plan), s.graph,
-              bound ("stylus", { { "driver", "audio" }, { "outputs", { Json::object(), Json::object(), Json::object() } }, { "inputs", { Json::object() } } }),
-              profiles, {})
-              .front();
+    const Json sound { { "driver", "audio" },
+                       { "outputs", { Json::object(), Json::object(), Json::object() } },
+                       { "inputs", Json::array ({ Json::object() }) } };
+    fit = fitsOf (needsOf (*plan), s.graph, bound ("stylus", sound), profiles, {}).front();
     REQUIRE (fit.there);
     CHECK (fit.there->others.signal_outputs == 3);
     CHECK (std::ranges::count (fit.lacking, "no signal input 2; it has 1") == 1);
