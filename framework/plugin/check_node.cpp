@@ -115,7 +115,8 @@ public:
 
     std::string fault()
     {
-        for (auto step : { &NodeCheck::head, &NodeCheck::hooks, &NodeCheck::collectPorts, &NodeCheck::checkPorts, &NodeCheck::checkSettings, &NodeCheck::appearance })
+        using Check = NodeCheck;
+        for (auto step : { &Check::head, &Check::hooks, &Check::collectPorts, &Check::checkPorts, &Check::checkSettings, &Check::appearance })
             if (auto why = (this->*step)(); ! why.empty()) return why;
         return {};
     }
