@@ -150,8 +150,7 @@ LaneForm formLanes() noexcept
     using Here = detail::InLanes<Lanes>;
     static_assert (std::is_trivially_destructible_v<Lanes>);
     static_assert (detail::wordsOf<Lanes>() <= LaneForm::most_words, "too many params and members of state() for lanes");
-    static_assert (
-        ! requires (const Lanes& node) { node.peek(); }, "a node that peeks cannot run in lanes");
+    static_assert (! Peekable<Lanes>, "a node that peeks cannot run in lanes");
     static_assert (sizeof (typename Lanes::Outputs) == width * sizeof (typename N<double>::Outputs), "outputs are doubles and vectors");
 
     LaneForm form { .width = width, .size = sizeof (Lanes), .outputs_size = sizeof (typename Lanes::Outputs) };

@@ -9,8 +9,8 @@
 namespace tactus::bench
 {
 
-/// A wall with friction and a grating for each of 64 contacts, as instances of one subgraph with different params. Each contact has a
-/// position of its own, which follows the input. `lanes` as in CompileOptions.
+/// A wall with friction and a grating for each of 64 contacts, as instances of one subgraph with different params. Each contact has
+/// its own position, which follows the input. `lanes` as in CompileOptions.
 std::unique_ptr<Variant> manyContacts (std::size_t lanes);
 
 }   // namespace tactus::bench
