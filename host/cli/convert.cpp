@@ -26,7 +26,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-struct Options
+struct ConvertOptions
 {
     std::string in, out, calibration;
     double rate_hz = 0.0;
@@ -110,7 +110,7 @@ RenderedClip rendered (const Clip& clip, double rate_hz)
 }
 
 /// The rate of the recording that a clip came from, else the usual one.
-double rateOf (const Options& options, const Clip& clip)
+double rateOf (const ConvertOptions& options, const Clip& clip)
 {
     if (options.rate_hz > 0.0) return options.rate_hz;
     for (const auto& [key, value] : clip.notes)
@@ -119,7 +119,7 @@ double rateOf (const Options& options, const Clip& clip)
     return usual_rate_hz;
 }
 
-void writeWave (const Options& options, const Clip& clip)
+void writeWave (const ConvertOptions& options, const Clip& clip)
 {
     const double rate_hz = rateOf (options, clip);
     const auto all = rendered (clip, rate_hz);
@@ -141,7 +141,7 @@ void writeWave (const Options& options, const Clip& clip)
     reportLoss (clip, back, false);
 }
 
-void writeSamples (const Options& options, const Clip& clip)
+void writeSamples (const ConvertOptions& options, const Clip& clip)
 {
     const auto all = rendered (clip, options.rate_hz);
     std::vector<std::string> columns { "t" };
@@ -162,7 +162,7 @@ void writeSamples (const Options& options, const Clip& clip)
     std::cout << "  loss: samples at " << rounded (options.rate_hz) << " Hz instead of envelopes; leave --rate out for the rows of the clip\n";
 }
 
-void writeRows (const Options& options, const Clip& clip)
+void writeRows (const ConvertOptions& options, const Clip& clip)
 {
     static const std::vector<std::string> columns { "kind", "track", "a", "b", "c" };
     const auto grid = gridOf (clip);
@@ -188,7 +188,7 @@ void writeText (const std::string& out, const Clip& clip)
 }
 
 /// Continuous events into one file, transients into another: the engine of the phone then applies the curves of the one not to the other.
-void writeSplit (const Options& options, const Clip& clip)
+void writeSplit (const ConvertOptions& options, const Clip& clip)
 {
     const auto path = fs::path (options.out);
     const auto second = (path.parent_path() / (path.stem().string() + "_transients" + path.extension().string())).string();
@@ -202,7 +202,7 @@ void writeSplit (const Options& options, const Clip& clip)
     writeText (second, taps);
 }
 
-void run (const Options& options)
+void run (const ConvertOptions& options)
 {
     const auto extension = extensionOf (options.out);
     if (options.split && extension != ".ahap") throw UsageError ("--split", "only .ahap files are split");
@@ -229,7 +229,7 @@ void run (const Options& options)
 
 void addConvert (const Command& app)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ConvertOptions>();
     const auto command = app.add ("convert", "Convert a haptic clip: AHAP, .haptic, HJIF, WAV, CSV, and clips of Tactus");
     command.addOption ("in", options->in, "The file to read: .haptic, .ahap, .hjif, .json, .wav or .csv").required();
     command.addOption ("out", options->out, "The file to write; its extension selects the format").required();

@@ -21,7 +21,7 @@ namespace tactus::host
 
 namespace
 {
-struct Options
+struct CurveOptions
 {
     std::string young, tool, depth = "2 mm", preset, plot;
     double poisson = 0.5, mu = 0.3;
@@ -57,7 +57,7 @@ void draw (const Shape& shape, const Law& law, double depth, const std::string& 
     orFail (writeFigure (figure, file));
 }
 
-void compute (const Shape& shape, const Options& options)
+void compute (const Shape& shape, const CurveOptions& options)
 {
     const double young = readAmount ("--young", options.young, "Pa", "10 kPa"), size = readAmount (shape.option, options.tool, shape.unit, shape.example);
     const double depth = readAmount ("--depth", options.depth, "m", "2 mm");
@@ -110,7 +110,7 @@ void addCurve (const Command& app)
     command.requireCommand();
     for (const auto& shape : shapes)
     {
-        const auto options = std::make_shared<Options>();
+        const auto options = std::make_shared<CurveOptions>();
         const auto one = command.add (shape.name, shape.about);
         one.addOption ("--young", options->young, "Young's modulus E, such as \"10 kPa\"").required();
         one.addOption (shape.option, options->tool, shape.option_about).required();

@@ -33,7 +33,7 @@ using namespace std::chrono_literals;
 using namespace hid;
 using Clock = std::chrono::steady_clock;
 
-struct Options
+struct DevicesOptions
 {
     bool probe = false, json = false;
     double duration_s = 0.0;
@@ -290,7 +290,7 @@ std::vector<std::unique_ptr<Probed>> openAll (const std::vector<Listed>& all)
     return probed;
 }
 
-void probe (const std::vector<Listed>& all, const Options& options, Json& json)
+void probe (const std::vector<Listed>& all, const DevicesOptions& options, Json& json)
 {
     watchForStop();
     auto probed = openAll (all);
@@ -338,7 +338,7 @@ void probe (const std::vector<Listed>& all, const Options& options, Json& json)
             if (device.value ("path", Json()) == p->path()) device["probe"] = p->json();
 }
 
-void run (const Options& options)
+void run (const DevicesOptions& options)
 {
     const auto profiles = loadProfileLibrary();
     for (const auto& m : profiles.messages)
@@ -378,7 +378,7 @@ void run (const Options& options)
 
 void addDevices (const Command& app)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<DevicesOptions>();
     const auto command = app.add ("devices", "List connected devices, their profiles and their readings");
     const auto probe = command.addFlag ("--probe", options->probe,
                                         "Open all devices that have a profile and show their readings until Ctrl-C; "

@@ -21,7 +21,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-struct Options
+struct ExportArguments
 {
     std::string graph, folder, target = "cpp";
     std::vector<std::string> inputs, records, sets;
@@ -44,7 +44,7 @@ std::string nextStep (ExportTarget target, const std::string& folder)
     return "try it: make -C " + folder + (target == ExportTarget::fmu ? " fmu" : " test");
 }
 
-void run (const Options& options)
+void run (const ExportArguments& options)
 {
     const auto target = targetNamed (options.target);
     const auto loaded = loadGraph (options.graph);
@@ -75,7 +75,7 @@ void run (const Options& options)
 
 void addExport (const Command& app)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ExportArguments>();
     const auto command = app.add ("export", "Write a graph as C++ code that computes the same bits: for firmware, simulators and other programs");
     command
         .addOption (

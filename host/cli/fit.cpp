@@ -22,7 +22,7 @@ namespace tactus::host
 
 namespace
 {
-struct Options
+struct FitOptions
 {
     std::string recording, preset, plot, mass;
 };
@@ -44,7 +44,7 @@ RecordedLoop readLoop (const std::string& file)
 }
 
 /// The graph of a tap on a soft wall. The force of the wall hands over to a shock.
-constexpr const char* tap = R"({
+constexpr const char* tap_preset = R"({
   "format": "tactus-graph", "version": 1, "name": "", "tags": ["shock", "tap", "fitted"], "rate_hz": 10000,
   "devices": {
     "stylus": {
@@ -74,7 +74,7 @@ constexpr const char* tap = R"({
 /// A preset with the fitted shock. Everything else in it is a guess.
 graph::Graph presetOf (const ShockFit& fit, const std::string& name, const std::string& source)
 {
-    auto graph = readGraph (tap).graph;
+    auto graph = readGraph (tap_preset).graph;
     graph.name = name;
     graph.about = "A tap whose loop of force against depth has the same area as a recorded loop: ";
     graph.about += rounded (1e3 * fit.recorded_area) + " mJ at " + rounded (fit.speed) + " m/s.";
@@ -117,7 +117,7 @@ void draw (const ShockFit& fit, const std::string& name, const std::string& file
     orFail (writeFigure (figure, file));
 }
 
-void fitShock (const Options& options)
+void fitShock (const FitOptions& options)
 {
     const double mass = options.mass.empty() ? 0.0 : readAmount ("--mass", options.mass, "kg", "50 g");
     std::vector<std::string> outputs { options.preset };
@@ -142,7 +142,7 @@ void addFit (const Command& app)
     const auto command = app.add ("fit", "Fit the parameters of a model to a recording, and write a preset with them");
     command.requireCommand();
 
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<FitOptions>();
     const auto shock = command.add ("shock", "Fit the spring and damper of shock.hunt_crossley to a recorded impact");
     shock.addOption ("recording", options->recording, "CSV file with the columns depth (m), force (N) and, if it has times, t (s)").required();
     shock.addOption ("-o,--out", options->preset, "The preset to write: a graph file").required();

@@ -19,7 +19,7 @@ namespace tactus::host
 
 namespace
 {
-struct Options
+struct FitCurveOptions
 {
     std::string recording, preset, plot;
     std::string depth = "depth", depth_unit = "1 m", force = "force", force_unit = "1 N", touch;
@@ -27,7 +27,7 @@ struct Options
     int points = 20;
 };
 
-RecordedLoop readIndentation (const Options& options)
+RecordedLoop readIndentation (const FitCurveOptions& options)
 {
     const double metres = readAmount ("--depth-unit", options.depth_unit, "m", "1 um"), newtons = readAmount ("--force-unit", options.force_unit, "N", "1 mN");
     const double touch = options.touch.empty() ? 0.0 : readAmount ("--touch", options.touch, "m", "0.2 mm");
@@ -79,7 +79,7 @@ void draw (const CurveFit& fit, const std::string& name, const std::string& file
     orFail (writeFigure ({ .title = name, .panels = { axes } }, file));
 }
 
-void fitCurve (const Options& options)
+void fitCurve (const FitCurveOptions& options)
 {
     std::vector<std::string> outputs { options.preset };
     if (! options.plot.empty()) outputs.push_back (options.plot);
@@ -103,7 +103,7 @@ void fitCurve (const Options& options)
 
 void addFitCurve (const Command& fit)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<FitCurveOptions>();
     const auto curve = fit.add ("curve", "Fit a curve of deform.surface to a recorded indentation");
     curve.addOption ("recording", options->recording, "CSV file with a column of depths and one of forces, in the order of time").required();
     curve.addOption ("-o,--out", options->preset, "The preset to write: a graph file").required();

@@ -13,7 +13,7 @@ namespace tactus::host
 
 namespace
 {
-struct Options
+struct HitOptions
 {
     std::vector<std::string> hits;
     OscOption osc;
@@ -38,7 +38,7 @@ std::pair<std::string, float> readHit (const std::string& text)
     return { name, speed };
 }
 
-void run (const Options& options)
+void run (const HitOptions& options)
 {
     std::vector<std::pair<std::string, float>> hits;
     for (const auto& text : options.hits)
@@ -55,7 +55,7 @@ void run (const Options& options)
 
 void addHit (const Command& app)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<HitOptions>();
     const auto command = app.add ("hit", "Trigger hits in a graph that `tactus play` is running");
     command.addOption ("hits", options->hits, "NODE.PORT, or NODE.PORT=SPEED in m/s; default: 1 m/s").required();
     options->osc.addTo (command);

@@ -21,13 +21,13 @@ namespace
 {
 namespace fs = std::filesystem;
 
-struct Options
+struct NewNodeOptions
 {
     std::string family, name, folder;
     bool only_write = false;
 };
 
-constexpr const char* header = R"(#pragma once
+constexpr const char* header_template = R"(#pragma once
 
 #include <tactus/node/node.hpp>
 
@@ -85,14 +85,14 @@ struct @TYPE@
 TACTUS_NODE (@FAMILY@::@TYPE@);
 )";
 
-constexpr const char* source = R"(#include <tactus/plugin/node_plugin.hpp>
+constexpr const char* source_template = R"(#include <tactus/plugin/node_plugin.hpp>
 
 #include "@NAME@.hpp"
 
 TACTUS_PLUGIN (@FAMILY@::@TYPE@)
 )";
 
-constexpr const char* test = R"(#include "@NAME@.hpp"
+constexpr const char* test_template = R"(#include "@NAME@.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -108,7 +108,7 @@ int main()
 }
 )";
 
-constexpr const char* cmake = R"(cmake_minimum_required (VERSION 3.22)
+constexpr const char* cmake_template = R"(cmake_minimum_required (VERSION 3.22)
 project (@NAME@ VERSION 0.1.0 LANGUAGES CXX)
 find_package (Tactus 0.2 REQUIRED)
 
@@ -122,7 +122,7 @@ add_test (NAME @NAME@ COMMAND @NAME@_test)
 install (TARGETS @NAME@ LIBRARY DESTINATION lib/tactus/plugins)
 )";
 
-constexpr const char* readme = R"(# @FAMILY@.@NAME@
+constexpr const char* readme_template = R"(# @FAMILY@.@NAME@
 
 A node for Tactus, as a plugin.
 
@@ -160,7 +160,7 @@ std::string title (std::string name)
     return name;
 }
 
-std::string filled (std::string text, const Options& options)
+std::string filled (std::string text, const NewNodeOptions& options)
 {
     const std::pair<std::string, std::string> words[] {
         { "@FAMILY@", options.family }, { "@NAME@", options.name }, { "@TYPE@", typeName (options.name) }, { "@TITLE@", title (options.name) }
@@ -171,7 +171,7 @@ std::string filled (std::string text, const Options& options)
     return text;
 }
 
-void check (const Options& options, const fs::path& folder)
+void check (const NewNodeOptions& options, const fs::path& folder)
 {
     for (const auto& word : { options.family, options.name })
         if (! isName (word)) fail ("node/name", quote (word) + " is not a name for a node", "use lower-case letters, digits and _, beginning with a letter");
@@ -202,15 +202,15 @@ void build (const fs::path& folder)
               "install CMake, a C++20 compiler and the development files of Tactus (docs/library.md), or set CMAKE_PREFIX_PATH to where they are");
 }
 
-void run (const Options& options)
+void run (const NewNodeOptions& options)
 {
     const fs::path folder = options.folder.empty() ? fs::path (options.name) : fs::path (options.folder);
     check (options, folder);
-    const std::pair<std::string, const char*> files[] { { options.name + ".hpp", header },
-                                                        { options.name + ".cpp", source },
-                                                        { options.name + "_test.cpp", test },
-                                                        { "CMakeLists.txt", cmake },
-                                                        { "README.md", readme } };
+    const std::pair<std::string, const char*> files[] { { options.name + ".hpp", header_template },
+                                                        { options.name + ".cpp", source_template },
+                                                        { options.name + "_test.cpp", test_template },
+                                                        { "CMakeLists.txt", cmake_template },
+                                                        { "README.md", readme_template } };
     for (const auto& [file, text] : files)
     {
         if (auto written = writeTextFile (folder / file, filled (text, options)); ! written) fail (written.error());
@@ -223,7 +223,7 @@ void run (const Options& options)
 
 void addNewNode (const Command& app)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<NewNodeOptions>();
     const auto command = app.add ("new-node", "Write a node of your own as a plugin, with a test, and build it");
     command.addOption ("family", options->family, "The first half of its id, such as your lab or project").required();
     command.addOption ("name", options->name, "The second half of its id, such as rough_wood").required();

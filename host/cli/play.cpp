@@ -31,7 +31,7 @@ namespace tactus::host
 
 namespace
 {
-struct Options : RunOptions
+struct PlayOptions : RunOptions
 {
     bool costs = false, fuse = false;
     std::vector<std::string> live;   ///< headers of nodes
@@ -41,7 +41,7 @@ struct Options : RunOptions
 };
 
 /// The OSC port of the run; null if it is off, or if the default port is taken.
-std::unique_ptr<OscPort> openPort (const Options& options)
+std::unique_ptr<OscPort> openPort (const PlayOptions& options)
 {
     if (options.osc == "off") return nullptr;
     auto listen = readListen (options.osc).value();
@@ -88,7 +88,7 @@ void warnOfCapture (const std::string& file, const Message& error)
 
 /// The code of nodes to watch: the headers that --live names and, with --watch, the plugins that were built here. The headers are
 /// compiled before the graph is read.
-std::unique_ptr<LivePlugins> openLive (const Options& options)
+std::unique_ptr<LivePlugins> openLive (const PlayOptions& options)
 {
     std::vector<LiveSource> sources;
     for (const auto& header : options.live)
@@ -118,7 +118,7 @@ constexpr double look_apart_s = 0.02;   // between two looks at the run
 class Playing
 {
 public:
-    Playing (const Options& o, LivePlugins& l) : options (o), live (l)
+    Playing (const PlayOptions& o, LivePlugins& l) : options (o), live (l)
     {
         watchForStop();   // before this there is nothing to shut down
         command.run().add (emergency);
@@ -276,7 +276,7 @@ private:
         if (end.end == RunStatus::End::overrun) failOverrun (runner, command.rate());
     }
 
-    const Options& options;
+    const PlayOptions& options;
     LivePlugins& live;
     FileWatch file_watch { { options.graph } };   // before the file is read, so that no edit is missed
     CommandRun command { options, CommandRun::Pace::live };
@@ -296,7 +296,7 @@ private:
     int looks_without_tick = 0;   // counted in looks and not in seconds, so that a suspended program does not count
 };
 
-void run (const Options& options)
+void run (const PlayOptions& options)
 {
     if (! options.records.empty() && options.outputs.empty())
         throw UsageError ("--record names what to record but not where: --out FILE is required");
@@ -308,7 +308,7 @@ void run (const Options& options)
 
 void addPlay (const Command& app)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<PlayOptions>();
     const auto command = app.add ("play", "Run a graph in real time until its gesture or trace ends, --duration is over, or you press Ctrl-C");
     options->addTo (command);
     command.addFlag ("--watch", options->watch,

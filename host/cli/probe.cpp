@@ -22,7 +22,7 @@ namespace
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-struct Options
+struct ProbeOptions
 {
     std::string port;
     double rate_hz = 50.0, duration_s = 0.0;
@@ -30,7 +30,7 @@ struct Options
     OscOption osc;
 };
 
-void run (const Options& options)
+void run (const ProbeOptions& options)
 {
     watchForStop();
     OscClient client { options.osc.number };
@@ -89,7 +89,7 @@ void run (const Options& options)
 
 void addProbe (const Command& app)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ProbeOptions>();
     const auto command = app.add ("probe", "Watch a port of a graph that `tactus play` is running, as CSV");
     command.addOption ("port", options->port, "The port, as in drag.force, or one of its components, as in drag.force.x").required();
     const auto rate = command.addOption ("--rate", options->rate_hz, "Rows per second").check (within (0.01, 1000.0));

@@ -27,7 +27,7 @@ namespace tactus::host
 
 namespace
 {
-struct Options : RunOptions
+struct RenderOptions : RunOptions
 {
     std::string replay, listen;
     PlotOptions plot;
@@ -50,7 +50,7 @@ void failIfAny (const std::vector<Message>& failed)
 class Output
 {
 public:
-    Output (const Options& o, const std::vector<Tap>& taps, double rate_hz)
+    Output (const RenderOptions& o, const std::vector<Tap>& taps, double rate_hz)
         : options (o), recorder (o.outputs, taps, rate_hz, o.pictures().empty(), IfKilled::removed, ! o.listen.empty()), values (recorder.width())
     {
         if (! options.listen.empty())
@@ -85,7 +85,7 @@ public:
     }
 
 private:
-    const Options& options;
+    const RenderOptions& options;
     Recorder recorder;
     std::optional<Plotter> plotter;
     std::optional<Listening> listening;
@@ -93,7 +93,7 @@ private:
     std::uint64_t ticks = 0;
 };
 
-void render (const Options& options)
+void render (const RenderOptions& options)
 {
     CommandRun command { options, CommandRun::Pace::offline };
     if (! command.ticks())
@@ -117,7 +117,7 @@ void render (const Options& options)
     command.reportRun();
 }
 
-void replay (const Options& options)
+void replay (const RenderOptions& options)
 {
     auto outputs = options.outputs;
     std::ranges::copy (options.pictures(), std::back_inserter (outputs));
@@ -151,7 +151,7 @@ void replay (const Options& options)
     if (const auto why = replayed->end()) warn (why->where, *why);
 }
 
-void run (Options& options)
+void run (RenderOptions& options)
 {
     options.plot.finish();
     if (options.graph.empty() && options.replay.empty()) throw UsageError ("graph is required");
@@ -161,7 +161,7 @@ void run (Options& options)
 
 void addRender (const Command& app)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<RenderOptions>();
     const auto command = app.add ("render", "Run a graph offline: deterministic and faster than real time, with the same engine as live");
     options->addTo (command);
     command.get ("graph").required (false);

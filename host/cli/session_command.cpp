@@ -28,7 +28,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-struct Options
+struct SessionOptions
 {
     std::string graph, file, clock;
     std::vector<std::string> bind, unbind;
@@ -175,10 +175,10 @@ std::vector<RoleFit> fitsOf (const LoadedGraph& graph, const std::string& file, 
     return host::fitsOf (needsOf (*compiled.plan), graph.graph, s, profiles, connected);
 }
 
-bool edits (const Options& options) { return ! options.bind.empty() || ! options.unbind.empty() || options.clock_given; }
+bool edits (const SessionOptions& options) { return ! options.bind.empty() || ! options.unbind.empty() || options.clock_given; }
 
 /// Loads the session that the options name. If they edit a file that does not exist yet, starts with an empty session.
-LoadedSession openSession (const Options& options)
+LoadedSession openSession (const SessionOptions& options)
 {
     if (options.file.empty()) return loadDefaultSession (homeFolder());
     std::error_code unseen;
@@ -188,7 +188,7 @@ LoadedSession openSession (const Options& options)
     return fresh;
 }
 
-LoadedSession edited (LoadedSession session, const Options& options, const std::optional<LoadedGraph>& graph, const hid::LoadedProfiles& profiles)
+LoadedSession edited (LoadedSession session, const SessionOptions& options, const std::optional<LoadedGraph>& graph, const hid::LoadedProfiles& profiles)
 {
     std::vector<Described> bound;
     for (const auto& option : options.bind)
@@ -210,7 +210,7 @@ LoadedSession edited (LoadedSession session, const Options& options, const std::
     });
 }
 
-void run (const Options& options)
+void run (const SessionOptions& options)
 {
     std::optional<LoadedGraph> graph;
     if (! options.graph.empty())
@@ -262,7 +262,7 @@ Check clockCheck()
 
 void addSession (const Command& app)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<SessionOptions>();
     const auto command = app.add ("session", "Show or change which devices the roles of graphs are bound to, and show whether they fit a graph");
     command.addOption (
         "graph", [options] (const std::string& given) { options->graph = graphFile (given); },

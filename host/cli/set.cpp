@@ -8,13 +8,13 @@ namespace tactus::host
 
 namespace
 {
-struct Options
+struct SetOptions
 {
     std::vector<std::string> sets;
     OscOption osc;
 };
 
-void run (const Options& options)
+void run (const SetOptions& options)
 {
     for (const auto& set : options.sets)
         if (const auto equals = set.find ('='); equals == std::string::npos || equals == 0)
@@ -43,7 +43,7 @@ void run (const Options& options)
 
 void addSet (const Command& app)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<SetOptions>();
     const auto command = app.add ("set", "Set parameters and controls of a graph that `tactus play` is running");
     command.addOption ("values", options->sets, "NODE.PARAM=VALUE, or CONTROL=0…1").required();
     options->osc.addTo (command);

@@ -16,7 +16,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr const char* pressed = R"({
+constexpr const char* pressed_preset = R"({
   "format": "tactus-graph", "version": 2, "name": "", "tags": ["deformation", "press"], "rate_hz": 4000,
   "devices": {
     "finger": {
@@ -73,7 +73,7 @@ Json curvesOf (const EvenBody& body)
 
 graph::Graph surfacePreset (const EvenBody& body, const std::string& name, const std::string& about, const std::string& source)
 {
-    auto graph = readGraph (pressed).graph;
+    auto graph = readGraph (pressed_preset).graph;
     graph.name = name;
     graph.about = about;
     for (auto& node : graph.root.nodes)
