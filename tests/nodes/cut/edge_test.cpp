@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <tactus/kit/rotation.hpp>
 #include <tactus/nodes/cut/blade.hpp>
 #include <tactus/nodes/cut/edge.hpp>
 
@@ -14,6 +15,7 @@
 #include <vector>
 
 using tactus::Law;
+using tactus::shortestRotation;
 using tactus::Vec3;
 using tactus::nodes::Blade;
 using tactus::nodes::Edge;
@@ -160,7 +162,7 @@ TEST_CASE ("edge: pressed in level, it is a blade, in any direction and with any
 
         const Vec3 n = up.normalized();
         const Vec3 along = tactus::perpendicularTo (n);
-        const Eigen::AngleAxisd rotation { Eigen::Quaterniond::FromTwoVectors (Vec3::UnitX(), along) };
+        const Eigen::AngleAxisd rotation { shortestRotation (Vec3::UnitX(), along) };
         const Vec3 start = along * dice.uniform (-0.1, 0.1) + n.cross (along) * dice.uniform (-0.1, 0.1);
         const double d_r = law.inverse (params.rupture_force);
         double depth = 0.0;
