@@ -151,15 +151,16 @@ if [ "$mode" != --quick ]; then
     RC_PARAMS="$RC_PARAMS max_success=20" TACTUS_ROUNDS=20 run_tests asan
 fi
 
-build release
 parts=()
 if [ "$mode" = --quick ]; then
     parts=(--label-exclude whole)
+    build release
 else
+    say "A newcomer's node"
+    tests/newcomer/run.sh   # before the rest is built: what it compiles is not compiled again
+    build release
     say "The demo"
     ./demo.sh --offline
-    say "A newcomer's node"
-    tests/newcomer/run.sh
 fi
 say "Tests"
 run_tests release "${parts[@]}"

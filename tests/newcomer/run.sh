@@ -1,20 +1,18 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Adds one header and one test to the tree and changes nothing else. Checks that the node builds, is listed, and is tested
-# against the contract of all nodes. Both files are removed afterwards.
-set -euo pipefail
-cd "$(dirname "$0")/../.."
+# against the contract of all nodes. Both files are removed afterwards; the next build removes them from the programs.
+. "$(dirname "$0")/../../.ci/setup.sh"
 
 header=nodes/texture/washboard.hpp
 test=tests/nodes/texture/washboard_test.cpp
-clean () { rm -f "$header" "$test"; }
-trap 'clean; cmake --build --preset release --target tactus tactus_tests >/dev/null' EXIT
+trap 'rm -f "$header" "$test"' EXIT
 
 cp tests/newcomer/washboard.hpp.txt "$header"
 cp tests/newcomer/washboard_test.cpp.txt "$test"
 others=$(git status --porcelain 2>/dev/null | grep -vE "washboard" || true)
 
-cmake --build --preset release --target tactus tactus_tests
+build release tactus tactus_tests
 
 # No -q: grep must read everything. With -q it stops at the first match; SIGPIPE can then kill the writer and fail the
 # check
