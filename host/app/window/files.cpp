@@ -13,6 +13,26 @@ namespace tactus::host
 
 namespace fs = std::filesystem;
 
+namespace
+{
+/// The first errors of a graph file, a paragraph each. Names the file only where it is another one, such as that of a subgraph.
+juce::String errorList (const Messages& messages, const fs::path& file)
+{
+    constexpr int most = 4;
+    juce::String list;
+    int count = 0;
+    for (const auto& m : messages)
+    {
+        if (m.severity != Message::Severity::error || ++count > most) continue;
+        if (m.file != file.string()) list << printableName (m.file) << ": ";
+        if (m.line > 0) list << "Line " << m.line << ", column " << m.column << ": ";
+        list << messageText (m) << ".\n\n";
+    }
+    if (count > most) list << "There are " << count - most << " more errors.\n\n";
+    return list;
+}
+}   // namespace
+
 Files::Files (Document& d, Question& q, Settings& s, Callbacks c)
     : clock ([] { return static_cast<double> (juce::Time::currentTimeMillis()) / 1000.0; }),
       document (d), question (q), settings (s), callbacks (std::move (c))
@@ -38,7 +58,8 @@ std::string Files::name() const
 //==============================================================================
 void Files::whenSaved (const juce::String& why, std::function<void()> act)
 {
-    if (question.isOpen()) question.cancel();
+    while (question.isOpen())
+        question.cancel();
     if (! document.isChanged()) return act();
     const auto text = document.file().empty() ? juce::String ("The graph has no file yet. You will be asked where to save it.")
                                               : "Saving overwrites " + juce::String (document.file().string()) + ".";
@@ -72,12 +93,7 @@ void Files::openGraph (graph::Graph g, const std::string& step)
 void Files::load (const fs::path& file, Document::Source source, bool by_pointer)
 {
     auto loaded = loadGraph (file);
-    const auto error = std::ranges::find (loaded.messages, Message::Severity::error, &Message::severity);
-    if (error != loaded.messages.end())
-    {
-        const auto at = error->line > 0 ? ":" + juce::String (error->line) + ":" + juce::String (error->column) : juce::String();
-        return callbacks.notify (juce::String (file.filename().string()) + at + ": " + juce::String (messageText (*error)));
-    }
+    if (hasErrors (loaded.messages)) return refuse (file, loaded.messages);
     if (! source.file.empty())
     {
         settings.noteRecent (file);
@@ -86,6 +102,21 @@ void Files::load (const fs::path& file, Document::Source source, bool by_pointer
     const auto called = loaded.graph.name.empty() ? file.stem().string() : loaded.graph.name;
     show (std::move (loaded.graph), std::move (source), "open " + called, true, by_pointer);
     callbacks.notify (safe ? juce::String ("Safe mode: nothing runs until you press START.") : juce::String());
+}
+
+/// A dialog, because the reason may be long, and a line at the edge of the window is easily missed by someone who waits for a graph.
+void Files::refuse (const fs::path& file, const Messages& messages)
+{
+    std::vector<Question::Choice> choices { { "Open another file ...", [this] { open(); } } };
+    std::error_code failed;
+    if (std::ranges::count (settings.recent, file) > 0 && ! fs::exists (file, failed))
+        choices.push_back ({ "Remove from recent files", [this, file] {
+                                std::erase (settings.recent, file);
+                                callbacks.onSettings();
+                            } });
+    choices.push_back ({ "Close", {} });
+    question.ask ("Cannot open " + juce::String (printableName (file.filename().string())), errorList (messages, file) + "The open graph is unchanged.",
+                  std::move (choices));
 }
 
 void Files::open()
@@ -133,15 +164,20 @@ void Files::saveAs (std::function<void()> then)
     });
 }
 
+void Files::saveElsewhere (const juce::String& why, const std::function<void()>& then)
+{
+    question.ask ("The graph was not saved", why, { { "Save as ...", [this, then] { saveAs (then); } }, { "Cancel", {} } });
+}
+
 void Files::saveTo (const fs::path& file, const std::function<void()>& then)
 {
     std::error_code failed;
     const bool is_shipped = ! presetFolder().empty() && fs::equivalent (file.parent_path(), presetFolder(), failed);
     if (is_shipped && file != document.file() && fs::exists (file, failed))
-        return callbacks.notify ("Not saved: " + juce::String (file.filename().string()) + " ships with Tactus. Choose another name or folder.");
+        return saveElsewhere (juce::String (file.filename().string()) + " ships with Tactus. Choose another name or folder.", then);
     const auto not_carried = carryFiles (document.graph(), file.parent_path());
     const auto messages = document.save (file);
-    if (! messages.empty()) return callbacks.notify ("Not saved: " + juce::String (messageText (messages.front())));
+    if (! messages.empty()) return saveElsewhere (errorList (messages, file).trimEnd(), then);
     autosave();
     settings.noteRecent (file);
     callbacks.onSettings();

@@ -62,6 +62,8 @@ private:
     bool autosave();
     void load (const std::filesystem::path&, Document::Source, bool by_pointer);
     void show (graph::Graph, Document::Source, const std::string& step, bool runs, bool by_pointer);
+    void refuse (const std::filesystem::path&, const Messages&);   ///< a dialog that says why the file cannot be opened
+    void saveElsewhere (const juce::String& why, const std::function<void()>& then);
     void saveTo (const std::filesystem::path&, const std::function<void()>& then);
     void askAboutNext();
     void restoreNext (bool runs);

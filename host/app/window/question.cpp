@@ -16,6 +16,11 @@ Question::Question()
 
 void Question::ask (const juce::String& title, const juce::String& text, std::vector<Choice> all)
 {
+    if (isOpen())
+    {
+        waiting.push_back ({ title, text, std::move (all) });
+        return;
+    }
     heading = title;
     body = text;
     choices = std::move (all);
@@ -43,6 +48,10 @@ void Question::answer (std::size_t choice)
     setVisible (false);
     if (auto* parent = getParentComponent()) takeFocus (*parent);
     if (act) act();
+    if (isOpen() || waiting.empty()) return;
+    auto next = std::move (waiting.front());
+    waiting.pop_front();
+    ask (next.title, next.text, std::move (next.choices));
 }
 
 void Question::cancel()

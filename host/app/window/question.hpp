@@ -3,6 +3,7 @@
 
 #include <host/app/look/plain_button.hpp>
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -10,7 +11,7 @@
 namespace tactus::host
 {
 
-/// A modal question over the window. Return picks the marked choice: the first one, or the one the arrow keys moved to. Esc, which
+/// A modal question over the window. A question that is asked while another one is open waits until that is answered. Return picks the marked choice: the first one, or the one the arrow keys moved to. Esc, which
 /// the window passes on, picks the last one.
 class Question final : public juce::Component
 {
@@ -35,6 +36,12 @@ public:
     bool keyPressed (const juce::KeyPress&) override;
 
 private:
+    struct Waiting
+    {
+        juce::String title, text;
+        std::vector<Choice> choices;
+    };
+
     void mark (std::size_t choice);
     juce::TextLayout layout (int width) const;
 
@@ -43,6 +50,7 @@ private:
     std::vector<Choice> choices;
     std::vector<std::unique_ptr<PlainButton>> buttons;
     std::size_t marked = 0;
+    std::deque<Waiting> waiting;
     juce::Rectangle<int> box;
 };
 

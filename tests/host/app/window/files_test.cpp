@@ -115,8 +115,9 @@ TEST_CASE ("a copy of a shipped preset cannot be saved over the preset")
     d.edit (0.9);
     d.chosen = presets / "dry_wood.json";
     d.files->save();
-    CHECK (d.notice.startsWith ("Not saved"));
+    CHECK (d.question.title() == "The graph was not saved");
     CHECK (d.document.isChanged());
+    d.question.cancel();
     CHECK (presets.textOf ("dry_wood.json") == before);
 
     d.files->open (presets / "dry_wood.json");   // opened as a file, it can be saved
@@ -167,26 +168,73 @@ TEST_CASE ("Save saves and continues; if saving fails, it does not continue")
     d.files->open (pad);
     d.chosen = d.folder / "nowhere" / "mine.json";
     d.question.answer (0);
-    CHECK (d.notice.startsWith ("Not saved"));
+    CHECK (d.question.title() == "The graph was not saved");
     CHECK (d.document.graph().name == "Dry wood");
     CHECK (d.document.isChanged());
 
     d.chosen = d.folder / "mine.json";
-    d.files->open (pad);
-    d.question.answer (0);
+    d.question.answer (0);   // "Save as ..." asks for a file, then continues
     CHECK (d.document.graph().name == "Soft pad");
     CHECK (loadGraph (d.folder / "mine.json").graph.root.find ("drag")->params["mu"] == 0.9);
 }
 
-TEST_CASE ("a file that cannot be read is reported with line and column, and the open graph stays")
+TEST_CASE ("a dialog says with line and column why a file cannot be opened, and the open graph stays")
 {
     Rig d;
     d.files->open (wood);
     d.folder.write ("torn.json", "{\n  \"format\": \"tactus-graph\",\n  \"version\": 1, oops\n}");
     d.files->open (d.folder / "torn.json");
-    CHECK (d.notice.startsWith ("torn.json:3:"));
+    REQUIRE (d.question.isOpen());
+    CHECK (d.question.title() == "Cannot open torn.json");
+    CHECK (d.question.getDescription().startsWith ("Line 3, column 17: "));
     CHECK (d.document.graph().name == "Dry wood");
     CHECK (d.runs);
+
+    d.chosen = pad;
+    d.question.answer (0);   // "Open another file ..."
+    CHECK_FALSE (d.question.isOpen());
+    CHECK (d.document.graph().name == "Soft pad");
+}
+
+TEST_CASE ("the dialog about a file with many errors shows the first four and counts the others")
+{
+    Rig d;
+    d.folder.write ("many.json", R"({ "format": "tactus-graph", "version": 2, "nodes": { "a": 1, "b": 1, "c": 1, "d": 1, "e": 1, "f": 1 } })");
+    const auto messages = loadGraph (d.folder / "many.json").messages;
+    const auto errors = std::ranges::count (messages, Message::Severity::error, &Message::severity);
+    REQUIRE (errors > 4);
+    d.files->open (d.folder / "many.json");
+    CHECK (d.question.getDescription().contains ("There are " + juce::String (static_cast<int> (errors) - 4) + " more errors."));
+}
+
+TEST_CASE ("a question that is asked while another one is open comes after it")
+{
+    Rig d;
+    juce::String answers;
+    d.question.ask ("first", "", { { "a", [&] { answers << "a"; } }, { "b", {} } });
+    d.question.ask ("second", "", { { "c", [&] { answers << "c"; } }, { "d", {} } });
+    CHECK (d.question.title() == "first");
+    d.question.answer (0);
+    REQUIRE (d.question.isOpen());
+    CHECK (d.question.title() == "second");
+    d.question.answer (0);
+    CHECK_FALSE (d.question.isOpen());
+    CHECK (answers == "ac");
+}
+
+TEST_CASE ("a recent file that no longer exists can be removed from the list where it fails to open")
+{
+    Rig d;
+    fs::copy_file (pad, d.folder / "mine.json");
+    d.files->open (d.folder / "mine.json");
+    REQUIRE (d.settings.recent.size() == 1);
+    fs::remove (d.folder / "mine.json");
+    d.files->open (d.folder / "mine.json");
+    REQUIRE (d.question.isOpen());
+    REQUIRE (d.question.size() == 3);
+    d.question.answer (1);
+    CHECK (d.settings.recent.empty());
+    CHECK_FALSE (d.question.isOpen());
 }
 
 TEST_CASE ("a second after each edit, the autosave matches the document")
