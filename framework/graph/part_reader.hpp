@@ -36,10 +36,10 @@ protected:
     template <typename F>
     void eachId (Json& object, const std::string& where, std::string_view what, F&& each)
     {
-        std::string at;
+        MemberPointer pointer (*this, where);
         for (auto& [id, value] : object.asObject())
         {
-            setPointer (at, where, id);
+            const auto& at = pointer.to (id);
             checkId (id, at, what);
             if (isKind (value, JsonKind::object, at)) each (id, value, at);
         }

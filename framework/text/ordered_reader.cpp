@@ -106,10 +106,10 @@ bool OrderedReader::isKind (const Json& value, JsonKind kind, const std::string&
 
 void OrderedReader::read (Json& object, const std::string& where, const std::vector<KnownKey>& fields, Json& extra)
 {
-    std::string member;
+    MemberPointer pointer (*this, where);
     for (auto& [key, value] : object.asObject())
     {
-        setPointer (member, where, key);
+        const auto& member = pointer.to (key);
         const auto field = std::ranges::find (fields, key, &KnownKey::key);
         if (field != fields.end())
         {

@@ -62,10 +62,10 @@ public:
     template <typename Reader, typename Read, std::size_t n>
     void read (Json& object, const std::string& where, const RowKey<Reader, Read> (&fields)[n], Reader& self, Read& into, Json& extra)
     {
-        std::string member;
+        MemberPointer pointer (*this, where);
         for (auto& [key, value] : object.asObject())
         {
-            setPointer (member, where, key);
+            const auto& member = pointer.to (key);
             const auto* field = std::ranges::find (fields, key, &RowKey<Reader, Read>::key);
             if (field == std::end (fields))
             {
@@ -80,7 +80,44 @@ public:
 
     Messages messages;
 
+protected:
+    /// The JSON pointer to one member of an object after another. Most files have no errors, so these are rarely looked at, and must be
+    /// cheap: the reader keeps their memory for the next object.
+    class MemberPointer
+    {
+    public:
+        MemberPointer (OrderedReader& r, const std::string& object) : reader (r)
+        {
+            if (! reader.spare.empty())
+            {
+                text = std::move (reader.spare.back());
+                reader.spare.pop_back();
+            }
+            text = object;
+            text += '/';
+            begin = text.size();
+        }
+        ~MemberPointer() { reader.spare.push_back (std::move (text)); }
+        MemberPointer (const MemberPointer&) = delete;
+        MemberPointer& operator= (const MemberPointer&) = delete;
+
+        /// Valid until the next call.
+        const std::string& to (std::string_view key)
+        {
+            text.resize (begin);
+            appendPointerPart (text, key);
+            return text;
+        }
+
+    private:
+        OrderedReader& reader;
+        std::string text;
+        std::size_t begin = 0;   // of the key
+    };
+
 private:
+    std::vector<std::string> spare;   // for MemberPointer
+
     void keepUnknown (const std::string& key, Json value, const std::string& member, std::span<const std::string_view> known, Json& extra);
     void add (Message::Severity, std::string id, const std::string& where, std::string text, std::string remedy);
 };
