@@ -83,7 +83,7 @@ public:
 
     T& add (T item)
     {
-        if (count == all.size() << bits) all.push_back (std::make_shared<Chunk>());
+        if (count == all.size() << bits) all.push_back (newChunk());
         auto& added = change (count++);
         added = std::move (item);
         return added;
@@ -103,11 +103,20 @@ public:
         while (count > n)
             drop();
         for (; all.size() << bits < n;)
-            all.push_back (std::make_shared<Chunk>());
+            all.push_back (newChunk());
         count = n;
     }
 
 private:
+    /// With elements as T {} makes them. If T has a constructor, filling the chunk with zeros before is wasted.
+    static std::shared_ptr<Chunk> newChunk()
+    {
+        if constexpr (std::is_trivially_default_constructible_v<T>)
+            return std::make_shared<Chunk>();
+        else
+            return std::make_shared_for_overwrite<Chunk>();
+    }
+
     std::vector<std::shared_ptr<Chunk>> all;
     std::size_t count = 0;
 };

@@ -28,7 +28,7 @@ public:
         Dimension total;
         while (up (r) != r)
         {
-            total = total * factor[at (r)];
+            total = scaled (total, factor[at (r)]);
             r = up (r);
         }
         while (up (v) != r && v != r)   // shortens the path for later calls
@@ -48,7 +48,7 @@ public:
     {
         const auto& d = known[at (root (v))];
         if (! d) return {};
-        return *d * factorOf (v);
+        return scaled (*d, factorOf (v));
     }
 
     /// Sets the dimension of v. Returns false if v is known to have a different one.
@@ -63,11 +63,11 @@ public:
     bool join (int a, int b, Dimension times)
     {
         const int ra = root (a), rb = root (b);
-        const auto shift = factorOf (a) * times / factorOf (b);   // factor of rb relative to ra
+        const auto shift = ra == a && rb == b ? times : factorOf (a) * times / factorOf (b);   // factor of rb relative to ra
         if (ra == rb) return shift == Dimension {};
         auto& of_a = known[at (ra)];
         const auto& of_b = known[at (rb)];
-        if (of_a && of_b && *of_b != *of_a * shift) return false;
+        if (of_a && of_b && *of_b != scaled (*of_a, shift)) return false;
         if (! of_a && of_b) of_a = *of_b / shift;
         parent[at (rb)] = ra;
         factor[at (rb)] = shift;
@@ -78,6 +78,9 @@ private:
     std::vector<int> parent;
     std::vector<Dimension> factor;                 // relative to the parent
     std::vector<std::optional<Dimension>> known;   // by root
+
+    /// A product. Most factors are 1.
+    static Dimension scaled (Dimension d, Dimension by) { return by == Dimension {} ? d : d * by; }
 
     int up (int v) const { return parent[at (v)]; }
     Dimension factorOf (int v) const { return up (v) == v ? Dimension {} : factor[at (v)]; }   // call root (v) first
@@ -154,10 +157,11 @@ private:
                 }
                 else if (row.unit.kind == UnitRule::Kind::same)
                 {
-                    if (const auto a = named (node, row.unit.a))
+                    if (const auto other = named (node, row.unit.a))
                     {
-                        dimensions.join (variable (*a), v, row.unit.unit.dimension);
-                        if (row.unit.unit.dimension == Dimension {}) links.push_back ({ variable (*a), v, nullptr });
+                        const int a = variable (*other);
+                        dimensions.join (a, v, row.unit.unit.dimension);
+                        if (row.unit.unit.dimension == Dimension {}) links.push_back ({ a, v, nullptr });
                     }
                 }
                 else if (row.unit.kind == UnitRule::Kind::product)
