@@ -81,13 +81,14 @@ public:
         return (*mine)[i & within];
     }
 
-    T& add (T item)
+    /// A new element at the end, as T {} makes it.
+    T& add()
     {
         if (count == all.size() << bits) all.push_back (newChunk());
-        auto& added = change (count++);
-        added = std::move (item);
-        return added;
+        return change (count++);
     }
+
+    T& add (T item) { return add() = std::move (item); }
 
     /// Removes the last element.
     void drop()

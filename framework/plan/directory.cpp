@@ -63,8 +63,9 @@ struct Finder
 
     bool in (const Scope& scope, std::string_view path) const
     {
-        const auto step = graph::firstStep (path);
-        const auto* named = scope.find (step.name);
+        const auto* named = scope.find (path);   // most paths are names
+        const auto step = named != nullptr ? graph::PathStep { .name = path, .rest = {} } : graph::firstStep (path);
+        if (named == nullptr) named = scope.find (step.name);
         if (named == nullptr) return unknownNode (scope, step.name);
         const auto& member = *named;
         if (member.node < 0 && member.instances.empty()) return true;

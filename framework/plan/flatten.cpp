@@ -165,13 +165,14 @@ private:
                         "collapse it to a subgraph and give the subgraph the `count`, or remove the `count`");
 
         member.node = flat.nodeCount();
-        auto& made = flat.nodes.add ({ .path = scope.prefix + node.name,
-                                       .identity = { scope.number, node.id },
-                                       .type = type,
-                                       .origin = here,
-                                       .bypass = node.bypass,
-                                       .muted = muted,
-                                       .section = scope.section });
+        auto& made = flat.nodes.add();   // filled in there, because a graph may have many nodes
+        made.path = scope.prefix.empty() ? node.name : scope.prefix + node.name;
+        made.identity = { scope.number, node.id };
+        made.type = type;
+        made.origin = here;
+        made.bypass = node.bypass;
+        made.muted = muted;
+        made.section = scope.section;
         readRole (node, here, roles, made, flat);
         countRole (made, here);
         readSettings (node, here, assets, scope.owner->folder, made, flat);

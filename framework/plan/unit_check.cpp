@@ -351,12 +351,18 @@ PortNumbers::PortNumbers (const Flat& f) : flat (&f)
     int next = 0;
     for (const auto& n : f.nodes)
     {
-        first.push_back (next);
-        for (const auto role : { Role::input, Role::param, Role::output })
+        const int begin = next;
+        int begins[3];
+        for (int r = 0; const auto role : { Role::input, Role::param, Role::output })
+        {
+            begins[r++] = next;
             for (const auto& row : n.ports (role))
                 next += entries (n, row);
+        }
+        const auto rows = n.type->inputs.size() + n.type->params.size() + n.type->outputs.size();
+        first.push_back ({ begins[0], begins[1], begins[2], at (next - begin) == rows });
     }
-    first.push_back (next);
+    first.push_back ({ next, next, next, true });
 }
 
 int PortNumbers::entries (const FlatNode& n, const PortSheet& row) noexcept
@@ -366,24 +372,14 @@ int PortNumbers::entries (const FlatNode& n, const PortSheet& row) noexcept
 
 int PortNumbers::in (const Flat& other, const PortRef& r) const noexcept
 {
+    const auto& begin = first[at (r.node)];
+    int number = begin.of (r.role);
+    if (begin.is_plain) return number + r.port;
     const auto& n = other.node (r);
-    const auto inputs = static_cast<int> (n.type->inputs.size()), params = static_cast<int> (n.type->params.size()),
-               outputs = static_cast<int> (n.type->outputs.size());
-    int number = firstOf (r.node);
-    if (firstOf (r.node + 1) - number == inputs + params + outputs)   // one number per row
-    {
-        if (r.role == Role::input) return number + r.port;
-        return number + r.port + (r.role == Role::param ? inputs : inputs + params);
-    }
-    for (const auto role : { Role::input, Role::param, Role::output })
-        for (int i = 0; const auto& row : n.ports (role))
-        {
-            const int size = entries (n, row);
-            if (role == r.role && i == r.port) return number + (size > 1 ? std::max (r.index, 0) : 0);
-            number += size;
-            ++i;
-        }
-    return number;
+    const auto& rows = n.ports (r.role);
+    for (int i = 0; i < r.port; ++i)
+        number += entries (n, rows[at (i)]);
+    return number + (entries (n, rows[at (r.port)]) > 1 ? std::max (r.index, 0) : 0);
 }
 
 std::string PortUnits::symbol (const PortRef& r) const
