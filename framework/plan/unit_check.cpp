@@ -54,9 +54,11 @@ public:
     /// Sets the dimension of v. Returns false if v is known to have a different one.
     bool state (int v, Dimension d)
     {
-        auto& k = known[at (root (v))];
-        if (! k) k = d / factorOf (v);
-        return *k == d / factorOf (v);
+        const int r = root (v);
+        const auto wanted = r == v ? d : d / factorOf (v);
+        auto& k = known[at (r)];
+        if (! k) k = wanted;
+        return *k == wanted;
     }
 
     /// Sets dimension (b) = dimension (a) times `times`. Returns false if both are known and disagree.

@@ -29,6 +29,27 @@ enum class JsonKind
     any
 };
 
+bool matches (const Json&, JsonKind) noexcept;
+
+/// The JSON pointer to a value. It becomes text only where it is passed as a string: most files have no errors, so that nobody asks for it.
+/// What it is made from must outlive it.
+class Where
+{
+public:
+    Where (const std::string& pointer) noexcept : text (&pointer) {}   // implicit: a function that takes a Where also takes the text
+    Where (const Where& object, std::string_view k) noexcept : around (&object), key (k) {}
+    Where (const Where&& object, std::string_view) = delete;
+    Where (const Where&) = delete;
+    Where& operator= (const Where&) = delete;
+
+    operator std::string() const;
+
+private:
+    const std::string* text = nullptr;
+    const Where* around = nullptr;   // the object that the value is a member of; null if `text` is all
+    std::string_view key;
+};
+
 /// A known key of an object, its kind, and the function that takes its value.
 struct KnownKey
 {
@@ -43,7 +64,7 @@ struct RowKey
 {
     std::string_view key;
     JsonKind kind;
-    void (*read) (Reader&, Read&, Json& value, const std::string& where);
+    void (*read) (Reader&, Read&, Json& value, const Where& where);
 };
 
 class OrderedReader
@@ -60,12 +81,11 @@ public:
 
     /// The same. The functions get `self`, which is this reader, and what they read into.
     template <typename Reader, typename Read, std::size_t n>
-    void read (Json& object, const std::string& where, const RowKey<Reader, Read> (&fields)[n], Reader& self, Read& into, Json& extra)
+    void read (Json& object, const Where& where, const RowKey<Reader, Read> (&fields)[n], Reader& self, Read& into, Json& extra)
     {
-        MemberPointer pointer (*this, where);
         for (auto& [key, value] : object.asObject())
         {
-            const auto& member = pointer.to (key);
+            const Where member (where, key);
             const auto* field = std::ranges::find (fields, key, &RowKey<Reader, Read>::key);
             if (field == std::end (fields))
             {
@@ -73,51 +93,14 @@ public:
                 std::ranges::transform (fields, known, &RowKey<Reader, Read>::key);
                 keepUnknown (key, std::move (value), member, known, extra);
             }
-            else if (isKind (value, field->kind, member))
+            else if (matches (value, field->kind) || isKind (value, field->kind, member))
                 field->read (self, into, value, member);
         }
     }
 
     Messages messages;
 
-protected:
-    /// The JSON pointer to one member of an object after another. Most files have no errors, so these are rarely looked at, and must be
-    /// cheap: the reader keeps their memory for the next object.
-    class MemberPointer
-    {
-    public:
-        MemberPointer (OrderedReader& r, const std::string& object) : reader (r)
-        {
-            if (! reader.spare.empty())
-            {
-                text = std::move (reader.spare.back());
-                reader.spare.pop_back();
-            }
-            text = object;
-            text += '/';
-            begin = text.size();
-        }
-        ~MemberPointer() { reader.spare.push_back (std::move (text)); }
-        MemberPointer (const MemberPointer&) = delete;
-        MemberPointer& operator= (const MemberPointer&) = delete;
-
-        /// Valid until the next call.
-        const std::string& to (std::string_view key)
-        {
-            text.resize (begin);
-            appendPointerPart (text, key);
-            return text;
-        }
-
-    private:
-        OrderedReader& reader;
-        std::string text;
-        std::size_t begin = 0;   // of the key
-    };
-
 private:
-    std::vector<std::string> spare;   // for MemberPointer
-
     void keepUnknown (const std::string& key, Json value, const std::string& member, std::span<const std::string_view> known, Json& extra);
     void add (Message::Severity, std::string id, const std::string& where, std::string text, std::string remedy);
 };
