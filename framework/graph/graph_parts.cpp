@@ -47,7 +47,7 @@ Messages check (const graph::Node& node)
     return checked (toJson (node), [&] (PartReader& reader, Json& part) {
         graph::Node same;
         reader.checkId (node.name, "", "a node");
-        reader.readNode (node.name, part, "", same);
+        reader.readNode (node.name, part, std::string(), same);
     });
 }
 
@@ -106,7 +106,7 @@ Messages checkNodeKey (const std::string& key, const Json& value)
     append (object, key, value);
     return checked (std::move (object), [&] (PartReader& reader, Json& part) {
         graph::Node same;
-        reader.readNode ("node", part, "", same);
+        reader.readNode ("node", part, std::string(), same);
     });
 }
 

@@ -24,8 +24,10 @@ std::optional<int> countOf (const Node& node) noexcept
 
 PathStep firstStep (std::string_view path) noexcept
 {
-    const auto end = std::min (path.find ('/'), path.size());
-    const auto bracket = std::min (path.find ('['), end);
+    std::size_t end = 0, bracket = path.size();
+    for (; end < path.size() && path[end] != '/'; ++end)
+        if (path[end] == '[') bracket = std::min (bracket, end);
+    bracket = std::min (bracket, end);
     PathStep step { .name = path.substr (0, bracket), .rest = path.substr (std::min (end + 1, path.size())) };
     if (bracket == end) return step;
 

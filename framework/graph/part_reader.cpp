@@ -23,7 +23,7 @@ bool PartReader::checkId (const std::string& id, const std::string& where, std::
 
 void PartReader::addPatch (std::vector<KnownKey>& fields, Patch& patch)
 {
-    const auto addNode = [&] (const std::string& name, Json& node, const std::string& where) { readNode (name, node, where, patch.nodes.emplace_back()); };
+    const auto addNode = [&] (const std::string& name, Json& node, const Where& where) { readNode (name, node, where, patch.nodes.emplace_back()); };
     fields.push_back ({ "nodes", JsonKind::object, [this, addNode, &patch] (Json& v, const std::string& at) {
                            patch.nodes.reserve (v.size());
                            eachId (v, at, "a node", addNode);
@@ -43,32 +43,32 @@ void PartReader::readSubgraph (Json& object, const std::string& where, Patch& pa
     read (object, where, fields, patch.extra);
 }
 
-void PartReader::readNode (const std::string& name, Json& object, const std::string& where, graph::Node& node)
+void PartReader::readNode (const std::string& name, Json& object, const Where& where, graph::Node& node)
 {
     using Self = PartReader;
     using Row = RowKey<PartReader, graph::Node>;
     static const Row keys[] = {
-        { "type", JsonKind::text, [] (Self& self, graph::Node& n, Json& v, const std::string& at) { self.readType (v.asString(), at, n); } },
+        { "type", JsonKind::text, [] (Self& self, graph::Node& n, Json& v, const Where& at) { self.readType (v.asString(), at, n); } },
         { "role", JsonKind::text,
-          [] (Self& self, graph::Node& n, Json& v, const std::string& at) {
+          [] (Self& self, graph::Node& n, Json& v, const Where& at) {
               n.role = v.asString();
               self.checkId (n.role, at, "a role");
           } },
-        { "params", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const std::string& at) { self.readValues (v, at, "a parameter", n.params); } },
-        { "settings", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const std::string& at) { self.readValues (v, at, "a setting", n.settings); } },
-        { "roles", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const std::string& at) { self.readRoles (v, at, n); } },
-        { "overrides", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const std::string& at) { self.readOverrides (v, at, n); } },
-        { "bypass", JsonKind::truth, [] (Self&, graph::Node& n, Json& v, const std::string&) { n.bypass = v.get<bool>(); } },
-        { "count", JsonKind::number, [] (Self& self, graph::Node& n, Json& v, const std::string& at) { self.readCount ("count", v, at, n.extra); } },
-        { "every", JsonKind::number, [] (Self& self, graph::Node& n, Json& v, const std::string& at) { self.readCount ("every", v, at, n.extra); } },
-        { "times", JsonKind::number, [] (Self& self, graph::Node& n, Json& v, const std::string& at) { self.readCount ("times", v, at, n.extra); } },
+        { "params", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const Where& at) { self.readValues (v, at, "a parameter", n.params); } },
+        { "settings", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const Where& at) { self.readValues (v, at, "a setting", n.settings); } },
+        { "roles", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const Where& at) { self.readRoles (v, at, n); } },
+        { "overrides", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const Where& at) { self.readOverrides (v, at, n); } },
+        { "bypass", JsonKind::truth, [] (Self&, graph::Node& n, Json& v, const Where&) { n.bypass = v.get<bool>(); } },
+        { "count", JsonKind::number, [] (Self& self, graph::Node& n, Json& v, const Where& at) { self.readCount ("count", v, at, n.extra); } },
+        { "every", JsonKind::number, [] (Self& self, graph::Node& n, Json& v, const Where& at) { self.readCount ("every", v, at, n.extra); } },
+        { "times", JsonKind::number, [] (Self& self, graph::Node& n, Json& v, const Where& at) { self.readCount ("times", v, at, n.extra); } },
         { "hold", JsonKind::text,
-          [] (Self& self, graph::Node& n, Json& v, const std::string& at) {
+          [] (Self& self, graph::Node& n, Json& v, const Where& at) {
               if (v != "latch" && v != "linear")
                   self.error ("file/bad_value", at, "'hold' is " + quote (v.asString()) + "; it should be \"latch\" or \"linear\"", "write \"latch\"");
               append (n.extra, "hold", std::move (v));
           } },
-        { "ui", JsonKind::object, [] (Self&, graph::Node& n, Json& v, const std::string&) { append (n.extra, "ui", std::move (v)); } },
+        { "ui", JsonKind::object, [] (Self&, graph::Node& n, Json& v, const Where&) { append (n.extra, "ui", std::move (v)); } },
     };
     node.name = name;
     read (object, where, keys, *this, node, node.extra);
@@ -77,7 +77,7 @@ void PartReader::readNode (const std::string& name, Json& object, const std::str
                "add \"type\", with an id from the catalogue or \"graph:\" and the name of a subgraph");
 }
 
-void PartReader::readType (std::string& type, const std::string& where, graph::Node& node)
+void PartReader::readType (std::string& type, const Where& where, graph::Node& node)
 {
     constexpr std::string_view subgraph = "graph:", file = "file:";
     if (type.empty() || type == file)
@@ -88,10 +88,10 @@ void PartReader::readType (std::string& type, const std::string& where, graph::N
     node.type = std::move (type);
 }
 
-void PartReader::readValues (Json& object, const std::string& where, std::string_view what, Json& values)
+void PartReader::readValues (Json& object, const Where& where, std::string_view what, Json& values)
 {
     for (const auto& [id, value] : object.asObject())
-        if (! isId (id)) checkId (id, where + '/' + pointerPart (id), what);
+        if (! isId (id)) checkId (id, Where (where, id), what);
     values = std::move (object);
 }
 

@@ -5,6 +5,7 @@
 #include <tactus/kit/at.hpp>
 #include <tactus/text/quote.hpp>
 
+#include <array>
 #include <charconv>
 #include <optional>
 
@@ -13,7 +14,15 @@ namespace tactus::graph
 namespace
 {
 constexpr bool startsId (char c) noexcept { return c >= 'a' && c <= 'z'; }
-constexpr bool continuesId (char c) noexcept { return startsId (c) || (c >= '0' && c <= '9') || c == '_'; }
+
+/// By character: true for those that an id may contain. A large graph has many ids.
+constexpr auto in_ids = [] {
+    std::array<bool, 256> all {};
+    for (const unsigned char c : std::string_view ("abcdefghijklmnopqrstuvwxyz0123456789_"))
+        all[c] = true;
+    return all;
+}();
+constexpr bool continuesId (char c) noexcept { return in_ids[static_cast<unsigned char> (c)]; }
 
 std::string_view trimmed (std::string_view text) noexcept
 {

@@ -57,7 +57,8 @@ using OnlySingle = std::conditional_t<is_single<V>, T, detail::Nothing>;
 template <typename T>
 inline T select (bool where, const T& yes, const T& no) noexcept
 {
-    return where ? yes : no;
+    if (where) return yes;   // with ?:, GCC chooses between two addresses, so both values have to be in memory
+    return no;
 }
 
 /// For `where (mask, to) = value`, which sets `to` in those instances where the mask is true.

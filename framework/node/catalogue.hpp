@@ -68,7 +68,8 @@ struct NodeType
     std::function<std::string (const void* node, const DeviceLayout&)> missing;
     std::function<void (void* node, const DeviceMechanics&)> learn {};   ///< allocates nothing  [main or tick thread]
     std::function<Effort (const void* node)> effort;
-    NodeLanes lanes {};   ///< empty if the type cannot run in lanes
+    NodeLanes lanes {};       ///< empty if the type cannot run in lanes
+    bool stateless = false;   ///< its outputs depend on nothing but its inputs, params and settings
 };
 
 /// Binds a node for the first time. [main thread]
@@ -386,6 +387,7 @@ NodeType describe()
     if constexpr (DeviceBound<N>) t.bind = [] (void* n, const DeviceState& s) { static_cast<N*> (n)->bind (s); };
     if constexpr (NamesDeviceParts<N>) t.missing = [] (const void* n, const DeviceLayout& l) { return static_cast<const N*> (n)->missing (l); };
     if constexpr (LearnsOfDevice<N>) t.learn = [] (void* n, const DeviceMechanics& m) noexcept { static_cast<N*> (n)->learn (m); };
+    t.stateless = Stateless<N>;
     if constexpr (Sink<N>) t.effort = [] (const void* n) noexcept { return static_cast<const N*> (n)->effort(); };
     return t;
 }

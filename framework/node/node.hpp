@@ -44,6 +44,9 @@
 /// A tick is noexcept and total. On a non-finite input it gives 0 on all outputs (-1 on `state`), re-opens the contact, and
 /// continues with the next finite sample as if nothing had been touched before.
 ///
+/// If tick is const, the node has no state: its outputs depend on nothing but its inputs, params and settings. Where these do not change,
+/// the node is computed only once.
+///
 /// The line TACTUS_NODE (MyNode) at the end of the header checks all this at compile time. The build looks for this line to put
 /// the node in the catalogue; there is no other list to edit.
 
@@ -161,6 +164,10 @@ concept LearnsOfDevice = ! DeviceBound<N> && requires (N node, const DeviceMecha
 
 template <typename N>
 concept Sink = DeviceBound<N> && requires (const N node) { { node.effort() } noexcept -> std::same_as<Effort>; };
+
+template <typename N>
+concept Stateless = requires (const N node, const typename N::Inputs in) { { node.tick (in) } noexcept -> std::same_as<typename N::Outputs>; }
+    && ! DeviceBound<N> && ! LearnsOfDevice<N>;
 // clang-format on
 
 }   // namespace tactus

@@ -19,6 +19,7 @@ struct Background
 {
     std::vector<std::string> feeds, records;   ///< as in CompileOptions
     std::size_t lanes = 1;                     ///< as in CompileOptions
+    bool settles = false;                      ///< as in CompileOptions
     bool is_plain = false;                     ///< no messages, overrides, sections or bypassed subgraphs
     FileChecks files;                          ///< the files that settings name, also those of unused subgraphs
     Names names;                               ///< of the nodes of the graph itself
@@ -26,6 +27,7 @@ struct Background
     PortUnits units;                           ///< PortNumbers::flat is that of no plan
     std::vector<int> rank;                     ///< by node: its rank in order of path, which decides ties in the running order
     std::vector<int> running, position;        ///< the nodes in running order; by node: its place in that order
+    std::vector<bool> settled;                 ///< by node; see settled_nodes.hpp
     std::vector<PortRef> tapped;               ///< by tap: the component that it reads; no node if it is that of a placeholder
 };
 

@@ -12,6 +12,7 @@
 #include "plan_diff.hpp"
 #include "rate_conversions.hpp"
 #include "read_nodes.hpp"
+#include "settled_nodes.hpp"
 #include "slots.hpp"
 #include "storage.hpp"
 #include "taps.hpp"
@@ -23,17 +24,13 @@
 namespace tactus::plan
 {
 
-namespace
-{
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-}   // namespace
-
 class PlanBuilder
 {
 public:
     PlanBuilder (Flat& f, const PortUnits& u, const Order& o, const LaneGroups& l, Outside out, const Setup& s, const CompileOptions& options)
-        : flat (f), units (u), order (o), lanes (l), outside (std::move (out)), setup (s), kept (options.kept), before (partsOf (options.before)),
-          diff (f, before, partsOf (options.withdrawn), s.rate_hz), in_order (inOrder (f, o)), slots (f, in_order), steps (f.sections.size())
+        : flat (f), units (u), order (o), lanes (l), outside (std::move (out)), setup (s), kept (options.kept), settles (options.settles),
+          before (partsOf (options.before)), diff (f, before, partsOf (options.withdrawn), s.rate_hz), in_order (inOrder (f, o)), slots (f, in_order),
+          steps (f.sections.size())
     {
     }
 
@@ -48,9 +45,11 @@ public:
         makeNodes();
         connectDrivers();
         is_read = readNodes (flat, outside);
+        is_settled = settles ? settledNodes (flat, outside, lanes) : std::vector<bool> (flat.nodes.size());
         auto all = recordsOf (0);
         parts.records = std::move (all.records);
         parts.owners = std::move (all.owners);
+        parts.settled = std::move (settled.records);
         parts.rests = flat.restPeriods();
         Taps taps { flat, units, *storage, parts.taps, [this] (const PortRef& r) { return valueOf (r); } };
         for (const auto& read : outside.records)
@@ -62,8 +61,9 @@ public:
         parts.storage = { storage };
         keepFlat (flat, parts);
         diff.compare (parts);
-        keepValues();
+        dropKept (parts, kept);
         keepOrder (in_order, *background);
+        background->settled = std::move (is_settled);
         parts.background = std::move (background);
         return std::move (plan);
     }
@@ -80,13 +80,16 @@ public:
         first.driven = {};
         first.is_struck = false;
         connectDrivers();
-        connectInputs (0);
         is_read = { true };
+        is_settled = { false };
+        connectInputs (0);
         addNode (0);
         return { std::move (steps[0].peeks.records), std::move (steps[0].body.records), parts.instances[0], storage };
     }
 
 private:
+    static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
     Flat& flat;
     const PortUnits& units;
     const Order& order;
@@ -94,6 +97,7 @@ private:
     Outside outside;
     const Setup& setup;
     const std::vector<std::string>& kept;
+    const bool settles;
     const PlanParts* before;
     PlanDiff diff;
     const std::vector<int> in_order;   // the nodes in running order
@@ -105,12 +109,14 @@ private:
     std::shared_ptr<KnobBoard> board = std::make_shared<KnobBoard>();
     std::optional<Grouped<Driver>> drivers;   // by slot; within a slot, first the wires, then the feeds
     std::vector<SectionSteps> steps;          // by section
-    std::vector<bool> is_read;                // by node: only such nodes need to peek
+    std::vector<bool> is_read, is_settled;    // by node: only those that are read need to peek
+    OwnedRecords settled;                     // of settled nodes
 
     static const PlanParts* partsOf (const Plan* other) { return other ? &other->parts : nullptr; }
     void* outputsOf (int n) { return parts.instances[at (n)].outputs; }
     const double** sourcesOf (int n) { return storage->sources.data() + slots.firstInput (n); }
     SectionSteps& stepsOf (int n) { return steps[at (flat.node (n).section)]; }
+    OwnedRecords& bodyOf (int n) { return is_settled[at (n)] ? settled : stepsOf (n).body; }
     void* nodeOf (int n) { return parts.instances[at (n)].node.get(); }
 
     /// The outputs and inputs of nodes lie side by side in running order.
@@ -363,7 +369,7 @@ private:
         for (const auto& d : all)
             if (is_meant (d)) s.terms.push_back (d.term);
         s.scratch.resize (s.terms.size());
-        stepsOf (node).body.addSum (s, node, storage->vector_sums);
+        bodyOf (node).addSum (s, node, storage->vector_sums);
         return &s.out;
     }
 
@@ -413,7 +419,7 @@ private:
         auto drives = drivesOf (i);
         if (drives.empty())
         {
-            stepsOf (i).body.add ({ n.type->tick, nodeOf (i), sources, outputsOf (i) }, i);
+            bodyOf (i).add ({ n.type->tick, nodeOf (i), sources, outputsOf (i) }, i);
             return;
         }
         auto& d = storage->driven.emplace_back();
@@ -470,14 +476,6 @@ private:
         if (r.role == Role::output) return output (r, r.component);
         if (r.role == Role::param) return n.type->make ? param (r.node, at (r.port), at (slotWithin (r, r.component, flat.sheet (r).width))) : &Storage::zero;
         return n.muted ? &Storage::zero : storage->sources[slots (r, r.component)];
-    }
-
-    /// Drops the edits of params that must keep their values.
-    void keepValues()
-    {
-        if (kept.empty()) return;
-        std::erase_if (parts.takeover.changes,
-                       [&] (const Takeover::Change& change) { return std::ranges::count (kept, nameOf (parts.flat, change.instance, change.knob)) > 0; });
     }
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "build_parts.hpp"
+#include "find_param.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace tactus::plan
@@ -80,6 +82,13 @@ void keepFlat (Flat& flat, PlanParts& parts)
     }
     for (auto& s : parts.flat.sections)
         s.origin = {};
+}
+
+void dropKept (PlanParts& parts, const std::vector<std::string>& kept)
+{
+    if (kept.empty()) return;
+    std::erase_if (parts.takeover.changes,
+                   [&] (const Takeover::Change& change) { return std::ranges::count (kept, nameOf (parts.flat, change.instance, change.knob)) > 0; });
 }
 
 std::vector<int> nodeDelays (const Flat& flat, const Chunks<Instance>& instances)

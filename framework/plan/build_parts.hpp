@@ -48,6 +48,9 @@ void keepOrder (const std::vector<int>& running, Background&);
 /// Keeps the flat graph for the next plan, without the parts that only messages need. Leaves its messages.
 void keepFlat (Flat&, PlanParts&);
 
+/// Drops the edits of params that must keep their values; `kept` are their names.
+void dropKept (PlanParts&, const std::vector<std::string>& kept);
+
 /// By node: the ticks from its inputs to its outputs.
 std::vector<int> nodeDelays (const Flat&, const Chunks<Instance>&);
 

@@ -81,13 +81,14 @@ public:
         return (*mine)[i & within];
     }
 
-    T& add (T item)
+    /// A new element at the end, as T {} makes it.
+    T& add()
     {
-        if (count == all.size() << bits) all.push_back (std::make_shared<Chunk>());
-        auto& added = change (count++);
-        added = std::move (item);
-        return added;
+        if (count == all.size() << bits) all.push_back (newChunk());
+        return change (count++);
     }
+
+    T& add (T item) { return add() = std::move (item); }
 
     /// Removes the last element.
     void drop()
@@ -103,11 +104,20 @@ public:
         while (count > n)
             drop();
         for (; all.size() << bits < n;)
-            all.push_back (std::make_shared<Chunk>());
+            all.push_back (newChunk());
         count = n;
     }
 
 private:
+    /// With elements as T {} makes them. If T has a constructor, filling the chunk with zeros before is wasted.
+    static std::shared_ptr<Chunk> newChunk()
+    {
+        if constexpr (std::is_trivially_default_constructible_v<T>)
+            return std::make_shared<Chunk>();
+        else
+            return std::make_shared_for_overwrite<Chunk>();
+    }
+
     std::vector<std::shared_ptr<Chunk>> all;
     std::size_t count = 0;
 };

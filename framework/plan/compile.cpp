@@ -48,7 +48,7 @@ void checkFanIn (Flat& flat, const PortUnits& units)
     Identity wrong {};   // the wire reported last
     for (const auto& w : flat.wires)
     {
-        if (w.identity == wrong || w.add || (w.to.role == Role::input && (addsUp (units (w.to).quantity) || flat.sheet (w.to).unit.adds_up))) continue;
+        if (w.identity == wrong || w.add) continue;
         const int first = w.to.component >= 0 ? w.to.component : 0;
         for (int c = first; c < first + flat.widthOf (w.to); ++c)
         {
@@ -58,6 +58,7 @@ void checkFanIn (Flat& flat, const PortUnits& units)
                 other = &w;
                 continue;
             }
+            if (w.to.role == Role::input && (addsUp (units (w.to).quantity) || flat.sheet (w.to).unit.adds_up)) break;
             if (other->identity == w.identity)
             {
                 const auto quantity = w.from ? units (*w.from).quantity : Quantity::any;

@@ -8,7 +8,7 @@
 ///   order        finds the running order, loops and delays                   order.hpp
 ///   sections     handles subgraphs that run at a different rate                  sections.hpp, aliasing.hpp, rate_conversions.hpp
 ///   lane_groups  lets instances of subgraphs run together                    lane_groups.hpp, lane_group.hpp, lane_wiring.hpp
-///   build        makes nodes, lays out storage, writes records               build.hpp
+///   build        makes nodes, lays out storage, writes records               build.hpp, settled_nodes.hpp
 ///   lateness     warns of delays on the way back to the hand                 lateness.hpp
 ///   rewire       follows an edit of a few wires without all of this          rewire.hpp
 ///   plan diff    decides what continues from the previous plan                 plan_diff.hpp, matching.hpp, takeover.hpp
@@ -31,6 +31,7 @@ struct CompileOptions
     Assets* assets = nullptr;                   ///< loads the files that settings name
     Services services {};                       ///< services that nodes may use
     std::size_t lanes = 1;                      ///< the most instances of a subgraph that are computed at once; 1: each node runs on its own. See usualLanes()
+    bool settles = false;                       ///< computes nodes whose inputs never change only when a param was written, not on each tick
     const Plan* before = nullptr;               ///< the plan that the new one will take over from, with Plan::takeOver
     const Plan* withdrawn = nullptr;            ///< a plan compiled to follow `before` that never ran: nodes that it added keep their turned values
     std::vector<std::string> kept {};           ///< parameters that an edit must not change, because they were turned after the edit

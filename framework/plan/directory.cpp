@@ -63,8 +63,9 @@ struct Finder
 
     bool in (const Scope& scope, std::string_view path) const
     {
-        const auto step = graph::firstStep (path);
-        const auto* named = scope.find (step.name);
+        const auto* named = scope.find (path);   // most paths are names
+        const auto step = named != nullptr ? graph::PathStep { .name = path, .rest = {} } : graph::firstStep (path);
+        if (named == nullptr) named = scope.find (step.name);
         if (named == nullptr) return unknownNode (scope, step.name);
         const auto& member = *named;
         if (member.node < 0 && member.instances.empty()) return true;
@@ -119,8 +120,7 @@ private:
         {
             const auto& rows = n.ports (role);
             const auto row = std::ranges::find (rows, e.port, &PortSheet::id);
-            if (row != rows.end())
-                return narrow ({ node, role, static_cast<int> (row - rows.begin()), -1, -1 });
+            if (row != rows.end()) return narrow ({ node, role, static_cast<int> (row - rows.begin()), -1, -1 }, n, *row);
         }
 
         if (flat.isFull()) return false;
@@ -144,7 +144,7 @@ private:
         for (const auto role : rolesOf (side))
             for (const auto& x : inside.exposed)
                 if (x.role == role && x.name == e.port)
-                    return std::ranges::all_of (x.to, [&] (const PortRef& r) { return narrow (r); });
+                    return std::ranges::all_of (x.to, [&] (const PortRef& r) { return narrow (r, flat.node (r), flat.sheet (r)); });
 
         if (flat.isFull()) return false;
         std::vector<std::string> names;
@@ -178,10 +178,8 @@ private:
     }
 
     /// Adds the port, narrowed to the index and component of the endpoint.
-    bool narrow (PortRef r) const
+    bool narrow (PortRef r, const FlatNode& node, const PortSheet& sheet) const
     {
-        const auto& sheet = flat.sheet (r);
-        const auto& node = flat.node (r);
         if (e.index >= 0)
         {
             if (! sheet.list || r.index >= 0)

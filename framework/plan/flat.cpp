@@ -122,6 +122,8 @@ bool Flat::spend (double work, double memory, Origin origin)
 {
     spent.work += work;
     spent.memory += memory;
+    const auto& most = budgets();
+    if (work_unit_s * spent.work <= most.time && spent.memory <= most.memory) return ! spent.is_over;
     const auto check = [&] (double Budgets::*which, double needed) {
         if (spent.is_over || needed <= budgets().*which) return;
         spent.is_over = true;

@@ -112,14 +112,17 @@ private:
     /// Call this before adding nodes, wires or assignments, because nested subgraphs and instances multiply them.
     bool isTooLarge (Origin here, std::size_t more_nodes = 0, std::size_t more_wires = 0)
     {
+        const auto needed_nodes = flat.spent.nodes + static_cast<double> (flat.nodes.size() + flat.scopes.size() + more_nodes);
+        const auto needed_wires = flat.spent.wires + static_cast<double> (std::max (flat.wires.size(), flat.assignments.size()) + more_wires);
+        if (needed_nodes <= budgets().nodes && needed_wires <= budgets().wires) return hasToStop();
         const auto check = [&] (double Budgets::*which, double count) {
             if (hasToStop() || count <= budgets().*which) return;
             too_large = here;
             why_too_large =
                 overBudget ("graph/too_large", which, "with its subgraphs expanded, the graph", count, "use a subgraph fewer times, or with fewer instances");
         };
-        check (&Budgets::nodes, flat.spent.nodes + static_cast<double> (flat.nodes.size() + flat.scopes.size() + more_nodes));
-        check (&Budgets::wires, flat.spent.wires + static_cast<double> (std::max (flat.wires.size(), flat.assignments.size()) + more_wires));
+        check (&Budgets::nodes, needed_nodes);
+        check (&Budgets::wires, needed_wires);
         return hasToStop();
     }
 
@@ -162,13 +165,14 @@ private:
                         "collapse it to a subgraph and give the subgraph the `count`, or remove the `count`");
 
         member.node = flat.nodeCount();
-        auto& made = flat.nodes.add ({ .path = scope.prefix + node.name,
-                                       .identity = { scope.number, node.id },
-                                       .type = type,
-                                       .origin = here,
-                                       .bypass = node.bypass,
-                                       .muted = muted,
-                                       .section = scope.section });
+        auto& made = flat.nodes.add();   // filled in there, because a graph may have many nodes
+        made.path = scope.prefix.empty() ? node.name : scope.prefix + node.name;
+        made.identity = { scope.number, node.id };
+        made.type = type;
+        made.origin = here;
+        made.bypass = node.bypass;
+        made.muted = muted;
+        made.section = scope.section;
         readRole (node, here, roles, made, flat);
         countRole (made, here);
         readSettings (node, here, assets, scope.owner->folder, made, flat);

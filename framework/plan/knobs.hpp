@@ -4,6 +4,7 @@
 /// Knobs turn the parameters of a running node. Any thread may set a target; the tick thread ramps each parameter to its
 /// target in a straight line. Choices apply immediately.
 
+#include "few.hpp"
 #include "knob_board.hpp"
 
 #include <tactus/node/catalogue.hpp>
@@ -69,7 +70,7 @@ struct Knobs
     }
 
     const NodeType& type;
-    std::vector<Knob> all;
+    Few<Knob, 2> all;            ///< most nodes have one or two
     std::vector<Pulse> pulses;   ///< by input that takes hits, in the order of the datasheet
 
     const std::shared_ptr<KnobBoard> board;   ///< where the tick thread sees that a knob or pulse has changed

@@ -1,32 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include "names.hpp"
 
-#include <functional>
+#include <tactus/text/quick_hash.hpp>
+
 #include <utility>
 
 namespace tactus::plan
 {
 
-namespace
-{
-std::uint32_t hashOf (std::string_view name) noexcept { return static_cast<std::uint32_t> (std::hash<std::string_view> {}(name)); }
-}   // namespace
-
 std::size_t Names::add (std::string_view added)
 {
-    const auto hash = hashOf (added);
-    if (const auto known = table[placeOf (added, hash)].number_and_1; known != 0) return known - 1;
+    const auto hash = quickHash (added);
     if (2 * (size() + 1) > table.size()) grow();
+    auto& place = table[placeOf (added, hash)];
+    if (place.number_and_1 != 0) return place.number_and_1 - 1;
 
     text += added;
     begins.push_back (text.size());
-    table[placeOf (added, hash)] = { hash, static_cast<std::uint32_t> (size()) };
+    place = { hash, static_cast<std::uint32_t> (size()) };
     return size() - 1;
 }
 
 std::size_t Names::find (std::string_view wanted) const noexcept
 {
-    const auto known = table[placeOf (wanted, hashOf (wanted))].number_and_1;
+    const auto known = table[placeOf (wanted, quickHash (wanted))].number_and_1;
     return known == 0 ? none : known - 1;
 }
 

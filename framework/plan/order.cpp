@@ -286,10 +286,13 @@ namespace
 class PathSearch
 {
 public:
-    PathSearch (const Flat& f, const PortUnits& units, const std::vector<int>& node_delays)
-        : flat (f), edges (f.nodes.size(), [&] (auto visit) {
-              for (const auto& w : f.wires)
-                  if (w.from) visit (w.from->node, edgeOf (w, units, node_delays));
+    PathSearch (const Flat& f, const PortUnits& u, const std::vector<int>& delays)
+        : flat (f), units (u), node_delays (delays), wires (f.nodes.size(), [&] (auto visit) {
+              for (int i = 0; const auto& w : f.wires)
+              {
+                  if (w.from) visit (w.from->node, i);
+                  ++i;
+              }
           }),
           next (f.nodes.size(), [&] (auto visit) {
               for (const auto& w : f.wires)
@@ -333,14 +336,16 @@ private:
     };
 
     const Flat& flat;
-    Grouped<Edge> edges;
-    Grouped<int> next;
+    const PortUnits& units;
+    const std::vector<int>& node_delays;
+    Grouped<int> wires, next;              // by node: the wires that start there, and the nodes where they end
     std::vector<int> component, members;   // by node: its component; by component: its number of nodes
     std::vector<Reach> reach;              // as seen from the current source
     std::vector<int> reached;              // from the current source; only these are reset for the next one, because most sources reach few nodes
 
-    Edge edgeOf (const FlatWire& w, const PortUnits& units, const std::vector<int>& node_delays) const
+    Edge edgeOf (int wire) const
     {
+        const auto& w = flat.wires[at (wire)];
         const auto& from = flat.node (w.from->node);
         const auto delay = delayOf (flat, units, w) + std::int64_t { node_delays[at (w.from->node)] } * flat.ticksOf (from.section);
         return { w.to.node, delay, delay + waitOf (flat, w.section, flat.node (w.to).section) };
@@ -361,8 +366,9 @@ private:
             const auto [delay, n] = open.top();
             open.pop();
             if (delay > reach[at (n)].shortest) continue;
-            for (const auto& e : edges[at (n)])
+            for (const int wire : wires[at (n)])
             {
+                const auto e = edgeOf (wire);
                 auto& shortest = reach[at (e.to)].shortest;
                 if (shortest >= 0 && delay + e.shortest >= shortest) continue;
                 if (shortest < 0) reached.push_back (e.to);
@@ -378,8 +384,9 @@ private:
         auto& here = reach[at (n)];
         if (members[at (component[at (n)])] > 1 || std::ranges::count (next[at (n)], n) > 0) here.recirculates = true;
         here.longest = std::max (here.longest, here.shortest);
-        for (const auto& e : edges[at (n)])
+        for (const int wire : wires[at (n)])
         {
+            const auto e = edgeOf (wire);
             auto& there = reach[at (e.to)];
             if (component[at (e.to)] != component[at (n)]) there.longest = std::max (there.longest, here.longest + e.longest);
             there.recirculates = there.recirculates || here.recirculates;

@@ -18,6 +18,13 @@ void Plan::tickRecords() noexcept
     ++parts.number;
 }
 
+void Plan::settle() noexcept
+{
+    parts.ramps.forgetWritten();
+    for (const auto& r : parts.settled)
+        r.step (r.self, r.sources, r.outputs);
+}
+
 void Plan::forgetGraph()
 {
     parts.flat = {};

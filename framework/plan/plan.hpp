@@ -91,6 +91,7 @@ struct PlanParts
     double rate_hz = 0.0;
     std::uint64_t number = 0;   ///< number of the next tick, counted across all plans
     std::vector<Record> records;
+    std::vector<Record> settled;                  ///< steps of a tick that need not run on each one; see settled_nodes.hpp
     std::vector<std::uint32_t> owners;            ///< by record: the node it belongs to, as in flat.nodes; for a wire, the node where it ends
     std::vector<std::uint64_t> rests;             ///< periods, in ticks, of the sections that do not run on every tick; in rising order
     std::vector<RoleUse> roles;                   ///< sorted by name
@@ -160,9 +161,10 @@ public:
         parts.ramps.step();
     }
 
-    /// Runs all records once, or the code that replaces them (see fuse). [tick thread]
+    /// Runs all records once, or the code that replaces them (see fuse). If a parameter was written, settled nodes run first. [tick thread]
     void tick() noexcept
     {
+        if (parts.ramps.hasWritten()) settle();
         if (const auto* code = fused_now.load (std::memory_order_acquire))
         {
             code->tick (code->objects.data());
@@ -184,6 +186,7 @@ public:
     template <typename Around>
     void tick (Around&& around) noexcept
     {
+        if (parts.ramps.hasWritten()) settle();
         for (std::size_t i = 0; i < parts.records.size(); ++i)
         {
             const auto& r = parts.records[i];
@@ -207,6 +210,7 @@ public:
     std::uint64_t nextTick() const noexcept { return parts.number; }   ///< number of the next tick
 
     const std::vector<Record>& records() const noexcept { return parts.records; }
+    const std::vector<Record>& settled() const noexcept { return parts.settled; }          ///< they run only after a parameter was written
     const std::vector<RoleUse>& roles() const noexcept { return parts.roles; }             ///< sorted by name
     const std::vector<Tap>& taps() const noexcept { return parts.taps; }                   ///< as in CompileOptions::records, in order
     const std::vector<plan::PathDelay>& delays() const noexcept { return parts.delays; }   ///< between the sources and the sinks of devices
@@ -245,6 +249,7 @@ private:
     friend class plan::Rewirer;
 
     void tickRecords() noexcept;
+    void settle() noexcept;
 
     std::uint64_t own_serial = plan::newSerial();
     plan::PlanParts parts;

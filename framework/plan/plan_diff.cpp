@@ -265,7 +265,7 @@ std::shared_ptr<Knobs> PlanDiff::knobsOf (std::size_t i, const std::shared_ptr<K
 
 void PlanDiff::noteSuccessor (std::size_t i, Takeover& takeover) const
 {
-    if (flat.nodes[i].type->make == nullptr) return;
+    if (before == nullptr || flat.nodes[i].type->make == nullptr) return;
     const auto* old = predecessorOf (i);
     if (const auto rebuilt = rebuiltFrom (i); rebuilt.plan != nullptr)
     {

@@ -103,6 +103,7 @@ void Ramps::head (std::size_t i, std::size_t k, double to, bool at_once) noexcep
     {
         knob.left = 0;
         knob.value = to;
+        has_written = true;
         if (instance.isDriven (k)) return;
         instance.write (k, to);
         instance.update (knobs.type);
@@ -116,6 +117,7 @@ void Ramps::head (std::size_t i, std::size_t k, double to, bool at_once) noexcep
 
 void Ramps::move() noexcept
 {
+    has_written = true;
     for (std::size_t m = 0; m < moving.size();)
     {
         const auto& instance = (*instances)[moving[m]];

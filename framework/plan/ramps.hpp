@@ -58,6 +58,10 @@ public:
         if (! moving.empty()) move();
     }
 
+    /// True if a parameter was written after the last call of forgetWritten(), or if there was none. [tick thread]
+    bool hasWritten() const noexcept { return has_written; }
+    void forgetWritten() noexcept { has_written = false; }   // [tick thread]
+
     void head (std::size_t instance, std::size_t knob, double to, bool at_once = false) noexcept;   // [tick thread]
 
     /// A node continues another build of itself, including its ramps. [tick thread]
@@ -74,6 +78,7 @@ private:
     std::shared_ptr<const KnobIndex> index;
     std::vector<std::uint32_t> moving;   // numbers of the instances with a ramp; has room for all instances
     int ticks = 1;                       // length of a ramp, in ticks
+    bool has_written = true;
 };
 
 }   // namespace tactus::plan

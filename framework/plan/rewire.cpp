@@ -54,7 +54,8 @@ private:
     bool isPossible (const CompileOptions& options) const
     {
         if (background == nullptr || ! background->is_plain || before.rewired >= most_rewired) return false;
-        if (options.withdrawn != nullptr || ! options.overrides.empty() || options.lanes != background->lanes) return false;
+        if (options.withdrawn != nullptr || ! options.overrides.empty() || options.lanes != background->lanes || options.settles != background->settles)
+            return false;
         const double rate = options.rate_hz > 0.0 ? options.rate_hz : graph.rate_hz;
         return rate == before.rate_hz && options.feeds == background->feeds && options.records == background->records && hasSameFiles (options.assets);
     }
@@ -71,6 +72,7 @@ private:
         parts.number = before.number;
         parts.records = before.records;
         parts.owners = before.owners;
+        parts.settled = before.settled;
         parts.roles = before.roles;
         parts.taps = before.taps;
         parts.feeds = before.feeds;
@@ -260,6 +262,7 @@ private:
     {
         if (! flat.node (node).runs() || flat.node (node).type->make == nullptr) return false;
         if (parts.instances[at (node)].lanes) return false;   // its record ticks other nodes, too
+        if (background->settled[at (node)]) return false;     // it, and all that its outputs reach, may have to tick from now on
         Flat few;
         std::vector<int> numbers;   // of the few nodes
         std::vector<Instance> instances;
@@ -408,6 +411,7 @@ void remember (Background& background, Scope& top, Flat& flat, const CompileOpti
     background.feeds = options.feeds;
     background.records = options.records;
     background.lanes = options.lanes;
+    background.settles = options.settles;
     background.is_plain = options.overrides.empty() && flat.sections.size() == 1 && flat.made_types.empty() && flat.origins.size() <= most_origins;
     background.files = std::move (flat.files);
     background.names = std::move (top.names);

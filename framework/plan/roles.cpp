@@ -23,6 +23,7 @@ void readRole (const graph::Node& node, Origin here, const Roles& roles, FlatNod
     if (made.type->bind == nullptr && ! node.role.empty())
         flat.warn ("node/needless_role", flat.at (here, "role"), "'" + made.path + "' (" + node.type + ") is not a device node, so its role has no effect",
                    "remove the role");
+    if (made.type->bind == nullptr && node.role.empty()) return;
     const auto outer = roles.find (node.role);
     made.role = outer == roles.end() ? node.role : outer->second;
 }

@@ -28,7 +28,7 @@ public:
         Dimension total;
         while (up (r) != r)
         {
-            total = total * factor[at (r)];
+            total = scaled (total, factor[at (r)]);
             r = up (r);
         }
         while (up (v) != r && v != r)   // shortens the path for later calls
@@ -48,26 +48,28 @@ public:
     {
         const auto& d = known[at (root (v))];
         if (! d) return {};
-        return *d * factorOf (v);
+        return scaled (*d, factorOf (v));
     }
 
     /// Sets the dimension of v. Returns false if v is known to have a different one.
     bool state (int v, Dimension d)
     {
-        auto& k = known[at (root (v))];
-        if (! k) k = d / factorOf (v);
-        return *k == d / factorOf (v);
+        const int r = root (v);
+        const auto wanted = r == v ? d : d / factorOf (v);
+        auto& k = known[at (r)];
+        if (! k) k = wanted;
+        return *k == wanted;
     }
 
     /// Sets dimension (b) = dimension (a) times `times`. Returns false if both are known and disagree.
     bool join (int a, int b, Dimension times)
     {
         const int ra = root (a), rb = root (b);
-        const auto shift = factorOf (a) * times / factorOf (b);   // factor of rb relative to ra
+        const auto shift = ra == a && rb == b ? times : factorOf (a) * times / factorOf (b);   // factor of rb relative to ra
         if (ra == rb) return shift == Dimension {};
         auto& of_a = known[at (ra)];
         const auto& of_b = known[at (rb)];
-        if (of_a && of_b && *of_b != *of_a * shift) return false;
+        if (of_a && of_b && *of_b != scaled (*of_a, shift)) return false;
         if (! of_a && of_b) of_a = *of_b / shift;
         parent[at (rb)] = ra;
         factor[at (rb)] = shift;
@@ -78,6 +80,9 @@ private:
     std::vector<int> parent;
     std::vector<Dimension> factor;                 // relative to the parent
     std::vector<std::optional<Dimension>> known;   // by root
+
+    /// A product. Most factors are 1.
+    static Dimension scaled (Dimension d, Dimension by) { return by == Dimension {} ? d : d * by; }
 
     int up (int v) const { return parent[at (v)]; }
     Dimension factorOf (int v) const { return up (v) == v ? Dimension {} : factor[at (v)]; }   // call root (v) first
@@ -154,10 +159,11 @@ private:
                 }
                 else if (row.unit.kind == UnitRule::Kind::same)
                 {
-                    if (const auto a = named (node, row.unit.a))
+                    if (const auto other = named (node, row.unit.a))
                     {
-                        dimensions.join (variable (*a), v, row.unit.unit.dimension);
-                        if (row.unit.unit.dimension == Dimension {}) links.push_back ({ variable (*a), v, nullptr });
+                        const int a = variable (*other);
+                        dimensions.join (a, v, row.unit.unit.dimension);
+                        if (row.unit.unit.dimension == Dimension {}) links.push_back ({ a, v, nullptr });
                     }
                 }
                 else if (row.unit.kind == UnitRule::Kind::product)
@@ -347,12 +353,18 @@ PortNumbers::PortNumbers (const Flat& f) : flat (&f)
     int next = 0;
     for (const auto& n : f.nodes)
     {
-        first.push_back (next);
-        for (const auto role : { Role::input, Role::param, Role::output })
+        const int begin = next;
+        int begins[3];
+        for (int r = 0; const auto role : { Role::input, Role::param, Role::output })
+        {
+            begins[r++] = next;
             for (const auto& row : n.ports (role))
                 next += entries (n, row);
+        }
+        const auto rows = n.type->inputs.size() + n.type->params.size() + n.type->outputs.size();
+        first.push_back ({ begins[0], begins[1], begins[2], at (next - begin) == rows });
     }
-    first.push_back (next);
+    first.push_back ({ next, next, next, true });
 }
 
 int PortNumbers::entries (const FlatNode& n, const PortSheet& row) noexcept
@@ -362,24 +374,14 @@ int PortNumbers::entries (const FlatNode& n, const PortSheet& row) noexcept
 
 int PortNumbers::in (const Flat& other, const PortRef& r) const noexcept
 {
+    const auto& begin = first[at (r.node)];
+    int number = begin.of (r.role);
+    if (begin.is_plain) return number + r.port;
     const auto& n = other.node (r);
-    const auto inputs = static_cast<int> (n.type->inputs.size()), params = static_cast<int> (n.type->params.size()),
-               outputs = static_cast<int> (n.type->outputs.size());
-    int number = firstOf (r.node);
-    if (firstOf (r.node + 1) - number == inputs + params + outputs)   // one number per row
-    {
-        if (r.role == Role::input) return number + r.port;
-        return number + r.port + (r.role == Role::param ? inputs : inputs + params);
-    }
-    for (const auto role : { Role::input, Role::param, Role::output })
-        for (int i = 0; const auto& row : n.ports (role))
-        {
-            const int size = entries (n, row);
-            if (role == r.role && i == r.port) return number + (size > 1 ? std::max (r.index, 0) : 0);
-            number += size;
-            ++i;
-        }
-    return number;
+    const auto& rows = n.ports (r.role);
+    for (int i = 0; i < r.port; ++i)
+        number += entries (n, rows[at (i)]);
+    return number + (entries (n, rows[at (r.port)]) > 1 ? std::max (r.index, 0) : 0);
 }
 
 std::string PortUnits::symbol (const PortRef& r) const

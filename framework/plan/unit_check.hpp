@@ -15,15 +15,28 @@ public:
 
     int operator() (const PortRef& r) const noexcept { return in (*flat, r); }
     int in (const Flat&, const PortRef&) const noexcept;   ///< the same for another flat graph with the same nodes
-    int firstOf (int node) const noexcept { return first[at (node)]; }
-    int count() const noexcept { return first.back(); }
+    int firstOf (int node) const noexcept { return first[at (node)].input; }
+    int count() const noexcept { return first.back().input; }
 
     static int entries (const FlatNode&, const PortSheet&) noexcept;
 
     const Flat* flat = nullptr;
 
 private:
-    std::vector<int> first;   // number of the first port of each node, then the end
+    /// The numbers of the first port of each role of a node.
+    struct First
+    {
+        int input, param, output;
+        bool is_plain;   // each port has one number
+
+        int of (Role role) const noexcept
+        {
+            if (role == Role::input) return input;
+            return role == Role::param ? param : output;
+        }
+    };
+
+    std::vector<First> first;   // of each node; the input of the last one is the end
 };
 
 /// The unit of each port of a flat graph: from the datasheet, or inferred for generic nodes.

@@ -24,6 +24,7 @@ Run::Run (const Catalogue& c, CompileOptions o, OpenDevice opener, Queries when)
     }
     if (options.assets != nullptr) options.assets = &assets;
     options.lanes = usualLanes();
+    options.settles = true;
 }
 
 Run::~Run() { runner.reset(); }   // waits until the forces are zero, while all members still exist

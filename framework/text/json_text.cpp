@@ -160,7 +160,7 @@ public:
         object.key = std::move (name);
         object.has_key = true;
         object.inside = result.positions.addMember (object.place, object.key, position);
-        if (object.seen.has (object.members, object.key)) complainOfTwins (object.key, position);
+        if (! object.seen.add (object.members, object.key)) complainOfTwins (object.key, position);
         return true;
     }
 
@@ -406,18 +406,25 @@ private:
     bool done = false;
 };
 
-void appendPart (std::string& pointer, std::string_view key)
+}   // namespace
+
+void appendPointerPart (std::string& pointer, std::string_view key)
 {
+    const auto is_special = [] (char c) { return c == '~' || c == '/'; };
+    if (std::ranges::none_of (key, is_special))
+    {
+        pointer += key;
+        return;
+    }
     std::size_t done = 0;
     for (std::size_t i = 0; i < key.size(); ++i)
-        if (key[i] == '~' || key[i] == '/')
+        if (is_special (key[i]))
         {
             pointer.append (key.substr (done, i - done)).append (key[i] == '~' ? "~0" : "~1");
             done = i + 1;
         }
     pointer.append (key.substr (done));
 }
-}   // namespace
 
 JsonText readJson (std::string_view text, double most_values)
 {
@@ -442,15 +449,8 @@ JsonText readAnyJson (std::string_view text, double most_values)
 std::string pointerPart (std::string_view key)
 {
     std::string part;
-    appendPart (part, key);
+    appendPointerPart (part, key);
     return part;
-}
-
-void setPointer (std::string& pointer, std::string_view object, std::string_view key)
-{
-    pointer = object;
-    pointer += '/';
-    appendPart (pointer, key);
 }
 
 TextPosition positionOf (const TextPositions& positions, std::string_view pointer)

@@ -30,9 +30,8 @@ JsonText readJson (std::string_view text, double most_values = budgets().values)
 /// A key in the form used in JSON pointers.
 std::string pointerPart (std::string_view key);
 
-/// Makes `pointer` the JSON pointer to a member of the object at `object`. A loop over many members that passes the same string each time
-/// allocates nothing for most of them.
-void setPointer (std::string& pointer, std::string_view object, std::string_view key);
+/// Appends a key in that form to a JSON pointer that ends with a slash.
+void appendPointerPart (std::string& pointer, std::string_view key);
 
 /// The position of the value at a pointer, or of its nearest parent that exists in the file.
 TextPosition positionOf (const TextPositions&, std::string_view pointer);

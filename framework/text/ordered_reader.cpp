@@ -10,9 +10,7 @@
 
 namespace tactus
 {
-namespace
-{
-bool matches (const Json& value, JsonKind kind)
+bool matches (const Json& value, JsonKind kind) noexcept
 {
     switch (kind)
     {
@@ -32,6 +30,17 @@ bool matches (const Json& value, JsonKind kind)
     return true;
 }
 
+Where::operator std::string() const
+{
+    if (around == nullptr) return *text;
+    std::string pointer = *around;
+    pointer += '/';
+    appendPointerPart (pointer, key);
+    return pointer;
+}
+
+namespace
+{
 constexpr std::string_view nameOf (JsonKind kind)
 {
     switch (kind)
@@ -106,10 +115,10 @@ bool OrderedReader::isKind (const Json& value, JsonKind kind, const std::string&
 
 void OrderedReader::read (Json& object, const std::string& where, const std::vector<KnownKey>& fields, Json& extra)
 {
-    std::string member;
+    const Where around (where);
     for (auto& [key, value] : object.asObject())
     {
-        setPointer (member, where, key);
+        const std::string member = Where (around, key);
         const auto field = std::ranges::find (fields, key, &KnownKey::key);
         if (field != fields.end())
         {

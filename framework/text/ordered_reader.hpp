@@ -29,6 +29,27 @@ enum class JsonKind
     any
 };
 
+bool matches (const Json&, JsonKind) noexcept;
+
+/// The JSON pointer to a value. It becomes text only where it is passed as a string: most files have no errors, so that nobody asks for it.
+/// What it is made from must outlive it.
+class Where
+{
+public:
+    Where (const std::string& pointer) noexcept : text (&pointer) {}   // implicit: a function that takes a Where also takes the text
+    Where (const Where& object, std::string_view k) noexcept : around (&object), key (k) {}
+    Where (const Where&& object, std::string_view) = delete;
+    Where (const Where&) = delete;
+    Where& operator= (const Where&) = delete;
+
+    operator std::string() const;
+
+private:
+    const std::string* text = nullptr;
+    const Where* around = nullptr;   // the object that the value is a member of; null if `text` is all
+    std::string_view key;
+};
+
 /// A known key of an object, its kind, and the function that takes its value.
 struct KnownKey
 {
@@ -43,7 +64,7 @@ struct RowKey
 {
     std::string_view key;
     JsonKind kind;
-    void (*read) (Reader&, Read&, Json& value, const std::string& where);
+    void (*read) (Reader&, Read&, Json& value, const Where& where);
 };
 
 class OrderedReader
@@ -60,12 +81,11 @@ public:
 
     /// The same. The functions get `self`, which is this reader, and what they read into.
     template <typename Reader, typename Read, std::size_t n>
-    void read (Json& object, const std::string& where, const RowKey<Reader, Read> (&fields)[n], Reader& self, Read& into, Json& extra)
+    void read (Json& object, const Where& where, const RowKey<Reader, Read> (&fields)[n], Reader& self, Read& into, Json& extra)
     {
-        std::string member;
         for (auto& [key, value] : object.asObject())
         {
-            setPointer (member, where, key);
+            const Where member (where, key);
             const auto* field = std::ranges::find (fields, key, &RowKey<Reader, Read>::key);
             if (field == std::end (fields))
             {
@@ -73,7 +93,7 @@ public:
                 std::ranges::transform (fields, known, &RowKey<Reader, Read>::key);
                 keepUnknown (key, std::move (value), member, known, extra);
             }
-            else if (isKind (value, field->kind, member))
+            else if (matches (value, field->kind) || isKind (value, field->kind, member))
                 field->read (self, into, value, member);
         }
     }

@@ -29,9 +29,18 @@ public:
 
     /// Adds the value of a file, a member of an object, or an element of a list. Returns its number, which is needed to add its
     /// children. Returns `none` when there is no more room; `none` can also be passed in.
-    std::uint32_t addRoot (TextPosition);
-    std::uint32_t addMember (std::uint32_t object, std::string_view key, TextPosition);
-    std::uint32_t addElement (std::uint32_t list, std::size_t index, TextPosition);
+    std::uint32_t addRoot (TextPosition p) { return add (none, 0, 0, p); }
+    std::uint32_t addMember (std::uint32_t object, std::string_view key, TextPosition p)
+    {
+        const auto begin = keys.size();
+        if (object == none || begin + key.size() >= none) return none;
+        keys += key;
+        return add (object, static_cast<std::uint32_t> (begin), static_cast<std::uint32_t> (key.size()), p);
+    }
+    std::uint32_t addElement (std::uint32_t list, std::size_t index, TextPosition p)
+    {
+        return list == none || index >= none ? none : add (list, static_cast<std::uint32_t> (index), none, p);
+    }
 
     /// The position of the value at a JSON pointer.
     std::optional<TextPosition> find (std::string_view pointer) const;
@@ -53,7 +62,19 @@ private:
         TextPosition position;
     };
 
-    std::uint32_t add (std::uint32_t around, Entry);
+    std::uint32_t add (std::uint32_t around, std::uint32_t key_begin, std::uint32_t key_size, TextPosition position)
+    {
+        constexpr std::size_t most = 4u << 20u;   // a hostile file may have long lists of empty lists
+        if (entries.size() == most) return none;
+        const auto number = static_cast<std::uint32_t> (entries.size());
+        entries.push_back ({ none, none, none, key_begin, key_size, position });
+        if (around == none) return number;
+        auto& parent = entries[around];
+        (parent.last == none ? parent.first : entries[parent.last].next) = number;
+        parent.last = number;
+        return number;
+    }
+
     bool isNamed (const Entry&, std::string_view part) const;
 
     std::vector<Entry> entries;

@@ -9,8 +9,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 namespace tactus
@@ -48,15 +50,30 @@ private:
 
     void skipSpace() noexcept
     {
-        for (; here < end; ++here)
-            if (*here == '\n')
+        const auto* next = here;   // most white space is indentation, so this loop is a tight one
+        while (true)
+        {
+            while (next < end && *next == ' ')
+                ++next;
+            if (next == end) break;
+            if (*next == '\n')
             {
                 ++line;
-                line_begin = here + 1;
+                line_begin = next + 1;
                 continued = 0;
             }
-            else if (*here != ' ' && *here != '\t' && *here != '\r')
-                return;
+            else if (*next != '\t' && *next != '\r')
+                break;
+            ++next;
+        }
+        here = next;
+    }
+
+    /// Replaces null, which has nothing to free. An assignment would first look at what both hold.
+    template <typename T>
+    static Json& put (Json& null, T&& content)
+    {
+        return *std::construct_at (&null, std::forward<T> (content));
     }
 
     bool value (Json& into, std::uint32_t place, int depth)
@@ -65,11 +82,12 @@ private:
         switch (peek())
         {
         case '{':
-            return depth < deepest_nesting && object ((into = Json (Json::Object())).asObject(), place, depth + 1);
+            return depth < deepest_nesting && object (put (into, Json::Object()).asObject(), place, depth + 1);
         case '[':
-            return depth < deepest_nesting && list ((into = Json (Json::Array())).asArray(), place, depth + 1);
+            return depth < deepest_nesting && list (put (into, Json::Array()).asArray(), place, depth + 1);
         case '"':
-            return string ((into = Json (std::string())).asString());
+            if (const auto text = plainString()) return put (into, std::string (*text)), true;
+            return string (put (into, std::string()).asString());
         case 't':
             return word ("true", into, Json (true));
         case 'f':
@@ -85,8 +103,16 @@ private:
     {
         if (! std::string_view (here, end).starts_with (wanted)) return false;
         here += wanted.size();
-        into = std::move (meaning);
+        put (into, std::move (meaning));
         return true;
+    }
+
+    /// Makes a long list grow faster than it would by itself, because moving its values takes longer than anything else.
+    template <typename List>
+    static void makeRoom (List& list)
+    {
+        constexpr std::size_t is_long = 64, growth = 4;
+        if (list.size() == list.capacity() && list.size() >= is_long) list.reserve (growth * list.size());
     }
 
     bool object (Json::Object& members, std::uint32_t place, int depth)
@@ -101,10 +127,11 @@ private:
         {
             skipSpace();
             const auto begin = position();
-            if (peek() != '"' || ! string (key)) return false;
-            if (seen.has (members, key)) return false;
-            const auto inside = result.positions.addMember (place, key, begin);
-            auto& added = members.emplace_back (std::move (key), Json()).second;
+            const auto key = readKey();
+            if (! key || ! seen.add (members, *key)) return false;
+            const auto inside = result.positions.addMember (place, *key, begin);
+            makeRoom (members);
+            auto& added = members.emplace_back (std::piecewise_construct, std::forward_as_tuple (*key), std::tuple()).second;
             skipSpace();
             if (! take (':')) return false;
             skipSpace();
@@ -126,6 +153,7 @@ private:
             const auto index = elements.size();
             const bool is_bulk = peek() == '[' || peek() == '-' || isDigit (peek());
             const auto inside = ! is_bulk || index < first_entries ? result.positions.addElement (place, index, position()) : TextPositions::none;
+            makeRoom (elements);
             if (! value (elements.emplace_back(), inside, depth)) return false;
             skipSpace();
         } while (take (','));
@@ -162,11 +190,29 @@ private:
     bool isRead (const char* begin, T number, Json& into) const
     {
         if (std::from_chars (begin, here, number).ec != std::errc()) return false;
-        into = Json (number);
+        put (into, number);
         return true;
     }
 
     //==============================================================================
+    /// The key of a member. It is valid until the next key is read.
+    std::optional<std::string_view> readKey()
+    {
+        if (peek() != '"') return {};
+        if (const auto text = plainString()) return text;
+        return string (rare_key) ? std::optional<std::string_view> (rare_key) : std::nullopt;
+    }
+
+    /// A string in which all characters stand for themselves, as in most. If it is another one, nothing is read.
+    std::optional<std::string_view> plainString() noexcept
+    {
+        const auto* const begin = here++;
+        const auto text = plain();
+        if (take ('"')) return text;
+        here = begin;
+        return {};
+    }
+
     bool string (std::string& into)
     {
         ++here;
@@ -289,7 +335,7 @@ private:
     int line = 1, continued = 0;   // continued: bytes of this line that continue a character
     JsonText& result;
     const double most_values;
-    std::string key;   // of the member that is being read
+    std::string rare_key;   // the last one that was not a plain string
 };
 }   // namespace
 

@@ -24,6 +24,7 @@ FusedValues::FusedValues (const Plan& p) : plan (p)
             by_params.emplace (bytes (type.paramsOf (instance.node.get())), i);
     }
     findChanging (plan.records());
+    findChanging (plan.settled());
     for (const auto& tap : plan.taps())
         need (tap.value);
 }

@@ -57,7 +57,7 @@ int main (int argc, char** argv)
     std::stringstream text;
     text << std::ifstream (argv[1]).rdbuf();
     const auto graph = readGraph (text.str()).graph;
-    const auto plan = compile (graph, catalogue()).plan;
+    const auto plan = compile (graph, catalogue(), { .settles = true }).plan;   // as in a run
     if (! plan) return 1;
 
     Engine engine { plan };

@@ -76,6 +76,25 @@ TEST_CASE ("a duplicate key is reported with both places")
     CHECK_THAT (json.messages[0].text, Contains ("first at line 1, column 10"));
 }
 
+TEST_CASE ("a duplicate key is found in objects of any size")
+{
+    std::string members;
+    for (int n = 1; n < 300; ++n)
+    {
+        members += (n > 1 ? ", \"k" : "\"k") + std::to_string (n) + "\": " + std::to_string (n);
+        const auto json = readJson ("{ " + members + " }");
+        REQUIRE (json.messages.empty());
+        REQUIRE (json.root.size() == static_cast<std::size_t> (n));
+        REQUIRE (json.root["k" + std::to_string (n)] == n);
+        for (const int twin : { 1, (n + 1) / 2, n })
+        {
+            const auto again = readJson ("{ " + members + ", \"k" + std::to_string (twin) + "\": 0, \"more\": 1 }");
+            REQUIRE (again.messages.size() == 1);
+            REQUIRE (again.messages[0].where == "/k" + std::to_string (twin));
+        }
+    }
+}
+
 TEST_CASE ("nesting and size are limited, and the limits are detected quickly")
 {
     const auto begin = std::chrono::steady_clock::now();
