@@ -2,6 +2,7 @@
 // How many threads a report passes on its way to the answer, over sockets. TACTUS_HOPS=3000 prints the times of so many reports.
 
 #include "fake_board.hpp"
+#include "socket_board.hpp"
 #include "support/no_allocation.hpp"
 
 #include <host/hid_link/hid_clock.hpp>
@@ -13,8 +14,6 @@
 
 #include <poll.h>
 #include <sys/resource.h>
-#include <sys/socket.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,72 +22,23 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 using namespace tactus;
 using namespace tactus::host::hid;
-using tactus::host::ReportFile;
 using namespace std::chrono_literals;
 
 namespace
 {
 using Clock = std::chrono::steady_clock;
 
-/// One end of a pair of sockets is the device.
-struct Sockets final : HidSystem
-{
-    struct Wire final : Transport
-    {
-        Wire (Sockets& s, int e) : sockets (s), end (e), file (e) {}
-
-        Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override
-        {
-            sockets.reading_thread = static_cast<int> (::syscall (SYS_gettid));
-            const auto got = file.read (into, Clock::now() + timeout);
-            if (got.what == ReportFile::Outcome::What::failure) return transferError ("unplugged");
-            return got.size;
-        }
-        bool canReadUntil() const noexcept override { return true; }
-        ReportFile::Outcome readUntil (std::span<std::uint8_t> into, Clock::time_point until) noexcept override { return file.read (into, until); }
-
-        Result<> write (std::span<const std::uint8_t> report) override
-        {
-            if (::send (end, report.data(), report.size(), MSG_NOSIGNAL) < 0) return transferError ("unplugged");
-            return {};
-        }
-        Result<> sendFeature (std::span<const std::uint8_t>) override { return {}; }
-        Result<> getFeature (std::span<std::uint8_t>) override { return {}; }
-
-        Sockets& sockets;
-        const int end;
-        ReportFile file;   // closes it
-    };
-
-    std::vector<ConnectedDevice> connected() override { return {}; }
-    Result<std::unique_ptr<Transport>> open (const ConnectedDevice&) override
-    {
-        int both[2] {};
-        if (::socketpair (AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, both) != 0) return Message::error ("hid/not_opened", {}, "no sockets");
-        board = both[0];
-        return std::make_unique<Wire> (*this, both[1]);
-    }
-    ~Sockets() override
-    {
-        if (board >= 0) ::close (board);
-    }
-
-    int board = -1;
-    std::atomic<int> reading_thread = 0;
-};
-
 /// The board sends a report and waits for the answer. False if none comes.
-bool isAnswered (int board, std::uint16_t count)
+bool isAnswered (const test::SocketBoard& sockets, std::uint16_t count)
 {
-    const auto report = test::boardReport (count, count);
-    if (::write (board, report.data(), report.size()) < 0) return false;
+    const int board = sockets.end;
+    if (! sockets.send (test::boardReport (count, count))) return false;
     for (;;)
     {
         pollfd polled { .fd = board, .events = POLLIN, .revents = 0 };
@@ -119,7 +69,7 @@ long sleepsOfAll()
 
 struct Measured
 {
-    int answered = 0, allocations = 0;
+    int answered = 0, allocations = 0, locks = 0;   // the last two of the tick thread
     std::uint64_t read_by_tick = 0;
     long sleeps_of_reader = 0, sleeps = 0;
     double seconds = 0.0;
@@ -145,7 +95,7 @@ struct Ticking final : Ticked
 /// The board sends a report each millisecond, and as soon as the answer to the last one is there.
 Measured measure (bool lend, int reports, bool real_time)
 {
-    Sockets sockets;
+    test::SocketBoard sockets;
     const ConnectedDevice what;
     const test::BoardProfile profile {};
     auto opened = HidPort::open (sockets, what, profile.make(), { .look_again = 1h, .real_time = real_time, .lend = lend });
@@ -160,11 +110,12 @@ Measured measure (bool lend, int reports, bool real_time)
         const NoAllocation watched;
         clock.drive (ticking);
         measured.allocations = watched.allocations();
+        measured.locks = watched.locks();
     } };
     std::jthread board { [&] {
         if (real_time) becomeRealTime (std::nullopt);
         for (int i = 1; i <= 20; ++i)
-            if (! isAnswered (sockets.board, static_cast<std::uint16_t> (i))) return;
+            if (! isAnswered (sockets, static_cast<std::uint16_t> (i))) return;
         const auto begin = Clock::now();
         const auto sleeps = sleepsOfAll(), of_reader = sleepsOf (sockets.reading_thread);
         auto next = begin;
@@ -172,7 +123,7 @@ Measured measure (bool lend, int reports, bool real_time)
         {
             std::this_thread::sleep_until (next = std::max (next + 1ms, Clock::now()));
             const auto sent = Clock::now();
-            if (! isAnswered (sockets.board, static_cast<std::uint16_t> (i))) break;
+            if (! isAnswered (sockets, static_cast<std::uint16_t> (i))) break;
             measured.us.push_back (1e6 * std::chrono::duration<double> (Clock::now() - sent).count());
         }
         measured.seconds = std::chrono::duration<double> (Clock::now() - begin).count();
@@ -197,7 +148,7 @@ void print (const char* how, const Measured& m)
 }
 }   // namespace
 
-TEST_CASE ("a report reaches the tick thread without a stop at another thread, and without an allocation", "[hid][hops][threads]")
+TEST_CASE ("a report reaches the tick thread without a stop at another thread, an allocation or a lock", "[hid][hops][threads]")
 {
     const auto* wanted = std::getenv ("TACTUS_HOPS");
     const int reports = wanted ? std::atoi (wanted) : 200;
@@ -208,9 +159,11 @@ TEST_CASE ("a report reaches the tick thread without a stop at another thread, a
     CHECK (through.answered == reports);
     CHECK (through.read_by_tick == 0);
     CHECK (through.allocations == 0);
+    CHECK (through.locks == 0);
     CHECK (directly.answered == reports);
     CHECK (directly.read_by_tick >= static_cast<std::uint64_t> (reports) + 20 - 2);   // the reading thread may have read the first two
     CHECK (directly.allocations == 0);
+    CHECK (directly.locks == 0);
     // The reading thread looks once a second whether it has to read again.
     CHECK (directly.sleeps_of_reader >= 0);
     CHECK (static_cast<double> (directly.sleeps_of_reader) <= 2.0 * directly.seconds + 5.0);
