@@ -19,19 +19,24 @@ void HidClock::drive (Ticked& ticked) noexcept
 {
     auto heard = Clock::now();
     auto due = heard + silence;
+    port.readHere();
     for (;;)
     {
         const bool came = port.waitForReport (due);
         const auto now = Clock::now();
+        const auto expected = heard + period;
         if (came) heard = now;
         by_timer.store (! came, std::memory_order_relaxed);
         replaced.store (! came && (! port.isConnected() || now - heard > loss), std::memory_order_relaxed);
         if (! came) timed.fetch_add (1, std::memory_order_relaxed);
 
-        const auto since = came ? now.time_since_epoch() - std::chrono::nanoseconds (port.lastArrival()) : now - due;
+        // When a report arrived that was already there, is not known.
+        if (came) due = port.wasLate() ? expected : Clock::time_point (std::chrono::nanoseconds (port.lastArrival()));
+        const auto since = now - due;
         if (! ticked.tick (std::max (0.0, std::chrono::duration<double> (since).count()))) break;
         due = came ? now + silence : std::max (due + period, now);   // missed ticks are skipped
     }
+    port.readElsewhere();
 }
 
 }   // namespace tactus::host::hid

@@ -11,7 +11,8 @@
 namespace tactus::host::hid
 {
 
-/// A device as the clock of a run: each report triggers a tick, and the tick's efforts are sent immediately. If several reports
+/// A device as the clock of a run: each report triggers a tick, and the tick's efforts are sent immediately. The tick thread reads the
+/// device itself, if the system lets it (HidPort::readHere); if not, the port's reading thread wakes it. If several reports
 /// have arrived, as after a hiccup, only the newest triggers a tick. If none arrives for a few periods, a timer ticks
 /// instead, so that the reading ages, the guard removes the force and a stop is noticed; the next report takes over again.
 /// Once the device is disconnected, or silent for longer than its watchdog, the clock counts as replaced.

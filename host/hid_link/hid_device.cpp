@@ -168,7 +168,7 @@ Reading HidDevice::read() noexcept
     link->drain ([this] (const ArrivedReport& report) { take (report); });
 
     // If some reports did not fit, the ones in the ring are old, whatever they contain.
-    const bool fresh = came_now.any() && no_room == overflown;
+    const bool fresh = came_now.any() && no_room == overflown && ! link->mayLackNewest();
     overflown = no_room;
     ticks_without = fresh ? 0 : ticks_without + 1;
 

@@ -20,7 +20,6 @@ using namespace std::chrono_literals;
 using Clock = HidPort::Clock;
 
 constexpr std::size_t reports_waiting = 1024;   // one second of reports from a fast device: a run starts a while after its devices are opened
-constexpr auto longest_read = 20ms;             // short, so that a stop request is noticed promptly
 constexpr auto longest_between_beats = 20ms;    // several times within Failsafe::patience
 constexpr const char* check_device = "check that the connected device is the one that the profile describes, and plug it in again";
 
@@ -65,7 +64,8 @@ Result<> transfer (Transport& t, Step::Kind kind, std::span<std::uint8_t> bytes)
 
 HidPort::HidPort (HidSystem& s, ConnectedDevice d, std::shared_ptr<const Profile> p, Options o)
     : system (s), wanted (std::move (d)), description (std::move (p)), options (o), longest_silence (watchdogOf (*description)),
-      has_ids (usesIds (*description)), ring (reports_waiting, 1, { .bytes = Bytes (longestInput (*description) + 1) }), quiet (description)
+      has_ids (usesIds (*description)), ring (reports_waiting, 1, { .bytes = Bytes (longestInput (*description) + 1) }),
+      buffer (longest_report + 1), quiet (description)
 {
     for (std::size_t i = 0; i < description->outputs.size(); ++i)
         outputs.push_back (std::make_unique<Output>());
@@ -207,6 +207,7 @@ PortCounts HidPort::counts() const noexcept
 {
     const auto n = answers_sent.load (std::memory_order_relaxed);
     return { .reports = reports.load (std::memory_order_relaxed),
+             .read_by_tick = read_by_tick.load (std::memory_order_relaxed),
              .overflown = ring.lost(),
              .writes = writes.load (std::memory_order_relaxed),
              .write_errors = write_errors.load (std::memory_order_relaxed),
@@ -216,91 +217,6 @@ PortCounts HidPort::counts() const noexcept
              .latency_min = latency_min.load (std::memory_order_relaxed),
              .latency_mean = n > 0 ? latency_sum.load (std::memory_order_relaxed) / static_cast<double> (n) : 0.0,
              .latency_max = latency_max.load (std::memory_order_relaxed) };
-}
-
-//==============================================================================
-// The reading thread
-
-void HidPort::readOn()
-{
-    if (options.real_time) becomeRealTime (std::nullopt);   // if real-time priority is refused, the run reports that
-    std::vector<std::uint8_t> buffer (longest_report + 1);
-    while (! isStopping())
-    {
-        const auto t = transport();
-        if (! t)
-        {
-            lookAgain();
-            continue;
-        }
-        const auto got = t->read (buffer, longest_read);
-        if (! got)
-            lose (*t, got.error().text);
-        else if (*got > 0)
-        {
-            const auto now = nanosecondsOf (Clock::now());
-            reports.fetch_add (1, std::memory_order_relaxed);
-            push (std::span (buffer).first (*got), now);
-            last_arrival.store (now, std::memory_order_release);
-            arrived.ring();
-        }
-    }
-}
-
-void HidPort::push (std::span<const std::uint8_t> report, Nanoseconds at)
-{
-    if (const auto slot = ring.claim(); ! slot.empty())
-    {
-        auto& [bytes, arrived_at, connection] = slot.front();
-        const auto kept = report.first (std::min (report.size(), bytes.capacity()));
-        bytes.assign (kept.begin(), kept.end());   // within its capacity
-        arrived_at = at;
-        connection = connections;
-    }
-    ring.commit();
-}
-
-/// Handles a lost device; both threads may find out that it is. The device may still be able to receive the neutral reports.
-void HidPort::lose (Transport& t, const std::string& why)
-{
-    {
-        const std::lock_guard lock (opening);
-        if (link.get() != &t) return;
-        departures.fetch_add (1, std::memory_order_relaxed);
-        link.reset();
-        connected.store (false, std::memory_order_release);
-        last_trouble = why;
-    }
-    const std::lock_guard lock (writing);
-    current_episode.fetch_add (1, std::memory_order_acq_rel);
-    quieten (t);
-}
-
-const ConnectedDevice* HidPort::sameAmong (const std::vector<ConnectedDevice>& devices) const
-{
-    std::vector<const ConnectedDevice*> alike;
-    for (const auto& d : devices)
-        if (d.vid == wanted.vid && d.pid == wanted.pid && d.serial == wanted.serial && fit (*description, d) > 0) alike.push_back (&d);
-    const auto same_path = std::ranges::find (alike, wanted.path, [] (const auto* d) { return d->path; });
-    if (same_path != alike.end()) return *same_path;
-    return alike.size() == 1 || (! alike.empty() && ! wanted.serial.empty()) ? alike.front() : nullptr;
-}
-
-void HidPort::lookAgain()
-{
-    {
-        std::unique_lock lock (opening);
-        stopped.wait_for (lock, options.look_again, [this] { return isStopping(); });
-    }
-    if (isStopping()) return;
-
-    const auto devices = system.connected();
-    const auto* same = sameAmong (devices);
-    if (same == nullptr) return;
-    auto opened = system.open (*same);
-    if (! opened) return note (opened.error().text);
-    if (const auto woken = wake (**opened); ! woken) return note (woken.error().text + "; " + woken.error().remedy);
-    become (std::move (*opened));
 }
 
 //==============================================================================

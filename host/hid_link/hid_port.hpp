@@ -41,6 +41,7 @@ struct ArrivedReport
 struct PortCounts
 {
     std::uint64_t reports = 0;                                         ///< reports received, valid or not
+    std::uint64_t read_by_tick = 0;                                    ///< of these, the ones that the tick thread read itself
     std::uint64_t overflown = 0;                                       ///< dropped because no tick had taken any reports for a long time
     std::uint64_t writes = 0;                                          ///< reports sent, including neutral ones
     std::uint64_t write_errors = 0;                                    ///< writes that the system rejected
@@ -52,6 +53,9 @@ struct PortCounts
 
 /// An open HID device with a reading thread and a writing thread. Incoming reports queue up until a tick takes them. Only the
 /// latest of each outgoing report is kept, so nothing ever queues up on the way out.
+///
+/// The tick thread of a run that the device ticks reads the device itself, which saves the report a change of threads (readHere).
+/// Meanwhile the reading thread sleeps; it returns to its work when the device is gone, to open it again.
 ///
 ///  - On opening, and when the device comes back, the port performs the profile's init steps; on closing, it sends the
 ///    neutral reports and performs the exit steps. A number that the device returns in a step (Answer) is inserted into
@@ -70,6 +74,7 @@ public:
     {
         std::chrono::milliseconds look_again { 500 };   ///< interval between attempts to find a disconnected device
         bool real_time = true;                          ///< real-time priority for the threads, if the system grants it
+        bool lend = true;                               ///< the tick thread may read the device itself, if the system lets it
     };
 
     using Clock = std::chrono::steady_clock;
@@ -116,14 +121,28 @@ public:
     //==========================================================================
     // For a clock. [tick thread]
 
+    /// Asks to read the device on this thread, in waitForReport(). The reading thread lends it as soon as its own read is over, and
+    /// again after it has opened the device again. It never does if the system can only read elsewhere (Transport::canReadUntil).
+    void readHere() noexcept;
+    void readElsewhere() noexcept;   ///< gives the device back; to be called before this thread ends
+
     /// True as soon as a report has arrived since the last wait; false on timeout.
-    bool waitForReport (Clock::time_point until) noexcept { return arrived.wait (until); }
+    bool waitForReport (Clock::time_point until) noexcept;
+
+    /// When the latest report was read.
     Nanoseconds lastArrival() const noexcept { return last_arrival.load (std::memory_order_acquire); }
 
+    /// True if the last wait did not have to wait, because this thread reads the device and the report was already there.
+    bool wasLate() const noexcept { return was_late; }
+
+    /// True if so many reports were already there that the system may have dropped newer ones.
+    bool mayLackNewest() const noexcept { return may_lack_newest; }
+
     //==========================================================================
-    bool isConnected() const noexcept { return connected.load (std::memory_order_acquire); }   ///< [any thread]
-    PortCounts counts() const noexcept;                                                        ///< [any thread]
-    std::string trouble() const;                                                               ///< the latest failure; empty if there was none [any thread]
+    bool isReadByTick() const noexcept { return reads.load (std::memory_order_acquire) == Reads::tick; }   ///< [any thread]
+    bool isConnected() const noexcept { return connected.load (std::memory_order_acquire); }               ///< [any thread]
+    PortCounts counts() const noexcept;                                                                    ///< [any thread]
+    std::string trouble() const;                                                                           ///< the latest failure; empty: none [any thread]
 
 private:
     HidPort (HidSystem&, ConnectedDevice, std::shared_ptr<const Profile>, Options);
@@ -167,7 +186,11 @@ private:
     bool isStopping() const noexcept { return stopping.load (std::memory_order_acquire); }
 
     void readOn();
-    void push (std::span<const std::uint8_t> report, Nanoseconds at);
+    void lend (Transport&);
+    void arrive (std::span<const std::uint8_t> report) noexcept;
+    bool takeWaiting() noexcept;
+    bool readUntil (Clock::time_point) noexcept;
+    bool isNews() noexcept;
     void lookAgain();
     void lose (Transport&, const std::string& why);
     const ConnectedDevice* sameAmong (const std::vector<ConnectedDevice>&) const;
@@ -191,6 +214,21 @@ private:
 
     SpscRing<ArrivedReport> ring;
     Doorbell arrived, something;   // `arrived`: the reading thread wakes the tick thread; `something`: any thread wakes the writing thread
+
+    /// The thread that reads the device. The tick thread asks for it, the reading thread lends it, the tick thread gives it back.
+    enum class Reads : std::uint8_t
+    {
+        reading_thread,
+        reading_thread_but_asked,
+        tick
+    };
+    std::atomic<Reads> reads = Reads::reading_thread;
+    Doorbell given_back;                              // wakes the reading thread
+    Transport* lent = nullptr;                        // valid while Reads::tick: the reading thread keeps it open
+    std::vector<std::uint8_t> buffer;                 // [tick thread]
+    std::uint64_t known = 0;                          // reports that the tick thread knows of   [tick thread]
+    bool was_late = false, may_lack_newest = false;   // [tick thread]
+
     std::atomic<Nanoseconds> last_arrival = 0;
     std::atomic<std::uint64_t> current_episode = 1;
     std::atomic<bool> connected = false, stopping = false;
@@ -204,11 +242,11 @@ private:
     std::mutex writing;              // protects all writing and the members below; never taken on the tick thread
     HidModel quiet;                  // encodes the neutral reports
     std::uint32_t assigned = 0;      // the number that the device returned and expects back; 0: none
-    std::uint64_t connections = 0;   // [reading thread]
+    std::uint64_t connections = 0;   // [reading thread, which does not change it while the tick thread reads]
     bool driven = false;             // true if the last report sent was not neutral
     Clock::time_point given;         // time of the latest new offer
 
-    std::atomic<std::uint64_t> reports = 0, writes = 0, write_errors = 0, dropped = 0, silences = 0, departures = 0;
+    std::atomic<std::uint64_t> reports = 0, read_by_tick = 0, writes = 0, write_errors = 0, dropped = 0, silences = 0, departures = 0;
     std::atomic<std::uint64_t> answers_sent = 0;
     std::atomic<double> latency_sum = 0.0, latency_min = 0.0, latency_max = 0.0;
 

@@ -63,17 +63,31 @@ Bus busOf (hid_bus_type type)
 }
 
 /// Opens the device twice, once for reading and once for writing: hidapi stores the last error string in the handle without
-/// a lock, so two threads must not share a handle.
+/// a lock, so two threads must not share a handle. Where the device is a file, it is read directly: hidapi waits in steps of 1 ms,
+/// and allocates when it fails.
 class HidapiTransport final : public Transport
 {
 public:
-    HidapiTransport (std::string where, std::optional<FileLock> l, Handle in, Handle out)
-        : path (std::move (where)), lock (std::move (l)), reading (std::move (in)), writing (std::move (out))
+    HidapiTransport (std::string where, std::optional<FileLock> l, std::optional<ReportFile> f, Handle in, Handle out)
+        : path (std::move (where)), lock (std::move (l)), file (std::move (f)), reading (std::move (in)), writing (std::move (out))
     {
+    }
+
+    bool canReadUntil() const noexcept override { return file.has_value(); }
+
+    ReportFile::Outcome readUntil (std::span<std::uint8_t> into, ReportFile::Clock::time_point until) noexcept override
+    {
+        return file ? file->read (into, until) : Transport::readUntil (into, until);
     }
 
     Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override
     {
+        if (file)
+        {
+            const auto got = file->read (into, ReportFile::Clock::now() + timeout);
+            if (got.what == ReportFile::Outcome::What::failure) return transferError (std::generic_category().message (got.error));
+            return got.size;
+        }
         const int got = hid_read_timeout (reading.get(), into.data(), into.size(), static_cast<int> (timeout.count()));
         if (got < 0) return transferError (errorOf (reading.get()));
         return static_cast<std::size_t> (got);
@@ -116,7 +130,8 @@ private:
     }
 
     std::string path;
-    std::optional<FileLock> lock;   // ensures that only one driver uses the device, on systems where devices are files
+    std::optional<FileLock> lock;     // ensures that only one driver uses the device, on systems where devices are files
+    std::optional<ReportFile> file;   // empty if the device is not a file; then `reading` reads
     Handle reading, writing;
     std::optional<Failsafe> failsafe;
 };
@@ -156,10 +171,12 @@ public:
         std::error_code unseen;
         if (! alone && std::filesystem::exists (device.path, unseen) && ! isForbidden (device.path))
             return Message::error ("hid/not_opened", device.path, "another role or another instance of Tactus is using it");
-        Handle in (hid_open_path (device.path.c_str()));
-        Handle out (in ? hid_open_path (device.path.c_str()) : nullptr);
-        if (! in || ! out) return Message::error (isForbidden (device.path) ? "hid/not_permitted" : "hid/not_opened", device.path, errorOf (nullptr));
-        return std::make_unique<HidapiTransport> (device.path, std::move (alone), std::move (in), std::move (out));
+        Handle out (hid_open_path (device.path.c_str()));
+        auto file = out && isReportFile (device.path) ? ReportFile::open (device.path) : std::nullopt;
+        Handle in (out && ! file ? hid_open_path (device.path.c_str()) : nullptr);
+        if (! out || (! file && ! in))
+            return Message::error (isForbidden (device.path) ? "hid/not_permitted" : "hid/not_opened", device.path, errorOf (nullptr));
+        return std::make_unique<HidapiTransport> (device.path, std::move (alone), std::move (file), std::move (in), std::move (out));
     }
 
     Bytes reportDescriptor (const ConnectedDevice& device) override   // not through hidapi, which provides it only since 0.14

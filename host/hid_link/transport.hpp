@@ -2,6 +2,7 @@
 #pragma once
 
 #include <host/hid/match.hpp>
+#include <host/platform/report_file.hpp>
 #include <tactus/text/result.hpp>
 
 #include <chrono>
@@ -35,6 +36,16 @@ public:
     /// Waits for an input report and returns its size, which may be 0. Also returns 0 on timeout. A failure
     /// means that the device is gone. A report longer than the buffer is truncated.
     virtual Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) = 0;
+
+    /// True if readUntil() works.
+    virtual bool canReadUntil() const noexcept { return false; }
+
+    /// Like read(), for the thread that ticks a run: neither allocates nor throws, and waits precisely until that time. Does not wait
+    /// if it has passed. After a failure, read() says why.
+    virtual ReportFile::Outcome readUntil (std::span<std::uint8_t>, ReportFile::Clock::time_point) noexcept
+    {
+        return { .what = ReportFile::Outcome::What::failure };
+    }
 
     /// Blocks for as long as the device needs.
     virtual Result<> write (std::span<const std::uint8_t> report) = 0;

@@ -35,6 +35,16 @@ std::string reportDescriptorOf (const std::string& path)
 #endif
 }
 
+bool isReportFile (const std::string& path) noexcept
+{
+#if defined(__linux__)
+    return path.starts_with ("/dev/hidraw");
+#else
+    (void)path;
+    return false;
+#endif
+}
+
 std::filesystem::path programFolder()
 {
 #if defined(__linux__)

@@ -14,6 +14,9 @@ bool isForbidden (const std::string& path) noexcept;
 /// it. Reading it needs no permission. [any thread]
 std::string reportDescriptorOf (const std::string& path);
 
+/// True if each read from this file takes one whole report, as from /dev/hidraw3. [any thread]
+bool isReportFile (const std::string& path) noexcept;
+
 /// The folder of the running program; empty if the system does not provide it. [any thread]
 std::filesystem::path programFolder();
 

@@ -56,7 +56,7 @@ std::string describe (const DeviceHealth& h)
     if (! h.connected) return "unplugged";
     auto text = h.rate_hz ? printed ("%.1f reports/s, ", *h.rate_hz) : std::string();
     text += printed ("latest %.1f ms old", 1e3 * h.age);
-    if (h.ticks) text += ", ticks the run";
+    if (h.ticks) text += h.read_by_tick ? ", ticks the run directly" : ", ticks the run through a reading thread";
     if (h.drift_ppm) text += printed (", clock %+.0f ppm", *h.drift_ppm);
     if (h.lost > 0) text += ", " + std::to_string (h.lost) + " lost";
     return text;
@@ -90,6 +90,7 @@ void HealthWatch::look (std::span<const RealDevice> devices)
         h.age = read.age;
         h.oldest = read.oldest;
         h.reports = port.reports;
+        h.read_by_tick = port.read_by_tick > 0;
         h.lost = read.lost;
         h.departures = port.departures;
         h.trouble = device->port().trouble();

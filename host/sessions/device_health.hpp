@@ -33,6 +33,7 @@ struct DeviceHealth
     bool has_come = false;       ///< true if the device has been available at some time during the run
     bool connected = false;
     bool ticks = false;               ///< true if its reports tick the run
+    bool read_by_tick = false;        ///< true if the tick thread reads it, or did so, rather than a thread of the port
     double age = 0.0, oldest = 0.0;   ///< age of its readings, in s: current and maximum
     std::uint64_t reports = 0, lost = 0, departures = 0;
     std::optional<double> rate_hz {};     ///< rate of its reports

@@ -113,6 +113,9 @@ public:
 
     host::hid::ConnectedDevice what;
 
+    /// True if the tick thread may read the board. Set it before the board is opened.
+    bool can_read_until = true;
+
     /// Called with each output, without a lock, before it is logged.
     std::function<void (const Bytes&)> on_write;
 
@@ -148,6 +151,13 @@ public:
     {
         const std::lock_guard lock (mutex);
         return beaten;
+    }
+
+    /// The threads that read the reports, one entry for each report.
+    std::vector<std::thread::id> readers() const
+    {
+        const std::lock_guard lock (mutex);
+        return who_read;
     }
 
     std::vector<Told> told() const
@@ -198,15 +208,16 @@ private:
 
         Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override
         {
-            std::unique_lock lock (board.mutex);
-            board.changed.wait_for (lock, timeout, [&] { return gone() || ! board.waiting.empty(); });
-            if (gone()) return host::hid::transferError ("Input/output error");
-            if (board.waiting.empty()) return std::size_t { 0 };
-            const auto report = std::move (board.waiting.front());
-            board.waiting.pop_front();
-            const auto size = std::min (report.size(), into.size());
-            std::copy_n (report.begin(), size, into.begin());
-            return size;
+            const auto got = take (into, std::chrono::steady_clock::now() + timeout);
+            if (got.what == host::ReportFile::Outcome::What::failure) return host::hid::transferError ("Input/output error");
+            return got.size;
+        }
+
+        bool canReadUntil() const noexcept override { return board.can_read_until; }
+
+        host::ReportFile::Outcome readUntil (std::span<std::uint8_t> into, std::chrono::steady_clock::time_point until) noexcept override
+        {
+            return take (into, until);
         }
 
         Result<> write (std::span<const std::uint8_t> report) override { return tell (report, Told::How::output); }
@@ -229,6 +240,21 @@ private:
 
     private:
         bool gone() const { return ! board.plugged || board.plugging != plugging; }
+
+        host::ReportFile::Outcome take (std::span<std::uint8_t> into, std::chrono::steady_clock::time_point until)
+        {
+            using What = host::ReportFile::Outcome::What;
+            std::unique_lock lock (board.mutex);
+            board.changed.wait_until (lock, until, [&] { return gone() || ! board.waiting.empty(); });
+            if (gone()) return { .what = What::failure };
+            if (board.waiting.empty()) return {};
+            const auto report = std::move (board.waiting.front());
+            board.waiting.pop_front();
+            board.who_read.push_back (std::this_thread::get_id());
+            const auto size = std::min (report.size(), into.size());
+            std::copy_n (report.begin(), size, into.begin());
+            return { .what = What::report, .size = size };
+        }
 
         Result<> tell (std::span<const std::uint8_t> report, Told::How how)
         {
@@ -258,6 +284,7 @@ private:
     std::condition_variable changed;
     std::deque<Bytes> waiting;
     std::vector<Told> log;
+    std::vector<std::thread::id> who_read;
     bool plugged = true, failing = false, forbidden = false;
     int plugging = 0, opened = 0, taken = 0, beaten = 0;
 };

@@ -2,6 +2,7 @@
 // A role whose device is missing when the run begins, or whose clock goes away: no force until everything works again.
 
 #include "host/hid_link/fake_board.hpp"
+#include "host/hid_link/socket_board.hpp"
 
 #include <host/sessions/binding.hpp>
 #include <host/sessions/device_health.hpp>
@@ -308,7 +309,27 @@ TEST_CASE ("the drift of a device is the speed of its clock relative to the cloc
 
 TEST_CASE ("ticks of a HID device take no locks, by its reports, by the timer that stands in, and before it is there", "[sessions][hid][clocks]")
 {
+#if defined(__linux__)
+    // The tick thread reads this one itself.
+    test::SocketBoard sockets;
+    auto opened = hid::HidPort::open (sockets, {}, test::BoardProfile {}.make(), { .look_again = 1h, .real_time = false });
+    REQUIRE (opened);
+    hid::HidDevice direct { std::move (*opened) };
+    direct.prepare (1e-3);
+    RunClock read { direct, 1000.0 };
+    std::uint16_t sent = 0;
+    test::checkThatTicksLockNothing (read, &direct, 200, [&] {
+        ++sent;
+        sockets.send (boardReport (sent, sent));
+        std::this_thread::sleep_for (1ms);
+    });
+    CHECK (direct.port().counts().read_by_tick > 0);
+    RunClock nothing_to_read { direct, 1000.0 };
+    test::checkThatTicksLockNothing (nothing_to_read, nullptr, 50, [] { std::this_thread::sleep_for (1ms); });
+#endif
+
     FakeBoard board;
+    board.can_read_until = false;   // its mutex would count
     const auto device = test::openBoard (board);
     std::uint16_t count = 0;
     RunClock reported { *device, 1000.0 };

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How a port reads: on its reading thread, or on the tick thread that the device ticks.
+#include "hid_port.hpp"
+
+#include <tactus/run/realtime.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace tactus::host::hid
+{
+namespace
+{
+using namespace std::chrono_literals;
+using Clock = HidPort::Clock;
+using What = ReportFile::Outcome::What;
+
+constexpr auto longest_read = 20ms;            // short, so that a stop request is noticed promptly
+constexpr std::size_t most_at_once = 256;      // a device that sends faster than it can be read must not keep the run from ticking
+constexpr std::size_t kept_by_system = 63;     // reports that Linux keeps for a reader; it drops newer ones (HIDRAW_BUFFER_SIZE is 64)
+constexpr Clock::time_point without_waiting;   // has passed
+}   // namespace
+
+//==============================================================================
+// Either thread
+
+/// Puts a report into the ring.
+void HidPort::arrive (std::span<const std::uint8_t> report) noexcept
+{
+    const Nanoseconds now = std::chrono::duration_cast<std::chrono::nanoseconds> (Clock::now().time_since_epoch()).count();
+    if (const auto slot = ring.claim(); ! slot.empty())
+    {
+        auto& [bytes, arrived_at, connection] = slot.front();
+        const auto kept = report.first (std::min (report.size(), bytes.capacity()));
+        bytes.assign (kept.begin(), kept.end());   // within its capacity
+        arrived_at = now;
+        connection = connections;
+    }
+    ring.commit();
+    last_arrival.store (now, std::memory_order_release);
+    reports.fetch_add (1, std::memory_order_release);
+}
+
+//==============================================================================
+// The tick thread
+
+void HidPort::readHere() noexcept
+{
+    auto not_yet = Reads::reading_thread;
+    reads.compare_exchange_strong (not_yet, Reads::reading_thread_but_asked, std::memory_order_acq_rel);
+}
+
+void HidPort::readElsewhere() noexcept
+{
+    if (reads.exchange (Reads::reading_thread, std::memory_order_acq_rel) == Reads::tick) given_back.ring();
+}
+
+bool HidPort::waitForReport (Clock::time_point until) noexcept
+{
+    was_late = may_lack_newest = false;
+    for (;;)
+    {
+        if (isReadByTick())
+        {
+            if (readUntil (until)) return isNews();
+            reads.store (Reads::reading_thread_but_asked, std::memory_order_release);
+            given_back.ring();
+            if (isNews()) return true;
+        }
+        if (! arrived.wait (until)) return false;
+        if (isNews()) return true;
+    }
+}
+
+/// True if reports have arrived since the last call.
+bool HidPort::isNews() noexcept
+{
+    const auto all = reports.load (std::memory_order_acquire);
+    return std::exchange (known, all) != all;
+}
+
+/// Reads what has arrived and, if that is nothing, waits. False if the device cannot be read any more.
+bool HidPort::readUntil (Clock::time_point until) noexcept
+{
+    if (! isConnected()) return false;   // the writing thread has given it up
+    const auto before = reports.load (std::memory_order_relaxed);
+    const bool works = takeWaiting();
+    const auto waited = reports.load (std::memory_order_relaxed) - before;
+    was_late = waited > 0;
+    may_lack_newest = waited >= kept_by_system;
+    if (! works || was_late || known != before) return works;
+
+    const auto got = lent->readUntil (buffer, until);
+    if (got.what != What::report) return got.what == What::nothing;
+    arrive (std::span (buffer).first (got.size));
+    read_by_tick.fetch_add (1, std::memory_order_relaxed);
+    return takeWaiting();   // the newest counts
+}
+
+/// Reads what has arrived, without waiting. False if the device cannot be read any more.
+bool HidPort::takeWaiting() noexcept
+{
+    for (std::size_t n = 0; n < most_at_once; ++n)
+    {
+        const auto got = lent->readUntil (buffer, without_waiting);
+        if (got.what != What::report) return got.what == What::nothing;
+        arrive (std::span (buffer).first (got.size));
+        read_by_tick.fetch_add (1, std::memory_order_relaxed);
+    }
+    return true;
+}
+
+//==============================================================================
+// The reading thread
+
+void HidPort::readOn()
+{
+    if (options.real_time) becomeRealTime (std::nullopt);   // if real-time priority is refused, the run reports that
+    std::vector<std::uint8_t> own_buffer (longest_report + 1);
+    while (! isStopping())
+    {
+        const auto t = transport();
+        if (! t)
+        {
+            lookAgain();
+            continue;
+        }
+        lend (*t);
+        const auto got = t->read (own_buffer, longest_read);   // if the tick thread has failed to read, this finds out why
+        if (! got)
+            lose (*t, got.error().text);
+        else if (*got > 0)
+        {
+            arrive (std::span (own_buffer).first (*got));
+            arrived.ring();
+        }
+    }
+}
+
+/// Lets the tick thread read the device if it has asked to, for as long as it can and wants to.
+void HidPort::lend (Transport& t)
+{
+    if (! options.lend || ! t.canReadUntil()) return;
+    if (reads.load (std::memory_order_acquire) != Reads::reading_thread_but_asked) return;
+    lent = &t;
+    auto asked = Reads::reading_thread_but_asked;
+    if (! reads.compare_exchange_strong (asked, Reads::tick, std::memory_order_acq_rel)) return;
+    arrived.ring();
+    while (isReadByTick())
+        given_back.wait (Clock::now() + 1s);
+}
+
+/// Handles a lost device; both threads may find out that it is. The device may still be able to receive the neutral reports.
+void HidPort::lose (Transport& t, const std::string& why)
+{
+    {
+        const std::lock_guard lock (opening);
+        if (link.get() != &t) return;
+        departures.fetch_add (1, std::memory_order_relaxed);
+        link.reset();
+        connected.store (false, std::memory_order_release);
+        last_trouble = why;
+    }
+    const std::lock_guard lock (writing);
+    current_episode.fetch_add (1, std::memory_order_acq_rel);
+    quieten (t);
+}
+
+const ConnectedDevice* HidPort::sameAmong (const std::vector<ConnectedDevice>& devices) const
+{
+    std::vector<const ConnectedDevice*> alike;
+    for (const auto& d : devices)
+        if (d.vid == wanted.vid && d.pid == wanted.pid && d.serial == wanted.serial && fit (*description, d) > 0) alike.push_back (&d);
+    const auto same_path = std::ranges::find (alike, wanted.path, [] (const auto* d) { return d->path; });
+    if (same_path != alike.end()) return *same_path;
+    return alike.size() == 1 || (! alike.empty() && ! wanted.serial.empty()) ? alike.front() : nullptr;
+}
+
+void HidPort::lookAgain()
+{
+    {
+        std::unique_lock lock (opening);
+        stopped.wait_for (lock, options.look_again, [this] { return isStopping(); });
+    }
+    if (isStopping()) return;
+
+    const auto devices = system.connected();
+    const auto* same = sameAmong (devices);
+    if (same == nullptr) return;
+    auto opened = system.open (*same);
+    if (! opened) return note (opened.error().text);
+    if (const auto woken = wake (**opened); ! woken) return note (woken.error().text + "; " + woken.error().remedy);
+    become (std::move (*opened));
+}
+
+}   // namespace tactus::host::hid

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// How many threads a report passes on its way to the answer, over sockets. TACTUS_HOPS=3000 prints the times of so many reports.
+
+#include "fake_board.hpp"
+#include "socket_board.hpp"
+#include "support/no_allocation.hpp"
+
+#include <host/hid_link/hid_clock.hpp>
+#include <tactus/run/realtime.hpp>
+
+#include <catch2/catch.hpp>
+
+#if defined(__linux__)
+
+#include <poll.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <thread>
+#include <vector>
+
+using namespace tactus;
+using namespace tactus::host::hid;
+using namespace std::chrono_literals;
+
+namespace
+{
+using Clock = std::chrono::steady_clock;
+
+/// The board sends a report and waits for the answer. False if none comes.
+bool isAnswered (const test::SocketBoard& sockets, std::uint16_t count)
+{
+    const int board = sockets.end;
+    if (! sockets.send (test::boardReport (count, count))) return false;
+    for (;;)
+    {
+        pollfd polled { .fd = board, .events = POLLIN, .revents = 0 };
+        std::array<std::uint8_t, 64> bytes {};
+        if (::poll (&polled, 1, 20000) <= 0) return false;
+        const auto size = ::read (board, bytes.data(), bytes.size());
+        if (size <= 0) return false;
+        const test::Told told { { bytes.begin(), bytes.begin() + size }, test::Told::How::output, {} };
+        if (told.isEffort() && told.echo() == count) return true;
+    }
+}
+
+/// How often this thread of the program has gone to sleep. -1: unknown.
+long sleepsOf (int thread)
+{
+    std::ifstream status ("/proc/self/task/" + std::to_string (thread) + "/status");
+    for (std::string line; std::getline (status, line);)
+        if (const std::string key = "voluntary_ctxt_switches:"; line.starts_with (key)) return std::atol (line.c_str() + key.size());
+    return -1;
+}
+
+long sleepsOfAll()
+{
+    rusage usage {};
+    ::getrusage (RUSAGE_SELF, &usage);
+    return usage.ru_nvcsw;
+}
+
+struct Measured
+{
+    int answered = 0, allocations = 0, locks = 0;   // the last two of the tick thread
+    std::uint64_t read_by_tick = 0;
+    long sleeps_of_reader = 0, sleeps = 0;
+    double seconds = 0.0;
+    std::vector<double> us;   // from each report to its answer, sorted
+
+    double quantile (double part) const { return us.empty() ? 0.0 : us[static_cast<std::size_t> (part * static_cast<double> (us.size() - 1))]; }
+};
+
+struct Ticking final : Ticked
+{
+    explicit Ticking (HidDevice& d) : device (d) {}
+    bool tick (double) noexcept override
+    {
+        device.read();
+        device.write ({});
+        return ! over.load (std::memory_order_relaxed);
+    }
+
+    HidDevice& device;
+    std::atomic<bool> over = false;
+};
+
+/// The board sends a report each millisecond, and as soon as the answer to the last one is there.
+Measured measure (bool lend, int reports, bool real_time)
+{
+    test::SocketBoard sockets;
+    const ConnectedDevice what;
+    const test::BoardProfile profile {};
+    auto opened = HidPort::open (sockets, what, profile.make(), { .look_again = 1h, .real_time = real_time, .lend = lend });
+    REQUIRE (opened);
+    HidDevice device { std::move (*opened) };
+    device.prepare (1e-3);
+    HidClock clock { device.port(), 1000.0 };
+    Ticking ticking { device };
+    Measured measured;
+    std::jthread tick { [&] {
+        if (real_time) becomeRealTime (std::nullopt);
+        const NoAllocation watched;
+        clock.drive (ticking);
+        measured.allocations = watched.allocations();
+        measured.locks = watched.locks();
+    } };
+    std::jthread board { [&] {
+        if (real_time) becomeRealTime (std::nullopt);
+        for (int i = 1; i <= 20; ++i)
+            if (! isAnswered (sockets, static_cast<std::uint16_t> (i))) return;
+        const auto begin = Clock::now();
+        const auto sleeps = sleepsOfAll(), of_reader = sleepsOf (sockets.reading_thread);
+        auto next = begin;
+        for (int i = 21; i <= reports + 20; ++i)
+        {
+            std::this_thread::sleep_until (next = std::max (next + 1ms, Clock::now()));
+            const auto sent = Clock::now();
+            if (! isAnswered (sockets, static_cast<std::uint16_t> (i))) break;
+            measured.us.push_back (1e6 * std::chrono::duration<double> (Clock::now() - sent).count());
+        }
+        measured.seconds = std::chrono::duration<double> (Clock::now() - begin).count();
+        measured.sleeps = sleepsOfAll() - sleeps;
+        measured.sleeps_of_reader = sleepsOf (sockets.reading_thread) - of_reader;
+    } };
+    board.join();
+    ticking.over = true;
+    tick.join();
+    measured.answered = static_cast<int> (measured.us.size());
+    measured.read_by_tick = device.port().counts().read_by_tick;
+    std::ranges::sort (measured.us);
+    return measured;
+}
+
+void print (const char* how, const Measured& m)
+{
+    const auto each = [&] (long sleeps) { return static_cast<double> (sleeps) / std::max (1, m.answered); };
+    std::cout << how << ": " << m.answered << " reports, p50 " << m.quantile (0.5) << ", p90 " << m.quantile (0.9) << ", p99 " << m.quantile (0.99);
+    std::cout << ", max " << m.quantile (1.0) << " us; " << each (m.sleeps) << " thread switches a report, " << each (m.sleeps_of_reader)
+              << " of them in the reading thread\n";
+}
+}   // namespace
+
+TEST_CASE ("a report reaches the tick thread without a stop at another thread, an allocation or a lock", "[hid][hops][threads]")
+{
+    const auto* wanted = std::getenv ("TACTUS_HOPS");
+    const int reports = wanted ? std::atoi (wanted) : 200;
+    const auto through = measure (false, reports, wanted != nullptr), directly = measure (true, reports, wanted != nullptr);
+    if (wanted) print ("through the reading thread", through);
+    if (wanted) print ("read by the tick thread   ", directly);
+
+    CHECK (through.answered == reports);
+    CHECK (through.read_by_tick == 0);
+    CHECK (through.allocations == 0);
+    CHECK (through.locks == 0);
+    CHECK (directly.answered == reports);
+    CHECK (directly.read_by_tick >= static_cast<std::uint64_t> (reports) + 20 - 2);   // the reading thread may have read the first two
+    CHECK (directly.allocations == 0);
+    CHECK (directly.locks == 0);
+    // The reading thread looks once a second whether it has to read again.
+    CHECK (directly.sleeps_of_reader >= 0);
+    CHECK (static_cast<double> (directly.sleeps_of_reader) <= 2.0 * directly.seconds + 5.0);
+}
+
+#endif
