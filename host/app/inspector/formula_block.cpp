@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formula_block.hpp"
+
+#include <host/app/look/text.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr float formula_size = 13.0f, small_size = 10.0f, formula_line = 20.0f, formula_gap = 16.0f, hanging = 16.0f;
+
+/// Splits runs at the spaces of the base level.
+std::vector<std::vector<FormulaRun>> breakWords (const std::vector<FormulaRun>& runs)
+{
+    std::vector<std::vector<FormulaRun>> words (1);
+    for (const auto& run : runs)
+    {
+        if (run.level != FormulaRun::Level::base)
+        {
+            words.back().push_back (run);
+            continue;
+        }
+        for (std::size_t begin = 0; begin <= run.text.size();)
+        {
+            const auto end = std::min (run.text.find (' ', begin), run.text.size());
+            if (end > begin) words.back().push_back ({ run.text.substr (begin, end - begin) });
+            if (end < run.text.size() && ! words.back().empty()) words.emplace_back();
+            begin = end + 1;
+        }
+    }
+    if (words.back().empty()) words.pop_back();
+    return words;
+}
+
+bool looksLikeFormula (std::string_view part)
+{
+    return part.find ('=') != std::string_view::npos || part.find ("<-") != std::string_view::npos || part.find ("->") != std::string_view::npos;
+}
+}   // namespace
+
+FormulaBlock::FormulaBlock (const std::vector<std::string>& texts)
+{
+    setInterceptsMouseClicks (false, false);
+    for (const auto& text : texts)
+    {
+        auto& line = lines.emplace_back();
+        for (std::size_t begin = text.find_first_not_of (' '); begin < text.size();)
+        {
+            const auto end = std::min (text.find ("  ", begin), text.size());
+            const auto part = text.substr (begin, end - begin);
+            line.push_back ({ begin, line.empty() || looksLikeFormula (part), breakWords (typeset (part)) });
+            begin = std::min (text.find_first_not_of (' ', end), text.size());
+        }
+    }
+}
+
+juce::Font FormulaBlock::fontOf (FormulaRun::Level level) const
+{
+    return lookOf (*this).font (level == FormulaRun::Level::base ? formula_size : small_size);
+}
+
+float FormulaBlock::widthOf (const Word& word) const
+{
+    float width = 0.0f;
+    for (const auto& run : word)
+        width += fontOf (run.level).getStringWidthFloat (fromUtf8 (run.text));
+    return width;
+}
+
+float FormulaBlock::widthOf (const Part& part) const
+{
+    const float space = fontOf (FormulaRun::Level::base).getStringWidthFloat (" ");
+    float width = part.words.empty() ? 0.0f : space * static_cast<float> (part.words.size() - 1);
+    for (const auto& word : part.words)
+        width += widthOf (word);
+    return width;
+}
+
+/// Where the columns of the source begin: each right of all parts that end before it.
+std::vector<std::pair<std::size_t, float>> FormulaBlock::columnsFor (float width) const
+{
+    std::vector<std::pair<std::size_t, float>> columns;
+    for (const auto& line : lines)
+        for (const auto& part : line)
+            if (std::ranges::count (columns, part.column, &std::pair<std::size_t, float>::first) == 0) columns.emplace_back (part.column, 0.0f);
+    std::ranges::sort (columns);
+    const auto xOf = [&] (std::size_t column) -> float& { return std::ranges::find (columns, column, &std::pair<std::size_t, float>::first)->second; };
+    for (auto& [column, x] : columns)
+        for (const auto& line : lines)
+            for (std::size_t i = 1; i < line.size(); ++i)
+                if (const float end = xOf (line[i - 1].column) + widthOf (line[i - 1]); line[i].column == column && end < width)
+                    x = std::max (x, end + formula_gap);
+    return columns;
+}
+
+std::vector<FormulaBlock::Placed> FormulaBlock::place (float width, float& height) const
+{
+    const float space = fontOf (FormulaRun::Level::base).getStringWidthFloat (" ");
+    const auto columns = columnsFor (width);
+    std::vector<Placed> placed;
+    float y = 0.0f;
+    for (const auto& line : lines)
+    {
+        y += formula_line;
+        float end = 0.0f;
+        for (const auto& part : line)
+        {
+            float x = std::max (end, std::ranges::find (columns, part.column, &std::pair<std::size_t, float>::first)->second);
+            if (&part != &line.front() && x + widthOf (part) > width)   // goes on below
+            {
+                x = hanging;
+                y += formula_line;
+            }
+            for (const auto& word : part.words)
+            {
+                if (const float word_width = widthOf (word); x + word_width > width && x > hanging)
+                {
+                    x = hanging;
+                    y += formula_line;
+                }
+                for (const auto& run : word)
+                {
+                    const float shift = run.level == FormulaRun::Level::raised ? -5.0f : 3.0f;
+                    placed.push_back ({ &run, { x, y - 6.0f + (run.level == FormulaRun::Level::base ? 0.0f : shift) }, part.is_formula });
+                    x += fontOf (run.level).getStringWidthFloat (fromUtf8 (run.text));
+                }
+                x += space;
+            }
+            end = x - space + formula_gap;
+        }
+    }
+    height = y;
+    return placed;
+}
+
+int FormulaBlock::heightFor (int width)
+{
+    float height = 0.0f;
+    place (static_cast<float> (width), height);
+    return static_cast<int> (std::ceil (height)) + 6;
+}
+
+void FormulaBlock::paint (juce::Graphics& g)
+{
+    const auto& theme = themeOf (*this);
+    float height = 0.0f;
+    for (const auto& p : place (static_cast<float> (getWidth()), height))
+    {
+        juce::GlyphArrangement glyphs;   // keeps fractions of a pixel, so that the runs of a word stay together
+        glyphs.addLineOfText (fontOf (p.run->level), fromUtf8 (p.run->text), p.at.x, p.at.y);
+        g.setColour (p.is_formula ? theme.text : theme.dim);
+        glyphs.draw (g);
+    }
+}
+
+}   // namespace tactus::host
