@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tactus::host
 {
@@ -36,6 +37,13 @@ std::vector<std::vector<FormulaRun>> breakWords (const std::vector<FormulaRun>& 
     return words;
 }
 
+/// "(3)" and "(1) (2)", as equations have them at the right.
+bool isEquationNumber (std::string_view part)
+{
+    return part.starts_with ('(') && part.ends_with (')') && part.find_first_not_of ("()0123456789 ") == std::string_view::npos
+           && part.find_first_of ("0123456789") != std::string_view::npos;
+}
+
 bool looksLikeFormula (std::string_view part)
 {
     return part.find ('=') != std::string_view::npos || part.find ("<-") != std::string_view::npos || part.find ("->") != std::string_view::npos;
@@ -52,7 +60,7 @@ FormulaBlock::FormulaBlock (const std::vector<std::string>& texts)
         {
             const auto end = std::min (text.find ("  ", begin), text.size());
             const auto part = text.substr (begin, end - begin);
-            line.push_back ({ begin, line.empty() || looksLikeFormula (part), breakWords (typeset (part)) });
+            line.push_back ({ begin, line.empty() || looksLikeFormula (part), isEquationNumber (part), breakWords (typeset (part)) });
             begin = std::min (text.find_first_not_of (' ', end), text.size());
         }
     }
@@ -99,42 +107,60 @@ std::vector<std::pair<std::size_t, float>> FormulaBlock::columnsFor (float width
 
 std::vector<FormulaBlock::Placed> FormulaBlock::place (float width, float& height) const
 {
-    const float space = fontOf (FormulaRun::Level::base).getStringWidthFloat (" ");
-    const auto columns = columnsFor (width);
     std::vector<Placed> placed;
+    const auto columns = columnsFor (width);
     float y = 0.0f;
     for (const auto& line : lines)
     {
-        y += formula_line;
+        Pen pen { .y = y += formula_line, .right = width };
+        if (line.size() > 1 && line.back().is_number)
+        {
+            const float x = width - widthOf (line.back());
+            put (line.back(), { .x = x, .y = y, .indent = x, .right = width }, placed);
+            pen.right = x - formula_gap;
+        }
         float end = 0.0f;
         for (const auto& part : line)
         {
-            float x = std::max (end, std::ranges::find (columns, part.column, &std::pair<std::size_t, float>::first)->second);
-            if (&part != &line.front() && x + widthOf (part) > width)   // goes on below
+            if (line.size() > 1 && part.is_number) continue;
+            pen.x = pen.indent = std::max (end, std::ranges::find (columns, part.column, &std::pair<std::size_t, float>::first)->second);
+            const bool is_narrow = pen.x > 0.4f * pen.right;
+            if (&part != &line.front() && is_narrow && pen.x + widthOf (part) > pen.right)   // goes on below
             {
-                x = hanging;
-                y += formula_line;
+                pen.x = hanging;
+                pen.y += formula_line;
             }
-            for (const auto& word : part.words)
-            {
-                if (const float word_width = widthOf (word); x + word_width > width && x > hanging)
-                {
-                    x = hanging;
-                    y += formula_line;
-                }
-                for (const auto& run : word)
-                {
-                    const float shift = run.level == FormulaRun::Level::raised ? -5.0f : 3.0f;
-                    placed.push_back ({ &run, { x, y - 6.0f + (run.level == FormulaRun::Level::base ? 0.0f : shift) }, part.is_formula });
-                    x += fontOf (run.level).getStringWidthFloat (fromUtf8 (run.text));
-                }
-                x += space;
-            }
-            end = x - space + formula_gap;
+            if (is_narrow || &part == &line.front()) pen.indent = hanging;
+            pen = put (part, pen, placed);
+            end = pen.x + formula_gap;
         }
+        y = pen.y;
     }
     height = y;
     return placed;
+}
+
+/// Places the words of a part where the pen is. Returns where it is afterwards.
+FormulaBlock::Pen FormulaBlock::put (const Part& part, Pen pen, std::vector<Placed>& placed) const
+{
+    const float space = fontOf (FormulaRun::Level::base).getStringWidthFloat (" ");
+    bool is_first = true;
+    for (const auto& word : part.words)
+    {
+        if (! std::exchange (is_first, false)) pen.x += space;
+        if (pen.x + widthOf (word) > pen.right && pen.x > pen.indent)
+        {
+            pen.x = pen.indent;
+            pen.y += formula_line;
+        }
+        for (const auto& run : word)
+        {
+            const float shift = run.level == FormulaRun::Level::raised ? -5.0f : 3.0f;
+            placed.push_back ({ &run, { pen.x, pen.y - 6.0f + (run.level == FormulaRun::Level::base ? 0.0f : shift) }, part.is_formula });
+            pen.x += fontOf (run.level).getStringWidthFloat (fromUtf8 (run.text));
+        }
+    }
+    return pen;
 }
 
 int FormulaBlock::heightFor (int width)

@@ -11,8 +11,8 @@
 namespace tactus::host
 {
 
-/// Lines of formulas, typeset. Parts that stand below one another in the source (after two spaces or more) do so here; what does not fit
-/// goes on below.
+/// Lines of formulas, typeset. Parts that are below one another in the source (after two spaces or more) are so here, numbers of equations
+/// are at the right, and what does not fit goes on below.
 class FormulaBlock final : public Block
 {
 public:
@@ -29,6 +29,7 @@ private:
     {
         std::size_t column = 0;   ///< in the source, in characters
         bool is_formula = true;   ///< false: a remark
+        bool is_number = false;   ///< of an equation, which goes to the right edge
         std::vector<Word> words {};
     };
 
@@ -39,10 +40,17 @@ private:
         bool is_formula;
     };
 
+    /// Where the next word goes, and where lines begin and end.
+    struct Pen
+    {
+        float x = 0.0f, y = 0.0f, indent = 0.0f, right = 0.0f;
+    };
+
     float widthOf (const Word&) const;
     float widthOf (const Part&) const;
     std::vector<std::pair<std::size_t, float>> columnsFor (float width) const;
     std::vector<Placed> place (float width, float& height) const;
+    Pen put (const Part&, Pen, std::vector<Placed>&) const;
     juce::Font fontOf (FormulaRun::Level) const;
 
     std::vector<std::vector<Part>> lines;
