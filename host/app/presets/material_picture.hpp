@@ -11,7 +11,7 @@ namespace tactus::host
 /// The surface of a graph under its tool, as a small picture for each theme.
 struct MaterialPicture
 {
-    static constexpr int width = 168, height = 120;   ///< pixels; shown at half this size, or up to it on a fine screen
+    static constexpr int width = 256, height = 192;   ///< pixels
 
     juce::Image dark {}, light {};   ///< empty if the graph has nothing to see
 

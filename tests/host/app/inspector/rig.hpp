@@ -56,7 +56,7 @@ struct InspectorRig
     T* in (const std::string& label) const
     {
         for (auto* row : all<host::SetRow>())
-            if (const auto shown = row->label().toStdString(); shown == label || shown == readable (label))
+            if (const auto shown = row->label().toStdString(); shown == label || shown == host::readable (label))
             {
                 std::vector<T*> found;
                 collect (*row, found);
