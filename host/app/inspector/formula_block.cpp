@@ -12,7 +12,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr float formula_size = 13.0f, small_size = 10.0f, formula_line = 20.0f, formula_gap = 16.0f, hanging = 16.0f;
+constexpr float formula_size = 13.0f, small_size = 10.0f, formula_line = 20.0f, text_line = 17.0f, formula_gap = 16.0f, hanging = 16.0f;
 
 /// Splits runs at the spaces of the base level.
 std::vector<std::vector<FormulaRun>> breakWords (const std::vector<FormulaRun>& runs)
@@ -105,14 +105,17 @@ std::vector<std::pair<std::size_t, float>> FormulaBlock::columnsFor (float width
     return columns;
 }
 
-std::vector<FormulaBlock::Placed> FormulaBlock::place (float width, float& height) const
+const std::vector<FormulaBlock::Placed>& FormulaBlock::place (float width)
 {
-    std::vector<Placed> placed;
+    if (width == placed_for) return placed;
+    placed_for = width;
+    placed.clear();
+    const float step = is_text ? text_line : formula_line;
     const auto columns = columnsFor (width);
     float y = 0.0f;
     for (const auto& line : lines)
     {
-        Pen pen { .y = y += formula_line, .right = width };
+        Pen pen { .y = y += step, .right = width };
         if (line.size() > 1 && line.back().is_number)
         {
             const float x = width - widthOf (line.back());
@@ -130,18 +133,18 @@ std::vector<FormulaBlock::Placed> FormulaBlock::place (float width, float& heigh
                 pen.x = hanging;
                 pen.y += formula_line;
             }
-            if (is_narrow || &part == &line.front()) pen.indent = hanging;
+            if (is_narrow || &part == &line.front()) pen.indent = is_text ? 0.0f : hanging;
             pen = put (part, pen, placed);
             end = pen.x + formula_gap;
         }
         y = pen.y;
     }
-    height = y;
+    placed_height = y;
     return placed;
 }
 
 /// Places the words of a part where the pen is. Returns where it is afterwards.
-FormulaBlock::Pen FormulaBlock::put (const Part& part, Pen pen, std::vector<Placed>& placed) const
+FormulaBlock::Pen FormulaBlock::put (const Part& part, Pen pen, std::vector<Placed>& all) const
 {
     const float space = fontOf (FormulaRun::Level::base).getStringWidthFloat (" ");
     bool is_first = true;
@@ -151,30 +154,36 @@ FormulaBlock::Pen FormulaBlock::put (const Part& part, Pen pen, std::vector<Plac
         if (pen.x + widthOf (word) > pen.right && pen.x > pen.indent)
         {
             pen.x = pen.indent;
-            pen.y += formula_line;
+            pen.y += is_text ? text_line : formula_line;
         }
         for (const auto& run : word)
         {
             const float shift = run.level == FormulaRun::Level::raised ? -5.0f : 3.0f;
-            placed.push_back ({ &run, { pen.x, pen.y - 6.0f + (run.level == FormulaRun::Level::base ? 0.0f : shift) }, part.is_formula });
+            all.push_back ({ &run, { pen.x, pen.y - 6.0f + (run.level == FormulaRun::Level::base ? 0.0f : shift) }, part.is_formula });
             pen.x += fontOf (run.level).getStringWidthFloat (fromUtf8 (run.text));
         }
     }
     return pen;
 }
 
+std::unique_ptr<FormulaBlock> FormulaBlock::paragraph (const std::string& text)
+{
+    auto made = std::make_unique<FormulaBlock> (std::vector<std::string> {});
+    made->is_text = true;
+    made->lines.push_back ({ { .words = breakWords (typeset (text)) } });
+    return made;
+}
+
 int FormulaBlock::heightFor (int width)
 {
-    float height = 0.0f;
-    place (static_cast<float> (width), height);
-    return static_cast<int> (std::ceil (height)) + 6;
+    place (static_cast<float> (width));
+    return static_cast<int> (std::ceil (placed_height)) + 6;
 }
 
 void FormulaBlock::paint (juce::Graphics& g)
 {
     const auto& theme = themeOf (*this);
-    float height = 0.0f;
-    for (const auto& p : place (static_cast<float> (getWidth()), height))
+    for (const auto& p : place (static_cast<float> (getWidth())))
     {
         juce::GlyphArrangement glyphs;   // keeps fractions of a pixel, so that the runs of a word stay together
         glyphs.addLineOfText (fontOf (p.run->level), fromUtf8 (p.run->text), p.at.x, p.at.y);

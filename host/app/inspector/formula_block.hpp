@@ -5,7 +5,9 @@
 
 #include <host/app/look/formula.hpp>
 
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tactus::host
@@ -17,6 +19,9 @@ class FormulaBlock final : public Block
 {
 public:
     explicit FormulaBlock (const std::vector<std::string>& lines);
+
+    /// A paragraph of text with formulas in it.
+    static std::unique_ptr<FormulaBlock> paragraph (const std::string& text);
 
     int heightFor (int width) override;
     void paint (juce::Graphics&) override;
@@ -49,11 +54,16 @@ private:
     float widthOf (const Word&) const;
     float widthOf (const Part&) const;
     std::vector<std::pair<std::size_t, float>> columnsFor (float width) const;
-    std::vector<Placed> place (float width, float& height) const;
+    const std::vector<Placed>& place (float width);
     Pen put (const Part&, Pen, std::vector<Placed>&) const;
     juce::Font fontOf (FormulaRun::Level) const;
 
     std::vector<std::vector<Part>> lines;
+    bool is_text = false;   // a paragraph
+
+    // As placed last, because measuring text takes long.
+    float placed_for = -1.0f, placed_height = 0.0f;
+    std::vector<Placed> placed;
 };
 
 }   // namespace tactus::host

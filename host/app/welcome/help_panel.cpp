@@ -150,13 +150,13 @@ void addDoc (Column& column, std::span<const DocPart> parts)
             column.add (std::make_unique<FormulaBlock> (std::exchange (formulas, {})));
             break;
         case DocPart::Kind::text:
-            column.add (text (p.text), TextBlock::Kind::text);
+            column.add (FormulaBlock::paragraph (p.text));
             break;
         case DocPart::Kind::heading:
             column.add (text (p.text), TextBlock::Kind::heading);
             break;
         case DocPart::Kind::item:
-            column.add (juce::String::fromUTF8 ("\xe2\x80\x93 ") + text (p.text), TextBlock::Kind::text);
+            column.add (FormulaBlock::paragraph ("– " + p.text));
             break;
         }
     }

@@ -77,3 +77,18 @@ TEST_CASE ("the laws of all nodes are typeset without leftovers, and fit the hel
     }
     juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
 }
+
+TEST_CASE ("a paragraph wraps at its width, and typesets the symbols in it", "[app][formula]")
+{
+    juce::ScopedJuceInitialiser_GUI juce_runs;
+    Look look;
+    juce::LookAndFeel::setDefaultLookAndFeel (&look);
+    const std::string text = "Pulled further than d_max, it is dragged along and the hand feels mu f_n. A long d_max feels like rubber or flesh.";
+    const auto block = FormulaBlock::paragraph (text);
+    const int one = FormulaBlock::paragraph ("short")->heightFor (512);
+    CHECK (block->heightFor (2000) == one);
+    CHECK (block->heightFor (512) > one);
+    CHECK (block->heightFor (264) > block->heightFor (512));
+    CHECK (block->heightFor (2000) == one);   // placed again for each width
+    juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
+}
