@@ -115,7 +115,7 @@ const std::vector<FormulaBlock::Placed>& FormulaBlock::place (float width)
     float y = 0.0f;
     for (const auto& line : lines)
     {
-        Pen pen { .y = y += step, .right = width };
+        Pen pen { .y = y += step, .right = width - 1.0f };   // letters may reach beyond their width by a part of a pixel
         if (line.size() > 1 && line.back().is_number)
         {
             const float x = width - widthOf (line.back());

@@ -132,6 +132,7 @@ void PortFeed::planComes (const Plan& plan)
 void PortFeed::accumulate (const Plan& plan) noexcept
 {
     const auto now = followed.load (std::memory_order_relaxed);
+    if (now != following) is_whole = false;
     if (now != following || plan.serial() != plan_before)
     {
         following = now;
@@ -159,7 +160,7 @@ void PortFeed::after (const Plan& plan, std::uint64_t tick, bool) noexcept
     {
         auto& frame = slot.front();
         frame.plan = plan.serial();
-        frame.followed = following;
+        frame.followed = is_whole ? following : 0;
         frame.size = count.load (std::memory_order_acquire);
         for (std::size_t i = 0; i < frame.size; ++i)   // until the new plan takes over, these are other values, and refresh() ignores the frames
             if (const auto tap = taps[i].load (std::memory_order_relaxed); tap < plan.taps().size()) frame.values[i] = *plan.taps()[tap].value;
@@ -167,6 +168,7 @@ void PortFeed::after (const Plan& plan, std::uint64_t tick, bool) noexcept
     }
     frames.commit();
     is_begun = false;
+    is_whole = true;
 }
 
 void PortFeed::refresh()

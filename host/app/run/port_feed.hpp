@@ -110,7 +110,8 @@ private:
     // [tick thread]
     std::uint64_t following = 0, plan_before = 0;
     CourseColumn extremes {};
-    bool is_begun = false;
+    bool is_begun = false;   // the column has values
+    bool is_whole = false;   // the column has been followed since its first tick
 };
 
 }   // namespace tactus::host

@@ -28,12 +28,13 @@ std::shared_ptr<const PlotData> curveOfOne (const std::string& type, Json params
     return curveOfOne (Sketch {}.node ("one", type, std::move (params), std::move (settings)).graph);
 }
 
+/// The curve at a place, straight between its points.
 double at (const PlotData& plot, double x)
 {
-    std::size_t nearest = 0;
-    for (std::size_t i = 0; i < plot.x.size(); ++i)
-        if (std::abs (plot.x[i] - x) < std::abs (plot.x[nearest] - x)) nearest = i;
-    return plot.y[nearest];
+    std::size_t i = 1;
+    while (i + 1 < plot.x.size() && plot.x[i] < x)
+        ++i;
+    return plot.y[i - 1] + (plot.y[i] - plot.y[i - 1]) * (x - plot.x[i - 1]) / (plot.x[i] - plot.x[i - 1]);
 }
 }   // namespace
 
