@@ -53,7 +53,7 @@ TEST_CASE ("a wire runs level past a box that is above or below one of its nodes
 {
     const Point<float> from { 0.0f, 100.0f }, to { 400.0f, 0.0f };
     const Box2 start { -100.0f, 80.0f, 100.0f, 40.0f }, end { 400.0f, -20.0f, 100.0f, 40.0f };
-    const Box2 below_end { 300.0f, 20.0f, 180.0f, 100.0f }, above_start { -80.0f, -40.0f, 180.0f, 120.0f };
+    const Box2 below_end { 300.0f, 5.0f, 180.0f, 100.0f }, above_start { -80.0f, -40.0f, 180.0f, 130.0f };
     for (const auto& obstacle : { below_end, above_start })
     {
         const auto waypoints = routeAround (from, to, start, end, { obstacle });
