@@ -128,7 +128,7 @@ const std::vector<FormulaBlock::Placed>& FormulaBlock::place (float width)
             if (line.size() > 1 && part.is_number) continue;
             pen.x = pen.indent = std::max (end, std::ranges::find (columns, part.column, &std::pair<std::size_t, float>::first)->second);
             const bool is_narrow = pen.x > 0.4f * pen.right;
-            if (&part != &line.front() && is_narrow && pen.x + widthOf (part) > pen.right)   // goes on below
+            if (&part != &line.front() && is_narrow && pen.x + widthOf (part) > pen.right)   // continues below
             {
                 pen.x = hanging;
                 pen.y += formula_line;

@@ -14,7 +14,7 @@ namespace tactus::host
 {
 
 /// Lines of formulas, typeset. Parts that are below one another in the source (after two spaces or more) are so here, numbers of equations
-/// are at the right, and what does not fit goes on below.
+/// are at the right, and what does not fit continues below.
 class FormulaBlock final : public Block
 {
 public:
