@@ -114,7 +114,7 @@ double TrialNode::output (std::string_view id, std::size_t component) const noex
 double TrialNode::param (std::string_view id, double otherwise) const noexcept
 {
     const auto* sheet = sheetIn (type->params, id);
-    if (sheet == nullptr || ! sheet->choices.empty()) return otherwise;
+    if (sheet == nullptr || ! sheet->choices.empty()) return fallback;
     double value = 0.0;
     std::memcpy (&value, static_cast<const std::byte*> (type->paramsOf (node.get())) + sheet->offset, sizeof value);
     return value;

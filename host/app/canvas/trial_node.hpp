@@ -24,8 +24,8 @@ public:
     void tick() noexcept;
     double output (std::string_view id, std::size_t component = 0) const noexcept;
 
-    /// The value of a param; `otherwise` if there is no such param.
-    double param (std::string_view id, double otherwise) const noexcept;
+    /// The value of a param; `fallback` if there is no such param.
+    double param (std::string_view id, double fallback) const noexcept;
 
 private:
     explicit TrialNode (const NodeType&);
