@@ -2,6 +2,7 @@
 #include "box.hpp"
 
 #include <host/app/model/param_value.hpp>
+#include <host/app/model/readable.hpp>
 #include <host/app/model/with_prefix.hpp>
 #include <tactus/text/number_text.hpp>
 
@@ -68,24 +69,24 @@ std::vector<const FacePort*> shownParams (const graph::Node& node, const Face& f
 }   // namespace
 
 Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (const FacePort&)>& wired,
-           const std::function<Json (const FacePort&)>& valueNow, const TextWidth& widthOf)
+           const std::function<Json (const FacePort&)>& valueNow, bool has_plot, const TextWidth& widthOf)
 {
     const auto params = shownParams (node, face, wired);
     Box box;
-    const auto label = [&] (const std::string& text) { return widthOf (text, Box::label_size, false); };
+    const auto textWidth = [&] (const std::string& text) { return widthOf (text, Box::label_size, false); };
     const auto rows = std::max (face.inputs.size(), face.outputs.size());
     box.width = glyph_width + std::min (Box::widest_title, widthOf (node.name, Box::title_size, true)) + 2 * Box::padding;
     for (std::size_t i = 0; i < rows; ++i)
     {
-        const float left = i < face.inputs.size() ? label (face.inputs[i].id) : 0.0f;
-        const float right = i < face.outputs.size() ? label (face.outputs[i].id) : 0.0f;
+        const float left = i < face.inputs.size() ? textWidth (readableName (face.inputs[i])) : 0.0f;
+        const float right = i < face.outputs.size() ? textWidth (readableName (face.outputs[i])) : 0.0f;
         box.width = std::max (box.width, left + right + (left > 0.0f && right > 0.0f ? gap : 0.0f) + 2 * Box::padding);
     }
     std::vector<std::string> values;
     for (const auto* p : params)
     {
         values.push_back (valueText (valueNow (*p), *p));
-        box.width = std::max (box.width, label (p->id) + label (values.back()) + gap + 2 * Box::padding);
+        box.width = std::max (box.width, textWidth (readableName (*p)) + textWidth (values.back()) + gap + 2 * Box::padding);
     }
     box.width = toGrid (box.width);
 
@@ -94,13 +95,20 @@ Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (
     {
         const juce::Rectangle<float> row { 0.0f, y, box.width, Box::row_height };
         const float y_middle = row.getCentreY(), half = box.width / 2;
-        if (i < face.inputs.size()) box.sockets.push_back ({ &face.inputs[i], { 0.0f, y_middle }, row.withWidth (half), {} });
-        if (i < face.outputs.size()) box.sockets.push_back ({ &face.outputs[i], { box.width, y_middle }, row.withTrimmedLeft (half), {} });
+        if (i < face.inputs.size())
+            box.sockets.push_back ({ &face.inputs[i], { 0.0f, y_middle }, row.withWidth (half), {}, readableName (face.inputs[i]) });
+        if (i < face.outputs.size())
+            box.sockets.push_back ({ &face.outputs[i], { box.width, y_middle }, row.withTrimmedLeft (half), {}, readableName (face.outputs[i]) });
     }
     for (std::size_t i = 0; i < params.size(); ++i, y += Box::row_height)
     {
         const juce::Rectangle<float> row { 0.0f, y, box.width, Box::row_height };
-        box.sockets.push_back ({ params[i], { 0.0f, row.getCentreY() }, row, values[i] });
+        box.sockets.push_back ({ params[i], { 0.0f, row.getCentreY() }, row, values[i], readableName (*params[i]) });
+    }
+    if (has_plot)
+    {
+        box.plot = { Box::padding, y + 4.0f, box.width - 2 * Box::padding, Box::plot_height };
+        y = box.plot.getBottom();
     }
     box.height = toGrid (y + 4.0f);
     return box;

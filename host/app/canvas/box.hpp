@@ -17,6 +17,7 @@ struct Socket
     juce::Point<float> at;            ///< position relative to the top left corner of the node
     juce::Rectangle<float> row;       ///< the area of its label, for hit testing
     std::string value;                ///< a param's value as shown; empty for other ports
+    std::string label {};             ///< its readable name
 };
 
 /// The layout of a node in canvas units, which are pixels at 100 %. The node is only as wide as its text.
@@ -26,8 +27,10 @@ struct Box
     static constexpr float title_size = 13.0f, label_size = 12.0f;
     static constexpr int most_params = 3;           ///< how many unwired params are shown at most
     static constexpr float widest_title = 220.0f;   ///< longer names are cut off
+    static constexpr float plot_height = 32.0f;
 
     float width = 0.0f, height = 0.0f;
+    juce::Rectangle<float> plot {};   ///< the place of the small curve, relative to the node; empty if there is none
     std::vector<Socket> sockets;
 
     const Socket* find (Role, std::string_view id) const noexcept;
@@ -39,7 +42,7 @@ using TextWidth = std::function<float (const std::string&, float size, bool bold
 /// Lays out a node: inputs and params on the left, outputs on the right. Shows all params for which `wired` is true, then a few
 /// others, starting with those that the node sets. Each param is shown with its `valueNow`. The face must outlive the box.
 Box boxOf (const graph::Node&, const Face&, const std::function<bool (const FacePort&)>& wired,
-           const std::function<Json (const FacePort&)>& valueNow, const TextWidth&);
+           const std::function<Json (const FacePort&)>& valueNow, bool has_plot, const TextWidth&);
 
 /// Formats a value from a file for display: "0.4 mm", "0.3", "(0, 0, 1)".
 std::string valueText (const Json&, const FacePort&);

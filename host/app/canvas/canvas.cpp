@@ -15,8 +15,6 @@ namespace tactus::host
 
 namespace
 {
-constexpr float socket_reach = 9.0f, wire_reach = 6.0f;   // in pixels: how far the pointer may be from a port or a wire to hit it
-
 bool leadsTo (const graph::Node& node, const std::string& subgraph) { return node.type == "graph:" + subgraph; }
 
 /// The subgraph nodes on the path to a patch. Empty if the patch cannot be reached from the root.
@@ -87,7 +85,7 @@ void Canvas::documentChanged()
 void Canvas::rebuild()
 {
     const auto& look = lookOf (*this);
-    shown = std::make_unique<Scene> (document.graph(), patch(), catalogue,
+    shown = std::make_unique<Scene> (document.graph(), patch(), catalogue, curves,
                                      [&look] (const std::string& text, float size, bool bold) { return look.font (size, bold).getStringWidthFloat (text); });
     repaint();
 }
@@ -146,6 +144,7 @@ std::string Canvas::address (const std::string& port) const
 void Canvas::breadcrumbsChanged()
 {
     highlights = {};
+    point ({});
     closeEditor (false);
     rebuild();
     frameAll();
@@ -225,13 +224,6 @@ juce::Point<float> Canvas::pointerOrCentre() const
     return window.toCanvas ((getLocalBounds().contains (pointer) ? pointer : getLocalBounds().getCentre()).toFloat());
 }
 
-void Canvas::showLive (Live live)
-{
-    if (live == highlights.live) return;
-    highlights.live = std::move (live);
-    repaint();
-}
-
 juce::String Canvas::getTooltip() { return drag ? juce::String() : tooltipAt (getMouseXYRelative().toFloat()); }
 
 juce::String Canvas::tooltipAt (juce::Point<float> pixel) const
@@ -256,7 +248,8 @@ void Canvas::paint (juce::Graphics& g)
     }
     paintScene (g, *shown, window, look, highlights);
     if (with_map) Minimap (*shown, window, getLocalBounds()).paint (g, look.theme());
-    if (drag) drag->paint (g);
+    if (drag) return drag->paint (g);
+    if (const auto& card = highlights.live.card) paintCard (g, *card, boundsOf (*card, window.toPixels (card->where.at), getLocalBounds()), look);
 }
 
 void Canvas::resized()
@@ -329,6 +322,7 @@ void Canvas::mouseDown (const juce::MouseEvent& e)
 {
     closeEditor (true);
     takeFocus (*this);
+    point ({});
     drag = dragFor (e);
 }
 
@@ -369,49 +363,6 @@ void Canvas::showMenu()
         if (c.ends_group) menu.addSeparator();
     }
     menu.showMenuAsync (juce::PopupMenu::Options().withMousePosition().withParentComponent (getTopLevelComponent()));
-}
-
-Canvas::Hover Canvas::hoverAt (juce::Point<float> at) const
-{
-    if (const auto s = shown->socketAt (at, socket_reach / window.zoom))
-    {
-        const auto& port = *s.socket->port;
-        const auto unit = port.unit.kind == UnitRule::Kind::fixed ? port.unit.unit : unitOf (s.node->quantityOf (port));
-        return { s.node->id, s.node->name + "." + port.id + "  [" + std::string (unit.symbol) + "]  " + port.about, juce::MouseCursor::CrosshairCursor };
-    }
-    if (const auto* node = shown->nodeAt (at))
-    {
-        const auto* socket = node->paramAt (at);
-        if (socket != nullptr && ! socket->port->isChoice())
-            return { node->id, socket->port->id + ": " + socket->port->about + ". Drag up or down; hold shift for fine steps",
-                     juce::MouseCursor::UpDownResizeCursor };
-        if (node->face->type == nullptr) return { node->id, node->type };
-        return { node->id, std::string (node->face->type->info.name) + ": " + std::string (node->face->type->info.summary) };
-    }
-    if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom)) return { wire->id, wire->text };
-    const auto note = shown->noteAt (at);
-    if (! note) return {};
-    const auto shape = shown->isCorner (*note, at) ? juce::MouseCursor::BottomRightCornerResizeCursor : juce::MouseCursor::NormalCursor;
-    return { 0, "Note: drag to move, drag the corner to resize, double-click to edit", shape };
-}
-
-void Canvas::mouseMove (const juce::MouseEvent& e)
-{
-    auto over = hoverAt (window.toCanvas (e.position));
-    const auto& problems = highlights.live.problems;
-    if (const auto problem = problems.find (over.id); problem != problems.end()) over.text = problem->second;
-    setMouseCursor (over.cursor);
-    hint (over.text);
-    if (over.id == highlights.hovered) return;
-    highlights.hovered = over.id;
-    repaint();
-}
-
-void Canvas::mouseExit (const juce::MouseEvent&)
-{
-    highlights.hovered = 0;
-    hint ({});
-    repaint();
 }
 
 void Canvas::mouseDoubleClick (const juce::MouseEvent& e)

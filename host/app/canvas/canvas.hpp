@@ -38,6 +38,8 @@ struct NodeRequest
 class Canvas final : public juce::Component, public juce::TooltipClient, private Document::Listener
 {
 public:
+    static constexpr float socket_reach = 9.0f, wire_reach = 6.0f;   ///< pixels that the pointer may be away from a port or a wire to hit it
+
     Canvas (Document&, const Catalogue&);
     ~Canvas() override;
 
@@ -105,7 +107,10 @@ public:
     bool perform (graph::Command, graph::Step = graph::Step::own);
     graph::Graph placedGraph() const;   ///< the graph with the positions of all nodes of the patch stored
 
-    void showLive (Live);   ///< call many times a second
+    void showLive (Live);   ///< call many times a second; repaints only what has changed
+
+    /// The port or wire that the pointer is on; none during a drag.
+    const PointedPort& pointed() const noexcept { return pointed_at; }
 
     juce::String getTooltip() override;                        ///< tooltipAt the pointer
     juce::String tooltipAt (juce::Point<float> pixel) const;   ///< the text of the limit light at this pixel of the canvas; empty if there is none
@@ -148,7 +153,11 @@ public:
 
 private:
     void documentChanged() override;
-    void typesChanged() override { drag.reset(); }   // a drag may hold a row of a datasheet, so it ends where it is
+    void typesChanged() override
+    {
+        drag.reset();   // a drag may hold a row of a datasheet, so it ends where it is
+        curves.clear();
+    }
     void rebuild();
     void breadcrumbsChanged();
     /// What is under the pointer: its id, a description, and the cursor to show.
@@ -159,6 +168,9 @@ private:
         juce::MouseCursor::StandardCursorType cursor = juce::MouseCursor::NormalCursor;
     };
     Hover hoverAt (juce::Point<float>) const;
+    PointedPort portAt (juce::Point<float>) const;
+    void point (PointedPort);
+    void repaintChanged (const Live& before);
     std::unique_ptr<Drag> dragFor (const juce::MouseEvent&);
     const graph::Patch& patchShown() const;
     std::optional<graph::Command> storePositions() const;      ///< stores those of automatically arranged nodes; empty if all are stored
@@ -170,10 +182,12 @@ private:
 
     Document& document;
     const Catalogue& catalogue;
+    NodeCurves curves;
     std::unique_ptr<Scene> shown;
     View window;
     Highlights highlights;
     Breadcrumbs entered;
+    PointedPort pointed_at;
     std::unique_ptr<Drag> drag;
     std::unique_ptr<juce::TextEditor> editor;
     std::function<void (const juce::String&)> on_edited;

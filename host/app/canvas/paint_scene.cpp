@@ -2,7 +2,9 @@
 #include "paint_scene.hpp"
 
 #include <host/app/limits/limit_light.hpp>
+#include <host/app/look/family.hpp>
 #include <host/app/look/glyph.hpp>
+#include <host/app/look/text.hpp>
 
 #include <algorithm>
 #include <array>
@@ -38,6 +40,8 @@ public:
         g.drawRoundedRectangle (bounds.reduced (0.5f), corner, selected ? 2.0f : 1.0f);
         for (const auto& s : node.box.sockets)
             socket (node, s);
+        if (node.curve != nullptr && is_readable)
+            paintSmallCurve (g, node.box.plot + node.at, *node.curve, theme, node.bypass ? 0.4f : 1.0f);
         if (node.face->kind == Face::Kind::placeholder) frame (bounds, theme.warning);
         if (highlights.live.problems.contains (node.id)) frame (bounds, theme.stop);
         cost (node);
@@ -64,7 +68,11 @@ private:
         const auto area = node.bounds().withHeight (Box::header_height);
         const auto family = node.face->kind == Face::Kind::subgraph ? std::string ("graph") : node.type.substr (0, node.type.find ('.'));
         const float alpha = node.bypass ? 0.4f : 1.0f;
-        g.setColour (theme.dim.withMultipliedAlpha (alpha));
+        juce::Path top;
+        top.addRoundedRectangle (area.getX(), area.getY(), area.getWidth(), area.getHeight(), corner, corner, true, true, false, false);
+        g.setColour (headerColour (theme, family).withMultipliedAlpha (alpha));
+        g.fillPath (top);
+        g.setColour (glyphColour (theme, family).withMultipliedAlpha (alpha));
         g.strokePath (glyphOf (family), juce::PathStrokeType (1.3f, juce::PathStrokeType::curved, juce::PathStrokeType::rounded),
                       juce::AffineTransform::translation (area.getX() + Box::padding, area.getCentreY() - 7.0f));
         g.setColour (theme.text.withMultipliedAlpha (alpha));
@@ -120,7 +128,7 @@ private:
         if (! is_readable) return;
         g.setFont (look.font (Box::label_size));
         g.setColour ((s.port->role == Role::param ? theme.dim : theme.text).withMultipliedAlpha (alpha));
-        g.drawText (s.port->id, row, s.port->role == Role::output ? juce::Justification::centredRight : juce::Justification::centredLeft, false);
+        g.drawText (fromUtf8 (s.label), row, s.port->role == Role::output ? juce::Justification::centredRight : juce::Justification::centredLeft, false);
         g.setColour (theme.text.withMultipliedAlpha (alpha));
         if (s.port->role == Role::param) g.drawText (s.value, row, juce::Justification::centredRight, false);
     }
@@ -220,15 +228,6 @@ void paintExposed (juce::Graphics& g, const Scene::Exposed& e, const Look& look)
     g.drawText (e.name, box, juce::Justification::centred, false);
 }
 
-/// An area that contains the wire with its bends.
-juce::Rectangle<float> boundsOf (const SceneWire& w)
-{
-    juce::Rectangle<float> all { w.from, w.to };
-    for (const auto& p : w.waypoints)
-        all = all.getUnion (juce::Rectangle<float> (p, p).expanded (1.0f));
-    return all.expanded (200.0f, 16.0f);
-}
-
 void paintProblem (juce::Graphics& g, const SceneWire& w, const Theme& theme)
 {
     juce::Path dashed;
@@ -246,6 +245,14 @@ void paintHit (juce::Graphics& g, const SceneWire& w, double along, const Theme&
     g.fillEllipse (juce::Rectangle<float> (9.0f, 9.0f).withCentre (at));
 }
 }   // namespace
+
+juce::Rectangle<float> boundsOf (const SceneWire& w)
+{
+    juce::Rectangle<float> all { w.from, w.to };
+    for (const auto& p : w.waypoints)
+        all = all.getUnion (juce::Rectangle<float> (p, p).expanded (1.0f));
+    return all.expanded (200.0f, 16.0f);
+}
 
 juce::Rectangle<float> limitLightOf (const SceneNode& node, float zoom)
 {
@@ -270,10 +277,16 @@ void paintGrid (juce::Graphics& g, const View& view, juce::Rectangle<int> area, 
             g.fillRect (x, y, 1.5f, 1.5f);
 }
 
-void paintWire (juce::Graphics& g, const SceneWire& w, const Theme& theme, bool selected, bool hovered)
+void paintWire (juce::Graphics& g, const SceneWire& w, const Theme& theme, bool selected, bool hovered, int level)
 {
     const auto path = w.path();
     const float thickness = w.width == 3 ? 3.0f : 1.5f;
+    if (level > 0)   // a glow, so that the wire itself keeps its contrast at rest
+    {
+        const float strength = static_cast<float> (level) / static_cast<float> (Live::most_level);
+        g.setColour (theme.of (w.quantity).withAlpha (0.08f + 0.16f * strength));
+        g.strokePath (path, juce::PathStrokeType (thickness + 3.0f + 2.0f * strength));
+    }
     if (selected || hovered)
     {
         g.setColour (theme.accent.withAlpha (selected ? 0.6f : 0.3f));
@@ -303,7 +316,8 @@ void paintScene (juce::Graphics& g, const Scene& scene, const View& view, const 
     for (const auto& w : scene.wires())
     {
         if (! boundsOf (w).intersects (seen)) continue;
-        paintWire (g, w, look.theme(), highlights.selected.contains (w.id), highlights.hovered == w.id);
+        const auto level = highlights.live.levels.find (w.id);
+        paintWire (g, w, look.theme(), highlights.selected.contains (w.id), highlights.hovered == w.id, level == highlights.live.levels.end() ? 0 : level->second);
         if (highlights.live.problems.contains (w.id)) paintProblem (g, w, look.theme());
         if (const auto hit = highlights.live.hits.find (w.id); hit != highlights.live.hits.end()) paintHit (g, w, hit->second, look.theme());
         if (w.delay > 0 && view.zoom > too_small_to_read) paintDelay (g, w, look);

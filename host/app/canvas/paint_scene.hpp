@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "port_card.hpp"
 #include "scene.hpp"
 #include "view.hpp"
 
@@ -14,9 +15,13 @@ namespace tactus::host
 /// Live state of the running graph, shown on the canvas.
 struct Live
 {
+    static constexpr int most_level = 4;
+
     std::map<graph::Id, int> states;             ///< the state of each node that reports one
     std::map<graph::Id, double> costs;           ///< the cost of each node, as a fraction of a tick; empty while costs are hidden
     std::map<graph::Id, double> hits;            ///< position of a hit along its wire, 0…1
+    std::map<graph::Id, int> levels;             ///< how much each wire carries, 1 to most_level; nothing: not in the map
+    std::optional<PortCard> card;                ///< of the port under the pointer
     std::map<graph::Id, std::string> problems;   ///< messages about nodes and wires
 
     /// The limits of devices that a node breaks or nearly breaks.
@@ -50,7 +55,10 @@ void paintScene (juce::Graphics&, const Scene&, const View&, const Look&, const 
 /// The bounds of the limit light of a node, in canvas units: at its top right corner, and never too small to see.
 juce::Rectangle<float> limitLightOf (const SceneNode&, float zoom);
 
-/// Paints one wire.
-void paintWire (juce::Graphics&, const SceneWire&, const Theme&, bool selected, bool hovered);
+/// Paints one wire. `level` is how much it carries, as in Live.
+void paintWire (juce::Graphics&, const SceneWire&, const Theme&, bool selected, bool hovered, int level = 0);
+
+/// An area, in canvas units, that contains a wire with its bends and whatever is painted on it.
+juce::Rectangle<float> boundsOf (const SceneWire&);
 
 }   // namespace tactus::host

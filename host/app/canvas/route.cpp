@@ -50,27 +50,12 @@ juce::Path curveThrough (juce::Point<float> from, const std::vector<juce::Point<
     return path;
 }
 
-std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Point<float> to, juce::Rectangle<float> start, juce::Rectangle<float> end,
+namespace
+{
+/// The bends of a wire to the right that goes around these boxes, and stays clear of the other obstacles there.
+std::vector<juce::Point<float>> bendsAround (std::vector<juce::Rectangle<float>> met, juce::Point<float> from, juce::Point<float> to,
                                              const std::vector<juce::Rectangle<float>>& obstacles)
 {
-    const auto direct = curveThrough (from, {}, to);
-    const auto reach = direct.getBounds().expanded (clearance);
-    std::vector<juce::Rectangle<float>> met;
-    for (const auto& o : obstacles)
-        if (o.intersects (reach)) met.push_back (o.expanded (2.0f));
-
-    if (to.x < from.x)
-    {
-        float low = std::max (start.getBottom(), end.getBottom());
-        for (const auto& o : obstacles)   // stay below everything in between
-        {
-            const bool is_between = o.getX() < from.x && o.getRight() > to.x;
-            if (is_between && o.getY() < low + clearance && o.getBottom() > std::min (from.y, to.y)) low = std::max (low, o.getBottom());
-        }
-        return { { from.x, low + 2 * clearance }, { to.x, low + 2 * clearance } };
-    }
-
-    std::erase_if (met, [&] (const juce::Rectangle<float>& o) { return o.getRight() > to.x || o.getX() < from.x || ! runsThrough (direct, o); });
     std::ranges::sort (met, {}, &juce::Rectangle<float>::getX);
     std::vector<juce::Point<float>> by;
     for (std::size_t i = 0; i < met.size();)
@@ -92,6 +77,52 @@ std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Poin
         const float y = middle - above < below - middle ? above : below;
         by.push_back ({ box.getX(), y });
         by.push_back ({ box.getRight(), y });
+    }
+    return by;
+}
+}   // namespace
+
+std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Point<float> to, juce::Rectangle<float> start, juce::Rectangle<float> end,
+                                             const std::vector<juce::Rectangle<float>>& obstacles)
+{
+    if (to.x < from.x)
+    {
+        float low = std::max (start.getBottom(), end.getBottom());
+        for (const auto& o : obstacles)   // stay below everything in between
+        {
+            const bool is_between = o.getX() < from.x && o.getRight() > to.x;
+            if (is_between && o.getY() < low + clearance && o.getBottom() > std::min (from.y, to.y)) low = std::max (low, o.getBottom());
+        }
+        return { { from.x, low + 2 * clearance }, { to.x, low + 2 * clearance } };
+    }
+
+    // A bend around one box may lead through another, which is then met, too. A box above or below one of the two nodes cannot be gone around
+    // there: the wire runs level past it.
+    constexpr int most_looks = 3;
+    std::vector<juce::Rectangle<float>> met;
+    std::vector<juce::Point<float>> by;
+    auto bends_from = from, bends_to = to;
+    for (int look = 0; look < most_looks; ++look)
+    {
+        const auto path = curveThrough (from, by, to);
+        const auto reach = path.getBounds().expanded (clearance);
+        bool is_clear = true;
+        for (const auto& o : obstacles)
+        {
+            const auto box = o.expanded (2.0f);
+            if (! o.intersects (reach) || std::ranges::count (met, box) > 0 || ! runsThrough (path, box)) continue;
+            const bool is_at_start = box.getX() < from.x;
+            const bool is_at_end = box.getRight() > to.x;
+            if (is_at_start && is_at_end) continue;
+            if (is_at_start) bends_from.x = std::max (bends_from.x, box.getRight() + clearance);
+            if (is_at_end) bends_to.x = std::min (bends_to.x, box.getX() - clearance);
+            if (! is_at_start && ! is_at_end) met.push_back (box);
+            is_clear = false;
+        }
+        if (is_clear || bends_from.x >= bends_to.x) break;
+        by = bendsAround (met, bends_from, bends_to, obstacles);
+        if (bends_from.x > from.x) by.insert (by.begin(), { from.translated (clearance, 0.0f), bends_from });
+        if (bends_to.x < to.x) by.insert (by.end(), { bends_to, to.translated (-clearance, 0.0f) });
     }
     return by;
 }

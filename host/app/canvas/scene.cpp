@@ -35,11 +35,11 @@ const Socket* SceneNode::paramAt (juce::Point<float> p) const noexcept
     return socket == box.sockets.end() ? nullptr : &*socket;
 }
 
-Scene::Scene (const graph::Graph& graph, const std::string& name, const Catalogue& catalogue, const TextWidth& widthOf)
+Scene::Scene (const graph::Graph& graph, const std::string& name, const Catalogue& catalogue, NodeCurves& curves, const TextWidth& widthOf)
 {
     const auto* patch = findPatch (graph, name);
     if (patch == nullptr) return;
-    addNodes (graph, name, *patch, catalogue, widthOf);
+    addNodes (graph, name, *patch, catalogue, curves, widthOf);
     place (*patch);
     findQuantities (*patch, Quantities (graph, catalogue));
     addWires (*patch);
@@ -48,7 +48,8 @@ Scene::Scene (const graph::Graph& graph, const std::string& name, const Catalogu
     all_notes = notesOf (graph, name);
 }
 
-void Scene::addNodes (const graph::Graph& graph, const std::string& name, const graph::Patch& patch, const Catalogue& catalogue, const TextWidth& widthOf)
+void Scene::addNodes (const graph::Graph& graph, const std::string& name, const graph::Patch& patch, const Catalogue& catalogue, NodeCurves& curves,
+                      const TextWidth& widthOf)
 {
     for (const auto& node : patch.nodes)
     {
@@ -61,9 +62,10 @@ void Scene::addNodes (const graph::Graph& graph, const std::string& name, const 
         const auto wired = [&] (const FacePort& p) {
             return std::ranges::any_of (patch.wires, [&] (const graph::Wire& w) { return w.to.node == node.name && made.face->endOf (w.to) == &p; });
         };
+        made.curve = curves.of (graph, name, node, *made.face);
         made.box = boxOf (
             node, *made.face, wired, [&] (const FacePort& p) { return paramNow (graph, name, node, p).value; },
-            widthOf);
+            made.curve != nullptr, widthOf);
         indices.emplace (node.name, static_cast<int> (all_nodes.size()) - 1);
     }
 }
@@ -140,6 +142,7 @@ void Scene::addWires (const graph::Patch& patch)
                          .delay = w.delay,
                          .add = w.add,
                          .enabled = w.enabled.value_or (true),
+                         .source = graph::toText (w.from),
                          .text = graph::toText (w) };
         if (start != nullptr)
         {

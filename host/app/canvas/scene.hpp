@@ -2,6 +2,7 @@
 #pragma once
 
 #include "box.hpp"
+#include "node_curve.hpp"
 #include "notes.hpp"
 #include "route.hpp"
 
@@ -24,6 +25,7 @@ struct SceneNode
     Box box;
     juce::Point<float> at;
     bool bypass = false;
+    std::shared_ptr<const PlotData> curve {};                   ///< null if the node has none
     std::map<std::pair<Role, std::string>, Quantity> carried;   ///< quantities of generic ports
 
     juce::Rectangle<float> bounds() const noexcept { return { at.x, at.y, box.width, box.height }; }
@@ -46,7 +48,8 @@ struct SceneWire
     int width = 1;   ///< number of components
     int delay = 0;   ///< in ticks
     bool add = false, enabled = true;
-    std::string text;   ///< the wire as written in the file
+    std::string source {};   ///< where it begins, as written in the file: "drag.force.x"
+    std::string text;        ///< the wire as written in the file
 
     juce::Path path() const { return curveThrough (from, waypoints, to); }
 };
@@ -83,7 +86,7 @@ class Scene
 {
 public:
     /// `patch` is "" for the graph itself, else the name of a subgraph. Nodes without a stored position are arranged automatically.
-    Scene (const graph::Graph&, const std::string& patch, const Catalogue&, const TextWidth&);
+    Scene (const graph::Graph&, const std::string& patch, const Catalogue&, NodeCurves&, const TextWidth&);
 
     const std::vector<SceneNode>& nodes() const noexcept { return all_nodes; }
     const std::vector<SceneWire>& wires() const noexcept { return all_wires; }
@@ -117,7 +120,7 @@ public:
     bool isCorner (std::size_t note, juce::Point<float>) const noexcept;
 
 private:
-    void addNodes (const graph::Graph&, const std::string& name, const graph::Patch&, const Catalogue&, const TextWidth&);
+    void addNodes (const graph::Graph&, const std::string& name, const graph::Patch&, const Catalogue&, NodeCurves&, const TextWidth&);
     void place (const graph::Patch&);
     std::optional<juce::Point<float>> besideNeighbour (std::size_t node, const std::vector<std::size_t>& unplaced,
                                                        const std::vector<std::pair<int, int>>& wires) const;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "describe.hpp"
+#include "formula_block.hpp"
 #include "header.hpp"
 
 #include <host/app/look/text.hpp>
 #include <host/app/model/node_doc.hpp>
+#include <host/app/model/readable.hpp>
 #include <tactus/graph/text.hpp>
 
 #include <cmath>
@@ -50,7 +52,7 @@ void listPorts (const std::vector<FacePort>& ports, const char* title, Column& c
     for (const auto& p : ports)
     {
         const auto unit = p.unit.kind == UnitRule::Kind::fixed ? std::string (p.unit.unit.symbol) : std::string ("any unit");
-        column.add (fromUtf8 (p.id + (unit == "1" ? "" : ", " + unit) + (p.width == 3 ? ", vector" : "")), TextBlock::Kind::text);
+        column.add (fromUtf8 (readableName (p) + (unit == "1" ? "" : ", " + unit) + (p.width == 3 ? ", vector" : "")), TextBlock::Kind::text);
         column.add (fromUtf8 (p.about), TextBlock::Kind::small);
     }
 }
@@ -137,8 +139,7 @@ void describeNode (const Inspected& at, const graph::Node& node, bool help, cons
     if (const auto law = lawOf (node.type); ! law.empty())
     {
         column.add ("Law", TextBlock::Kind::heading);
-        for (const auto& line : law)
-            column.add (fromUtf8 (line), TextBlock::Kind::small);
+        column.add (std::make_unique<FormulaBlock> (law));
     }
     column.add ("Source", TextBlock::Kind::heading);
     column.add (fromUtf8 (face.type->info.source), TextBlock::Kind::small);

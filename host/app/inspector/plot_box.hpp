@@ -22,9 +22,9 @@ struct PlotData
     };
 
     Kind kind = Kind::line;
-    std::vector<double> x, y;
-    std::vector<bool> knots;   ///< true for points that get a dot; may be empty
-    std::string x_unit, y_unit;
+    std::vector<double> x {}, y {};
+    std::vector<bool> knots {};   ///< true for points that get a dot; may be empty
+    std::string x_unit {}, y_unit {};
     Quantity quantity = Quantity::any;   ///< quantity of y, for the colour
 };
 

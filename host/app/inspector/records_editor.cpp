@@ -3,6 +3,8 @@
 #include "setting_editor.hpp"
 #include "table_row.hpp"
 
+#include <host/app/model/readable.hpp>
+
 #include <algorithm>
 
 namespace tactus::host
@@ -42,7 +44,7 @@ protected:
         if (is_tones) add (std::make_unique<PlotBlock> ([this] { return tones(); }));
         std::vector<std::pair<juce::String, juce::String>> names;
         for (const auto& f : sheet.fields)
-            names.emplace_back (std::string (f.id), unitText (f.unit));
+            names.emplace_back (juce::String (readable (f.id)), unitText (f.unit));
         add (std::make_unique<TableHead> (std::move (names)));
         const Binding all { [this] { return records(); },
                             binding.set };

@@ -2,10 +2,12 @@
 #include "rows.hpp"
 #include "fields.hpp"
 
+#include <host/app/look/text.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/param_now.hpp>
 #include <host/app/model/param_value.hpp>
 #include <host/app/model/patch.hpp>
+#include <host/app/model/readable.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -26,9 +28,10 @@ class ParamRow final : public SetRow
 {
 public:
     ParamRow (Document& d, std::string p, std::string n, const FacePort& f, const Refusal& r)
-        : SetRow (f.id), document (d), patch (std::move (p)), node_name (std::move (n)), port (f), refused (r)
+        : SetRow (fromUtf8 (readableName (f))), document (d), patch (std::move (p)), node_name (std::move (n)), port (f), refused (r)
     {
-        setTooltip (tooltipOf (*port.sheet));
+        const auto id = std::string (port.sheet->id);
+        setTooltip (tooltipOf (*port.sheet) + (nameWithId (id) == readable (id) ? juce::String() : "\nIn files: " + juce::String (id)));
         onReset = [this] { change (std::nullopt, false); };
         if (patch.empty() && port.width == 1 && ! port.isChoice())
             onWantsMenu = [this] (juce::PopupMenu& menu) { fillMenu (menu); };

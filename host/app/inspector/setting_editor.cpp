@@ -3,6 +3,7 @@
 #include "tool_button.hpp"
 
 #include <host/app/look/text.hpp>
+#include <host/app/model/readable.hpp>
 
 #include <tactus/plan/settings.hpp>
 
@@ -238,7 +239,7 @@ public:
         const auto& look = lookOf (*this);
         g.setFont (look.font (12.0f, is_set));
         g.setColour (is_set ? look.theme().text : look.theme().dim);
-        g.drawText (std::string (sheet.id), getLocalBounds().removeFromTop (28).withTrimmedRight (108), juce::Justification::centredLeft, true);
+        g.drawText (fromUtf8 (readable (sheet.id)), getLocalBounds().removeFromTop (28).withTrimmedRight (108), juce::Justification::centredLeft, true);
         if (problem.isEmpty()) return;
         g.setFont (look.font (11.0f));
         g.setColour (look.theme().warning);
@@ -301,7 +302,7 @@ std::unique_ptr<Block> bodyOf (const SettingSheet& sheet, const Binding& binding
 
 std::unique_ptr<Block> settingEditor (const SettingSheet& sheet, Binding binding, const EditorContext& context)
 {
-    const juce::String label (std::string (sheet.id)), about (std::string (sheet.about));
+    const juce::String label (fromUtf8 (readable (sheet.id))), about (std::string (sheet.about));
     if (isFile (sheet.kind)) return fileRow (label, sheet.kind, std::move (binding), context, about);
     if (sheet.kind == Kind::number || sheet.kind == Kind::integer)
     {

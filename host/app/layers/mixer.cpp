@@ -16,7 +16,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr std::string_view mixer_type = "layer.mix";
+constexpr std::string_view mixer_type = "layer.mix", window_type = "contact.window";
 constexpr int removed = 1'000'000;   // a list index that cannot exist: marks what is removed
 constexpr int deepest = 32;
 
@@ -222,6 +222,42 @@ Stream streamInto (const graph::Patch& patch, const graph::Node& sink)
     return best == streams.end() ? Stream {} : *best;
 }
 
+/// The gain of the contact, 0 while the tool does not touch: of a window that the patch has, or of a new one behind the depth of a surface.
+/// Empty if the patch has no depth.
+std::optional<graph::Endpoint> touchGain (const graph::Graph& g, const MixerPlace& at, const std::set<std::string>& excluded, const Catalogue& catalogue,
+                                          graph::Batch& batch)
+{
+    const auto& patch = *patchOf (g, at.patch);
+    const auto* window = catalogue.find (window_type);
+    for (const auto& n : patch.nodes)
+        if (n.type == window_type && ! excluded.contains (n.name)) return endOf (n.name, "gain");
+    auto depth = window == nullptr ? std::nullopt : sourceFor (window->inputs.front(), g, patch, excluded, catalogue);
+    if (! depth || depth->port != "depth") return std::nullopt;
+    graph::Node touch;
+    touch.name = freeName (patch, {}, "touch");
+    touch.type = window_type;
+    const auto name = touch.name;
+    batch.commands.push_back (graph::AddNode { at.patch, std::move (touch) });
+    batch.commands.push_back (graph::AddWire { at.patch, wire (std::move (*depth), endOf (name, "depth")) });
+    return endOf (name, "gain");
+}
+
+/// Multiplies an output by the gain of the contact. Returns the product, or the output itself if there is no such gain.
+graph::Endpoint gated (graph::Endpoint out, const graph::Graph& g, const MixerPlace& at, const std::set<std::string>& excluded, const Catalogue& catalogue,
+                       graph::Batch& batch)
+{
+    auto gain = touchGain (g, at, excluded, catalogue, batch);
+    if (! gain) return out;
+    graph::Node product;
+    product.name = freeName (*patchOf (g, at.patch), {}, out.node + "_felt");
+    product.type = "signal.multiply";
+    const auto name = product.name;
+    batch.commands.push_back (graph::AddNode { at.patch, std::move (product) });
+    batch.commands.push_back (graph::AddWire { at.patch, wire (std::move (out), endOf (name, "in", 0)) });
+    batch.commands.push_back (graph::AddWire { at.patch, wire (std::move (*gain), endOf (name, "in", 1)) });
+    return endOf (name, "out");
+}
+
 Message mixerIsGone() { return Message::error ("mixer/gone", {}, "the mixer no longer exists"); }
 
 Message noMotor (const graph::Graph& g)
@@ -330,10 +366,13 @@ Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const 
     const auto* patch = patchOf (g, at.patch);
     if (mixer == nullptr) return mixerIsGone();
     const int layers = layersOf (*mixer, catalogue);
+    const bool fills = layers == 1 && ! type.empty() && wireInto (g, at, 0) == nullptr;   // the only layer is still empty
     if (layers >= list_capacity)
         return Message::error ("mixer/full", {}, "a mixer has at most " + std::to_string (list_capacity) + " layers", "add a second mixer");
 
-    graph::Batch batch { "add a layer", { graph::SetSetting { at.patch, at.node, "inputs", Json (layers + 1) } } };
+    const int place = fills ? 0 : layers;
+    graph::Batch batch { "add a layer", {} };
+    if (! fills) batch.commands.push_back (graph::SetSetting { at.patch, at.node, "inputs", Json (layers + 1) });
     if (type.empty()) return AddedLayer { std::move (batch), {} };
     const auto* sheet = catalogue.find (type);
     if (sheet == nullptr || layerOutput (*sheet) == nullptr)
@@ -351,8 +390,10 @@ Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const 
             batch.commands.push_back (graph::AddWire { at.patch, wire (std::move (*from), endOf (name, input.id)) });
         else if (missing.empty())
             missing = "Wire something into " + name + '.' + std::string (input.id) + ": " + std::string (input.about);
-    batch.commands.push_back (graph::AddWire { at.patch, wire (endOf (name, layerOutput (*sheet)->id), endOf (at.node, "in", layers)) });
-    auto names = layerNames (*mixer, layers + 1);
+    auto out = endOf (name, layerOutput (*sheet)->id);
+    if (type.starts_with ("texture.")) out = gated (std::move (out), g, at, later, catalogue, batch);   // or it would be felt in the air
+    batch.commands.push_back (graph::AddWire { at.patch, wire (std::move (out), endOf (at.node, "in", place)) });
+    auto names = layerNames (*mixer, place + 1);
     names.back() = name;
     for (std::size_t i = 0; i + 1 < names.size(); ++i)   // the position of a name is the number of commas before it
         if (names[i].empty()) names[i] = "layer " + std::to_string (i + 1);

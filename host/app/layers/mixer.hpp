@@ -53,7 +53,8 @@ struct AddedLayer
     std::string missing;   ///< "Wire something into ring.hit ..."; "" if all inputs are wired
 };
 
-/// Ids: mixer/gone, mixer/full, mixer/type.
+/// A texture is felt only in contact: it is multiplied by the gain of a contact window, if the patch has one, or the depth for a new one.
+/// Fills the layer of a mixer that has only one, and that one without a wire. Ids: mixer/gone, mixer/full, mixer/type.
 Result<AddedLayer> addLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, const std::string& type = {});
 
 /// The types that can be a layer: textures and vibrations with a scalar force output.

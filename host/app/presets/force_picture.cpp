@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
 namespace tactus::host
 {
@@ -21,6 +23,42 @@ std::string firstError (const Messages& messages)
     const auto error = std::ranges::find (messages, Message::Severity::error, &Message::severity);
     return error == messages.end() ? "the graph cannot run" : error->text;
 }
+
+constexpr std::size_t most_parts = 64;   // components that the picture of the material reads
+
+/// The tools and the recorded values at the tick of the largest force.
+class Pressed
+{
+public:
+    void note (Engine& engine, const std::vector<std::string>& roles)
+    {
+        double force = 0.0;
+        for (std::size_t i = 0; i < engine.roleCount(); ++i)
+            force += engine.role (i).applied.force.norm();
+        if (force <= most) return;
+        most = force;
+        tools.clear();
+        for (std::size_t i = 0; i < engine.roleCount(); ++i)
+            tools.push_back ({ roles[i], engine.plan().roles()[i].state->reading.position, engine.role (i).applied.force });
+        values.clear();
+        for (const auto& tap : engine.plan().taps())
+            values.emplace (tap.name, *tap.value);
+    }
+
+    scene::Now now (const std::vector<scene::Body>& bodies) const
+    {
+        const auto valueOf = [this] (const std::string& component) {
+            const auto found = values.find (component);
+            return found == values.end() ? std::nullopt : std::optional (found->second);
+        };
+        return { tools, scene::liveOf (bodies, valueOf) };
+    }
+
+private:
+    double most = 0.0;   // N
+    std::vector<scene::Tool> tools;
+    std::map<std::string, double> values;
+};
 }   // namespace
 
 ForcePicture pictureOf (const std::filesystem::path& file, const Catalogue& catalogue, const std::atomic<bool>& cancelled)
@@ -33,7 +71,12 @@ ForcePicture pictureOf (const std::filesystem::path& file, const Catalogue& cata
     auto loaded = loadGraph (file);
     if (hasErrors (loaded.messages)) return refuse (firstError (loaded.messages));
     FileAssets assets;
-    auto compiled = compile (loaded.graph, catalogue, { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } });
+    CompileOptions options { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } };
+    auto compiled = compile (loaded.graph, catalogue, options);
+    if (! compiled.plan) return refuse (firstError (compiled.messages));
+    auto bodies = scene::bodiesOf (*compiled.plan);
+    options.records = scene::portsOf (bodies, most_parts);
+    if (! options.records.empty()) compiled = compile (loaded.graph, catalogue, options);   // what the picture of the material shows
     if (! compiled.plan) return refuse (firstError (compiled.messages));
 
     const auto rate_hz = loaded.graph.rate_hz;
@@ -53,6 +96,7 @@ ForcePicture pictureOf (const std::filesystem::path& file, const Catalogue& cata
     picture.seconds = std::min (picture.seconds, ForcePicture::longest_s);
 
     Engine engine (std::move (compiled.plan));
+    Pressed pressed;
     for (std::size_t i = 0; i < roles.size(); ++i)
         engine.attach (roles[i], *devices[i].device, devices[i].limits);
     std::vector<float> forces (ForcePicture::columns), torques (ForcePicture::columns);
@@ -68,7 +112,10 @@ ForcePicture pictureOf (const std::filesystem::path& file, const Catalogue& cata
             forces[column] = std::max (forces[column], static_cast<float> (applied.force.norm()));
             torques[column] = std::max (torques[column], static_cast<float> (applied.torque.norm()));
         }
+        pressed.note (engine, roles);
     }
+    const auto now = pressed.now (bodies);
+    picture.material = materialOf (std::move (bodies), now);
     const bool turns = *std::ranges::max_element (forces) == 0.0f && *std::ranges::max_element (torques) > 0.0f;
     picture.unit = turns ? "N m" : "N";
     picture.peaks = std::move (turns ? torques : forces);

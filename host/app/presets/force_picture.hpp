@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "material_picture.hpp"
+
 #include <tactus/node/catalogue.hpp>
 
 #include <atomic>
@@ -22,6 +24,7 @@ struct ForcePicture
     double peak = 0.0;          ///< the largest of `peaks`
     double seconds = 0.0;       ///< the time that the picture covers
     const char* unit = "N";     ///< "N m" if there is only torque
+    MaterialPicture material;   ///< the surface at the largest force
     std::string problem;        ///< why there is no picture; empty if there is one
 };
 

@@ -2,6 +2,7 @@
 #include "picture_store.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tactus::host
 {
@@ -58,9 +59,28 @@ void PictureStore::run()
     }
 }
 
+namespace
+{
+/// Takes the place of the picture of the material from the area. As wide as the picture is, but never more than a third.
+void drawMaterial (juce::Graphics& g, const Theme& theme, juce::Rectangle<float>& area, const MaterialPicture& material)
+{
+    const float full = area.getHeight() * MaterialPicture::width / MaterialPicture::height;
+    const auto place = area.removeFromLeft (std::round (std::min (full, area.getWidth() / 3.0f)));
+    area.removeFromLeft (4.0f);
+    const juce::Graphics::ScopedSaveState state (g);
+    juce::Path frame;
+    frame.addRoundedRectangle (place, 4.0f);
+    g.setColour (theme.canvas);
+    g.fillPath (frame);
+    g.reduceClipRegion (frame);
+    g.drawImage (material.of (theme), place, juce::RectanglePlacement::fillDestination);
+}
+}   // namespace
+
 void drawPicture (juce::Graphics& g, const Look& look, juce::Rectangle<float> area, const ForcePicture* picture)
 {
     const auto& theme = look.theme();
+    if (picture != nullptr && ! picture->material.isEmpty()) drawMaterial (g, theme, area, picture->material);
     g.setColour (theme.canvas);
     g.fillRoundedRectangle (area, 4.0f);
     g.setFont (look.font (11.0f));

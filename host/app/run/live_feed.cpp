@@ -2,17 +2,52 @@
 #include "live_feed.hpp"
 
 #include <host/app/model/message_text.hpp>
+#include <host/app/model/patch.hpp>
+#include <host/app/model/with_prefix.hpp>
 #include <host/app/problems/fixes.hpp>
+#include <host/io/axis.hpp>
+#include <tactus/graph/text.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace tactus::host
 {
 
+LiveFeed::LiveFeed (Canvas& c, LiveRun& r) : canvas (c), live_run (r), probes (r.traces())
+{
+    live_run.ports().portsNow = [this] { return portsNow(); };
+}
+
+LiveFeed::~LiveFeed() { live_run.ports().portsNow = {}; }
+
+/// The ports where the wires of the patch begin, and the port that the pointer rests on. From the document and not from the canvas: the
+/// run compiles an edit before the canvas shows it.
+std::vector<std::string> LiveFeed::portsNow() const
+{
+    std::vector<std::string> ports;
+    const auto* patch = findPatch (canvas.edited().graph(), canvas.patch());
+    if (patch == nullptr) return ports;
+    const auto inside = canvas.address ({});
+    if (asked_for.starts_with (inside) && patch->find (asked_for.substr (inside.size(), asked_for.find ('.') - inside.size())) != nullptr)
+        ports.push_back (asked_for);
+    std::set<std::string> known (ports.begin(), ports.end());
+    for (const auto& w : patch->wires)
+    {
+        if (ports.size() >= most_sources) break;
+        if (auto port = canvas.address (graph::toText (w.from)); known.insert (port).second) ports.push_back (std::move (port));
+    }
+    return ports;
+}
+
 void LiveFeed::refresh()
 {
     Live live;
+    live_run.ports().refresh();
     showStates (live);
+    showActivity (live);
+    showCard (live);
     if (shows_costs) showCosts (live);
     showProblems (live);
     if (limits != nullptr) showLimits (live);
@@ -46,6 +81,72 @@ void LiveFeed::showStates (Live& live)
                     }
             }
     probes.want (std::move (ports));
+}
+
+/// A level changes once the activity is clearly in another step, so that no wire flickers between two of them.
+void LiveFeed::showActivity (Live& live)
+{
+    std::map<graph::Id, int> now;
+    if (live_run.isRunning())
+        for (const auto& w : canvas.scene().wires())
+        {
+            if (! w.enabled || w.source.empty()) continue;
+            const double exact = Live::most_level * live_run.ports().level (canvas.address (w.source));
+            const auto before = shown_levels.find (w.id);
+            const int was = before == shown_levels.end() ? 0 : before->second;
+            constexpr double clear = 0.65;
+            if (const int level = std::abs (exact - was) > clear ? static_cast<int> (std::lround (exact)) : was; level > 0) now[w.id] = level;
+        }
+    shown_levels = now;
+    live.levels = std::move (now);
+}
+
+namespace
+{
+/// Without the last bits of a sum, which would show as -0.00.
+double cleaned (double v) { return std::abs (v) < 1e-9 ? 0.0 : v; }
+
+/// The values of a port as text. Those of a vector share a row, so they have fewer digits.
+std::vector<std::string> valueTexts (const PortFeed::Reading& reading)
+{
+    std::vector<std::string> texts;
+    constexpr int digits_alone = 4, digits_of_three = 3;
+    for (const double v : reading.values)
+        texts.push_back (withPrefix (cleaned (v), reading.unit, reading.values.size() == 1 ? digits_alone : digits_of_three));
+    return texts;
+}
+}   // namespace
+
+void LiveFeed::showCard (Live& live)
+{
+    auto& feed = live_run.ports();
+    const auto& now = canvas.pointed();
+    if (now.port != pointed.port)
+    {
+        rested = 0;
+        shown_values.clear();
+    }
+    pointed = now;
+    if (pointed.port.empty() || ++rested < rests_for || ! live_run.isRunning()) return feed.follow ({});
+    if (const auto watched = portsNow(); std::ranges::count (watched, pointed.port) == 0) asked_for = pointed.port;
+    feed.follow (pointed.port);
+    const auto reading = feed.of (pointed.port);
+    if (! reading) return;
+    if (shown_values.size() != reading->values.size() || rested % numbers_every == 0) shown_values = valueTexts (*reading);
+    PortCard card { .where = pointed, .title = pointed.port };
+    card.values = shown_values;
+    card.quantity = reading->quantity;
+    card.columns = PortFeed::columns;
+    card.course = std::make_shared<const Course> (feed.course());
+    card.seconds = withPrefix (static_cast<double> (PortFeed::columns) / feed.columnsPerSecond(), "s", 1);
+    Extent range { 0.0, 0.0 };   // as the plot
+    for (const auto& column : *card.course)
+        for (std::size_t i = 0; i < reading->values.size(); ++i)
+            for (const double v : { column.low[i], column.high[i] })
+                if (isPlottable (v)) range.include (v);
+    card.low = withPrefix (cleaned (range.low), reading->unit, 2);
+    card.high = withPrefix (cleaned (range.high), reading->unit, 2);
+    live.card = std::move (card);
 }
 
 /// The node on the canvas that a path of the graph leads to or through; null if there is none.

@@ -9,12 +9,17 @@
 namespace tactus::host
 {
 
-/// Shows the run on a canvas: the states of nodes, hits as they travel along wires, problems, broken limits, and optionally what each
-/// node costs.
+/// Shows the run on a canvas: the states of nodes, what wires carry, hits as they travel along wires, the value of the port under the
+/// pointer, problems, broken limits, and optionally what each node costs.
 class LiveFeed
 {
 public:
-    LiveFeed (Canvas& c, LiveRun& r) : canvas (c), live_run (r), probes (r.traces()) {}
+    static constexpr int rests_for = 5;               ///< refreshes that the pointer rests on a port until its card appears
+    static constexpr int numbers_every = 4;           ///< refreshes between two values in a card: digits that change faster cannot be read
+    static constexpr std::size_t most_sources = 64;   ///< how many ports it watches for their wires, at most
+
+    LiveFeed (Canvas&, LiveRun&);
+    ~LiveFeed();
 
     void refresh();   ///< call many times a second
 
@@ -23,6 +28,9 @@ public:
 
 private:
     void showStates (Live&);
+    void showActivity (Live&);
+    void showCard (Live&);
+    std::vector<std::string> portsNow() const;
     void showCosts (Live&);
     void showProblems (Live&) const;
     void showLimits (Live&) const;
@@ -37,6 +45,12 @@ private:
     Traces::Client probes;
     std::map<graph::Id, double> latest_costs;
     int since_costs = refreshes_per_cost;
+
+    std::map<graph::Id, int> shown_levels;
+    PointedPort pointed;     // since when: `rested`
+    std::string asked_for;   // a port that had a card, and that no wire of the patch starts from
+    int rested = 0;
+    std::vector<std::string> shown_values;
 };
 
 }   // namespace tactus::host

@@ -28,7 +28,7 @@ Message stopped() { return Message::error ("run/stopped", {}, "nothing is runnin
 LiveRun::LiveRun (Document& d, const Catalogue& c, Sound* s) : document (d), catalogue (c), sound (s)
 {
     document.add (*this);
-    probes.onWanted = scene_feed.onWanted = [this] {
+    probes.onWanted = scene_feed.onWanted = port_feed.onWanted = [this] {
         if (isLive()) takeOver();
     };
     scene_feed.hasPlace = [this] (const std::string& role) { return ! isSoundCard (role); };
@@ -123,6 +123,7 @@ std::unique_ptr<Run> LiveRun::makeRun (Run::Queries queries)
         queries);
     made->add (probes);
     made->add (scene_feed);
+    made->add (port_feed);
     if (rig) made->add (*rig);
     made->add (*this);
     return made;
@@ -186,6 +187,7 @@ void LiveRun::end()
     clock_role.clear();
     hand_damping = 0.0;
     scene_feed.clear();
+    port_feed.clear();
     pointer.reset();
     transported.reset();
     delay_ticks.reset();

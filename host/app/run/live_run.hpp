@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pointer_path.hpp"
+#include "port_feed.hpp"
 #include "scene_feed.hpp"
 #include "sound.hpp"
 #include "stop_switch.hpp"
@@ -144,6 +145,9 @@ public:
     /// The values of the ports that are being watched.
     Traces& traces() noexcept { return probes; }
 
+    /// The values of the ports on the canvas.
+    PortFeed& ports() noexcept { return port_feed; }
+
     /// What a picture of the scene shows.
     SceneFeed& scene() noexcept { return scene_feed; }
 
@@ -210,6 +214,7 @@ private:
     Messages said;
     Traces probes;
     SceneFeed scene_feed;
+    PortFeed port_feed;
     Sound* sound;
     bool mutes_sound = false;   // a role of this run limits a channel that the sound may share
     Hand moved_by;

@@ -103,21 +103,10 @@ scene::Now SceneFeed::now()
         constexpr double far = 100.0;   // m; an unstable loop may throw the tool anywhere
         if (isFinite (tool.position, tool.force) && tool.position.norm() < far) now.tools.push_back (std::move (tool));
     }
-    for (const auto& body : all)
-    {
-        auto& live = now.live.emplace_back();
-        for (std::size_t part = 0; part < body.ports.size(); ++part)
-        {
-            if (body.ports[part].empty()) continue;
-            const auto component = [&] (const char* which) {
-                const auto found = values.find (body.ports[part] + which);
-                return found == values.end() ? std::nullopt : std::optional (found->second);
-            };
-            const bool is_vector = scene::isVector (part);
-            const auto x = component (is_vector ? ".x" : ""), y = is_vector ? component (".y") : 0.0, z = is_vector ? component (".z") : 0.0;
-            if (x && y && z && isFinite (Vec3 (*x, *y, *z))) live[part] = Vec3 (*x, *y, *z);
-        }
-    }
+    now.live = scene::liveOf (all, [this] (const std::string& component) {
+        const auto found = values.find (component);
+        return found == values.end() ? std::nullopt : std::optional (found->second);
+    });
     return now;
 }
 

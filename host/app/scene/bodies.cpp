@@ -187,4 +187,22 @@ std::vector<std::string> portsOf (const std::vector<Body>& bodies, std::size_t m
     return wanted;
 }
 
+std::vector<PartValues> liveOf (const std::vector<Body>& bodies, const std::function<std::optional<double> (const std::string&)>& valueOf)
+{
+    std::vector<PartValues> all;
+    for (const auto& body : bodies)
+    {
+        auto& live = all.emplace_back();
+        for (std::size_t part = 0; part < body.ports.size(); ++part)
+        {
+            if (body.ports[part].empty()) continue;
+            const bool is_vector = isVector (part);
+            const auto component = [&] (const char* which) { return valueOf (body.ports[part] + which); };
+            const auto x = component (is_vector ? ".x" : ""), y = is_vector ? component (".y") : 0.0, z = is_vector ? component (".z") : 0.0;
+            if (x && y && z && isFinite (Vec3 (*x, *y, *z))) live[part] = Vec3 (*x, *y, *z);
+        }
+    }
+    return all;
+}
+
 }   // namespace tactus::host::scene

@@ -4,6 +4,7 @@
 #include <tactus/plan/plan.hpp>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,5 +65,9 @@ std::vector<Body> bodiesOf (const Plan&);
 /// The ports that a picture of these bodies needs while they are touched. The more important ones come first, because only
 /// `most` components are recorded.
 std::vector<std::string> portsOf (const std::vector<Body>&, std::size_t most);
+
+/// The values of the ports of these bodies, by body. `valueOf` returns the latest value of a component such as "face.touch.x", or nothing.
+/// A vector of which a component is unknown or not finite is left out.
+std::vector<PartValues> liveOf (const std::vector<Body>&, const std::function<std::optional<double> (const std::string&)>& valueOf);
 
 }   // namespace tactus::host::scene

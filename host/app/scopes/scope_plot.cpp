@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scope_plot.hpp"
 
+#include <host/app/look/component_colour.hpp>
 #include <host/app/model/with_prefix.hpp>
 
 #include <host/io/colours.hpp>
@@ -273,9 +274,7 @@ juce::Colour traceColour (const Theme& theme, Quantity q, std::size_t nth_port, 
         if (! theme.is_dark) c = onPaper (c);
         hue = juce::Colour (c.red, c.green, c.blue);
     }
-    if (component == 1) return hue.interpolatedWith (theme.text, 0.5f);
-    if (component == 2) return hue.interpolatedWith (theme.canvas, 0.42f);
-    return hue;
+    return componentColour (theme, hue, component);
 }
 
 void choosePort (juce::Component& below, const std::vector<ScopePort>& ports, std::function<void (const std::string&)> chosen)

@@ -2,8 +2,10 @@
 #include "help_panel.hpp"
 
 #include <host/app/canvas/commands.hpp>
+#include <host/app/inspector/formula_block.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/model/node_doc.hpp>
+#include <host/app/model/readable.hpp>
 
 #include <tactus/text/number_text.hpp>
 
@@ -110,7 +112,7 @@ void addPorts (Column& column, const char* heading, const std::vector<PortSheet>
     if (ports.empty()) return;
     column.add (heading, TextBlock::Kind::heading);
     for (const auto& p : ports)
-        column.add (std::make_unique<PortLine> (text (p.id) + (p.list ? "[0], [1] ..." : ""), about (p), text (p.about)));
+        column.add (std::make_unique<PortLine> (text (nameWithId (p.id)) + (p.list ? "[0], [1] ..." : ""), about (p), text (p.about)));
 }
 
 using Keys = std::pair<const char*, const char*>;
@@ -136,20 +138,28 @@ constexpr std::array mouse_list {
 /// Adds the documentation from a node header, with its layout.
 void addDoc (Column& column, std::span<const DocPart> parts)
 {
-    for (const auto& p : parts)
+    std::vector<std::string> formulas;   // lines that follow each other, because they share their columns
+    for (std::size_t i = 0; i < parts.size(); ++i)
+    {
+        const auto& p = parts[i];
         switch (p.kind)
         {
         case DocPart::Kind::formula:
+            formulas.push_back (p.text);
+            if (i + 1 < parts.size() && parts[i + 1].kind == DocPart::Kind::formula) break;
+            column.add (std::make_unique<FormulaBlock> (std::exchange (formulas, {})));
+            break;
         case DocPart::Kind::text:
-            column.add (text (p.text), p.kind == DocPart::Kind::text ? TextBlock::Kind::text : TextBlock::Kind::small);
+            column.add (FormulaBlock::paragraph (p.text));
             break;
         case DocPart::Kind::heading:
             column.add (text (p.text), TextBlock::Kind::heading);
             break;
         case DocPart::Kind::item:
-            column.add (juce::String::fromUTF8 ("\xe2\x80\x93 ") + text (p.text), TextBlock::Kind::text);
+            column.add (FormulaBlock::paragraph ("– " + p.text));
             break;
         }
+    }
 }
 }   // namespace
 
@@ -196,7 +206,7 @@ void HelpPanel::showNode (const std::string& type)
         {
             made->add ("Settings, fixed during a run", TextBlock::Kind::heading);
             for (const auto& s : node->settings)
-                made->add (std::make_unique<PortLine> (text (s.id), text (tactus::name (s.kind)), text (s.about)));
+                made->add (std::make_unique<PortLine> (text (nameWithId (s.id)), text (tactus::name (s.kind)), text (s.about)));
         }
         addPorts (*made, "Outputs", node->outputs);
         addDoc (*made, { source, doc.end() });

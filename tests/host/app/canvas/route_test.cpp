@@ -49,6 +49,19 @@ TEST_CASE ("a wire with a free path is direct, and a wire that runs back goes be
         CHECK_FALSE (touches (path, box));
 }
 
+TEST_CASE ("a wire runs level past a box that is above or below one of its nodes", "[app][route]")
+{
+    const Point<float> from { 0.0f, 100.0f }, to { 400.0f, 0.0f };
+    const Box2 start { -100.0f, 80.0f, 100.0f, 40.0f }, end { 400.0f, -20.0f, 100.0f, 40.0f };
+    const Box2 below_end { 300.0f, 5.0f, 180.0f, 100.0f }, above_start { -80.0f, -40.0f, 180.0f, 130.0f };
+    for (const auto& obstacle : { below_end, above_start })
+    {
+        const auto waypoints = routeAround (from, to, start, end, { obstacle });
+        CHECK_FALSE (waypoints.empty());
+        CHECK_FALSE (touches (curveThrough (from, waypoints, to), obstacle));
+    }
+}
+
 TEST_CASE ("in the presets, few wires run behind nodes, and none overlap", "[app][route]")
 {
     int behind = 0, wires = 0;

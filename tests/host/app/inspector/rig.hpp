@@ -2,6 +2,7 @@
 #pragma once
 
 #include <host/app/inspector/inspector.hpp>
+#include <host/app/model/readable.hpp>
 
 #include <tactus/file/graph_file.hpp>
 
@@ -55,7 +56,7 @@ struct InspectorRig
     T* in (const std::string& label) const
     {
         for (auto* row : all<host::SetRow>())
-            if (row->label().toStdString() == label)
+            if (const auto shown = row->label().toStdString(); shown == label || shown == host::readable (label))
             {
                 std::vector<T*> found;
                 collect (*row, found);

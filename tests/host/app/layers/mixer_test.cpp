@@ -135,11 +135,54 @@ TEST_CASE ("every texture and vibration that can be a layer can be added and wir
         CHECK (layersOf (*findMixer (history.graph(), mixer), catalogue()) == 4);
         CHECK (sources (history.graph(), mixer).back() != "");
         CHECK (compiles (history.graph()));
+        const auto& nodes = history.graph().root.nodes;
+        const auto made = std::find_if (nodes.rbegin(), nodes.rend(), [&] (const graph::Node& n) { return n.type == type->info.id; });
+        REQUIRE (made != nodes.rend());
         int inputs = 0;
         for (const auto& w : history.graph().root.wires)
-            if (w.to.node == sources (history.graph(), mixer).back()) ++inputs;
+            if (w.to.node == made->name) ++inputs;
         CHECK (inputs + (added->missing.empty() ? 0 : 1) >= static_cast<int> (type->inputs.size()));
     }
+}
+
+TEST_CASE ("a texture that is added as a layer is felt only in contact", "[layers]")
+{
+    const auto wires = [] (const graph::Graph& g) {
+        std::vector<std::string> all;
+        for (const auto& w : g.root.wires)
+            all.push_back (graph::toText (w));
+        return all;
+    };
+    const auto has = [&] (const graph::Graph& g, const char* wire) { return std::ranges::count (wires (g), wire) == 1; };
+
+    graph::History with_window (bell());   // it has a window already
+    auto added = addLayer (with_window.graph(), mixersOf (with_window.graph()).front(), catalogue(), "texture.grating");
+    REQUIRE (added);
+    REQUIRE (with_window.perform (added->command));
+    CHECK (has (with_window.graph(), "grating.value -> grating_felt.in[0]"));
+    CHECK (has (with_window.graph(), "touch.gain -> grating_felt.in[1]"));
+    CHECK (has (with_window.graph(), "grating_felt.out -> desk.in[3]"));
+
+    tactus::test::Sketch sketch;   // only a surface
+    sketch.node ("hand", "device.position").node ("wall", "deform.plane").node ("desk", "layer.mix", Json::object(), { { "inputs", 1 } });
+    sketch.wire ("hand.position -> wall.position");
+    graph::History with_depth (sketch.graph);
+    added = addLayer (with_depth.graph(), mixersOf (with_depth.graph()).front(), catalogue(), "texture.grating");
+    REQUIRE (added);
+    REQUIRE (with_depth.perform (added->command));
+    CHECK (has (with_depth.graph(), "wall.depth -> touch.depth"));
+    CHECK (has (with_depth.graph(), "touch.gain -> grating_felt.in[1]"));
+    CHECK (has (with_depth.graph(), "grating_felt.out -> desk.in[0]"));   // the only layer was empty
+    CHECK (layersOf (*findMixer (with_depth.graph(), mixersOf (with_depth.graph()).front()), catalogue()) == 1);
+    CHECK (with_depth.names().size() == 1);
+
+    tactus::test::Sketch alone;   // nothing to touch: felt everywhere
+    alone.node ("hand", "device.position").node ("desk", "layer.mix");
+    added = addLayer (alone.graph, mixersOf (alone.graph).front(), catalogue(), "texture.grating");
+    REQUIRE (added);
+    graph::History without (alone.graph);
+    REQUIRE (without.perform (added->command));
+    CHECK (has (without.graph(), "grating.value -> desk.in[2]"));
 }
 
 TEST_CASE ("the inputs of a new layer are never wired to anything downstream of the mixer", "[layers]")

@@ -94,3 +94,19 @@ TEST_CASE ("a force picture that cannot be computed says why")
     const std::atomic<bool> cancelled { true };
     CHECK (pictureOf (graphs / "dry_wood.json", catalogue(), cancelled).problem == "cancelled");
 }
+
+TEST_CASE ("the picture of a preset shows its material under the tool, in both themes", "[app][presets]")
+{
+    const auto wood = pictureOf (graphs / "dry_wood.json", catalogue(), not_cancelled).material;
+    REQUIRE_FALSE (wood.isEmpty());
+    CHECK (wood.dark.getWidth() == MaterialPicture::width);
+    const auto isSame = [] (const juce::Image& a, const juce::Image& b) {
+        for (int y = 0; y < a.getHeight(); ++y)
+            for (int x = 0; x < a.getWidth(); ++x)
+                if (a.getPixelAt (x, y) != b.getPixelAt (x, y)) return false;
+        return true;
+    };
+    CHECK_FALSE (isSame (wood.dark, wood.light));
+    CHECK_FALSE (isSame (wood.dark, pictureOf (graphs / "soft_pad.json", catalogue(), not_cancelled).material.dark));
+    CHECK (materialOf ({}, {}).isEmpty());
+}

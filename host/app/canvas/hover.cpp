@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the canvas shows about the thing under the pointer, and what it shows of the run.
+#include "canvas.hpp"
+
+#include <host/app/look/text.hpp>
+#include <host/app/model/readable.hpp>
+
+namespace tactus::host
+{
+
+namespace
+{
+std::string nameOf (const FacePort& port) { return readableName (port) == port.id ? port.id : nameWithId (port.id); }
+}   // namespace
+
+Canvas::Hover Canvas::hoverAt (juce::Point<float> at) const
+{
+    if (const auto s = shown->socketAt (at, socket_reach / window.zoom))
+    {
+        const auto& port = *s.socket->port;
+        const auto unit = port.unit.kind == UnitRule::Kind::fixed ? port.unit.unit : unitOf (s.node->quantityOf (port));
+        return { s.node->id, s.node->name + "." + port.id + "  [" + std::string (unit.symbol) + "]  " + port.about, juce::MouseCursor::CrosshairCursor };
+    }
+    if (const auto* node = shown->nodeAt (at))
+    {
+        const auto* socket = node->paramAt (at);
+        if (socket != nullptr && ! socket->port->isChoice())
+            return { node->id, fromUtf8 (nameOf (*socket->port) + ": " + socket->port->about) + ". Drag up or down; hold shift for fine steps",
+                     juce::MouseCursor::UpDownResizeCursor };
+        if (node->face->type == nullptr) return { node->id, node->type };
+        return { node->id, std::string (node->face->type->info.name) + ": " + std::string (node->face->type->info.summary) };
+    }
+    if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom)) return { wire->id, wire->text };
+    const auto note = shown->noteAt (at);
+    if (! note) return {};
+    const auto shape = shown->isCorner (*note, at) ? juce::MouseCursor::BottomRightCornerResizeCursor : juce::MouseCursor::NormalCursor;
+    return { 0, "Note: drag to move, drag the corner to resize, double-click to edit", shape };
+}
+
+void Canvas::mouseMove (const juce::MouseEvent& e)
+{
+    point (portAt (window.toCanvas (e.position)));
+    auto over = hoverAt (window.toCanvas (e.position));
+    const auto& problems = highlights.live.problems;
+    if (const auto problem = problems.find (over.id); problem != problems.end()) over.text = problem->second;
+    setMouseCursor (over.cursor);
+    hint (over.text);
+    if (over.id == highlights.hovered) return;
+    highlights.hovered = over.id;
+    repaint();
+}
+
+void Canvas::mouseExit (const juce::MouseEvent&)
+{
+    highlights.hovered = 0;
+    point ({});
+    hint ({});
+    repaint();
+}
+
+/// A port is pointed at by its socket or by its label. A wire shows what its source carries.
+PointedPort Canvas::portAt (juce::Point<float> at) const
+{
+    using Side = PointedPort::Side;
+    const auto found = shown->socketAt (at, socket_reach / window.zoom);
+    const auto* node = found ? found.node : shown->nodeAt (at);
+    if (node == nullptr)
+    {
+        const auto* wire = shown->wireAt (at, wire_reach / window.zoom);
+        return wire == nullptr ? PointedPort {} : PointedPort { address (wire->source), at, Side::below };
+    }
+    const auto* socket = found.socket;
+    for (const auto& s : node->box.sockets)
+        if (socket == nullptr && s.row.translated (node->at.x, node->at.y).contains (at)) socket = &s;
+    if (socket == nullptr || socket->port->isChoice() || node->face->kind == Face::Kind::placeholder) return {};
+    if (const auto& port = *socket->port; port.role == Role::param)   // the value of an unwired param is in its row
+    {
+        const auto drives = [&] (const SceneWire& w) {
+            return w.in_role == Role::param && w.in == port.id && &shown->nodes()[static_cast<std::size_t> (w.end)] == node;
+        };
+        if (std::ranges::none_of (shown->wires(), drives)) return {};
+    }
+    const bool is_output = socket->port->role == Role::output;
+    const juce::Point<float> edge { is_output ? node->bounds().getRight() : node->at.x, node->at.y + socket->at.y };
+    return { address (node->name + '.' + socket->port->id), edge, is_output ? Side::right : Side::left };
+}
+
+/// The card of a wire stays where it appeared while the pointer moves along the wire.
+void Canvas::point (PointedPort now)
+{
+    if (now.port == pointed_at.port && now.side == pointed_at.side) return;
+    pointed_at = std::move (now);
+}
+
+void Canvas::showLive (Live live)
+{
+    if (live == highlights.live) return;
+    const auto before = std::exchange (highlights.live, std::move (live));
+    repaintChanged (before);
+}
+
+/// Wires and the card change many times a second while a graph runs, so only they are painted again if nothing else has changed.
+void Canvas::repaintChanged (const Live& before)
+{
+    const auto& now = highlights.live;
+    if (now.states != before.states || now.costs != before.costs || now.problems != before.problems || now.limits != before.limits) return repaint();
+    const auto differs = [] (const auto& a, const auto& b, graph::Id id) {
+        const auto at_a = a.find (id), at_b = b.find (id);
+        return (at_a == a.end()) != (at_b == b.end()) || (at_a != a.end() && at_a->second != at_b->second);
+    };
+    for (const auto& w : shown->wires())
+        if (differs (now.levels, before.levels, w.id) || differs (now.hits, before.hits, w.id))
+            repaint (boundsOf (w).transformedBy (window.transform()).getSmallestIntegerContainer());
+    for (const auto* card : { &now.card, &before.card })
+        if (*card && now.card != before.card) repaint (boundsOf (**card, window.toPixels ((*card)->where.at), getLocalBounds()).expanded (4));
+}
+
+}   // namespace tactus::host
