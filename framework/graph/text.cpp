@@ -18,8 +18,8 @@ constexpr bool startsId (char c) noexcept { return c >= 'a' && c <= 'z'; }
 /// By character: true for those that an id may contain. A large graph has many ids.
 constexpr auto in_ids = [] {
     std::array<bool, 256> all {};
-    for (const unsigned char c : std::string_view ("abcdefghijklmnopqrstuvwxyz0123456789_"))
-        all[c] = true;
+    for (const char c : std::string_view ("abcdefghijklmnopqrstuvwxyz0123456789_"))
+        all[static_cast<unsigned char> (c)] = true;
     return all;
 }();
 constexpr bool continuesId (char c) noexcept { return in_ids[static_cast<unsigned char> (c)]; }
