@@ -124,6 +124,7 @@ board, said, full = closed_loop("loop")
 check(said["refused"] == 0 and said["taken"] > 300, f"loop: {said['taken']} reports decoded")
 check(full > 0, "loop: after the ramp the device gets the graph's force unchanged")
 check(said["lost"] == 0, "loop: no report is lost")
+check("which tick the run directly" in text("loop.play.err"), "loop: the tick thread reads the board itself")
 
 if os.path.exists(os.path.join(folder, "usb.board.csv")):
     board, said, _ = closed_loop("usb")
