@@ -111,7 +111,7 @@ double TrialNode::output (std::string_view id, std::size_t component) const noex
     return value;
 }
 
-double TrialNode::param (std::string_view id, double otherwise) const noexcept
+double TrialNode::param (std::string_view id, double fallback) const noexcept
 {
     const auto* sheet = sheetIn (type->params, id);
     if (sheet == nullptr || ! sheet->choices.empty()) return fallback;

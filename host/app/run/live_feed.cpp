@@ -17,10 +17,10 @@ namespace tactus::host
 
 LiveFeed::LiveFeed (Canvas& c, LiveRun& r) : canvas (c), live_run (r), probes (r.traces())
 {
-    live_run.ports().portsNow = [this] { return portsNow(); };
+    live_run.portFeed().portsNow = [this] { return portsNow(); };
 }
 
-LiveFeed::~LiveFeed() { live_run.ports().portsNow = {}; }
+LiveFeed::~LiveFeed() { live_run.portFeed().portsNow = {}; }
 
 /// The ports where the wires of the patch begin, and the port that the pointer rests on. From the document and not from the canvas: the
 /// run compiles an edit before the canvas shows it.
@@ -44,7 +44,7 @@ std::vector<std::string> LiveFeed::portsNow() const
 void LiveFeed::refresh()
 {
     Live live;
-    live_run.ports().refresh();
+    live_run.portFeed().refresh();
     showStates (live);
     showActivity (live);
     showCard (live);
@@ -91,7 +91,7 @@ void LiveFeed::showActivity (Live& live)
         for (const auto& w : canvas.scene().wires())
         {
             if (! w.enabled || w.source.empty()) continue;
-            const double exact = Live::most_level * live_run.ports().level (canvas.address (w.source));
+            const double exact = Live::most_level * live_run.portFeed().level (canvas.address (w.source));
             const auto before = shown_levels.find (w.id);
             const int was = before == shown_levels.end() ? 0 : before->second;
             constexpr double clear = 0.65;
@@ -119,7 +119,7 @@ std::vector<std::string> valueTexts (const PortFeed::Reading& reading)
 
 void LiveFeed::showCard (Live& live)
 {
-    auto& feed = live_run.ports();
+    auto& feed = live_run.portFeed();
     const auto& now = canvas.pointed();
     if (now.port != pointed.port)
     {

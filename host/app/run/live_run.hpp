@@ -146,7 +146,7 @@ public:
     Traces& traces() noexcept { return probes; }
 
     /// The values of the ports on the canvas.
-    PortFeed& ports() noexcept { return port_feed; }
+    PortFeed& portFeed() noexcept { return port_feed; }
 
     /// What a picture of the scene shows.
     SceneFeed& scene() noexcept { return scene_feed; }

@@ -155,12 +155,12 @@ TEST_CASE ("a canvas wants the ports where its wires begin, also those of an edi
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     LiveRun live_run (rig.document, catalogue());
     LiveFeed live (*rig.canvas, live_run);
-    auto ports = live_run.ports().ports();
+    auto ports = live_run.portFeed().ports();
     CHECK (std::ranges::count (ports, "hand.position") == 1);
     CHECK (std::ranges::count (ports, "board.resistance") == 1);
     CHECK (std::ranges::count (ports, "board.stored_energy") == 0);
     rig.document.perform (graph::AddWire { {}, *graph::parseWire ("board.stored_energy -> motor.force.x") });
-    ports = live_run.ports().ports();
+    ports = live_run.portFeed().ports();
     CHECK (std::ranges::count (ports, "board.stored_energy") == 1);
 }
 
