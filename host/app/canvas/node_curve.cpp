@@ -86,7 +86,8 @@ std::optional<PlotData> curveInSettings (const graph::Graph& graph, const std::s
 
 const PortSheet* outputOf (const NodeType& type, Quantity quantity, int width)
 {
-    const auto found = std::ranges::find_if (type.outputs, [&] (const PortSheet& p) { return p.width == width && ! p.list && quantityIn (p.unit) == quantity; });
+    const auto fits = [&] (const PortSheet& p) { return p.width == width && ! p.list && quantityIn (p.unit) == quantity; };
+    const auto found = std::ranges::find_if (type.outputs, fits);
     return found == type.outputs.end() ? nullptr : &*found;
 }
 
@@ -100,7 +101,8 @@ PlotData strokeOf (TrialNode& trial, const PortSheet& force, std::string_view to
         trial.set (tool, at * direction);
         trial.tick();
         plot.x.push_back (at);
-        plot.y.push_back (force.width == 1 ? trial.output (force.id) : -(trial.output (force.id, 0) * direction.x() + trial.output (force.id, 1) * direction.y()));
+        const auto along = [&] { return trial.output (force.id, 0) * direction.x() + trial.output (force.id, 1) * direction.y(); };
+        plot.y.push_back (force.width == 1 ? trial.output (force.id) : -along());
     }
     return plot;
 }

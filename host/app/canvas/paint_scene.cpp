@@ -316,8 +316,9 @@ void paintScene (juce::Graphics& g, const Scene& scene, const View& view, const 
     for (const auto& w : scene.wires())
     {
         if (! boundsOf (w).intersects (seen)) continue;
-        const auto level = highlights.live.levels.find (w.id);
-        paintWire (g, w, look.theme(), highlights.selected.contains (w.id), highlights.hovered == w.id, level == highlights.live.levels.end() ? 0 : level->second);
+        const auto found = highlights.live.levels.find (w.id);
+        const auto level = found == highlights.live.levels.end() ? 0 : found->second;
+        paintWire (g, w, look.theme(), highlights.selected.contains (w.id), highlights.hovered == w.id, level);
         if (highlights.live.problems.contains (w.id)) paintProblem (g, w, look.theme());
         if (const auto hit = highlights.live.hits.find (w.id); hit != highlights.live.hits.end()) paintHit (g, w, hit->second, look.theme());
         if (w.delay > 0 && view.zoom > too_small_to_read) paintDelay (g, w, look);

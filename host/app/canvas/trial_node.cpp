@@ -23,7 +23,8 @@ bool isFileKind (SettingSheet::Kind k)
 bool canBeTried (const NodeType& type)
 {
     const auto isList = [] (const PortSheet& p) { return p.list; };
-    const auto readsFile = [] (const SettingSheet& s) { return isFileKind (s.kind) || std::ranges::any_of (s.fields, [] (const auto& f) { return isFileKind (f.kind); }); };
+    const auto isFile = [] (const auto& s) { return isFileKind (s.kind); };
+    const auto readsFile = [&] (const SettingSheet& s) { return isFile (s) || std::ranges::any_of (s.fields, isFile); };
     return type.tick != nullptr && ! type.bind && ! std::ranges::any_of (type.inputs, isList) && ! std::ranges::any_of (type.params, isList)
            && ! std::ranges::any_of (type.outputs, isList) && ! std::ranges::any_of (type.settings, readsFile);
 }

@@ -113,7 +113,8 @@ void PortFeed::planComes (const Plan& plan)
         }
     const auto interval = static_cast<std::uint32_t> (std::max (1.0, std::round (plan.rateHz() / frames_per_second)));
     per_second = plan.rateHz() / interval;
-    if (! std::ranges::equal (next, components, {}, &Component::tap, &Component::tap) || ! std::ranges::equal (next, components, {}, &Component::name, &Component::name))
+    const auto isSame = [] (const Component& a, const Component& b) { return a.tap == b.tap && a.name == b.name; };
+    if (! std::ranges::equal (next, components, isSame))
     {
         collect();   // the frames so far belong to the previous plan
         serials.clear();

@@ -11,7 +11,8 @@
 namespace tactus::host
 {
 
-/// A modal question over the window. A question that is asked while another one is open waits until that is answered. Return picks the marked choice: the first one, or the one the arrow keys moved to. Esc, which
+/// A modal question over the window. A question that is asked while another one is open waits until that is answered. Return picks the marked
+/// choice: the first one, or the one the arrow keys moved to. Esc, which
 /// the window passes on, picks the last one.
 class Question final : public juce::Component
 {

@@ -59,7 +59,10 @@ private:
     std::uint64_t number = 0;
 };
 
-Sketch wobble() { return Sketch {}.node ("wave", "signal.lfo", { { "frequency", 2.0 }, { "amplitude", 3.0 } }).node ("rest", "signal.constant", { { "value", 0.0 } }); }
+Sketch wobble()
+{
+    return Sketch {}.node ("wave", "signal.lfo", { { "frequency", 2.0 }, { "amplitude", 3.0 } }).node ("rest", "signal.constant", { { "value", 0.0 } });
+}
 }   // namespace
 
 TEST_CASE ("a feed has the latest value of a port, and how much it carries", "[app][ports]")
