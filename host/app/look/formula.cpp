@@ -19,7 +19,26 @@ bool isDigit (char c) { return c >= '0' && c <= '9'; }
 /// "" if the word is not the name of a Greek letter.
 std::string_view greek (std::string_view word)
 {
-    constexpr std::array<Pair, 20> letters { { { "alpha", "α" }, { "beta", "β" }, { "gamma", "γ" }, { "delta", "δ" }, { "Delta", "Δ" }, { "epsilon", "ε" }, { "zeta", "ζ" }, { "eta", "η" }, { "theta", "θ" }, { "kappa", "κ" }, { "lambda", "λ" }, { "mu", "μ" }, { "nu", "ν" }, { "pi", "π" }, { "rho", "ρ" }, { "sigma", "σ" }, { "tau", "τ" }, { "phi", "φ" }, { "psi", "ψ" }, { "omega", "ω" } } };
+    constexpr std::array<Pair, 20> letters { { { "alpha", "α" },
+                                               { "beta", "β" },
+                                               { "gamma", "γ" },
+                                               { "delta", "δ" },
+                                               { "Delta", "Δ" },
+                                               { "epsilon", "ε" },
+                                               { "zeta", "ζ" },
+                                               { "eta", "η" },
+                                               { "theta", "θ" },
+                                               { "kappa", "κ" },
+                                               { "lambda", "λ" },
+                                               { "mu", "μ" },
+                                               { "nu", "ν" },
+                                               { "pi", "π" },
+                                               { "rho", "ρ" },
+                                               { "sigma", "σ" },
+                                               { "tau", "τ" },
+                                               { "phi", "φ" },
+                                               { "psi", "ψ" },
+                                               { "omega", "ω" } } };
     const auto found = std::ranges::find (letters, word, &Pair::first);
     return found == letters.end() ? std::string_view {} : found->second;
 }
