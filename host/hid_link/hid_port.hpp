@@ -132,10 +132,10 @@ public:
     /// When the latest report was read.
     Nanoseconds lastArrival() const noexcept { return last_arrival.load (std::memory_order_acquire); }
 
-    /// True if the last wait did not have to wait, because this thread reads the device and the report was already there.
+    /// True if this thread reads the device and came too late for the latest report: it was already there, or there were several.
     bool wasLate() const noexcept { return was_late; }
 
-    /// True if so many reports were already there that the system may have dropped newer ones.
+    /// True if so many reports were there that the system may have dropped newer ones.
     bool mayLackNewest() const noexcept { return may_lack_newest; }
 
     //==========================================================================
@@ -189,6 +189,7 @@ private:
     void lend (Transport&);
     void arrive (std::span<const std::uint8_t> report) noexcept;
     bool takeWaiting() noexcept;
+    void take (std::size_t size) noexcept;
     bool readUntil (Clock::time_point) noexcept;
     bool isNews() noexcept;
     void lookAgain();

@@ -84,17 +84,19 @@ bool HidPort::readUntil (Clock::time_point until) noexcept
 {
     if (! isConnected()) return false;   // the writing thread has given it up
     const auto before = reports.load (std::memory_order_relaxed);
-    const bool works = takeWaiting();
-    const auto waited = reports.load (std::memory_order_relaxed) - before;
-    was_late = waited > 0;
-    may_lack_newest = waited >= kept_by_system;
-    if (! works || was_late || known != before) return works;
+    const auto taken = [&] { return reports.load (std::memory_order_relaxed) - before; };
 
-    const auto got = lent->readUntil (buffer, until);
-    if (got.what != What::report) return got.what == What::nothing;
-    arrive (std::span (buffer).first (got.size));
-    read_by_tick.fetch_add (1, std::memory_order_relaxed);
-    return takeWaiting();   // the newest counts
+    bool works = takeWaiting();
+    was_late = taken() > 0;
+    if (works && ! was_late && known == before)
+    {
+        const auto got = lent->readUntil (buffer, until);
+        if (got.what == What::report) take (got.size);
+        works = got.what == What::report ? takeWaiting() : got.what == What::nothing;   // the newest counts
+    }
+    was_late = was_late || taken() > 1;   // woken too late
+    may_lack_newest = taken() >= kept_by_system;
+    return works;
 }
 
 /// Reads what has arrived, without waiting. False if the device cannot be read any more.
@@ -104,10 +106,16 @@ bool HidPort::takeWaiting() noexcept
     {
         const auto got = lent->readUntil (buffer, without_waiting);
         if (got.what != What::report) return got.what == What::nothing;
-        arrive (std::span (buffer).first (got.size));
-        read_by_tick.fetch_add (1, std::memory_order_relaxed);
+        take (got.size);
     }
     return true;
+}
+
+/// Takes over a report of this size from the buffer.
+void HidPort::take (std::size_t size) noexcept
+{
+    arrive (std::span (buffer).first (size));
+    read_by_tick.fetch_add (1, std::memory_order_relaxed);
 }
 
 //==============================================================================

@@ -15,8 +15,10 @@
 using namespace tactus;
 using namespace tactus::host::hid;
 using test::boardReport;
+using test::Bytes;
 using test::FakeBoard;
 using test::openBoard;
+using namespace std::chrono_literals;
 
 namespace
 {
@@ -170,6 +172,35 @@ TEST_CASE ("if the system may have dropped the newest reports, a reading is not 
     CHECK (ages[0] == 0.0);
     CHECK (ages[1] == Approx (1e-3));   // counted in ticks
     CHECK (ages[2] == 0.0);
+}
+
+TEST_CASE ("reports that the tick thread is woken too late for are not new ones either", "[hid][threads][safety]")
+{
+    FakeBoard board;
+    Driven driven { board };
+    std::vector<Bytes> many;
+    for (std::uint16_t n = 1000; n < 1070; ++n)
+        many.push_back (boardReport (n, n));
+    std::jthread sender;
+    double age = -1.0;
+    driven.run ([&] {
+        if (sender.joinable())
+        {
+            if (! driven.has_come) return true;
+            age = driven.reading.age;
+            return false;
+        }
+        if (driven.readHere() > 0 && driven.has_come)
+            sender = std::jthread ([&] {
+                std::this_thread::sleep_for (2ms);   // so that the tick thread usually sleeps by now; the result does not depend on it
+                board.sendAtOnce (many);
+            });
+        else
+            driven.answer();
+        return true;
+    });
+    CHECK (age > 0.0);
+    CHECK (driven.device->counts().taken >= 70);
 }
 
 TEST_CASE ("a board that is unplugged while it ticks a run is opened again elsewhere, and then read by the tick thread again", "[hid][threads]")

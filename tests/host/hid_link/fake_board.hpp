@@ -123,6 +123,10 @@ public:
     {
         change ([&] { waiting.push_back (std::move (report)); });
     }
+    void sendAtOnce (const std::vector<Bytes>& reports)
+    {
+        change ([&] { waiting.insert (waiting.end(), reports.begin(), reports.end()); });
+    }
     void plug (bool in)
     {
         change ([&] {
