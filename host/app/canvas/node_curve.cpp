@@ -3,6 +3,7 @@
 #include "trial_node.hpp"
 
 #include <host/app/model/param_now.hpp>
+#include <tactus/node/node_fault.hpp>
 #include <tactus/plan/settings.hpp>
 
 #include <algorithm>
@@ -174,21 +175,31 @@ std::optional<PlotData> characteristic (TrialNode& trial, const NodeType& type)
         if (answer (plot.x[i]) != plot.y[i]) return std::nullopt;
     return isStraight (plot) ? std::nullopt : std::optional (std::move (plot));
 }
+
+/// How the node itself answers. A plugin's node that fails has no curve; compile() says so.
+std::optional<PlotData> answerOf (const graph::Graph& graph, const std::string& patch, const graph::Node& node, const Face& face)
+{
+    try
+    {
+        auto trial = TrialNode::make (graph, patch, node, face);
+        if (! trial) return std::nullopt;
+        const auto& type = *face.type;
+        if (! type.appearance) return characteristic (*trial, type);
+        if (type.appearance->kind == Appearance::Kind::ridges) return ridgeCurve (*trial, type);
+        return type.appearance->kind == Appearance::Kind::contact ? dragCurve (*trial, type) : std::nullopt;
+    }
+    catch (const NodeFault&)
+    {
+        return std::nullopt;
+    }
+}
 }   // namespace
 
 std::shared_ptr<const PlotData> curveOf (const graph::Graph& graph, const std::string& patch, const graph::Node& node, const Face& face)
 {
     if (face.kind != Face::Kind::node || face.type == nullptr) return nullptr;
-    const auto& type = *face.type;
     auto plot = curveInSettings (graph, patch, node, face);
-    if (! plot)
-        if (auto trial = TrialNode::make (graph, patch, node, face))
-        {
-            const auto looks_like = [&] (Appearance::Kind kind) { return type.appearance && type.appearance->kind == kind; };
-            if (looks_like (Appearance::Kind::ridges)) plot = ridgeCurve (*trial, type);
-            if (looks_like (Appearance::Kind::contact)) plot = dragCurve (*trial, type);
-            if (! type.appearance) plot = characteristic (*trial, type);
-        }
+    if (! plot) plot = answerOf (graph, patch, node, face);
     if (! plot || ! std::ranges::all_of (plot->y, [] (double y) { return std::isfinite (y); })) return nullptr;
     return std::make_shared<const PlotData> (std::move (*plot));
 }

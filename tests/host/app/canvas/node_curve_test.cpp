@@ -4,6 +4,7 @@
 #include "support/sketch.hpp"
 
 #include <host/app/canvas/node_curve.hpp>
+#include <tactus/node/node_fault.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -116,6 +117,16 @@ TEST_CASE ("a node has a curve only if its output depends on nothing else, and b
         CHECK_FALSE (curveOfOne (with_time));
     }
     CHECK_FALSE (curveOfOne ("no.such"));
+}
+
+TEST_CASE ("a node of a plugin that fails has no curve", "[app][canvas][curve]")
+{
+    auto failing = *catalogue().find ("texture.grating");
+    failing.prepare = [] (void*, const Setup&) { throw NodeFault ("it failed"); };
+    const auto types = catalogue().with ({ failing });
+    const auto g = Sketch {}.node ("one", "texture.grating").graph;
+    const auto& node = g.root.nodes.front();
+    CHECK_FALSE (curveOf (g, {}, node, faceOf (g, g.root, node, types)));
 }
 
 TEST_CASE ("no node of the catalogue has a curve with gaps", "[app][canvas][curve]")
