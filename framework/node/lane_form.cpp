@@ -2,7 +2,9 @@
 #include "lane_form.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
+#include <cstring>
 
 namespace tactus
 {
@@ -21,7 +23,11 @@ std::size_t widestLanes() noexcept
 std::size_t usualLanes() noexcept
 {
     const auto* wanted = std::getenv ("TACTUS_LANES");
-    const auto most = wanted != nullptr ? std::strtoul (wanted, nullptr, 10) : widestLanes();
+    if (wanted == nullptr) return widestLanes();
+    const auto* end = wanted + std::strlen (wanted);
+    std::size_t most = 0;
+    const auto [rest, error] = std::from_chars (wanted, end, most);
+    if (error != std::errc {} || rest != end) return widestLanes();   // not a number: the same as not set
     return std::clamp<std::size_t> (most, 1, widestLanes());
 }
 
