@@ -12,6 +12,7 @@ std::string TickCode::write()
     do
     {
         code.clear();
+        records (wiring.plan.settled(), "    ", "ticks");   // on each tick, because exported code does not know which params were written
         records (wiring.plan.records(), "    ", "ticks");
         for (const auto& tap : wiring.plan.taps())
             if (tap.samples == nullptr) wiring.valueAt (tap.value);

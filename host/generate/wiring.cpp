@@ -15,6 +15,7 @@ Wiring::Wiring (const Plan& p, const std::vector<std::string>& feeds, std::set<s
     nameNodes();
     nameOutside (feeds);
     nameConsumers();
+    nameRecords (plan.settled(), false);
     nameRecords (plan.records(), false);
 }
 

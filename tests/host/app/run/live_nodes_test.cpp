@@ -193,8 +193,8 @@ TEST_CASE ("a header that is saved while its graph runs in the window takes over
     const auto first = pluginOf ("window.push");
 
     w.view->canvas().select ({ w.view->document().graph().root.find ("push")->id });
-    CHECK (w.has ("strength"));
-    CHECK_FALSE (w.has ("more"));
+    CHECK (w.has ("Strength"));
+    CHECK_FALSE (w.has ("More"));
     REQUIRE (w.view->document().perform (graph::SetParam { "", "push", "strength", Json ("0.75 N") }));
     REQUIRE (w.pushes (0.75));
 
@@ -202,7 +202,7 @@ TEST_CASE ("a header that is saved while its graph runs in the window takes over
     const std::string member = "double more = 0.25;", row = "param (&Params::more, \"more\", unit::newton, \"more force\"),";
     code.write ("push.hpp", header ("2.0 * params.strength + params.more", member, row));
     REQUIRE (w.pushes (1.75));
-    CHECK (w.has ("more"));
+    CHECK (w.has ("More"));
     CHECK (w.until ([&] { return first.expired(); }));   // neither a panel nor a plan uses it
     const auto second = pluginOf ("window.push");
 
