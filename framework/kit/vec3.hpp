@@ -64,11 +64,12 @@ inline double finiteOrZero (double v) noexcept { return isFinite (v) ? v : 0.0; 
 inline Vec3 finiteOrZero (const Vec3& v) noexcept { return isFinite (v) ? v : Vec3::Zero(); }
 
 /// The length of a vector, even of the largest and smallest ones. Scaling it first, as Eigen's stableNorm does, costs several
-/// times as much, and is needed only where a square would leave the range of doubles.
+/// times as much, and is needed only where a square would leave the range of doubles. NaN if a component is: stableNorm may lose it.
 inline double length (const Vec3& v) noexcept
 {
     const double square = v.squaredNorm();
-    return square > 1e-280 && square < 1e280 ? std::sqrt (square) : v.stableNorm();
+    if (square > 1e-280 && square < 1e280) return std::sqrt (square);
+    return square == square ? v.stableNorm() : square;
 }
 
 /// The direction of a finite vector: length 1, or 0 for the zero vector. Works for the largest and smallest vectors, too.

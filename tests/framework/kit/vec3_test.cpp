@@ -25,6 +25,19 @@ TEST_CASE ("length: correct for vectors of any size", "[framework][length]")
     CHECK (length (Vec3 { 3e-300, 0.0, -4e-300 }) == Approx (5e-300));
 }
 
+TEST_CASE ("length: NaN if a component is NaN, wherever it is", "[framework][length]")
+{
+    const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+    for (const double other : { 0.0, 1.0, 1e300, infinity })
+        for (int i = 0; i < 3; ++i)
+        {
+            Vec3 v = Vec3::Constant (other);
+            v[i] = nan;
+            CHECK (std::isnan (length (v)));
+        }
+    CHECK (length (Vec3 { 0.0, -infinity, 1.0 }) == infinity);
+}
+
 TEST_CASE ("direction: length 1 for vectors of any size, 0 for the zero vector", "[framework][length]")
 {
     CHECK (direction (Vec3::Zero()) == Vec3::Zero());
