@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "amount.hpp"
 #include "commands.hpp"
 #include "overwriting.hpp"
 #include "report.hpp"
-#include "surface_preset.hpp"
 
+#include <host/fitting/surface_preset.hpp>
 #include <host/io/plot.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/kit/half_space.hpp>
@@ -70,22 +71,22 @@ void compute (const Shape& shape, const CurveOptions& options)
     const HalfSpace body { .young = young, .poisson = options.poisson };
     const Law law = shape.law (body, size);
     if (const double deepest = law (depth); ! (deepest > 0.0 && std::isfinite (deepest)))
-        fail ("curve/out_of_range", "the force at a depth of " + rounded (depth) + " m would be " + rounded (deepest) + " N",
+        fail ("curve/out_of_range", "the force at a depth of " + shortNumber (depth) + " m would be " + shortNumber (deepest) + " N",
               "correct the sizes and their units");
     const EvenBody even { .along = options.points > 0 ? tableOf (law, depth, options.points) : law,
                           .mu = options.mu,
                           .ratio = body.ratio (options.mu > 0.0 ? options.mu : 1.0) };
 
     const auto curves = curvesOf (even);
-    std::cout << shape.formula << ", E* = " << rounded (body.modulus(), 6) << " Pa: " << rounded (law (depth), 6) << " N at " << rounded (1e3 * depth)
-              << " mm\n"
+    std::cout << shape.formula << ", E* = " << shortNumber (body.modulus(), 6) << " Pa: " << shortNumber (law (depth), 6) << " N at "
+              << shortNumber (1e3 * depth) << " mm\n"
               << "  for deform.plane    \"law\": " << toJson (even.along).dump() << "\n"
               << "  for deform.surface  \"curves\": " << curves.at ("curves").dump() << ", \"mu\": " << curves.at ("mu").dump() << "\n";
     if (! options.preset.empty())
     {
         const auto name = std::filesystem::path (options.preset).stem().string();
         const auto source = "`tactus curve " + std::string (shape.name) + "`: " + shape.formula + ", E = " + options.young + ", nu = "
-                            + rounded (options.poisson)
+                            + shortNumber (options.poisson)
                             + ", " + options.tool;
         const auto about = "A flat, even body, computed: " + std::string (shape.formula) + ".";
         orFail (saveGraph (surfacePreset (even, name, about, source), options.preset));

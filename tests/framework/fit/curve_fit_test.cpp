@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <tactus/kit/curve_fit.hpp>
+#include <tactus/fit/curve_fit.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <tactus/fit/shock_fit.hpp>
 #include <tactus/kit/free_impact.hpp>
-#include <tactus/kit/shock_fit.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "law.hpp"
+#include "fit_report.hpp"
 #include "shock_fit.hpp"
+
+#include <tactus/kit/law.hpp>
 
 #include <vector>
 
@@ -22,6 +24,7 @@ struct CurveFit
     double peak = 0.0;            ///< largest recorded force, N
 
     std::vector<double> depth_in {}, force_in {}, depth_out {}, force_out {};   ///< the rows that were used, m and N
+    FitReport report {};
 };
 
 /// Fits a table of force over depth to the contact around the deepest row: straight lines between `points` evenly spaced depths, by least
@@ -29,7 +32,7 @@ struct CurveFit
 /// is the gradient of an energy: a node that plays it is passive, and does not show the recorded hysteresis.
 ///
 /// The rows are in the order of time. Times are not used, so the indentation must be slow. The depth must be 0 at the touch.
-/// `points` is from 2 to 1000.
+/// `points` is from 2 to 1000. The cross-validation leaves out every fifth of 50 parts.
 ///
 /// Errors: fit/too_short, fit/not_finite, fit/no_contact, fit/pulls. [any thread]
 ///

@@ -27,11 +27,7 @@ Json curvesOf (const EvenBody&);
 /// A graph in which a finger presses and strokes a square pad of this body. `source` says where its curve comes from. [main thread]
 graph::Graph surfacePreset (const EvenBody&, const std::string& name, const std::string& about, const std::string& source);
 
-/// Reads an amount with its unit, such as "10 kPa", "5 mm" or 0.005, as a number above 0 in the SI unit. A bare number is in the SI unit.
-/// Throws UsageError, with the name of the option.
-double readAmount (const std::string& option, const std::string& text, const char* si_unit, const char* example);
-
 /// The number with this many significant digits.
-std::string rounded (double value, int digits = 3);
+std::string shortNumber (double value, int digits = 3);
 
 }   // namespace tactus::host

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface_preset.hpp"
 
-#include <host/command_line/command.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/kit/half_space.hpp>
-#include <tactus/text/quote.hpp>
-#include <tactus/text/units.hpp>
 
-#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -79,20 +75,11 @@ graph::Graph surfacePreset (const EvenBody& body, const std::string& name, const
     for (auto& node : graph.root.nodes)
         if (node.name == "body") node.settings["surface"].update (curvesOf (body));
     graph.extra["ui"]["sources"] = { { "body.curves.z", source },
-                                     { "body.curves.x", "the z curve, scaled so that drag over push is " + rounded (body.mu) + " at every depth: guess" } };
+                                     { "body.curves.x", "the z curve, scaled so that drag over push is " + shortNumber (body.mu) + " at every depth: guess" } };
     return graph;
 }
 
-double readAmount (const std::string& option, const std::string& text, const char* si_unit, const char* example)
-{
-    const auto amount = parseMeasure (text), unit = parseMeasure (std::string ("1 ") + si_unit);
-    const bool fits = amount && (amount->dimension == unit->dimension || amount->dimension == Dimension {});
-    if (! fits || ! (amount->value > 0.0) || ! std::isfinite (amount->value))
-        throw UsageError (option, quote (text) + " does not fit; write a number above 0 with its unit, such as " + quote (example));
-    return amount->value;
-}
-
-std::string rounded (double value, int digits)
+std::string shortNumber (double value, int digits)
 {
     std::ostringstream out;
     out << std::setprecision (digits) << value;

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "shock_fit.hpp"
-#include "free_impact.hpp"
-#include "math/math.hpp"
+#include "least_squares.hpp"
+
+#include <tactus/kit/free_impact.hpp>
+#include <tactus/kit/math/math.hpp>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +21,7 @@ namespace tactus
 namespace
 {
 constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr std::size_t fewest = 8;   // rows
-
-Message wrong (const char* id, std::string text, std::string remedy) { return Message::error (id, {}, std::move (text), std::move (remedy)); }
+constexpr std::size_t fewest_impact_rows = 8;
 
 /// The contact around the deepest row, in the order of time.
 struct Contact
@@ -46,17 +49,18 @@ struct Contact
     std::size_t deepest() const { return static_cast<std::size_t> (std::ranges::max_element (d) - d.begin()); }
 };
 
-Result<> check (const RecordedLoop& loop)
+Result<> checkImpact (const RecordedLoop& loop)
 {
     const auto n = loop.depth.size();
-    if (n < fewest || loop.force.size() != n || (! loop.time.empty() && loop.time.size() != n))
-        return wrong ("fit/too_short", "the recording has " + std::to_string (n) + " rows; a fit needs at least " + std::to_string (fewest),
-                      "record the whole contact, from before the touch until after the tool has left");
+    if (n < fewest_impact_rows || loop.force.size() != n || (! loop.time.empty() && loop.time.size() != n))
+        return detail::fitError ("fit/too_short",
+                                 "the recording has " + std::to_string (n) + " rows; a fit needs at least " + std::to_string (fewest_impact_rows),
+                                 "record the whole contact, from before the touch until after the tool has left");
     for (const auto* column : { &loop.depth, &loop.force, &loop.time })
         if (! std::ranges::all_of (*column, [] (double v) { return std::isfinite (v); }))
-            return wrong ("fit/not_finite", "the recording contains nan or inf", "leave out the rows without a measurement");
+            return detail::fitError ("fit/not_finite", "the recording contains nan or inf", "leave out the rows without a measurement");
     if (std::ranges::adjacent_find (loop.time, std::ranges::greater_equal {}) != loop.time.end())
-        return wrong ("fit/time", "the times do not rise from row to row", "sort the rows by time, or leave out the column t");
+        return detail::fitError ("fit/time", "the times do not rise from row to row", "sort the rows by time, or leave out the column t");
     return {};
 }
 
@@ -78,7 +82,7 @@ Result<Contact> contactOf (const RecordedLoop& loop)
 {
     const auto& d = loop.depth;
     const auto deepest = static_cast<std::size_t> (std::ranges::max_element (d) - d.begin());
-    if (! (d[deepest] > 0.0)) return wrong ("fit/no_contact", "the depth is never above 0", "give the depth in m, positive inside the object");
+    if (! (d[deepest] > 0.0)) return detail::fitError ("fit/no_contact", "the depth is never above 0", "give the depth in m, positive inside the object");
     auto first = deepest, last = deepest;
     while (first > 0 && d[first - 1] > 0.0)
         --first;
@@ -86,10 +90,10 @@ Result<Contact> contactOf (const RecordedLoop& loop)
         ++last;
 
     const double nothing = 1e-3 * d[deepest];   // a row this close to the surface is the touch itself
-    if (deepest == first || deepest == last || last - first + 1 < fewest)
-        return wrong ("fit/no_loop",
-                      "the contact around the deepest row (" + std::to_string (last - first + 1) + " rows) is too short, or does not go both in and out",
-                      "record the whole contact, with at least " + std::to_string (fewest) + " rows inside the object");
+    if (deepest == first || deepest == last || last - first + 1 < fewest_impact_rows)
+        return detail::fitError (
+            "fit/no_loop", "the contact around the deepest row (" + std::to_string (last - first + 1) + " rows) is too short, or does not go both in and out",
+            "record the whole contact, with at least " + std::to_string (fewest_impact_rows) + " rows inside the object");
 
     Contact contact;
     if (first > 0 && d[first] > nothing) addTouch (loop, first - 1, first, first + 1, contact);
@@ -223,29 +227,101 @@ double playedArea (const Candidate& law, double mass, double speed, double durat
         if (const auto out = freeImpact (force, mass, speed, longest); out.isKnown()) return 0.5 * mass * (speed * speed - out.speed * out.speed);
     return 0.5 * mass * speed * speed;   // the damping keeps the mass inside
 }
+/// The integral over the path as weights of the rows, for a force over depth or over time.
+Eigen::RowVectorXd weightsOf (const std::vector<double>& along)
+{
+    Eigen::RowVectorXd w = Eigen::RowVectorXd::Zero (static_cast<Eigen::Index> (along.size()));
+    for (std::size_t i = 1; i < along.size(); ++i)
+    {
+        const auto k = static_cast<Eigen::Index> (i);
+        w[k] += 0.5 * (along[i] - along[i - 1]);
+        w[k - 1] += 0.5 * (along[i] - along[i - 1]);
+    }
+    return w;
+}
+
+/// The law as F = u^n (K + C d'), with u the depth over the largest depth. Of (K, n, C), only the directions along which the area stays are fitted; the
+/// third one follows from the recorded area.
+void reportShock (const Contact& x, const Candidate& law, bool estimates_mass, ShockFit& fit)
+{
+    const auto rows = static_cast<Eigen::Index> (x.size());
+    const double deepest = x.d[x.deepest()], scale = math::pow (deepest, law.n), K = law.k * scale, C = law.c * scale;
+    Eigen::MatrixXd slopes (rows, 3);
+    Eigen::VectorXd left (rows);
+    for (Eigen::Index i = 0; i < rows; ++i)
+    {
+        const auto k = static_cast<std::size_t> (i);
+        const double u = std::max (0.0, x.d[k] / deepest), e = u > 0.0 ? math::pow (u, law.n) : 0.0;
+        slopes.row (i) << e, u > 0.0 ? e * (K + C * x.rate[k]) * math::log (u) : 0.0, e * x.rate[k];
+        left[i] = fit.recorded[k] - fit.fitted[k];
+    }
+    const Eigen::RowVectorXd weights = weightsOf (x.d);
+    const Eigen::Vector3d size = slopes.colwise().norm().cwiseInverse().transpose();
+    const Eigen::MatrixXd J = slopes * size.asDiagonal();
+    const Eigen::RowVector3d area = weights * J;
+    const Eigen::Vector3d q = area.transpose() / area.squaredNorm();
+    const Eigen::Matrix<double, 3, 2> free = Eigen::FullPivLU<Eigen::RowVector3d> (area).kernel();
+    const Eigen::MatrixXd M = J * free;
+    const Eigen::MatrixXd solve = (M.transpose() * M).ldlt().solve (M.transpose());
+    const Eigen::MatrixXd influence = size.asDiagonal() * (free * (solve - (solve * (J * q)) * weights) + q * weights);
+    const Eigen::Matrix3d covariance = detail::covarianceOf (influence, left, 3);
+    const double freedom = detail::independentRows (left) - 3.0, of_k = std::sqrt (covariance (0, 0)) / K;
+
+    auto& report = fit.report;
+    report.values.push_back (detail::withLogInterval ("stiffness at the deepest point", "N/m", K / deepest, of_k, freedom));
+    report.values.push_back (detail::withInterval ("power of the law", "", law.n, std::sqrt (covariance (1, 1)), freedom));
+    const double lambda = C / K;
+    const Eigen::Vector3d of_lambda { -lambda / K, 0.0, 1.0 / K };
+    report.values.push_back (detail::withInterval ("dissipation", "s/m", lambda, std::sqrt (std::max (0.0, of_lambda.dot (covariance * of_lambda))), freedom));
+    const Eigen::MatrixXd lost = detail::covarianceOf (weights, left, 3);
+    report.values.push_back (detail::withInterval ("lost energy", "J", fit.recorded_area, std::sqrt (lost (0, 0)), freedom, false));
+    if (estimates_mass)
+    {
+        const Eigen::MatrixXd of_mass = detail::covarianceOf (weightsOf (x.t) / (x.rate.front() - x.rate.back()), left, 3);
+        report.values.push_back (detail::withInterval ("mass", "kg", fit.mass, std::sqrt (of_mass (0, 0)), freedom));
+    }
+
+    // One step of Gauss and Newton's method without the rows that are left out.
+    const Eigen::Index block = std::max<Eigen::Index> (1, rows / 50);
+    Eigen::VectorXd kept = Eigen::VectorXd::Ones (rows);
+    for (Eigen::Index i = 0; i < rows; ++i)
+        if (i / block % 5 == 2) kept[i] = 0.0;
+    const Eigen::MatrixXd part = kept.asDiagonal() * M;
+    const Eigen::VectorXd off = left - M * (part.transpose() * part).ldlt().solve (part.transpose() * left);
+    const double count = static_cast<double> (rows) - kept.sum();
+    report.rows = x.size();
+    report.residual_unit = "N";
+    report.residual = fit.residual;
+    report.left_out_residual = count > 0.0 ? std::sqrt ((off.cwiseProduct (Eigen::VectorXd::Ones (rows) - kept)).squaredNorm() / count) : fit.residual;
+    report.size = detail::rootMeanSquare (fit.recorded);
+    report.picture = { "depth", "m", "force", "N", { { "recorded", x.d, fit.recorded, true }, { "fitted, with the same area", x.d, fit.fitted } } };
+    judge (report, "Record the whole impact of a tool that moves freely, with at least 50 rows during the contact.");
+}
 }   // namespace
 
 Result<ShockFit> fitShock (const RecordedLoop& loop, double mass)
 {
-    if (auto checked = check (loop); ! checked) return checked.error();
+    if (auto checked = checkImpact (loop); ! checked) return checked.error();
     auto found = contactOf (loop);
     if (! found) return found.error();
     auto& x = *found;
 
     const bool has_times = ! x.t.empty();
     if (has_times) setRatesByTime (x);
-    if (! (mass > 0.0) && has_times) mass = massByTime (x);
+    const bool estimates_mass = ! (mass > 0.0) && has_times;
+    if (estimates_mass) mass = massByTime (x);
     if (! (mass > 0.0) || ! std::isfinite (mass))
-        return wrong ("fit/mass", "the mass that was thrown back cannot be found from the recording", "give the mass, for example --mass \"50 g\"");
+        return detail::fitError ("fit/mass", "the mass that was thrown back cannot be found from the recording", "give the mass, for example --mass \"50 g\"");
     if (! has_times) setRatesByEnergy (x, mass);
 
     const double area = x.work ([&] (std::size_t i) { return x.f[i]; });
     if (! (area >= 0.0))
-        return wrong ("fit/gains_energy", "the recorded force is larger on the way out than on the way in, so the object would create energy",
-                      "check the order of the rows and the signs: depth and force are positive inside the object");
+        return detail::fitError ("fit/gains_energy", "the recorded force is larger on the way out than on the way in, so the object would create energy",
+                                 "check the order of the rows and the signs: depth and force are positive inside the object");
     auto law = bestOf (x, area);
     if (! std::isfinite (law.error))
-        return wrong ("fit/no_spring", "no law k d^n with damping fits the recording", "check the columns: the force must grow with depth, in N and m");
+        return detail::fitError ("fit/no_spring", "no law k d^n with damping fits the recording",
+                                 "check the columns: the force must grow with depth, in N and m");
     matchArea (x, area, law);
 
     ShockFit fit;
@@ -263,8 +339,9 @@ Result<ShockFit> fitShock (const RecordedLoop& loop, double mass)
     }
     fit.residual = std::sqrt (fit.residual / static_cast<double> (x.size()));
     if (fit.speed > 0.0) fit.played_area = playedArea (law, mass, fit.speed, 4.0 * x.d[x.deepest()] / fit.speed);
+    fit.recorded = x.f;
+    reportShock (x, law, estimates_mass, fit);
     fit.depth = std::move (x.d);
-    fit.recorded = std::move (x.f);
     return fit;
 }
 

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "fit_report.hpp"
+
+#include <tactus/text/number_text.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus
+{
+
+const FitValue& FitReport::at (const std::string& name) const { return *std::ranges::find (values, name, &FitValue::name); }
+
+void judge (FitReport& report, const std::string& record_more, double most)
+{
+    constexpr double wide = 0.25, much_worse = 1.5;
+    if (! (report.residual <= most * report.size))
+        report.lacking.push_back ("the model leaves " + roundedText (100.0 * report.residual / report.size) + " % of the recording unexplained");
+    if (! (report.left_out_residual <= much_worse * report.residual + 1e-3 * report.size))
+        report.lacking.push_back (
+            "a part that was not fitted is predicted much worse than the rest is fitted: the recording is too short or changes on the way");
+    std::string unsure;
+    for (const auto& v : report.values)
+        if (v.is_main && ! (v.high - v.low <= 2.0 * wide * std::abs (v.value))) unsure += (unsure.empty() ? "" : ", ") + v.name;
+    if (! unsure.empty()) report.lacking.push_back ("the recording says little about: " + unsure);
+    report.is_good = report.lacking.empty();
+    if (! report.is_good) report.lacking.push_back (record_more);
+}
+
+namespace detail
+{
+
+Message fitError (const char* id, std::string text, std::string remedy) { return Message::error (id, {}, std::move (text), std::move (remedy)); }
+
+Message fitCancelled() { return fitError ("fit/cancelled", "the fit was cancelled", "start it again"); }
+
+double rootMeanSquare (const std::vector<double>& values)
+{
+    double sum = 0.0;
+    for (const double v : values)
+        sum += v * v;
+    return values.empty() ? 0.0 : std::sqrt (sum / static_cast<double> (values.size()));
+}
+
+Result<> checkColumns (const std::vector<const std::vector<double>*>& columns, std::size_t fewest, const std::string& what)
+{
+    const auto n = columns.front()->size();
+    if (n < fewest || ! std::ranges::all_of (columns, [n] (const auto* c) { return c->size() == n; }))
+        return fitError ("fit/too_short", "the recording has " + std::to_string (n) + " rows; a fit needs at least " + std::to_string (fewest),
+                         "record " + what);
+    for (const auto* column : columns)
+        if (! std::ranges::all_of (*column, [] (double v) { return std::isfinite (v); }))
+            return fitError ("fit/not_finite", "the recording contains nan or inf", "leave out the rows without a measurement");
+    return {};
+}
+
+Result<double> evenStep (const std::vector<double>& time)
+{
+    const double step = (time.back() - time.front()) / static_cast<double> (time.size() - 1);
+    if (std::ranges::adjacent_find (time, std::ranges::greater_equal {}) != time.end() || ! (step > 0.0))
+        return fitError ("fit/time", "the times do not rise from row to row", "sort the rows by time");
+    for (std::size_t i = 0; i < time.size(); ++i)
+        if (std::abs (time[i] - time.front() - step * static_cast<double> (i)) > 0.5 * step)
+            return fitError ("fit/uneven", "the rows are not evenly spaced: row " + std::to_string (i + 1) + " is off by more than half a row",
+                             "record at a constant rate, or resample the recording");
+    return step;
+}
+
+}   // namespace detail
+
+}   // namespace tactus

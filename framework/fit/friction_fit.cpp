@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: MIT
+#include "friction_fit.hpp"
+#include "least_squares.hpp"
+
+#include <tactus/kit/math/math.hpp>
+#include <tactus/text/number_text.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace tactus
+{
+
+namespace
+{
+using detail::fitError;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr std::size_t fewest_drag_rows = 50;
+
+/// What the fit varies besides mu and the offset, in which the force is linear.
+struct DragShape
+{
+    BristleAdhesion adhesion {};
+    double d_max = 0.0, break_away = 1.0, first_stretch = 0.0;
+};
+
+/// The rows as the search needs them. The force is that on the tool.
+struct Drag
+{
+    std::vector<double> position, force, load;   // load relative to the reference load
+    double reference_load = 1.0, range = 0.0;    // N, m
+    bool goes_both_ways = false;
+
+    std::size_t size() const noexcept { return position.size(); }
+};
+
+/// The force on the tool per mu and per N of reference load.
+VectorXd dragAlong (const Drag& drag, const DragShape& shape, std::size_t rows)
+{
+    Bristle bristle { .adhesion = shape.adhesion };
+    const auto setBound = [&] (double load) {
+        const double bound = std::max (1e-30, shape.d_max * load);
+        const bool shrinks = bound < bristle.d_max;
+        bristle.d_max = bristle.d_stick = bound;
+        bristle.d_ba = shape.break_away * bound;
+        return shrinks;
+    };
+    setBound (drag.load[0]);
+    Vec3 d = Vec3::UnitX() * (shape.first_stretch * bristle.d_max);
+    VectorXd force (static_cast<Index> (rows));
+    for (std::size_t i = 0; i < rows; ++i)
+    {
+        if (i > 0)
+        {
+            if (setBound (drag.load[i])) bristle.letGo (d);
+            d = bristle.stretch (d, Vec3::UnitX() * (drag.position[i] - drag.position[i - 1])).d;
+        }
+        force[static_cast<Index> (i)] = -d.x() / shape.d_max;
+    }
+    return force;
+}
+
+/// The parameters of the search: ln mu, ln d_max, the first stretch and then, if they are fitted, offset and the logit of break_away.
+class DragSearch
+{
+public:
+    DragSearch (const Drag& d, BristleAdhesion a, std::size_t r, const FitCourse* c) : drag (d), adhesion (a), rows (r), course (c) {}
+
+    Index parameters() const { return 3 + offsets() + yields(); }
+    Index offsets() const { return drag.goes_both_ways ? 1 : 0; }
+    Index yields() const { return adhesion == BristleAdhesion::dupont ? 1 : 0; }
+
+    double mu (const VectorXd& x) const { return math::exp (x[0]); }
+    double offset (const VectorXd& x) const { return offsets() > 0 ? x[3] * unit() : 0.0; }
+    static double share (double x) { return 1.0 / (1.0 + math::exp (-x)); }
+    DragShape shape (const VectorXd& x) const
+    {
+        return { adhesion, math::exp (x[1]), yields() > 0 ? share (x[parameters() - 1]) : 1.0, std::clamp (x[2], -1.0, 1.0) };
+    }
+    VectorXd start (const DragShape& s, double mu, double zero) const
+    {
+        VectorXd x (parameters());
+        x[0] = math::log (mu);
+        x[1] = math::log (s.d_max);
+        x[2] = s.first_stretch;
+        if (offsets() > 0) x[3] = zero / unit();
+        if (yields() > 0) x[parameters() - 1] = math::log (s.break_away / (1.0 - s.break_away));
+        return x;
+    }
+    VectorXd modelled (const VectorXd& x, std::size_t up_to) const
+    {
+        return ((mu (x) * drag.reference_load) * dragAlong (drag, shape (x), up_to)).array() + offset (x);
+    }
+    detail::LeastSquares problem() const
+    {
+        return { .rows = static_cast<Index> (rows),
+                 .residual = [this] (const VectorXd& x, VectorXd& r) {
+                     r = Eigen::Map<const VectorXd> (drag.force.data(), static_cast<Index> (rows)) - modelled (x, rows);
+                 },
+                 .step = 1e-4,
+                 .course = course };
+    }
+
+private:
+    double unit() const { return drag.reference_load; }
+
+    const Drag& drag;
+    BristleAdhesion adhesion;
+    std::size_t rows;
+    const FitCourse* course;
+};
+
+Result<Drag> dragOf (const RecordedDrag& recorded, std::vector<std::string>& notes)
+{
+    std::vector<const std::vector<double>*> columns { &recorded.position, &recorded.force };
+    if (! recorded.load.empty()) columns.push_back (&recorded.load);
+    if (auto checked = detail::checkColumns (columns, fewest_drag_rows, "several strokes back and forth"); ! checked) return checked.error();
+
+    Drag drag { .position = recorded.position, .force = recorded.force, .load = recorded.load, .reference_load = recorded.assumed_load };
+    const auto [low, high] = std::ranges::minmax_element (drag.position);
+    drag.range = *high - *low;
+    if (! (drag.range > 0.0)) return fitError ("fit/no_motion", "the position does not change", "record the position along the stroke, in m");
+    if (drag.load.empty())
+    {
+        drag.load.assign (drag.size(), 1.0);
+        notes.push_back ("the load was not recorded: mu is the force while sliding, divided by " + roundedText (recorded.assumed_load) + " N");
+    }
+    else
+    {
+        drag.reference_load = std::accumulate (drag.load.begin(), drag.load.end(), 0.0) / static_cast<double> (drag.size());
+        if (! (drag.reference_load > 0.0))
+            return fitError ("fit/no_load", "the mean normal force is not above 0",
+                             "give the normal force in N, positive where the tool is pressed onto the surface");
+        for (double& load : drag.load)
+            load = std::max (0.0, load / drag.reference_load);
+    }
+
+    double forward = 0.0, back = 0.0, work = 0.0, middle = std::accumulate (drag.force.begin(), drag.force.end(), 0.0) / static_cast<double> (drag.size());
+    for (std::size_t i = 1; i < drag.size(); ++i)
+    {
+        const double dx = drag.position[i] - drag.position[i - 1];
+        (dx > 0.0 ? forward : back) += std::abs (dx);
+        work += 0.5 * (drag.force[i] + drag.force[i - 1]) * dx;
+    }
+    drag.goes_both_ways = std::min (forward, back) > 0.2 * std::max (forward, back);
+    if (drag.goes_both_ways) work -= middle * (drag.position.back() - drag.position.front());
+    if (work > 0.0)
+    {
+        for (double& f : drag.force)
+            f = -f;
+        notes.push_back ("the recorded force is along the movement, so it is taken as the force of the hand; friction is its opposite");
+    }
+    return drag;
+}
+
+/// The best of a coarse grid: mu and offset by linear least squares for each shape.
+struct DragStart
+{
+    DragShape shape;
+    double mu = 0.1, offset = 0.0, error = std::numeric_limits<double>::infinity();
+};
+
+DragStart coarse (const Drag& drag, BristleAdhesion adhesion, std::size_t rows)
+{
+    constexpr int lengths = 18;
+    const auto n = static_cast<double> (rows);
+    const Eigen::Map<const VectorXd> force (drag.force.data(), static_cast<Index> (rows));
+    DragStart best;
+    const auto yields = adhesion == BristleAdhesion::dupont ? std::vector { 0.2, 0.5, 0.8 } : std::vector { 1.0 };
+    for (int i = 0; i < lengths; ++i)
+        for (const double break_away : yields)
+            for (const double first : { -0.9, 0.0, 0.9 })
+            {
+                const DragShape shape { adhesion, drag.range * math::pow (10.0, -3.0 + 2.9 * i / (lengths - 1)), break_away, first };
+                const VectorXd unit = drag.reference_load * dragAlong (drag, shape, rows);
+                const double mean_unit = drag.goes_both_ways ? unit.sum() / n : 0.0, mean = drag.goes_both_ways ? force.sum() / n : 0.0;
+                const double mu = (unit.array() - mean_unit).matrix().dot ((force.array() - mean).matrix()) / (unit.array() - mean_unit).matrix().squaredNorm();
+                const double offset = mean - mu * mean_unit, error = (force - mu * unit).array().operator- (offset).matrix().squaredNorm();
+                if (mu > 0.0 && error < best.error) best = { shape, mu, offset, error };
+            }
+    return best;
+}
+
+struct FoundDrag
+{
+    BristleAdhesion adhesion {};
+    detail::LeastSquaresFit fit;
+    double score = 0.0;   // BIC
+};
+
+/// Fits for the adhesion functions, the best first. A function with another parameter must earn it (BIC).
+std::vector<FoundDrag> search (const Drag& drag, FitCourse* course)
+{
+    constexpr std::array all { BristleAdhesion::stick, BristleAdhesion::dupont, BristleAdhesion::ramp, BristleAdhesion::dahl };
+    constexpr double hopeless = 2.0;   // sum of squares of a coarse search, relative to the best one
+    std::array<DragStart, all.size()> starts;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+        if (detail::isCancelled (course)) return {};
+        starts[i] = coarse (drag, all[i], drag.size());
+        least = std::min (least, starts[i].error);
+        detail::setShare (course, 0.1 * static_cast<double> (i + 1));
+    }
+    std::vector<FoundDrag> found;
+    double independent = 0.0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+        detail::setShare (course, 0.4 + 0.1 * static_cast<double> (i));
+        if (! (starts[i].error <= hopeless * least) || detail::isCancelled (course)) continue;
+        const DragSearch search (drag, all[i], drag.size(), course);
+        auto fit = detail::minimise (search.problem(), search.start (starts[i].shape, starts[i].mu, starts[i].offset));
+        if (independent == 0.0) independent = std::max (20.0, detail::independentRows (fit.residual));
+        const double score = independent * math::log (fit.sum()) + static_cast<double> (search.parameters()) * math::log (independent);
+        found.push_back ({ all[i], std::move (fit), score });
+    }
+    std::ranges::sort (found, {}, &FoundDrag::score);
+    return found;
+}
+/// Deviations of ln mu, ln d_max and ln stiffness for one adhesion function; infinite for what the recording does not set.
+Eigen::Vector3d deviations (Index parameters, const detail::LeastSquaresFit& fit)
+{
+    const auto covariance = detail::covarianceOf (detail::influenceOf (fit), fit.residual, parameters);
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    const auto set = detail::isSet (fit);
+    const auto one = [&] (Index i) { return set[static_cast<std::size_t> (i)] ? std::sqrt (std::max (0.0, covariance (i, i))) : unknown; };
+    const double of_stiffness = set[0] && set[1] ? std::sqrt (std::max (0.0, covariance (0, 0) + covariance (1, 1) - 2.0 * covariance (0, 1))) : unknown;
+    return { one (0), one (1), of_stiffness };
+}
+
+/// Adhesion functions that fit almost as well widen the intervals, each by its probability (Buckland, Burnham & Augustin 1997).
+void reportDrag (const Drag& drag, const std::vector<FoundDrag>& all, FrictionFit& result)
+{
+    const auto& best = all.front();
+    const DragSearch search (drag, best.adhesion, drag.size(), nullptr);
+    const auto& x = best.fit.x;
+    const auto covariance = detail::covarianceOf (detail::influenceOf (best.fit), best.fit.residual, search.parameters());
+    const double freedom = detail::independentRows (best.fit.residual) - static_cast<double> (search.parameters());
+    Eigen::Vector3d variance = Eigen::Vector3d::Zero();
+    double sum = 0.0;
+    for (const auto& other : all)
+    {
+        const double weight = math::exp (-0.5 * std::min (100.0, other.score - best.score));
+        if (weight < 1e-3) continue;
+        const DragSearch of_other (drag, other.adhesion, drag.size(), nullptr);
+        const auto spread = deviations (of_other.parameters(), other.fit);
+        const double mu = other.fit.x[0] - x[0], d_max = other.fit.x[1] - x[1];
+        const Eigen::Vector3d off { mu, d_max, mu - d_max };
+        variance += weight * (spread.cwiseProduct (spread) + off.cwiseProduct (off));
+        sum += weight;
+    }
+    const Eigen::Vector3d deviation = (variance / sum).cwiseSqrt();
+    auto& values = result.report.values;
+    values = { detail::withLogInterval ("mu", "", result.mu, deviation[0], freedom),
+               detail::withLogInterval ("d_max", "m", result.d_max, deviation[1], freedom),
+               detail::withLogInterval ("stiffness", "N/m", result.stiffness(), deviation[2], freedom) };
+    if (search.yields() > 0)
+    {
+        const Index i = search.parameters() - 1;
+        const double half_width = detail::halfWidth95 (freedom) * std::sqrt (covariance (i, i));
+        values.push_back ({ "break_away", "", result.break_away, DragSearch::share (x[i] - half_width), DragSearch::share (x[i] + half_width), false });
+    }
+    if (search.offsets() > 0)
+        values.push_back (detail::withInterval ("zero of the force", "N", result.offset, std::sqrt (covariance (3, 3)) * drag.reference_load, freedom, false));
+}
+}   // namespace
+
+std::vector<double> FrictionFit::forceAlong (const RecordedDrag& recorded) const
+{
+    Drag drag { .position = recorded.position, .force = {}, .load = recorded.load };
+    if (drag.load.empty()) drag.load.assign (drag.size(), recorded.assumed_load);
+    for (double& load : drag.load)
+        load = std::max (0.0, load / reference_load);
+    const VectorXd force = (mu * reference_load) * dragAlong (drag, { adhesion, d_max, break_away, first_stretch }, drag.size());
+    return { force.begin(), force.end() };
+}
+
+Result<FrictionFit> fitFriction (const RecordedDrag& recorded, FitCourse* course)
+{
+    FrictionFit result;
+    auto& report = result.report;
+    auto read = dragOf (recorded, report.notes);
+    if (! read) return read.error();
+    const auto& drag = *read;
+    const auto n = drag.size();
+
+    const auto all = search (drag, course);
+    if (detail::isCancelled (course)) return detail::fitCancelled();
+    if (all.empty())
+        return fitError ("fit/no_friction", "the force does not follow the movement as friction does",
+                         "check the columns: the force along the stroke in N, the position in m");
+
+    const auto& found = all.front();
+    const DragSearch search (drag, found.adhesion, n, course), first_half (drag, found.adhesion, n / 2, course);
+    const auto& x = found.fit.x;
+    const auto half = detail::minimise (first_half.problem(), x);
+    if (detail::isCancelled (course)) return detail::fitCancelled();
+    const auto shape = search.shape (x);
+    result.adhesion = found.adhesion;
+    result.mu = search.mu (x);
+    result.d_max = shape.d_max;
+    result.break_away = shape.break_away;
+    result.first_stretch = shape.first_stretch;
+    result.reference_load = drag.reference_load;
+    result.offset = search.offset (x);
+
+    reportDrag (drag, all, result);
+
+    const VectorXd modelled = search.modelled (x, n), predicted = search.modelled (half.x, n);
+    const Eigen::Map<const VectorXd> force (drag.force.data(), static_cast<Index> (n));
+    const auto second = static_cast<Index> (n - n / 2);
+    report.rows = n;
+    report.residual_unit = "N";
+    report.residual = std::sqrt (found.fit.sum() / static_cast<double> (n));
+    report.left_out_residual = std::sqrt ((force - predicted).tail (second).squaredNorm() / static_cast<double> (second));
+    report.size = detail::rootMeanSquare (drag.force);
+    report.picture = { "position",
+                       "m",
+                       "friction force",
+                       "N",
+                       { { "recorded", drag.position, drag.force, true }, { "fitted", drag.position, { modelled.begin(), modelled.end() } } } };
+    judge (report, "Record at least three slow strokes back and forth, each several times longer than the contact gives before it slides.");
+    return result;
+}
+
+}   // namespace tactus

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "fit_report.hpp"
+
+namespace tactus
+{
+
+/// The height of a surface along a line across its ridges.
+struct RecordedProfile
+{
+    std::vector<double> position {}, height {};   ///< m; positions rise, evenly or not
+    int most_harmonics = 8;
+};
+
+/// Ridges, sum of amplitude_i sin (2 pi i x / period + phase_i) with i from 1, x as recorded.
+struct GratingFit
+{
+    struct Harmonic
+    {
+        int number = 1;
+        double amplitude = 0.0, phase = 0.0;   // m, rad
+    };
+
+    double period = 0.0;   ///< m
+    std::vector<Harmonic> harmonics {};
+    FitReport report {};
+};
+
+/// Fits period and harmonics, together with the tilt and bow of the sample. The recording selects how many harmonics there are (BIC). The
+/// cross-validation leaves out every fifth of 50 parts.
+///
+/// Errors: fit/too_short, fit/not_finite, fit/position, fit/flat, fit/no_ridges, fit/cancelled. [any thread]
+Result<GratingFit> fitGrating (const RecordedProfile&, FitCourse* = nullptr);
+
+}   // namespace tactus

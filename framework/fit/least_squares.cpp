@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "least_squares.hpp"
+
+#include <tactus/kit/math/math.hpp>
+
+#include <Eigen/Eigenvalues>
+#include <unsupported/Eigen/NonLinearOptimization>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tactus::detail
+{
+
+namespace
+{
+/// What Eigen's optimiser asks for.
+struct Functor
+{
+    using Scalar = double;
+    using InputType = Eigen::VectorXd;
+    using ValueType = Eigen::VectorXd;
+    using JacobianType = Eigen::MatrixXd;
+    enum
+    {
+        InputsAtCompileTime = Eigen::Dynamic,
+        ValuesAtCompileTime = Eigen::Dynamic
+    };
+
+    const LeastSquares& problem;
+    Eigen::Index parameters;
+
+    Eigen::Index inputs() const { return parameters; }
+    Eigen::Index values() const { return problem.rows; }
+
+    int operator() (const Eigen::VectorXd& x, Eigen::VectorXd& residual) const
+    {
+        problem.residual (x, residual);
+        return isCancelled (problem.course) ? -1 : 0;
+    }
+
+    int df (const Eigen::VectorXd& x, Eigen::MatrixXd& jacobian) const
+    {
+        if (problem.jacobian)
+        {
+            problem.jacobian (x, jacobian);
+            return 0;
+        }
+        Eigen::VectorXd moved = x, above (problem.rows), below (problem.rows);
+        for (Eigen::Index i = 0; i < parameters; ++i)
+        {
+            moved[i] = x[i] + problem.step;
+            problem.residual (moved, above);
+            moved[i] = x[i] - problem.step;
+            problem.residual (moved, below);
+            moved[i] = x[i];
+            jacobian.col (i) = (above - below) / (2.0 * problem.step);
+        }
+        return isCancelled (problem.course) ? -1 : 0;
+    }
+};
+
+/// An autoregressive model of residuals.
+struct Dependence
+{
+    std::vector<double> a;   // r_n = sum_k a_k r_(n-k) + e_n
+    double variance = 1.0;   // of e, relative to that of r
+};
+
+/// Burg's method, with the order that BIC selects. Stable by construction.
+Dependence dependenceOf (const Eigen::VectorXd& r)
+{
+    const auto n = r.size();
+    const Eigen::Index most = std::min<Eigen::Index> (20, n / 20);
+    Eigen::VectorXd forward = r, backward = r;
+    std::vector<double> a;
+    double variance = 1.0, least = 0.0;
+    Dependence best;
+    for (Eigen::Index m = 1; m <= most; ++m)
+    {
+        const auto f = forward.tail (n - m), b = backward.segment (m - 1, n - m);
+        const double power = f.squaredNorm() + b.squaredNorm();
+        if (! (power > 0.0)) break;
+        const double k = 2.0 * f.dot (b) / power;
+        const Eigen::VectorXd next_f = f - k * b, next_b = b - k * f;
+        forward.tail (n - m) = next_f;
+        backward.segment (m, n - m) = next_b;
+        const auto before = a;
+        for (std::size_t j = 0; j < before.size(); ++j)
+            a[j] = before[j] - k * before[before.size() - 1 - j];
+        a.push_back (k);
+        variance *= std::max (1e-12, 1.0 - k * k);
+        const double bic = static_cast<double> (n) * math::log (variance) + static_cast<double> (m) * math::log (static_cast<double> (n));
+        if (bic >= least) continue;
+        least = bic;
+        best = { a, variance };
+    }
+    return best;
+}
+}   // namespace
+
+LeastSquaresFit evaluated (const LeastSquares& problem, const Eigen::VectorXd& x)
+{
+    LeastSquaresFit fit { .x = x, .residual = Eigen::VectorXd (problem.rows), .jacobian = Eigen::MatrixXd (problem.rows, x.size()) };
+    problem.residual (x, fit.residual);
+    Functor { problem, x.size() }.df (x, fit.jacobian);
+    return fit;
+}
+
+LeastSquaresFit minimise (const LeastSquares& problem, Eigen::VectorXd x)
+{
+    Functor functor { problem, x.size() };
+    Eigen::LevenbergMarquardt<Functor> search (functor);
+    search.parameters.maxfev = 400;
+    search.parameters.ftol = search.parameters.xtol = 1e-9;
+    search.minimize (x);
+    return evaluated (problem, x);
+}
+
+Eigen::MatrixXd influenceOf (const LeastSquaresFit& fit)
+{
+    // The residual is recorded minus model, so the sign of its slope is that of the model, turned.
+    constexpr double none = 1e-10;
+    Eigen::VectorXd scale = fit.jacobian.colwise().norm();
+    for (double& s : scale)
+        s = s > 0.0 ? 1.0 / s : 0.0;
+    const Eigen::MatrixXd scaled = fit.jacobian * scale.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> normal (scaled.transpose() * scaled);
+    Eigen::VectorXd inverse = normal.eigenvalues();
+    for (double& v : inverse)
+        v = v > none ? 1.0 / v : 0.0;
+    return -(scale.asDiagonal() * (normal.eigenvectors() * inverse.asDiagonal() * normal.eigenvectors().transpose())) * scaled.transpose();
+}
+
+std::vector<bool> isSet (const LeastSquaresFit& fit)
+{
+    constexpr double none = 1e-8, part = 1e-2;
+    const auto p = fit.jacobian.cols();
+    Eigen::VectorXd scale = fit.jacobian.colwise().norm();
+    std::vector<bool> set (static_cast<std::size_t> (p));
+    for (Eigen::Index i = 0; i < p; ++i)
+        set[static_cast<std::size_t> (i)] = scale[i] > 1e-12 * scale.maxCoeff();
+    for (double& s : scale)
+        s = s > 0.0 ? 1.0 / s : 0.0;
+    const Eigen::MatrixXd scaled = fit.jacobian * scale.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> normal (scaled.transpose() * scaled);
+    for (Eigen::Index k = 0; k < p; ++k)
+        if (normal.eigenvalues()[k] <= none)
+            for (Eigen::Index i = 0; i < p; ++i)
+                if (std::abs (normal.eigenvectors() (i, k)) > part) set[static_cast<std::size_t> (i)] = false;
+    return set;
+}
+
+/// Errors e that are independent pass an all-pole filter and become r. So the estimate moves with e by the influence, filtered backwards in time.
+/// A parameter takes up the error of one independent row, which is that of several rows if they depend on one another.
+Eigen::MatrixXd covarianceOf (const Eigen::MatrixXd& influence, const Eigen::VectorXd& residual, Eigen::Index parameters)
+{
+    const auto n = residual.size(), p = influence.rows();
+    const auto dependence = dependenceOf (residual);
+    const double independent = independentRows (residual), taken = std::min (static_cast<double> (parameters), 0.8 * independent);
+    const double variance = residual.squaredNorm() / static_cast<double> (n) * independent / (independent - taken) * dependence.variance;
+    if (dependence.a.empty()) return variance * influence * influence.transpose();
+
+    // The filter rings beyond the first row.
+    const Eigen::Index before = std::min<Eigen::Index> (n, 2000);
+    Eigen::MatrixXd filtered = Eigen::MatrixXd::Zero (p, n + before);
+    for (Eigen::Index s = n + before; s-- > 0;)
+    {
+        if (s >= before) filtered.col (s) = influence.col (s - before);
+        for (std::size_t k = 0; k < dependence.a.size(); ++k)
+            if (const auto later = s + 1 + static_cast<Eigen::Index> (k); later < n + before) filtered.col (s) += dependence.a[k] * filtered.col (later);
+    }
+    return variance * filtered * filtered.transpose();
+}
+
+double independentRows (const Eigen::VectorXd& residual)
+{
+    const auto dependence = dependenceOf (residual);
+    double gain = 1.0;   // of the all-pole filter at frequency 0
+    for (const double a : dependence.a)
+        gain -= a;
+    return static_cast<double> (residual.size()) * std::min (1.0, gain * gain / dependence.variance);
+}
+
+double halfWidth95 (double freedom)
+{
+    const double n = std::max (1.0, freedom);
+    return 1.959964 + 2.3722 / n + 2.8225 / (n * n) + 5.0 / (n * n * n);   // Student's t to about 1 %, from 2 degrees of freedom on
+}
+
+FitValue withInterval (std::string name, std::string unit, double value, double deviation, double freedom, bool is_main)
+{
+    const double half = halfWidth95 (freedom) * deviation;
+    return { std::move (name), std::move (unit), value, value - half, value + half, is_main };
+}
+
+FitValue withLogInterval (std::string name, std::string unit, double value, double log_deviation, double freedom, bool is_main)
+{
+    const double factor = math::exp (halfWidth95 (freedom) * log_deviation);
+    return { std::move (name), std::move (unit), value, value / factor, value * factor, is_main };
+}
+
+}   // namespace tactus::detail

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "fit_report.hpp"
+
+#include <optional>
+
+namespace tactus
+{
+
+/// What a struck object did after the blow: its acceleration, speed, force or sound, in any unit.
+struct RecordedRing
+{
+    std::vector<double> time {}, value {};   ///< s, evenly spaced
+    std::optional<double> from {}, to {};    ///< s; the part that is fitted. Not given: from the largest value to where the ring is a twentieth of it
+    int most_modes = 8;
+};
+
+/// Decaying tones, sum of amplitude e^(-decay t) sin (2 pi frequency t + phase), with t from the start of the fitted part.
+struct ModesFit
+{
+    struct Tone
+    {
+        double frequency = 0.0, decay = 0.0, amplitude = 0.0, phase = 0.0;   // Hz, 1/s, unit of the recording, rad
+        double energy = 0.0;                                                 // share of the energy of all modes
+    };
+
+    std::vector<Tone> tones {};   ///< by frequency
+    double start = 0.0;           ///< s: the time in the recording at which t is 0
+    FitReport report {};
+};
+
+/// Fits decaying tones and a slow drift of the sensor. The matrix pencil method gives start values for each number of tones, least squares
+/// refines them, and the recording selects the number (BIC). The cross-validation leaves out every fifth of 50 parts.
+///
+/// Errors: fit/too_short, fit/not_finite, fit/time, fit/uneven, fit/silent, fit/no_ring, fit/cancelled. [any thread]
+///
+/// Source of the start values: Hua & Sarkar 1990, matrix pencil.
+Result<ModesFit> fitModes (const RecordedRing&, FitCourse* = nullptr);
+
+}   // namespace tactus

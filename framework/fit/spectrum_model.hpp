@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "least_squares.hpp"
+
+#include <Eigen/Core>
+
+#include <span>
+#include <vector>
+
+namespace tactus::detail
+{
+
+/// Periodograms of stretches of one signal: each a power density relative to the mean power of a row, at frequencies in rad per row.
+struct Periodogram
+{
+    std::vector<double> frequency {}, power {};
+    double widening = 1.0;   ///< by which tapering the ends of the stretches increases variances
+};
+
+Periodogram periodogramOf (const std::vector<std::span<const double>>& stretches);
+
+/// An autoregressive model with a white floor.
+struct SpectrumModel
+{
+    std::vector<double> coefficients {};
+    double variance = 1.0, floor = 0.0;
+    Eigen::MatrixXd covariance {};   ///< of the coefficients, ln variance and the floor
+};
+
+/// By Whittle's likelihood, with at most this many coefficients. The stretches give the start values.
+SpectrumModel fitSpectrum (const Periodogram&, const std::vector<std::span<const double>>& stretches, int most_coefficients, const FitCourse*);
+
+}   // namespace tactus::detail

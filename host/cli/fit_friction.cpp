@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit_command.hpp"
+
+namespace tactus::host
+{
+
+void addFitFriction (const Command& fit)
+{
+    const auto friction =
+        addFitKind (fit, FitKind::friction, "Fit friction.elasto_plastic to strokes back and forth",
+                    "Finds mu, d_max (how far the contact gives before it slides), the adhesion function and the stiffness. Record at least three\n"
+                    "slow strokes back and forth, several times longer than the contact gives.\n\n"
+                    "Examples:\n"
+                    "  tactus fit friction strokes.csv -o wood.json --plot wood.png\n"
+                    "  tactus fit friction strokes.txt --column \"position=Position [mm]\" --load \"2 N\" -o wood.json");
+    friction.addAmount ("--load", "N", "2 N", "Normal force, if it was not recorded; default: 1 N, so that mu is the force while sliding in N",
+                        [] (FitSettings& s, double newtons) { s.load = newtons; });
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit_command.hpp"
+
+namespace tactus::host
+{
+
+void addFitGrating (const Command& fit)
+{
+    const auto grating =
+        addFitKind (fit, FitKind::grating, "Fit texture.grating to a scanned profile of ridges",
+                    "Finds the period and the amplitude of each harmonic. The preset has one texture.grating per harmonic, with the force that a tool\n"
+                    "without friction feels: load times slope.\n\n"
+                    "Example:\n"
+                    "  tactus fit grating scan.csv --load \"0.5 N\" -o ridges.json --plot ridges.png");
+    grating.addAmount ("--load", "N", "0.5 N", "Normal force of the tool in the preset; default 1 N",
+                       [] (FitSettings& s, double newtons) { s.load = newtons; });
+    grating.command.addOption ("--most", grating.options->settings.most, "Largest number of harmonics; default 8").check (within (1, 32));
+}
+
+}   // namespace tactus::host

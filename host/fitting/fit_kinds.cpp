@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fitting.hpp"
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+namespace
+{
+FitColumn column (const char* role, const char* unit, bool required, std::vector<std::string> names, const char* about)
+{
+    names.insert (names.begin(), role);
+    return { role, unit, required, std::move (names), about };
+}
+
+const std::vector<std::string> along { "x", "displacement", "travel" };
+
+std::vector<double> valuesOf (const Table& table, const FitColumn& wanted)
+{
+    auto values = columnOf (table, {}, wanted);
+    return values ? *values : std::vector<double> {};
+}
+
+bool has (const Table& table, FitKind kind, const std::string& role)
+{
+    const auto& columns = infoOf (kind).columns;
+    const auto found = std::ranges::find (columns, role, &FitColumn::role);
+    return found != columns.end() && findColumn (table, *found);
+}
+
+/// How often a course turns back by more than a fifth of its range.
+int turns (const std::vector<double>& v)
+{
+    const auto [low, high] = std::ranges::minmax (v);
+    double least = v[0], most = v[0];
+    int count = 0, way = 0;
+    for (const double now : v)
+    {
+        least = std::min (least, now);
+        most = std::max (most, now);
+        const bool falls = most - now > 0.2 * (high - low), rises = now - least > 0.2 * (high - low);
+        if (! falls && ! rises) continue;
+        const int next = falls ? -1 : 1;
+        if (way != 0 && next != way) ++count;
+        way = next;
+        least = most = now;
+    }
+    return count;
+}
+
+/// Depth and force may be a shock, an indentation or a cut.
+FitKind guessPressed (const Table& table)
+{
+    const auto& columns = infoOf (FitKind::shock).columns;
+    const auto depth = valuesOf (table, columns[0]), t = valuesOf (table, columns[2]);
+    constexpr double brief = 0.1;   // s
+    if (t.size() > 1 && t.back() - t.front() < brief) return FitKind::shock;
+    if (depth.empty()) return FitKind::curve;
+    const double deepest = *std::ranges::max_element (depth);
+    if (depth.back() < 0.5 * deepest) return FitKind::curve;
+
+    const auto force = valuesOf (table, columns[1]);
+    double most = 0.0, fall = 0.0;
+    for (const double f : force)
+    {
+        most = std::max (most, f);
+        fall = std::max (fall, most - f);
+    }
+    return fall > 0.2 * most ? FitKind::blade : FitKind::curve;
+}
+}   // namespace
+
+const std::vector<FitKindInfo>& fitKinds()
+{
+    static const std::vector<FitKindInfo> kinds {
+        { FitKind::friction,
+          "friction",
+          "Friction",
+          "How a tool sticks and slides: friction.elasto_plastic",
+          { column ("position", "m", true, along, "position along the stroke"),
+            column ("force", "N", true, { "friction", "friction_force", "drag" }, "friction force along the stroke"),
+            column ("load", "N", false, { "normal", "normal_force", "push" }, "normal force") } },
+        { FitKind::modes,
+          "modes",
+          "Ring",
+          "The tones of a struck object: vibration.modal",
+          { column ("t", "s", true, { "time" }, "time"),
+            column ("value", "", true, { "acceleration", "accel", "acc", "velocity", "force", "sound", "signal", "a", "y", "column_2" },
+                    "ring, in any unit") } },
+        { FitKind::texture,
+          "texture",
+          "Texture",
+          "The vibration of a tool on a rough surface: texture.noise",
+          { column ("t", "s", true, { "time" }, "time"),
+            column ("acceleration", "m/s2", true, { "accel", "acc", "vibration", "a" }, "acceleration of the tool"),
+            column ("speed", "m/s", false, { "velocity", "v" }, "speed of the tool"),
+            column ("force", "N", false, { "normal", "normal_force", "load" }, "normal force") } },
+        { FitKind::grating,
+          "grating",
+          "Ridges",
+          "The ridges of a scanned profile: texture.grating",
+          { column ("position", "m", true, { "x", "distance", "displacement", "column_1" }, "position along the scan"),
+            column ("height", "m", true, { "z", "profile", "h", "column_2" }, "height") } },
+        { FitKind::blade,
+          "blade",
+          "Cut",
+          "How a sample bursts and is cut: cut.blade",
+          { column ("depth", "m", true, along, "depth of the blade"), column ("force", "N", true, { "resistance" }, "force against the blade") } },
+        { FitKind::curve,
+          "curve",
+          "Press",
+          "Force over depth of a soft body: deform.surface",
+          { column ("depth", "m", true, along, "depth"), column ("force", "N", true, { "resistance" }, "force out of the object") } },
+        { FitKind::shock,
+          "shock",
+          "Impact",
+          "The spring and damper of an impact: shock.hunt_crossley",
+          { column ("depth", "m", true, { "displacement" }, "depth"), column ("force", "N", true, { "resistance" }, "force out of the object"),
+            column ("t", "s", false, { "time" }, "time") } },
+    };
+    return kinds;
+}
+
+const FitKindInfo& infoOf (FitKind kind) { return *std::ranges::find (fitKinds(), kind, &FitKindInfo::kind); }
+
+std::optional<FitKind> guessKind (const Table& table)
+{
+    const auto fits = [&] (FitKind kind) {
+        return std::ranges::all_of (infoOf (kind).columns, [&] (const FitColumn& c) { return ! c.required || findColumn (table, c); });
+    };
+    if (table.rows() < 2) return {};
+    if (has (table, FitKind::grating, "height") && bareName (table.columns[0]) != "column_1" && fits (FitKind::grating)) return FitKind::grating;
+    if (fits (FitKind::texture) && (has (table, FitKind::texture, "speed") || has (table, FitKind::texture, "force"))) return FitKind::texture;
+    if (fits (FitKind::friction))
+    {
+        const auto position = valuesOf (table, infoOf (FitKind::friction).columns[0]);
+        if (has (table, FitKind::friction, "load") || (! position.empty() && turns (position) >= 2)) return FitKind::friction;
+    }
+    if (fits (FitKind::curve)) return guessPressed (table);
+    if (fits (FitKind::modes)) return FitKind::modes;
+    if (fits (FitKind::grating)) return FitKind::grating;
+    return {};
+}
+
+}   // namespace tactus::host

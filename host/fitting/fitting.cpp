@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fitting.hpp"
+#include "fit_presets.hpp"
+#include "surface_preset.hpp"
+
+#include <tactus/fit/curve_fit.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace tactus::host
+{
+
+namespace
+{
+using Columns = std::map<std::string, std::vector<double>>;
+
+Result<Columns> columnsOf (FitKind kind, const Table& table, const std::string& file, const ColumnChoice& choice)
+{
+    Columns columns;
+    for (const auto& wanted : infoOf (kind).columns)
+    {
+        auto values = columnOf (table, file, wanted, choice);
+        if (! values) return values.error();
+        columns[wanted.role] = std::move (*values);
+    }
+    return columns;
+}
+
+double orElse (double given, double value) { return given > 0.0 ? given : value; }
+
+/// "`tactus fit friction` from strokes.csv: residual 5.3 %, good"
+std::string sourceOf (FitKind kind, const std::string& file, const FitReport& report)
+{
+    return "`tactus fit " + infoOf (kind).id + "` from " + std::filesystem::path (file).filename().string() + ": residual "
+           + shortNumber (100.0 * report.residual / report.size, 2) + " % of the recording, " + (report.is_good ? "good" : "poor");
+}
+
+Result<FittedGraph> friction (const Columns& c, const std::string& file, const FitSettings& s, FitCourse* course)
+{
+    auto fit = fitFriction ({ c.at ("position"), c.at ("force"), c.at ("load"), orElse (s.load, 1.0) }, course);
+    if (! fit) return fit.error();
+    FittedGraph made { .kind = FitKind::friction, .preset = frictionPreset (*fit, sourceOf (FitKind::friction, file, fit->report)), .nodes = { "drag" } };
+    constexpr const char* functions[] { "stick", "dupont", "ramp", "dahl", "curve" };
+    made.details.push_back (std::string ("adhesion  ") + functions[static_cast<std::size_t> (fit->adhesion)] + ", d_max at a load of "
+                            + shortNumber (fit->reference_load) + " N");
+    made.report = std::move (fit->report);
+    return made;
+}
+
+Result<FittedGraph> modes (const Columns& c, const std::string& file, const FitSettings& s, FitCourse* course)
+{
+    RecordedRing ring { .time = c.at ("t"), .value = c.at ("value"), .from = s.from, .to = s.to };
+    if (s.most > 0) ring.most_modes = s.most;
+    auto fit = fitModes (ring, course);
+    if (! fit) return fit.error();
+
+    // A recording in m/s2 of a blow of known speed gives newtons; otherwise, only the ratios of the amplitudes are known.
+    double largest = 0.0;
+    for (const auto& tone : fit->tones)
+        largest = std::max (largest, tone.amplitude);
+    const bool is_known = s.speed > 0.0 && s.mass > 0.0;
+    const double scale = is_known ? s.mass / s.speed : 2.0 / largest;
+    const auto how = is_known ? "recorded, in m/s2, times " + shortNumber (1e3 * s.mass) + " g, for a blow of " + shortNumber (s.speed) + " m/s"
+                              : std::string ("only their ratios are fitted; the largest is a guess");
+    FittedGraph made { .kind = FitKind::modes, .preset = modesPreset (*fit, scale, how, sourceOf (FitKind::modes, file, fit->report)), .nodes = { "ring" } };
+    made.report = std::move (fit->report);
+    return made;
+}
+
+Result<FittedGraph> texture (const Columns& c, const std::string& file, const FitSettings& s, FitCourse* course)
+{
+    RecordedTexture recorded { .time = c.at ("t"), .acceleration = c.at ("acceleration"), .speed = c.at ("speed"), .force = c.at ("force") };
+    recorded.assumed_speed = orElse (s.speed, 0.1);
+    recorded.assumed_force = orElse (s.force, 1.0);
+    if (s.most > 0) recorded.most_coefficients = s.most;
+    auto fit = fitTexture (recorded, course);
+    if (! fit) return fit.error();
+    const auto from = s.mass > 0.0 ? "the given mass" : "a guess of the mass of the tip";
+    FittedGraph made { .kind = FitKind::texture,
+                       .preset = texturePreset (*fit, orElse (s.mass, 0.01), from, sourceOf (FitKind::texture, file, fit->report)),
+                       .nodes = { "grain" } };
+    for (std::size_t i = 0; i < fit->models.size(); ++i)
+        made.details.push_back ("model " + std::to_string (i + 1) + "   " + shortNumber (fit->models[i].speed) + " m/s, " + shortNumber (fit->models[i].force)
+                                + " N, " + std::to_string (fit->models[i].rows) + " rows at " + shortNumber (fit->rate) + " Hz");
+    made.report = std::move (fit->report);
+    return made;
+}
+
+Result<FittedGraph> grating (const Columns& c, const std::string& file, const FitSettings& s, FitCourse* course)
+{
+    RecordedProfile profile { c.at ("position"), c.at ("height") };
+    if (s.most > 0) profile.most_harmonics = s.most;
+    auto fit = fitGrating (profile, course);
+    if (! fit) return fit.error();
+    FittedGraph made { .kind = FitKind::grating, .preset = gratingPreset (*fit, orElse (s.load, 1.0), sourceOf (FitKind::grating, file, fit->report)) };
+    for (const auto& h : fit->harmonics)
+        made.nodes.push_back ("ridges" + std::to_string (h.number));
+    made.report = std::move (fit->report);
+    return made;
+}
+
+std::vector<double> fromTouch (std::vector<double> depth, double touch)
+{
+    for (double& d : depth)
+        d -= touch;
+    return depth;
+}
+
+Result<FittedGraph> blade (const Columns& c, const std::string& file, const FitSettings& s, FitCourse* course)
+{
+    auto fit = fitBlade ({ fromTouch (c.at ("depth"), s.touch), c.at ("force"), orElse (s.width, 0.02) }, course);
+    if (! fit) return fit.error();
+    FittedGraph made { .kind = FitKind::blade, .preset = bladePreset (*fit, sourceOf (FitKind::blade, file, fit->report)), .nodes = { "blade" } };
+    made.details.push_back ("law       " + toJson (fit->law).dump() + (fit->cracked_law ? ", with a crack " + toJson (fit->cracked_law).dump() : ""));
+    made.details.push_back ("width     " + shortNumber (1e3 * fit->width) + " mm"
+                            + (s.width > 0.0 ? "" : ", a guess: toughness is the force of cutting divided by it"));
+    made.report = std::move (fit->report);
+    return made;
+}
+
+Result<FittedGraph> curve (const Columns& c, const std::string& file, const FitSettings& s)
+{
+    auto fit = fitCurve ({ .depth = fromTouch (c.at ("depth"), s.touch), .force = c.at ("force") }, s.points);
+    if (! fit) return fit.error();
+    const EvenBody body { .along = fit->law, .mu = s.mu, .ratio = s.ratio };
+    std::string about = "An even body with the curve of a recorded indentation.";
+    if (! fit->out.empty()) about += " The recording lost " + shortNumber (1e3 * fit->area) + " mJ per push; this body loses energy only by friction.";
+    FittedGraph made { .kind = FitKind::curve, .preset = surfacePreset (body, {}, about, sourceOf (FitKind::curve, file, fit->report)), .nodes = { "body" } };
+    if (fit->out.empty())
+        made.details.push_back ("hysteresis  unknown: the way out was not recorded");
+    else
+        made.details.push_back ("hysteresis  " + shortNumber (1e3 * fit->area, 6) + " mJ, " + shortNumber (100.0 * fit->area / fit->work, 2)
+                                + " % of the work on the way in; the curve is the mean of both ways and loses nothing");
+    const auto curves = curvesOf (body);
+    made.details.push_back ("for deform.plane    \"law\": " + toJson (fit->law).dump());
+    made.details.push_back ("for deform.surface  \"curves\": " + curves.at ("curves").dump() + ", \"mu\": " + curves.at ("mu").dump());
+    constexpr double much = 0.02;
+    if (fit->drop > much * fit->peak)
+        made.warnings.push_back (Message::warning (
+            "fit/falls", file, "the recorded force falls by up to " + shortNumber (fit->drop) + " N as the depth grows; the curve is flat there",
+            "a curve of deform.surface does not snap: for a button or a cut, see the presets tactile_key and potato_cut"));
+    made.report = std::move (fit->report);
+    return made;
+}
+
+Result<FittedGraph> shock (const Columns& c, const std::string& file, const FitSettings& s)
+{
+    auto fit = fitShock ({ .depth = c.at ("depth"), .force = c.at ("force"), .time = c.at ("t") }, s.mass);
+    if (! fit) return fit.error();
+    FittedGraph made { .kind = FitKind::shock, .preset = shockPreset (*fit, sourceOf (FitKind::shock, file, fit->report)), .nodes = { "blow" } };
+    made.details = { "stiffness  " + toJson (fit->stiffness).dump(), "damping    " + toJson (fit->damping).dump(),
+                     "mass       " + shortNumber (fit->mass) + " kg, at " + shortNumber (fit->speed) + " m/s",
+                     "area       " + shortNumber (1e3 * fit->recorded_area, 6) + " mJ recorded, " + shortNumber (1e3 * fit->fitted_area, 6) + " mJ fitted, "
+                         + shortNumber (1e3 * fit->played_area, 6) + " mJ when the shock is played at this speed" };
+    constexpr double much = 0.1;
+    if (! (std::abs (fit->played_area - fit->recorded_area) <= much * fit->recorded_area))
+        made.warnings.push_back (
+            Message::warning ("fit/not_free", file, "a free impact of this mass at this speed does not lose the same energy as the recorded one",
+                              "the tool was probably pushed during the recording, or --mass is wrong: correct --mass, or record a tool that moves "
+                              "freely; the fitted force over the recorded depth still has the recorded area"));
+    made.report = std::move (fit->report);
+    return made;
+}
+
+Result<FittedGraph> fitted (FitKind kind, const Columns& c, const std::string& file, const FitSettings& s, FitCourse* course)
+{
+    switch (kind)
+    {
+    case FitKind::friction:
+        return friction (c, file, s, course);
+    case FitKind::modes:
+        return modes (c, file, s, course);
+    case FitKind::texture:
+        return texture (c, file, s, course);
+    case FitKind::grating:
+        return grating (c, file, s, course);
+    case FitKind::blade:
+        return blade (c, file, s, course);
+    case FitKind::curve:
+        return curve (c, file, s);
+    case FitKind::shock:
+        break;
+    }
+    return shock (c, file, s);
+}
+}   // namespace
+
+Result<FittedGraph> fitRecording (FitKind kind, const Table& table, const std::string& file, const FitSettings& settings, FitCourse* course)
+{
+    const auto columns = columnsOf (kind, table, file, settings.columns);
+    if (! columns) return columns.error();
+    auto made = fitted (kind, *columns, file, settings, course);
+    if (! made) return Message::error (made.error().id, file, made.error().text, made.error().remedy);
+    made->preset.name = std::filesystem::path (file).stem().string();
+    return made;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "recording.hpp"
+
+#include <tactus/fit/fit_report.hpp>
+#include <tactus/graph/graph.hpp>
+#include <tactus/text/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tactus::host
+{
+
+enum class FitKind
+{
+    friction,
+    modes,
+    texture,
+    grating,
+    blade,
+    curve,
+    shock
+};
+
+/// What the command line and the window say about a kind of fit.
+struct FitKindInfo
+{
+    FitKind kind;
+    std::string id;      ///< on the command line
+    std::string name;    ///< in the window
+    std::string about;   ///< what is fitted, in one sentence
+    std::vector<FitColumn> columns;
+};
+
+const std::vector<FitKindInfo>& fitKinds();
+const FitKindInfo& infoOf (FitKind);
+
+/// The kind that the columns suggest, and for depth and force the course of the numbers. Empty if none fits.
+std::optional<FitKind> guessKind (const Table&);
+
+/// What a recording does not contain. A value of 0 is not given.
+struct FitSettings
+{
+    ColumnChoice columns {};
+    double load = 0.0;                      ///< N; friction, grating: 1
+    double mass = 0.0;                      ///< kg; shock: from the times; modes and texture: 10 g
+    double speed = 0.0;                     ///< m/s; modes: of the blow; texture: of the stroke
+    double force = 0.0;                     ///< N; texture: normal to the surface
+    double width = 0.0;                     ///< m; blade: 20 mm
+    double touch = 0.0;                     ///< m; blade, curve: depth at which the tool touches
+    std::optional<double> from {}, to {};   ///< s; modes
+    int most = 0;                           ///< modes, coefficients or harmonics
+    int points = 20;                        ///< curve
+    double mu = 0.3, ratio = 0.45;          ///< curve
+};
+
+/// A fit, and a graph in which it can be felt.
+struct FittedGraph
+{
+    FitKind kind {};
+    FitReport report {};
+    graph::Graph preset {};
+    std::vector<std::string> nodes {};     ///< names of the fitted nodes in the preset
+    std::vector<std::string> details {};   ///< lines about this kind
+    Messages warnings {};
+};
+
+/// Fits a recording. `file` is named in messages and in the preset. Errors: fit/…; see framework/fit. [any thread]
+Result<FittedGraph> fitRecording (FitKind, const Table&, const std::string& file, const FitSettings&, FitCourse* = nullptr);
+
+/// "0.472 [0.468, 0.475]", with a unit and a prefix where they help.
+std::string textOf (const FitValue&);
+
+/// The report for a terminal, a line for each value.
+std::string textOf (const FitReport&);
+
+/// The report as data, in SI units. An infinite bound is null.
+Json jsonOf (const FitReport&);
+
+}   // namespace tactus::host

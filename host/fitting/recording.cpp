@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "recording.hpp"
+
+#include <tactus/file/text_file.hpp>
+#include <tactus/text/quote.hpp>
+#include <tactus/text/units.hpp>
+
+#include <algorithm>
+#include <cctype>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr double gram_force = 9.80665e-3, standard_gravity = 9.80665;
+
+std::string trimmed (const std::string& s)
+{
+    const auto from = s.find_first_not_of (" \t\r\"#"), to = s.find_last_not_of (" \t\r\"");
+    return from == std::string::npos ? "" : s.substr (from, to - from + 1);
+}
+
+std::vector<std::string> split (const std::string& line, char at)
+{
+    std::vector<std::string> parts { "" };
+    for (const char c : line)
+        if (c == at)
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    return parts;
+}
+
+/// A header or a row as readTable expects it.
+std::string withCommas (const std::string& line, char separator, bool is_header)
+{
+    std::string joined;
+    if (separator == ' ' && ! is_header)
+    {
+        for (const char c : trimmed (line))
+            if (c != ' ' && c != '\t')
+                joined += c;
+            else if (joined.back() != ',')
+                joined += ',';
+        return joined;
+    }
+    for (const auto& part : split (line, separator))
+        joined += (joined.empty() ? "" : ",") + trimmed (part);
+    return joined;
+}
+
+bool startsWithNumber (const std::string& line)
+{
+    const auto start = trimmed (line);
+    return ! start.empty() && (std::isdigit (static_cast<unsigned char> (start[0])) || start[0] == '-' || start[0] == '+' || start[0] == '.');
+}
+
+char separatorOf (const std::string& line)
+{
+    for (const char c : { ',', ';', '\t' })
+        if (line.find (c) != std::string::npos) return c;
+    return ' ';
+}
+
+/// The unit in the name of a column; empty if there is none.
+std::string unitIn (const std::string& column)
+{
+    for (const auto& [open, close] : { std::pair { '[', ']' }, std::pair { '(', ')' } })
+        if (const auto from = column.find (open), to = column.rfind (close); from != std::string::npos && to != std::string::npos && from < to)
+            return trimmed (column.substr (from + 1, to - from - 1));
+    const auto from = column.rfind ('_');
+    if (from == std::string::npos) return "";
+    const auto unit = column.substr (from + 1);
+    return unit == "gf" || unit == "g" || parseMeasure ("1 " + unit) ? unit : "";
+}
+}   // namespace
+
+Result<Table> readRecording (const std::filesystem::path& path)
+{
+    const auto name = path.string();
+    const auto text = readFile (path);
+    if (! text) return readTable (path);   // for its message
+    const auto lines = split (*text, '\n');
+    std::size_t header = 0;
+    while (header < lines.size() && trimmed (lines[header]).empty())
+        ++header;
+    const bool is_plain = header < lines.size() && separatorOf (lines[header]) == ',' && header + 1 < lines.size() && separatorOf (lines[header + 1]) == ','
+                          && lines[header].find ('#') == std::string::npos;
+    if (is_plain || header + 1 >= lines.size()) return readTable (*text, name);
+
+    std::string plain;
+    const auto first_row = startsWithNumber (lines[header]) ? header : header + 1;
+    if (first_row == header)
+    {
+        const auto count = std::ranges::count (withCommas (lines[header], separatorOf (lines[header]), false), ',') + 1;
+        for (std::ptrdiff_t i = 0; i < count; ++i)
+            plain += (i > 0 ? ",column " : "column ") + std::to_string (i + 1);
+    }
+    else
+        plain = withCommas (lines[header], separatorOf (lines[header]), true);
+    for (std::size_t i = first_row; i < lines.size(); ++i)
+        if (! trimmed (lines[i]).empty()) plain += '\n' + withCommas (lines[i], separatorOf (lines[i]), false);
+    return readTable (plain + '\n', name);
+}
+
+std::string bareName (const std::string& column)
+{
+    auto name = column;
+    if (const auto unit = unitIn (column); ! unit.empty()) name = column.substr (0, column.rfind (unit) - 1);
+    name = trimmed (name);
+    std::ranges::transform (name, name.begin(), [] (unsigned char c) { return c == ' ' ? '_' : static_cast<char> (std::tolower (c)); });
+    return name;
+}
+
+std::optional<std::size_t> findColumn (const Table& table, const FitColumn& wanted, const ColumnChoice& choice)
+{
+    if (const auto chosen = choice.names.find (wanted.role); chosen != choice.names.end()) return table.column (chosen->second);
+    for (const auto& name : wanted.names)
+        for (std::size_t i = 0; i < table.columns.size(); ++i)
+            if (bareName (table.columns[i]) == name) return i;
+    return {};
+}
+
+Result<std::vector<double>> columnOf (const Table& table, const std::string& file, const FitColumn& wanted, const ColumnChoice& choice)
+{
+    const auto chosen = choice.names.find (wanted.role);
+    const auto found = findColumn (table, wanted, choice);
+    if (! found && ! wanted.required && chosen == choice.names.end()) return std::vector<double> {};
+    if (! found)
+    {
+        std::string columns;
+        for (const auto& column : table.columns)
+            columns += (columns.empty() ? "" : ", ") + column;
+        return Message::error ("fit/column", file,
+                               "there is no column " + quote (chosen != choice.names.end() ? chosen->second : wanted.role) + "; there are " + columns,
+                               "name the column of the " + wanted.about + " " + wanted.role + ", or say which one it is: --column " + wanted.role + "=NAME");
+    }
+
+    const auto& name = table.columns[*found];
+    double factor = 1.0;
+    if (const auto unit = choice.units.find (wanted.role); unit != choice.units.end())
+        factor = unit->second;
+    else if (const auto written = unitIn (name); ! written.empty() && ! wanted.unit.empty())
+    {
+        const auto measure = parseMeasure ("1 " + written), si = parseMeasure ("1 " + wanted.unit);
+        if (written == "gf" && wanted.unit == "N")
+            factor = gram_force;
+        else if (written == "g" && wanted.unit == "m/s2")
+            factor = standard_gravity;
+        else if (measure && si && measure->dimension == si->dimension)
+            factor = measure->value;
+        else
+            return Message::error ("fit/unit", file, "the column " + quote (name) + " is in " + quote (written) + ", not in a unit of " + wanted.unit,
+                                   "say what 1 in this column means, such as --unit \"" + wanted.role + "=1 " + wanted.unit + "\"");
+    }
+    std::vector<double> values;
+    for (std::size_t r = 0; r < table.rows(); ++r)
+        values.push_back (factor * table.at (r, *found));
+    return values;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tactus/file/csv.hpp>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// What a fit needs of a recording: one quantity.
+struct FitColumn
+{
+    std::string role;   ///< "force"
+    std::string unit;   ///< SI; empty: any
+    bool required = true;
+    std::vector<std::string> names;   ///< of columns that are taken if the user names none; lower case, without a unit
+    std::string about;
+};
+
+/// How a user names columns and their units, by role.
+struct ColumnChoice
+{
+    std::map<std::string, std::string> names {};
+    std::map<std::string, double> units {};   ///< what 1 means, in SI
+};
+
+/// Reads numbers under a header row, separated by commas, semicolons, tabs or spaces. The header may start with #.
+/// Errors: those of readTable. [any thread]
+Result<Table> readRecording (const std::filesystem::path&);
+
+/// The name of a column without its unit, in lower case: "x" for x_um, "normal" for "Normal [uN]".
+std::string bareName (const std::string& column);
+
+/// The index of the column for a role.
+std::optional<std::size_t> findColumn (const Table&, const FitColumn&, const ColumnChoice& = {});
+
+/// The values for a role in SI. Without a choice of the user, the unit follows from the name of the column, such as x_um, "Force [mN]" or
+/// force_gf; a name without a unit is in SI. Empty if the column is missing and not required. Errors: fit/column, fit/unit.
+Result<std::vector<double>> columnOf (const Table&, const std::string& file, const FitColumn&, const ColumnChoice& = {});
+
+}   // namespace tactus::host

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fitting.hpp"
+#include "surface_preset.hpp"
+
+#include <tactus/text/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace tactus::host
+{
+
+namespace
+{
+struct Prefix
+{
+    std::string text;
+    double factor = 1.0;
+};
+
+/// A prefix for units that have one factor, such as m and N/m.
+Prefix prefixFor (double value, const std::string& unit)
+{
+    const double size = std::abs (value);
+    const bool may = unit == "m" || unit == "N" || unit == "J" || unit == "kg";
+    if (! may || size == 0.0 || ! std::isfinite (size)) return {};
+    if (unit == "kg") return size < 1.0 ? Prefix { "g", 1e3 } : Prefix {};
+    if (size < 1e-6) return { "n", 1e9 };
+    if (size < 1e-3) return { "u", 1e6 };
+    if (size < 1.0) return { "m", 1e3 };
+    return {};
+}
+
+/// A number with so many decimals that the interval has two digits.
+std::string fixedText (double v, double wide)
+{
+    if (! std::isfinite (v)) return "unknown";
+    if (! (wide > 0.0) || ! std::isfinite (wide) || std::abs (v) >= 1e7) return shortNumber (v, 4);
+    const int decimals = std::clamp (1 - static_cast<int> (std::floor (std::log10 (wide))), 0, 9);
+    std::ostringstream out;
+    out << std::fixed << std::setprecision (decimals) << v;
+    const auto text = out.str();
+    return text.find_first_not_of ("-0.") == std::string::npos && text.front() == '-' ? text.substr (1) : text;   // no -0.00
+}
+
+Json orNull (double v) { return std::isfinite (v) ? Json (v) : Json (nullptr); }
+}   // namespace
+
+std::string textOf (const FitValue& v)
+{
+    double size = std::abs (v.value);
+    for (const double bound : { v.low, v.high })
+        if (std::isfinite (bound)) size = std::max (size, std::abs (bound));
+    const auto prefix = prefixFor (size, v.unit);
+    const double wide = prefix.factor * (v.high - v.low);
+    const auto unit = prefix.text == "g" ? prefix.text : prefix.text + v.unit;
+    const auto text = [&] (double number) { return fixedText (prefix.factor * number, wide); };
+    return text (v.value) + (unit.empty() ? "" : " " + unit) + "  [" + text (v.low) + ", " + text (v.high) + "]";
+}
+
+std::string textOf (const FitReport& report)
+{
+    std::size_t widest = 10;
+    for (const auto& v : report.values)
+        widest = std::max (widest, v.name.size());
+    const auto line = [&] (const std::string& name, const std::string& text) {
+        return "  " + name + std::string (widest + 2 - std::min (widest, name.size()), ' ') + text + "\n";
+    };
+    const auto unit = report.residual_unit.empty() ? "" : " " + report.residual_unit;
+    std::string text;
+    for (const auto& v : report.values)
+        text += line (v.name, textOf (v));
+    text += line ("residual", shortNumber (report.residual) + unit + " rms, " + shortNumber (100.0 * report.residual / report.size, 2) + " % of the recording; "
+                                  + shortNumber (report.left_out_residual) + unit + " on a part that was left out");
+    text += line ("verdict", report.is_good ? "good" : "poor");
+    for (const auto& lack : report.lacking)
+        text += "    - " + lack + "\n";
+    for (const auto& note : report.notes)
+        text += "  note: " + note + "\n";
+    return text;
+}
+
+Json jsonOf (const FitReport& report)
+{
+    Json values = Json::array();
+    for (const auto& v : report.values)
+        values.push_back ({ { "name", v.name },
+                            { "unit", v.unit },
+                            { "value", orNull (v.value) },
+                            { "low", orNull (v.low) },
+                            { "high", orNull (v.high) },
+                            { "main", v.is_main } });
+    return { { "parameters", values },
+             { "rows", report.rows },
+             { "residual",
+               { { "rms", orNull (report.residual) },
+                 { "left_out_rms", orNull (report.left_out_residual) },
+                 { "recording_rms", orNull (report.size) },
+                 { "unit", report.residual_unit } } },
+             { "verdict", report.is_good ? "good" : "poor" },
+             { "lacking", report.lacking },
+             { "notes", report.notes } };
+}
+
+}   // namespace tactus::host
