@@ -4,24 +4,8 @@
 #include <host/io/plot.hpp>
 #include <tactus/text/quote.hpp>
 
-#include <charconv>
-#include <cmath>
-
 namespace tactus::host
 {
-
-namespace
-{
-/// Reads a positive number at the start of the text, and removes it. Returns 0 if there is none.
-double takeNumber (std::string_view& text)
-{
-    double number = 0.0;
-    const auto read = std::from_chars (text.data(), text.data() + text.size(), number);
-    if (read.ec != std::errc {} || ! (number > 0.0 && number < 1e4)) return 0.0;
-    text.remove_prefix (static_cast<std::size_t> (read.ptr - text.data()));
-    return number;
-}
-}   // namespace
 
 void PlotOptions::addTo (const Command& command)
 {
@@ -29,8 +13,8 @@ void PlotOptions::addTo (const Command& command)
     command.addOption ("--over", over, "Plot against this recorded port instead of against time").needs (plot);
     command.addOption ("--from", from_s, "The time at which the plot begins, in s").check (finiteWithin (0.0, 1e9)).needs (plot);
     command.addOption ("--until", until_s, "The time at which the plot ends, in s").check (finiteWithin (1e-9, 1e9)).needs (plot);
-    command.addOption ("--size", size, "The size of the plot on paper in mm, such as 120x80, or only its width; default: 212 wide").needs (plot);
-    command.addOption ("--dpi", dots_per_inch, "Pixels per inch of a .png; default: 192").check (finiteWithin (30.0, 2400.0)).needs (plot);
+    for (const auto [paper, fineness] = addSize (command); const auto& option : { paper, fineness })
+        option.needs (plot);
 }
 
 void PlotOptions::finish()
@@ -38,24 +22,7 @@ void PlotOptions::finish()
     if (file.empty()) return;
     if (! isFigureFile (file)) throw UsageError ("--plot", quotePath (file) + " should end in " + figure_kinds);
     if (! (from_s < until_s)) throw UsageError ("--until", "it must be after --from");
-
-    double width_mm = 25.4 * 800.0 / 96.0, height_mm = 0.0;
-    if (! size.empty())
-    {
-        std::string_view rest = size;
-        width_mm = takeNumber (rest);
-        const bool has_height = width_mm > 0.0 && rest.starts_with ('x');
-        if (has_height)
-        {
-            rest.remove_prefix (1);
-            height_mm = takeNumber (rest);
-        }
-        if (width_mm == 0.0 || (has_height && height_mm == 0.0) || ! rest.empty())
-            throw UsageError ("--size", quote (size) + " is not a size in mm, such as 120x80 or 120");
-    }
-    dpi = dots_per_inch;
-    width = static_cast<int> (std::lround (width_mm / 25.4 * dpi));
-    height = static_cast<int> (std::lround (height_mm / 25.4 * dpi));
+    readSize();
 }
 
 }   // namespace tactus::host

@@ -92,6 +92,25 @@ Colour colourFor (std::string_view quantity, std::size_t nth) noexcept
     return others[(nth - 1) % static_cast<std::size_t> (end - others.begin())];
 }
 
+Colour colourOfLevel (double part) noexcept
+{
+    constexpr std::array<Colour, 9> points { { { 0x44, 0x01, 0x54 },
+                                               { 0x47, 0x2d, 0x7b },
+                                               { 0x3b, 0x52, 0x8b },
+                                               { 0x2c, 0x72, 0x8e },
+                                               { 0x21, 0x91, 0x8c },
+                                               { 0x28, 0xae, 0x80 },
+                                               { 0x5e, 0xc9, 0x62 },
+                                               { 0xad, 0xdc, 0x30 },
+                                               { 0xfd, 0xe7, 0x25 } } };
+    const double place = std::clamp (std::isnan (part) ? 0.0 : part, 0.0, 1.0) * static_cast<double> (points.size() - 1);
+    const auto below = std::min (static_cast<std::size_t> (place), points.size() - 2);
+    const double share = place - static_cast<double> (below);
+    const auto mix = [share] (std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t> (std::lround (a + share * (b - a))); };
+    const auto &a = points[below], &b = points[below + 1];
+    return { mix (a.red, b.red), mix (a.green, b.green), mix (a.blue, b.blue) };
+}
+
 Colour onPaper (Colour colour) noexcept
 {
     constexpr double faint = 2.0;   // contrast on white below which a colour is darkened; the orange has 2.2, the yellow 1.3

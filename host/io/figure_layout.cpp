@@ -31,9 +31,20 @@ Panel measured (const Axes& axes)
         }
     }
 
+    const bool has_map = axes.map && ! axes.map->values.empty();
+    if (has_map)
+    {
+        panel.x_values.include (axes.map->x);
+        panel.y_values.include (axes.map->y);
+        panel.bar_scale = axisScale (axes.map->range, axes.map->colour.name, axes.map->colour.unit);
+        if (axes.map->colour.unit.starts_with ("dB")) panel.bar_scale = { .label = axes.map->colour.name + " (" + axes.map->colour.unit + ")" };
+        panel.bar_range = panel.bar_scale.shown (axes.map->range);
+    }
     panel.has_data = ! panel.x_values.isEmpty();
     panel.y_scale = axisScale (panel.y_values, axes.y.name, axes.y.unit);
-    panel.y_range = widened (panel.y_scale.shown (panel.y_values), 0.05);
+    if (has_map && axes.y.unit == "Hz" && panel.y_values.high < 1e4) panel.y_scale = { .label = axes.y.name + " (Hz)" };   // 1000 Hz, not 1 kHz
+    panel.y_range = panel.y_scale.shown (panel.y_values);
+    if (! has_map) panel.y_range = widened (panel.y_range, 0.05);
     panel.least_y_step = axes.y.whole && panel.y_scale.origin == 0.0 ? 1.0 : 0.0;
     return panel;
 }
@@ -50,16 +61,17 @@ void alignX (std::vector<Panel>& panels)
     {
         auto end = first;
         Extent values;
-        bool are_functions = true;
+        bool are_functions = true, has_map = false;
         for (; end != panels.end() && shareX (*first, *end); ++end)
         {
             values.include (end->x_values);
             are_functions = are_functions && end->is_function;
+            has_map = has_map || ! end->bar_scale.label.empty();
         }
 
         const auto scale = axisScale (values, first->axes->x.name, first->axes->x.unit);
-        const auto range = are_functions ? roundedOutwards (widened (scale.shown (values), 0.0), 10)
-                                         : widened (scale.shown (values), 0.04);
+        auto range = are_functions ? roundedOutwards (widened (scale.shown (values), 0.0), 10) : widened (scale.shown (values), 0.04);
+        if (has_map) range = scale.shown (values);   // a map fills its panel
         for (; first != end; ++first)
         {
             first->x_scale = scale;
@@ -107,7 +119,8 @@ bool FigureLayout::arrange()
     left = style.px (70);
     for (int pass = 0; pass < 2; ++pass)
     {
-        right = static_cast<float> (width) - style.px (18);
+        arrangeBars();
+        right = static_cast<float> (width) - style.px (18) - bar_room;
         arrangeX();
         title = style.title.wrapped (textOf (figure.title), right - left, 2);
         for (auto& panel : panels)
@@ -133,7 +146,10 @@ bool FigureLayout::arrange()
     }
 
     for (auto& panel : panels)
+    {
         panel.plot.setLeft (left);
+        if (bar_room > 0.0f) panel.bar = panel.plot.withX (panel.plot.getRight() + style.barGap()).withWidth (style.barWidth());
+    }
     return true;
 }
 
@@ -142,6 +158,18 @@ float FigureLayout::naturalPlotHeight() const noexcept
     if (panels.size() == 1)
         return style.px (400);
     return style.px (panels.size() < 4 ? 200 : 150);
+}
+
+/// The ticks of the bars of colours, and the room for these bars.
+void FigureLayout::arrangeBars()
+{
+    bar_room = 0.0f;
+    for (auto& panel : panels)
+    {
+        if (panel.bar_scale.label.empty()) continue;
+        panel.bar_ticks = ticksWithin (panel.bar_range, std::max (3, static_cast<int> (panel.plot.getHeight() / style.px (40))));
+        bar_room = std::max (bar_room, style.barGap() + style.barWidth() + style.tickGap() + widestOf (panel.bar_ticks) + style.px (4) + style.label.height());
+    }
 }
 
 void FigureLayout::arrangeX()
@@ -167,7 +195,7 @@ void FigureLayout::arrangeX()
             overhang = std::max (overhang, 0.5f * style.small.width (textOf (last.text)) - free);
         }
     }
-    right = std::min (right, static_cast<float> (width) - overhang - style.px (8));
+    right = std::min (right, static_cast<float> (width) - bar_room - overhang - style.px (8));
 }
 
 void FigureLayout::arrangeY()

@@ -22,6 +22,8 @@ struct FigureStyle
     float stroke() const noexcept { return px (1.4f); }
     float dot() const noexcept { return px (4.4f); }
     float swatch() const noexcept { return px (20); }
+    float barWidth() const noexcept { return px (14); }
+    float barGap() const noexcept { return px (12); }
     float tickLength() const noexcept { return px (4); }
     float tickGap() const noexcept { return px (8); }   // the gap between an axis and its numbers
     float headerRow() const noexcept { return px (20); }
@@ -56,7 +58,10 @@ struct Panel
     std::size_t not_in_legend = 0;
     bool title_in_legend_row = false;
     float header = 0.0f, footer = 0.0f;
-    juce::Rectangle<float> plot;
+    AxisScale bar_scale;   // of a map's colours; its label is empty if there is no map
+    Extent bar_range;
+    std::vector<Tick> bar_ticks;
+    juce::Rectangle<float> plot, bar;
 };
 
 /// The layout of a figure. Plots are aligned left and right. Legends are above the plots, where they cover no data.
@@ -80,11 +85,13 @@ private:
     void arrangeY();
     void arrangeHeader (Panel& panel) const;
     void arrangeLegend (Panel& panel) const;
+    void arrangeBars();
     float naturalPlotHeight() const noexcept;
     float widestOf (const std::vector<Tick>& ticks) const;
 
     const Figure& figure;
     float left = 0.0f, right = 0.0f;   // edges of the plots
+    float bar_room = 0.0f;             // to the right of the plots, for bars of colours
 };
 
 }   // namespace tactus::host

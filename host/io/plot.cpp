@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -57,7 +58,7 @@ public:
         {
             drawTitle (graphics, panel);
             drawLegend (graphics, panel);
-            drawGrid (graphics, panel);
+            panel.bar_scale.label.empty() ? drawGrid (graphics, panel) : drawMap (graphics, panel);
             drawAxes (graphics, panel);
             drawSeries (graphics, panel);
         }
@@ -149,6 +150,57 @@ private:
                     graphics.setColour (tick.at == 0.0 ? ink::zero : ink::grid);
                     fill (graphics, plot.getX(), y, plot.getWidth(), style.hairline());
                 }
+    }
+
+    /// The map, with one pixel of an image for each pixel of the plot. A pixel shows the highest of the values that it covers.
+    void drawMap (juce::Graphics& graphics, const Panel& panel) const
+    {
+        const auto& map = *panel.axes->map;
+        const auto width = juce::roundToInt (panel.plot.getWidth()), height = juce::roundToInt (panel.plot.getHeight());
+        const auto share = [] (int i, int pixels, std::size_t cells) {
+            const auto all = static_cast<std::size_t> (pixels), first = static_cast<std::size_t> (i) * cells / all;
+            return std::pair (first, std::max (first + 1, static_cast<std::size_t> (i + 1) * cells / all));
+        };
+        juce::Image image (juce::Image::RGB, width, height, true, juce::SoftwareImageType());
+        for (int x = 0; x < width; ++x)
+            for (int y = 0; y < height; ++y)
+            {
+                const auto [c0, c1] = share (x, width, map.columns);
+                const auto [r0, r1] = share (height - 1 - y, height, map.rows);
+                double highest = std::numeric_limits<double>::quiet_NaN();
+                for (auto c = c0; c < c1; ++c)
+                    for (auto r = r0; r < r1; ++r)
+                        highest = std::fmax (highest, map.values[c * map.rows + r]);
+                const auto c = colourOfLevel ((highest - map.range.low) / map.range.size());
+                image.setPixelAt (x, y, std::isnan (highest) ? juce::Colours::white : juce::Colour (c.red, c.green, c.blue));
+            }
+        graphics.drawImage (image, panel.plot, juce::RectanglePlacement::stretchToFit);
+        drawBar (graphics, panel);
+    }
+
+    void drawBar (juce::Graphics& graphics, const Panel& panel) const
+    {
+        const auto& bar = panel.bar;
+        constexpr int steps = 64;
+        const float step = bar.getHeight() / static_cast<float> (steps);
+        for (int i = 0; i < steps; ++i)
+        {
+            const auto c = colourOfLevel ((i + 0.5) / steps);
+            graphics.setColour (juce::Colour (c.red, c.green, c.blue));
+            graphics.fillRect (bar.withTop (bar.getBottom() - static_cast<float> (i + 1) * step).withHeight (i == 0 ? step : step + 1.0f));
+        }
+        const PixelMap to_y { panel.bar_range.low, panel.bar_range.high, bar.getBottom(), bar.getY() };
+        for (const auto& tick : panel.bar_ticks)
+        {
+            const float y = to_y (tick.at);
+            graphics.setColour (ink::axis);
+            fill (graphics, bar.getRight(), y, style.tickLength(), style.hairline());
+            style.small.draw (graphics, textOf (tick.text), { bar.getRight() + style.tickGap(), y }, Align::left);
+        }
+        graphics.setColour (ink::text);
+        const auto lines = style.label.wrapped (textOf (panel.bar_scale.label), bar.getHeight(), 1);
+        const float x = static_cast<float> (layout.width) - style.px (8) - 0.5f * style.label.height();
+        if (! lines.empty()) style.label.drawUpwards (graphics, lines.front(), { x, bar.getCentreY() });
     }
 
     void drawAxes (juce::Graphics& graphics, const Panel& panel) const
@@ -292,11 +344,15 @@ Result<> check (const Figure& figure, const std::filesystem::path& path)
                                    + " pixels, and a height of at most " + std::to_string (largest));
 
     for (const auto& axes : figure.panels)
+    {
+        if (axes.map && axes.map->values.size() != axes.map->columns * axes.map->rows)
+            return Message::error ("plot/ragged_map", path.string(), "a map needs one value for each column and row", "give as many values");
         for (const auto& [label, x, y, colour, style] : axes.series)
             if (x.size() != y.size())
                 return Message::error ("plot/ragged_series", path.string(),
                                        "series '" + label + "' has " + std::to_string (x.size()) + " x values and " + std::to_string (y.size()) + " y values",
                                        "give one y value per x value");
+    }
     return {};
 }
 

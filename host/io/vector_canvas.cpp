@@ -142,6 +142,36 @@ std::string compressed (const std::string& text)
     return { static_cast<const char*> (out.getData()), out.getDataSize() };
 }
 
+/// The six numbers of a transform, in the order of SVG and PDF.
+std::string matrix (const juce::AffineTransform& t)
+{
+    std::string out;
+    for (const float v : { t.mat00, t.mat10, t.mat01, t.mat11, t.mat02, t.mat12 })
+        out += (out.empty() ? "" : " ") + number (v, 6);
+    return out;
+}
+
+std::string pngOf (const juce::Image& image)
+{
+    juce::MemoryOutputStream png;
+    juce::PNGImageFormat().writeImageToStream (image, png);
+    return juce::Base64::toBase64 (png.getData(), png.getDataSize()).toStdString();
+}
+
+/// An image as an object of PDF: its colours, row by row.
+std::string imageObject (const juce::Image& image)
+{
+    std::string pixels;
+    for (int y = 0; y < image.getHeight(); ++y)
+        for (int x = 0; x < image.getWidth(); ++x)
+            for (const auto c = image.getPixelAt (x, y); const auto part : { c.getRed(), c.getGreen(), c.getBlue() })
+                pixels += static_cast<char> (part);
+    const auto data = compressed (pixels);
+    return "<< /Type /XObject /Subtype /Image /Width " + std::to_string (image.getWidth()) + " /Height " + std::to_string (image.getHeight())
+           + " /ColorSpace /DeviceRGB /BitsPerComponent 8 /Filter /FlateDecode /Length " + std::to_string (data.size()) + " >>\nstream\n" + data
+           + "\nendstream";
+}
+
 /// A PDF from its objects, which are numbered from 1. The first one is the catalogue, the last one the information on the document.
 std::string pdfFile (const std::vector<std::string>& objects)
 {
@@ -162,7 +192,9 @@ std::string pdfFile (const std::vector<std::string>& objects)
 
 std::string VectorCanvas::svg (const std::string& title, double units_per_inch) const
 {
-    std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number (25.4 * width / units_per_inch)
+    std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\""
+                      " xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\""
+                      + number (25.4 * width / units_per_inch)
                       + "mm\" height=\"" + number (25.4 * height / units_per_inch) + "mm\" viewBox=\"0 0 " + pair (width, height) + "\">\n";
     if (! title.empty()) out += "<title>" + escapedForXml (title) + "</title>\n";
 
@@ -181,6 +213,12 @@ std::string VectorCanvas::svg (const std::string& title, double units_per_inch) 
                        + number (clip.getWidth()) + "\" height=\"" + number (clip.getHeight()) + "\"/></clipPath>\n<g clip-path=\"url(#" + id + ")\">\n";
             }
         }
+        if (shape.image.isValid())
+        {
+            out += "<image width=\"" + number (shape.image.getWidth()) + "\" height=\"" + number (shape.image.getHeight()) + "\" transform=\"matrix("
+                   + matrix (shape.at) + ")\" xlink:href=\"data:image/png;base64," + pngOf (shape.image) + "\"/>\n";
+            continue;
+        }
         out += "<path d=\"" + pathData (shape.outline) + '"';
         if (shape.thickness > 0.0f)
             out += " fill=\"none\" stroke=\"" + hex (shape.colour) + "\" stroke-width=\"" + number (shape.thickness)
@@ -196,6 +234,7 @@ std::string VectorCanvas::pdf (const std::string& title, double units_per_inch) 
 {
     const double point = 72.0 / units_per_inch;
     const auto scale = number (point, 6);
+    std::vector<std::string> images;
     std::string page = scale + " 0 0 -" + scale + " 0 " + number (point * height) + " cm 1 j 1 J\n";
 
     auto clip = picture();
@@ -208,6 +247,15 @@ std::string VectorCanvas::pdf (const std::string& title, double units_per_inch) 
             if (clip != picture())
                 page += "q " + pair (clip.getX(), clip.getY()) + ' ' + pair (clip.getWidth(), clip.getHeight()) + " re W n\n";
         }
+        if (shape.image.isValid())
+        {
+            // An image of PDF is a unit square whose first row is at the top.
+            const auto across = static_cast<float> (shape.image.getWidth()), down = static_cast<float> (shape.image.getHeight());
+            const auto square = juce::AffineTransform (across, 0.0f, 0.0f, 0.0f, -down, down);
+            page += "q " + matrix (square.followedBy (shape.at)) + " cm /I" + std::to_string (images.size()) + " Do Q\n";
+            images.push_back (imageObject (shape.image));
+            continue;
+        }
         const bool is_line = shape.thickness > 0.0f;
         for (const auto part : { shape.colour.getFloatRed(), shape.colour.getFloatGreen(), shape.colour.getFloatBlue() })
             page += number (part, 4) + ' ';
@@ -218,17 +266,30 @@ std::string VectorCanvas::pdf (const std::string& title, double units_per_inch) 
     if (clip != picture()) page += "Q\n";
 
     const auto data = compressed (page);
-    return pdfFile ({ "<< /Type /Catalog /Pages 2 0 R >>",
-                      "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
-                      "<< /Type /Page /Parent 2 0 R /MediaBox [0 0 " + pair (point * width, point * height) + "] /Resources << >> /Contents 4 0 R >>",
-                      "<< /Length " + std::to_string (data.size()) + " /Filter /FlateDecode >>\nstream\n" + data + "\nendstream",
-                      "<< /Title " + hexText (title) + " /Creator (Tactus) >>" });
+    constexpr std::size_t first_image = 5;
+    std::string resources;
+    for (std::size_t i = 0; i < images.size(); ++i)
+        resources += (i == 0 ? "/XObject << /I" : " /I") + std::to_string (i) + ' ' + std::to_string (first_image + i) + " 0 R";
+    if (! images.empty()) resources += " >> ";
+    std::vector<std::string> objects {
+        "<< /Type /Catalog /Pages 2 0 R >>", "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
+        "<< /Type /Page /Parent 2 0 R /MediaBox [0 0 " + pair (point * width, point * height) + "] /Resources << " + resources + ">> /Contents 4 0 R >>",
+        "<< /Length " + std::to_string (data.size()) + " /Filter /FlateDecode >>\nstream\n" + data + "\nendstream"
+    };
+    objects.insert (objects.end(), images.begin(), images.end());
+    objects.push_back ("<< /Title " + hexText (title) + " /Creator (Tactus) >>");
+    return pdfFile (objects);
 }
 
 void VectorCanvas::add (juce::Path path, float thickness)
 {
     path.applyTransform (now.transform);
     if (! path.isEmpty()) shapes.push_back ({ std::move (path), now.colour, now.clip, thickness });
+}
+
+void VectorCanvas::drawImage (const juce::Image& image, const juce::AffineTransform& t)
+{
+    shapes.push_back ({ {}, now.colour, now.clip, 0.0f, image, t.followedBy (now.transform) });
 }
 
 void VectorCanvas::stroke (const juce::Path& line, float thickness) { add (line, thickness); }

@@ -10,7 +10,7 @@ namespace tactus::host
 {
 
 /// Collects what juce::Graphics draws, as outlines, and writes it as SVG or PDF. Handles solid colours, paths, rectangles and rectangular
-/// clips, which is what figures need; images and text in fonts are not drawn. (Lettering draws text as outlines.)
+/// clips, and images, which is what figures need; text in fonts is not drawn. (Lettering draws text as outlines.)
 class VectorCanvas : public juce::LowLevelGraphicsContext
 {
 public:
@@ -47,7 +47,7 @@ public:
     void fillRect (const juce::Rectangle<float>&) override;
     void fillRectList (const juce::RectangleList<float>&) override;
     void fillPath (const juce::Path&, const juce::AffineTransform&) override;
-    void drawImage (const juce::Image&, const juce::AffineTransform&) override {}
+    void drawImage (const juce::Image&, const juce::AffineTransform&) override;
     void drawLine (const juce::Line<float>&) override;
     void setFont (const juce::Font& chosen) override { font = chosen; }
     const juce::Font& getFont() override { return font; }
@@ -66,7 +66,9 @@ private:
         juce::Path outline;
         juce::Colour colour;
         juce::Rectangle<float> clip;
-        float thickness;   // of the line; 0: the shape is filled
+        float thickness;               // of the line; 0: the shape is filled
+        juce::Image image {};          // drawn instead of the outline, if there is one
+        juce::AffineTransform at {};   // of the image, whose corner is at the origin
     };
 
     void add (juce::Path, float thickness);

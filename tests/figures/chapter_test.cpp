@@ -27,9 +27,11 @@ std::vector<std::string> found (const std::string& text, const std::string& patt
 }
 }   // namespace
 
-TEST_CASE ("the walk through the chapter shows exactly the figures in the folder", "[figures]")
+TEST_CASE ("the pages show exactly the figures in the folder", "[figures]")
 {
-    auto shown = found (test::textOf (docs + "chapter.md"), R"re(<img src="figures/(\w+\.png)")re");
+    std::vector<std::string> shown;
+    for (const auto* page : { "chapter.md", "spectra.md" })
+        std::ranges::move (found (test::textOf (docs + page), R"re(<img src="figures/(\w+\.png)")re"), std::back_inserter (shown));
     std::vector<std::string> drawn;
     for (const auto& entry : fs::directory_iterator (docs + "figures"))
         if (entry.path().extension() == ".png")

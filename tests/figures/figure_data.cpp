@@ -19,9 +19,9 @@ std::string pathOf (const std::string& name)
     return (folder / (name + ".csv")).string();
 }
 
-Record render (const std::string& graph, const std::string& out, const std::vector<std::string>& options)
+Record render (const std::string& graph, const std::string& out, const std::vector<std::string>& options, const std::string& command = "render")
 {
-    std::vector<std::string> arguments { "render", TACTUS_SOURCE_DIR "/docs/figures/" + graph + ".json", "--out", out };
+    std::vector<std::string> arguments { command, TACTUS_SOURCE_DIR "/docs/figures/" + graph + ".json", "--out", out };
     arguments.insert (arguments.end(), options.begin(), options.end());
     const auto ran = runTactus (arguments);
     INFO (ran.err);
@@ -54,6 +54,11 @@ std::vector<double> Record::operator[] (const std::string& column) const
 Record renderFigure (const std::string& graph, const std::string& name, const std::vector<std::string>& options)
 {
     return render (graph, pathOf (name), options);
+}
+
+Record analyseFigure (const std::string& command, const std::string& name, const std::vector<std::string>& options)
+{
+    return render (name, pathOf (name), options, command);
 }
 
 Record renderOnce (const std::string& graph, const std::vector<std::string>& options)

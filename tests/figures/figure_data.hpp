@@ -21,6 +21,7 @@ public:
     explicit Record (Table);
 
     std::size_t rows() const noexcept { return table.rows(); }
+    const std::vector<std::string>& columns() const noexcept { return table.columns; }
     double at (const std::string& column, std::size_t row) const { return table.at (row, index (column)); }
     std::vector<double> operator[] (const std::string& column) const;
 
@@ -32,6 +33,9 @@ private:
 
 /// Renders docs/figures/GRAPH.json into build/figures/NAME.csv. `options` are those of `tactus render`.
 Record renderFigure (const std::string& graph, const std::string& name, const std::vector<std::string>& options);
+
+/// Runs `tactus COMMAND docs/figures/NAME.json`, which writes a table to build/figures/NAME.csv.
+Record analyseFigure (const std::string& command, const std::string& name, const std::vector<std::string>& options);
 
 /// Like renderFigure, but keeps no file. For runs that contribute only a single number to a figure.
 Record renderOnce (const std::string& graph, const std::vector<std::string>& options);

@@ -77,6 +77,13 @@ def data(name):
     return dict(zip(columns, rows.T))
 
 
+def heat(columns, along):
+    """A table of `tactus sweep` or `tactus spectrogram`: the places of its rows, the frequencies of its columns, and the amplitudes in dB."""
+    lines = [name for name in columns if " Hz (" in name]
+    level = 20 * np.log10(np.maximum(np.array([columns[name] for name in lines]), 1e-12))
+    return columns[along], np.array([float(name.split()[0]) for name in lines]), level
+
+
 def figure(height, *args, **kwargs):
     return plt.subplots(*args, figsize=(WIDTH, height), **kwargs)
 
@@ -102,10 +109,10 @@ def note(ax, text, at, to, colour=GREY, **kwargs):
 
 
 def save(fig, name):
-    """Saves a PNG with few colours. It contains nothing that changes from run to run."""
+    """Saves a PNG with few colours, more for a figure with a map. It contains nothing that changes from run to run."""
     drawn = io.BytesIO()
     fig.savefig(drawn, format="png", dpi=DPI, facecolor="white", metadata={"Software": None})
     plt.close(fig)
     drawn.seek(0)
-    flat = Image.open(drawn).convert("RGB").quantize(64, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    flat = Image.open(drawn).convert("RGB").quantize(getattr(fig, "colours", 64), method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
     flat.save(OUT / f"{name}.png", optimize=True)

@@ -6,7 +6,7 @@ namespace tactus::host
 
 namespace
 {
-bool holdsProbes (const ScopeSpec& s) { return s.kind == ScopeKind::time || s.kind == ScopeKind::spectrum; }
+bool holdsProbes (const ScopeSpec& s) { return s.kind == ScopeKind::time || s.kind == ScopeKind::spectrum || s.kind == ScopeKind::spectrogram; }
 }   // namespace
 
 bool ScopeModel::shows (const std::string& port) const
@@ -25,7 +25,7 @@ bool ScopeModel::probe (const std::string& port)
         to = scopes.back().get();
     }
     if (std::erase (to->ports, port) > 0) return false;
-    to->ports.push_back (port);
+    to->addPort (port);
     return true;
 }
 
@@ -35,6 +35,7 @@ std::vector<std::string> portsOf (const ScopeSpec& s, const std::vector<std::str
     {
     case ScopeKind::time:
     case ScopeKind::spectrum:
+    case ScopeKind::spectrogram:
         return s.ports;
     case ScopeKind::over:
     {

@@ -20,6 +20,7 @@ enum class ScopeKind
     time,   ///< an oscilloscope
     over,   ///< one signal against another, such as force against displacement
     spectrum,
+    spectrogram,   ///< the frequencies of one signal over time
     energy,
     tool   ///< a friction node seen from above
 };
@@ -50,7 +51,7 @@ struct ScopeSpec
     static constexpr double least_s = 5e-3, most_s = 10.0;
 
     ScopeKind kind = ScopeKind::time;
-    std::vector<std::string> ports;   ///< time, spectrum: the traces
+    std::vector<std::string> ports;   ///< time, spectrum: the traces; spectrogram: its one trace
     std::string x, y, state;          ///< over: the axes, and the state (stuck or sliding); energy: hand position, and force on the hand
     std::string node;                 ///< tool: the friction node
     bool has_normal = false;          ///< tool: true if the node's input `normal` is wired
@@ -58,10 +59,18 @@ struct ScopeSpec
     double seconds = 1.0;             ///< length of the window
     double back_s = 0.0;              ///< time: how long before the newest tick the window ends, while frozen
     ScopeTrigger trigger;
+    double up_to_hz = 1000.0;               ///< spectrogram: the highest frequency; 0: half the rate
     bool in_decibels = true;                ///< spectrum: true if amplitudes are in decibels
     std::map<std::string, Extent> zoomed;   ///< ranges that the user has zoomed, by unit
     std::vector<Cursor> cursors;            ///< at most two
     bool is_frozen = false;
+
+    /// Shows one more trace; a spectrogram shows it instead of the one before.
+    void addPort (const std::string& port)
+    {
+        if (kind == ScopeKind::spectrogram) ports.clear();
+        ports.push_back (port);
+    }
 };
 
 /// The scopes of a window, from left to right.

@@ -8,7 +8,7 @@ ScopePanel::ScopePanel (Document& d, Traces& t, const Catalogue& c) : document (
 {
     setTitle ("Scopes");
     setWantsKeyboardFocus (true);
-    for (const auto kind : { ScopeKind::time, ScopeKind::over, ScopeKind::spectrum, ScopeKind::energy, ScopeKind::tool })
+    for (const auto kind : { ScopeKind::time, ScopeKind::over, ScopeKind::spectrum, ScopeKind::spectrogram, ScopeKind::energy, ScopeKind::tool })
     {
         auto& b = *adders.emplace_back (std::make_unique<FlatButton> ("+ " + titleOf (kind)));
         b.setTooltip ("Adds a scope");

@@ -265,7 +265,7 @@ void ScopePlot::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWhee
     if (context.onChange) context.onChange();
 }
 
-juce::Colour traceColour (const Theme& theme, Quantity q, std::size_t nth_port, std::size_t component)
+juce::Colour traceColour (const Theme& theme, Quantity q, std::size_t nth_port, std::size_t component, std::size_t components)
 {
     auto hue = theme.of (q);
     if (nth_port > 0)
@@ -274,7 +274,9 @@ juce::Colour traceColour (const Theme& theme, Quantity q, std::size_t nth_port, 
         if (! theme.is_dark) c = onPaper (c);
         hue = juce::Colour (c.red, c.green, c.blue);
     }
-    return componentColour (theme, hue, component);
+    const auto colour = componentColour (theme, hue, component, components);
+    const bool is_paler = nth_port > 0 && components > 1;   // the components of another vector
+    return is_paler ? colour.interpolatedWith (theme.text, 0.45f) : colour;
 }
 
 void choosePort (juce::Component& below, const std::vector<ScopePort>& ports, std::function<void (const std::string&)> chosen)

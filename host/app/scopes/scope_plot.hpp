@@ -107,7 +107,7 @@ private:
 };
 
 /// The colour of a component of the n-th port of a quantity. The first port has the quantity's colour, and components differ in lightness.
-juce::Colour traceColour (const Theme&, Quantity, std::size_t nth_port, std::size_t component);
+juce::Colour traceColour (const Theme&, Quantity, std::size_t nth_port, std::size_t component = 0, std::size_t components = 1);
 
 /// Opens a menu of ports, by node.
 void choosePort (juce::Component& below, const std::vector<ScopePort>&, std::function<void (const std::string&)>);

@@ -91,6 +91,8 @@ ScopeSpec suggestedScope (ScopeKind kind, const graph::Graph& g, const Catalogue
     {
     case ScopeKind::time:
     case ScopeKind::spectrum:
+    case ScopeKind::spectrogram:
+        if (kind == ScopeKind::spectrogram) s.seconds = 5.0;
         if (! motor.empty()) s.ports.push_back (motor);
         break;
     case ScopeKind::over:

@@ -3,6 +3,7 @@
 
 #include "energy_plot.hpp"
 #include "over_plot.hpp"
+#include "spectrogram_plot.hpp"
 #include "spectrum_plot.hpp"
 #include "time_plot.hpp"
 #include "tool_plot.hpp"
@@ -41,6 +42,8 @@ juce::String titleOf (ScopeKind k)
         return "Force against displacement";
     case ScopeKind::spectrum:
         return "Spectrum";
+    case ScopeKind::spectrogram:
+        return "Spectrogram";
     case ScopeKind::energy:
         return "Energy";
     case ScopeKind::tool:
@@ -59,6 +62,8 @@ std::unique_ptr<ScopePlot> makePlot (ScopeSpec& s, ScopeContext& d)
         return std::make_unique<OverPlot> (s, d);
     case ScopeKind::spectrum:
         return std::make_unique<SpectrumPlot> (s, d);
+    case ScopeKind::spectrogram:
+        return std::make_unique<SpectrogramPlot> (s, d);
     case ScopeKind::energy:
         return std::make_unique<EnergyPlot> (s, d);
     case ScopeKind::tool:
@@ -143,6 +148,7 @@ void ScopeView::add (Chip c)
     auto& chip = *chips.emplace_back (std::make_unique<FlatButton> (is_gone ? juce::String (c.port) + " no longer exists" : c.text));
     chip.dot = c.dot;
     chip.is_wrong = is_gone;
+    if (c.text.length() < 2) chip.setTitle (c.about);   // a sign says nothing to a screen reader
     chip.setTooltip (c.about);
     // Asynchronous, because the action may delete the chip.
     (c.is_removable ? chip.onCross : chip.onClick) = [safe = juce::Component::SafePointer (this), act = std::move (c.onClick)] {
@@ -185,6 +191,7 @@ void ScopeView::rebuildHeader()
     {
     case ScopeKind::time:
     case ScopeKind::spectrum:
+    case ScopeKind::spectrogram:
         addTraceChips();
         break;
     case ScopeKind::over:
@@ -207,7 +214,7 @@ void ScopeView::addTraceChips()
     {
         const auto traces = of (port);
         const auto nth = traces.empty() ? 0 : ports_of_unit[traces.front()->unit()]++;
-        const auto dot = traces.empty() ? theme.dim : traceColour (theme, traces.front()->quantity(), nth, 0);
+        const auto dot = traces.empty() ? theme.dim : traceColour (theme, traces.front()->quantity(), nth);
         const auto remove = [this, port] {
             std::erase (spec.ports, port);
             changed();
@@ -217,11 +224,12 @@ void ScopeView::addTraceChips()
     const auto addPort = [this] {
         choosePort (*drawing, context.ports, [safe = juce::Component::SafePointer (this)] (const std::string& port) {
             if (safe == nullptr || std::ranges::count (safe->spec.ports, port) > 0) return;
-            safe->spec.ports.push_back (port);
+            safe->spec.addPort (port);
             safe->changed();
         });
     };
-    add ({ .text = "+", .onClick = addPort, .about = "Add a port" });
+    const bool replaces = spec.kind == ScopeKind::spectrogram && ! spec.ports.empty();
+    add ({ .text = "+", .onClick = addPort, .about = replaces ? "Show another port" : "Add a port" });
 }
 
 void ScopeView::addAxisChips()

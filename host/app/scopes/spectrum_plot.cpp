@@ -48,7 +48,7 @@ double SpectrumPlot::readLines (const Signals& signals)
             const auto lane = laneFor (units, t.unit());
             const auto latest = latestSamples (t, std::min (spec.seconds, most_s));
             missing = std::max (missing, latest.missing);
-            lines.push_back ({ lane, traceColour (theme(), t.quantity(), nth, i), spectrumOf (latest.values, t.rate()), {} });
+            lines.push_back ({ lane, traceColour (theme(), t.quantity(), nth, i, traces.size()), spectrumOf (latest.values, t.rate()), {} });
             rate = t.rate();
             if (lane > 0) continue;
             const auto& spectrum = lines.back().spectrum;

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "scope_plot.hpp"
-#include "spectrum.hpp"
+
+#include <host/io/spectrum.hpp>
 
 namespace tactus::host
 {

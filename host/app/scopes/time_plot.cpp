@@ -43,7 +43,7 @@ void TimePlot::show (const Signals& signals)
         {
             const auto& t = traces[i];
             const auto component = traces.size() == 3 ? juce::String (t->name()).fromLastOccurrenceOf (".", false, false) : juce::String();
-            lines.push_back ({ laneFor (units, t->unit()), traceColour (theme(), t->quantity(), nth, i), component, {} });
+            lines.push_back ({ laneFor (units, t->unit()), traceColour (theme(), t->quantity(), nth, i, traces.size()), component, {} });
             all.push_back (t);
         }
     }

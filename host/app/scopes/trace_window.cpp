@@ -77,4 +77,19 @@ TickWindow windowOf (const TraceList& traces, double seconds, const ScopeTrigger
     return { end - ticks, end, std::nullopt };
 }
 
+LatestSamples latestSamples (const Trace& trace, double seconds)
+{
+    LatestSamples latest;
+    const auto wanted = static_cast<std::uint64_t> (seconds * trace.rate());
+    const auto from = trace.end() - std::min (wanted, trace.end() - trace.begin());
+    latest.values.reserve (static_cast<std::size_t> (trace.end() - from));
+    trace.each (from, trace.end(), [&] (std::uint64_t, double v) {
+        const bool is_missing = ! isPlottable (v);
+        latest.missing += is_missing;
+        const double before = latest.values.empty() ? 0.0 : latest.values.back();
+        latest.values.push_back (is_missing ? before : v);
+    });
+    return latest;
+}
+
 }   // namespace tactus::host

@@ -53,4 +53,12 @@ TickWindow windowOf (const TraceList&, double seconds, const ScopeTrigger&, doub
 /// One past the newest tick of all traces.
 std::uint64_t endOf (const TraceList&);
 
+/// The latest samples of a trace. In a gap, the previous value is held.
+struct LatestSamples
+{
+    std::vector<double> values;
+    std::size_t missing = 0;
+};
+LatestSamples latestSamples (const Trace&, double seconds);
+
 }   // namespace tactus::host

@@ -237,3 +237,49 @@ TEST_CASE ("plot: the name of the file decides whether it is a PNG, an SVG or a 
     }
     CHECK (errorOf (figure, folder / "a.gif") == "plot/kind");
 }
+
+TEST_CASE ("plot: a map shows the colour of each value at its place\\, and the scale next to it", "[host][io][plot]")
+{
+    Axes panel { .x = { "time", "s" }, .y = { "frequency", "Hz" } };
+    panel.map = HeatMap { .x = { 0.0, 2.0 },
+                          .y = { 0.0, 10.0 },
+                          .columns = 2,
+                          .rows = 2,
+                          .values = { 0.0, 1.0, 0.25, std::nan ("") },
+                          .colour = { "amplitude", "dB re 1 N" },
+                          .range = { 0.0, 1.0 } };
+    const auto image = draw ({ .panels = { panel } });
+    const auto dark = pixelsOf (image, colourOfLevel (0.0)), bright = pixelsOf (image, colourOfLevel (1.0)), third = pixelsOf (image, colourOfLevel (0.25));
+    CHECK (dark > 100'000);
+    CHECK (bright == Approx (dark).epsilon (0.05));   // the bar of colours has some of each, too
+    CHECK (third == Approx (dark).epsilon (0.05));
+    const auto find = [&] (Colour colour) {
+        double x = 0.0, y = 0.0;
+        int count = 0;
+        for (int j = 0; j < image.getHeight(); ++j)
+            for (int i = 0; i < image.getWidth(); ++i)
+                if (image.getPixelAt (i, j) == juce::Colour (colour.red, colour.green, colour.blue)) ++count, x += i, y += j;
+        return std::pair (x / count, y / count);
+    };
+    const auto low_left = find (colourOfLevel (0.0)), high_left = find (colourOfLevel (1.0)), low_right = find (colourOfLevel (0.25));
+    CHECK (high_left.second < low_left.second - 100.0);
+    CHECK (low_right.first > low_left.first + 100.0);
+    CHECK (low_right.second == Approx (low_left.second).margin (20.0));
+
+    const TemporaryFolder folder;
+    panel.map->values.pop_back();
+    CHECK (errorOf ({ .panels = { panel } }, folder / "plot.png") == "plot/ragged_map");
+}
+
+TEST_CASE ("plot: the colours of a scale get lighter evenly", "[host][io][plot]")
+{
+    const auto lightness = [] (double part) {
+        const auto c = colourOfLevel (part);
+        return juce::Colour (c.red, c.green, c.blue).getPerceivedBrightness();
+    };
+    for (int i = 1; i <= 20; ++i)
+        CHECK (lightness (i / 20.0) > lightness ((i - 1) / 20.0));
+    CHECK (colourOfLevel (-3.0) == colourOfLevel (0.0));
+    CHECK (colourOfLevel (7.0) == colourOfLevel (1.0));
+    CHECK (colourOfLevel (std::nan ("")) == colourOfLevel (0.0));
+}

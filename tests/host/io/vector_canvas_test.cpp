@@ -35,7 +35,9 @@ std::string inflated (const std::string& data)
 {
     juce::MemoryInputStream compressed (data.data(), data.size(), false);
     juce::GZIPDecompressorInputStream stream (&compressed, false, juce::GZIPDecompressorInputStream::zlibFormat);
-    return stream.readEntireStreamAsString().toStdString();
+    juce::MemoryBlock all;
+    stream.readIntoMemoryBlock (all);
+    return { static_cast<const char*> (all.getData()), all.getSize() };
 }
 }   // namespace
 
@@ -107,4 +109,45 @@ TEST_CASE ("vector canvas: the table of a PDF points to its objects\\, and the p
     CHECK (page.find ("q 0 0 50 25 re W n\n") != std::string::npos);
     CHECK (page.find ("1.5 w\n0 0 m\n100 50.5 l\nS\nQ\n") != std::string::npos);
     CHECK (page.find ("1 0 0 rg\n60 5 m\n") != std::string::npos);
+}
+
+TEST_CASE ("vector canvas: an image is in the file with its pixels\\, at its place", "[host][io][plot]")
+{
+    const juce::ScopedJuceInitialiser_GUI juce_is_up;
+    juce::Image image (juce::Image::RGB, 3, 2, true, juce::SoftwareImageType());
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 3; ++x)
+            image.setPixelAt (x, y, juce::Colour (static_cast<juce::uint8> (40 * x), static_cast<juce::uint8> (90 * y), 7));
+    VectorCanvas canvas (200.0f, 100.0f);
+    {
+        juce::Graphics graphics (canvas);
+        graphics.drawImage (image, juce::Rectangle<float> (20.0f, 10.0f, 60.0f, 20.0f), juce::RectanglePlacement::stretchToFit);
+    }
+    const auto svg = juce::parseXML (juce::String::fromUTF8 (canvas.svg ("", 96.0).c_str()));
+    REQUIRE (svg != nullptr);
+    const auto* element = svg->getChildByName ("image");
+    REQUIRE (element != nullptr);
+    CHECK (element->getStringAttribute ("transform") == "matrix(20 0 0 10 20 10)");
+    const auto link = element->getStringAttribute ("xlink:href");
+    REQUIRE (link.startsWith ("data:image/png;base64,"));
+    juce::MemoryOutputStream png;
+    REQUIRE (juce::Base64::convertFromBase64 (png, link.fromFirstOccurrenceOf (",", false, false)));
+    const auto read = juce::PNGImageFormat::loadFrom (png.getData(), png.getDataSize());
+    REQUIRE (read.getBounds() == image.getBounds());
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 3; ++x)
+            CHECK (read.getPixelAt (x, y) == image.getPixelAt (x, y));
+
+    const auto pdf = canvas.pdf ("", 96.0);
+    const auto object = pdf.find ("/Subtype /Image /Width 3 /Height 2");
+    REQUIRE (object != std::string::npos);
+    CHECK (pdf.find ("/XObject << /I0 5 0 R >>") != std::string::npos);
+    const auto begin = pdf.find ("stream\n", object) + 7, end = pdf.find ("\nendstream", begin);
+    const auto pixels = inflated (pdf.substr (begin, end - begin));
+    REQUIRE (pixels.size() == 18);
+    CHECK (static_cast<int> (static_cast<unsigned char> (pixels[17])) == 7);
+    CHECK (static_cast<int> (static_cast<unsigned char> (pixels[15])) == 80);   // red of the last pixel
+    const auto page_begin = pdf.find ("stream\n") + 7;
+    const auto page = inflated (pdf.substr (page_begin, pdf.find ("\nendstream", page_begin) - page_begin));
+    CHECK (page.find ("q 60 0 0 -20 20 30 cm /I0 Do Q") != std::string::npos);   // its first row is at the top
 }

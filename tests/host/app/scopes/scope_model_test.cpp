@@ -92,3 +92,18 @@ TEST_CASE ("scopes: an automatic range does not follow every stroke, and narrows
         range.update ({ -0.08, 0.08 });
     CHECK (range.shown().high == narrow.high);
 }
+
+TEST_CASE ("scopes: a spectrogram shows one port, and a probe replaces it", "[app][scopes][spectrogram]")
+{
+    ScopeModel model;
+    model.scopes.push_back (std::make_unique<ScopeSpec>());
+    model.scopes.back()->kind = ScopeKind::spectrogram;
+    model.active = model.scopes.back().get();
+    CHECK (model.probe ("a.x"));
+    CHECK (model.probe ("b.x"));
+    REQUIRE (model.scopes.size() == 1);
+    CHECK (model.scopes[0]->ports == std::vector<std::string> { "b.x" });
+    CHECK (portsOf (*model.scopes[0], {}) == std::vector<std::string> { "b.x" });
+    CHECK_FALSE (model.probe ("b.x"));
+    CHECK (model.scopes[0]->ports.empty());
+}

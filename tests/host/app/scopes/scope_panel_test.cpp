@@ -3,6 +3,7 @@
 #include <host/app/scopes/scope_panel.hpp>
 
 #include <host/app/scopes/energy_plot.hpp>
+#include <host/app/scopes/spectrogram_plot.hpp>
 #include <host/app/scopes/time_plot.hpp>
 #include <support/temporary_folder.hpp>
 #include <tactus/file/csv.hpp>
@@ -125,11 +126,11 @@ TEST_CASE ("scopes: a newly opened graph shows scopes, which request only the po
                                          "drag.stored_energy", "hand.position", "motor.applied", "motor.force" });
 }
 
-TEST_CASE ("scopes: a run is plotted in the colour of its quantity", "[app][scopes]")
+TEST_CASE ("scopes: a force along x is plotted in the colour of x", "[app][scopes]")
 {
     Bench b;
     auto& plot = b.view (ScopeKind::time).plot();
-    const auto force = b.look.theme().of (Quantity::force);
+    const auto force = b.look.theme().axes[0];
     const auto picture = [&] { return plot.createComponentSnapshot (plot.getLocalBounds()); };
     b.panel->refresh();
     CHECK (plot.shownLanes().empty());
@@ -345,7 +346,7 @@ TEST_CASE ("scopes: every kind of scope can be added to presets, run, and painte
     {
         INFO (name);
         Bench b (name);
-        for (const auto kind : { ScopeKind::spectrum, ScopeKind::tool })
+        for (const auto kind : { ScopeKind::spectrum, ScopeKind::spectrogram, ScopeKind::tool })
             b.panel->add (kind);
         b.run (300);
         for (const auto* theme : { &Theme::light(), &Theme::dark() })
@@ -386,10 +387,36 @@ TEST_CASE ("scopes: a real-time run is shown, and stays shown when a port is add
     b.live_run.stop();
 }
 
+TEST_CASE ("scopes: a spectrogram scrolls while it runs, stays while it is frozen, and says what is loudest", "[app][scopes][spectrogram]")
+{
+    Bench b;
+    auto& view = b.panel->add (ScopeKind::spectrogram);
+    const auto& plot = dynamic_cast<SpectrogramPlot&> (view.plot());
+    CHECK (plot.picture().columns() == 0);
+    b.run (8000);
+    REQUIRE (plot.shownLanes().size() == 1);
+    CHECK (plot.shownLanes().front().unit == "Hz");
+    CHECK (plot.shownLanes().front().y.high == 1000.0);
+    for (int i = 0; i < 40 && plot.picture().isBehind(); ++i)
+        b.panel->refresh();
+    const auto columns = plot.picture().columns();
+    CHECK (columns > 50);
+    CHECK_FALSE (plot.picture().decibels().isEmpty());
+    CHECK (plot.getDescription().contains ("Hz"));
+    CHECK (plot.getTitle() == "Spectrogram");
+    view.freeze (true);
+    b.run (4000);
+    CHECK (plot.picture().columns() == columns);
+    view.freeze (false);
+    b.run (400);
+    CHECK (plot.picture().columns() > columns);
+}
+
 TEST_CASE ("scopes: the cost of scopes over ten seconds", "[.][bench]")
 {
     Bench b;
     b.panel->add (ScopeKind::spectrum);
+    b.panel->add (ScopeKind::spectrogram);
     b.panel->add (ScopeKind::tool);
     b.run (44000);
     for (const bool is_long : { false, true })

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <host/app/scopes/spectrum.hpp>
+#include <host/io/spectrum.hpp>
 
 #include "made_trace.hpp"
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "trace_window.hpp"
-
+#include <cstddef>
+#include <optional>
 #include <span>
+#include <vector>
 
 namespace tactus::host
 {
@@ -21,7 +22,8 @@ struct Spectrum
     double hz (std::size_t i) const noexcept { return static_cast<double> (i) * step_hz; }
 };
 
-Spectrum spectrumOf (std::span<const double> samples, double rate_hz);
+/// `length`: of the Fourier transform, a power of two that is not below the number of samples; 0: four to eight times that number.
+Spectrum spectrumOf (std::span<const double> samples, double rate_hz, std::size_t length = 0);
 
 struct Peak
 {
@@ -30,13 +32,5 @@ struct Peak
 
 /// The highest peak at or above a frequency, interpolated between lines by a parabola. Empty if there is no peak.
 std::optional<Peak> peakOf (const Spectrum&, double from_hz);
-
-/// The latest samples of a trace. In a gap, the previous value is held.
-struct LatestSamples
-{
-    std::vector<double> values;
-    std::size_t missing = 0;
-};
-LatestSamples latestSamples (const Trace&, double seconds);
 
 }   // namespace tactus::host

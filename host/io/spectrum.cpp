@@ -3,6 +3,7 @@
 
 #include <unsupported/Eigen/FFT>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <complex>
@@ -11,14 +12,15 @@
 namespace tactus::host
 {
 
-Spectrum spectrumOf (std::span<const double> samples, double rate_hz)
+Spectrum spectrumOf (std::span<const double> samples, double rate_hz, std::size_t length)
 {
     constexpr std::size_t padding = 4, fewest = 8;
     if (samples.size() < fewest) return {};
+    if (length == 0) length = padding * std::bit_ceil (samples.size());
 
     // Removes the windowed mean, so that it does not leak into the lowest lines.
     const auto n = samples.size();
-    std::vector<double> window (n), in (padding * std::bit_ceil (n), 0.0);
+    std::vector<double> window (n), in (std::max (n, length), 0.0);
     double weight = 0.0, mean = 0.0;
     for (std::size_t i = 0; i < n; ++i)
     {
@@ -30,7 +32,7 @@ Spectrum spectrumOf (std::span<const double> samples, double rate_hz)
     for (std::size_t i = 0; i < n; ++i)
         in[i] = window[i] * (samples[i] - mean);
 
-    static Eigen::FFT<double> fft;   // keeps its tables; [main thread]
+    thread_local Eigen::FFT<double> fft;   // keeps its tables
     fft.SetFlag (Eigen::FFT<double>::HalfSpectrum);
     std::vector<std::complex<double>> out;
     fft.fwd (out, in);
@@ -55,21 +57,6 @@ std::optional<Peak> peakOf (const Spectrum& s, double from_hz)
     const double left = std::log (a[highest - 1]), middle = std::log (a[highest]), right = std::log (a[highest + 1]);
     const double bend = left - 2.0 * middle + right, offset = bend < 0.0 ? 0.5 * (left - right) / bend : 0.0;
     return Peak { (static_cast<double> (highest) + offset) * s.step_hz, std::exp (middle - 0.25 * (left - right) * offset) };
-}
-
-LatestSamples latestSamples (const Trace& trace, double seconds)
-{
-    LatestSamples latest;
-    const auto wanted = static_cast<std::uint64_t> (seconds * trace.rate());
-    const auto from = trace.end() - std::min (wanted, trace.end() - trace.begin());
-    latest.values.reserve (static_cast<std::size_t> (trace.end() - from));
-    trace.each (from, trace.end(), [&] (std::uint64_t, double v) {
-        const bool is_missing = ! isPlottable (v);
-        latest.missing += is_missing;
-        const double before = latest.values.empty() ? 0.0 : latest.values.back();
-        latest.values.push_back (is_missing ? before : v);
-    });
-    return latest;
 }
 
 }   // namespace tactus::host

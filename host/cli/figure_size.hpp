@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <host/command_line/command.hpp>
+
+#include <string>
+#include <utility>
+
+namespace tactus::host
+{
+
+/// How large a figure is on paper, and how fine.
+struct FigureSize
+{
+    int width = 1600, height = 0;   ///< in pixels; a height of 0 depends on the number of panels
+    double dpi = 0.0;               ///< as in Figure
+
+    /// Adds --size and --dpi.
+    std::pair<Option, Option> addSize (const Command&);
+
+    /// Computes the size from the options. Throws UsageError.
+    void readSize();
+
+private:
+    std::string size;
+    double dots_per_inch = 192.0;
+};
+
+}   // namespace tactus::host
