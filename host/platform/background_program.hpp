@@ -10,7 +10,7 @@
 namespace tactus::host
 {
 
-/// A program that runs in the background with low priority, and whose output goes to a file. [main thread]
+/// A program that runs in the background with low priority, and whose output goes to a file. [one thread]
 class BackgroundProgram
 {
 public:

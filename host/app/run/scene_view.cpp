@@ -38,8 +38,11 @@ void SceneView::watch (bool w)
     is_watched = w;
     if (w) return;
     release();
-    playback.run().scene().watch (false);
-    playback.current().scene().watch (false);   // that of a preview
+    for (auto* run : { &playback.run(), &playback.current() })   // the second is that of a preview, if there is one
+    {
+        run->scene().watch (false);
+        run->film().watch (false);
+    }
 }
 
 void SceneView::refresh()
@@ -47,6 +50,8 @@ void SceneView::refresh()
     if (! is_watched) return;
     auto& feed = playback.current().scene();
     feed.watch (true);
+    auto& film = playback.current().film();
+    film.watch (true);
     if (shown_version != feed.version())
     {
         const auto differ = [] (const Vec3& a, const Vec3& b) { return (a - b).norm() > 1e-3; };
@@ -70,6 +75,7 @@ void SceneView::refresh()
             is_dirty = true;
         }
     }
+    if (playback.current().isRunning()) film.add (stage, shown_version, now, seen_by);
     still_for = is_news || is_dirty ? 0 : still_for + 1;
     if (is_news) describe();
     is_dirty = is_dirty || is_news;

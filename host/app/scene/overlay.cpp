@@ -33,11 +33,6 @@ std::optional<juce::Line<float>> clipped (juce::Line<float> line, juce::Rectangl
     return juce::Line<float> (from + way * begin, from + way * end);
 }
 
-juce::Colour axisColour (const Theme& theme, int axis)
-{
-    constexpr std::array quantities { Quantity::force, Quantity::energy, Quantity::length };   // three hues that colour-blind eyes can tell apart
-    return theme.of (quantities[static_cast<std::size_t> (axis)]);
-}
 }   // namespace
 
 double Overlay::arrowLength (double newtons, double height) noexcept { return std::min (48.0 * newtons, 0.42 * height); }
@@ -234,7 +229,7 @@ void Overlay::drawAxes()
     for (const int axis : order)
     {
         const auto end = gizmoEnd (camera, area, axis);
-        const auto colour = axisColour (theme, axis);
+        const auto colour = theme.axes[static_cast<std::size_t> (axis)];
         graphics.setColour (colour);
         graphics.drawLine ({ centre, end }, 2.0f);
         const auto dot = juce::Rectangle<float> (2.0f * gizmo_dot, 2.0f * gizmo_dot).withCentre (end);

@@ -23,8 +23,12 @@ public:
     struct Corner
     {
         float x, y;
-        float nearness;   ///< 1 / depth, in 1/m; not above 0: behind the camera
+        float nearness;   ///< 1 / depth, in 1/m; not above 0: behind the near plane of the camera
         std::array<float, N> values;
+
+        // Of a corner that corner() makes, so that triangles can be cut at the near plane, in m. x and y of a corner behind this plane are
+        // computed as if its depth were `near`.
+        float depth = 0.0f, near = 0.0f;
     };
 
     /// How many triangles were given, and what became of them.
@@ -44,7 +48,7 @@ public:
     /// Makes the picture empty. `fineness` is the number of samples per pixel in each direction.
     void begin (int width, int height, int fineness);
 
-    /// Fills a triangle. `shade (values)` returns the colour of a sample: 0xffRRGGBB.
+    /// Fills a triangle, as far as it is in front of the camera. `shade (values)` returns the colour of a sample: 0xffRRGGBB.
     template <std::size_t N, typename Shade>
     void triangle (const Corner<N>&, const Corner<N>&, const Corner<N>&, Sides, Shade&&);
 
@@ -57,7 +61,8 @@ public:
     Corner<N> corner (const Camera::Seen& s, double near, std::array<float, N> values) const noexcept
     {
         const auto f = static_cast<float> (samples);
-        return { s.x * f, s.y * f, s.depth > near ? static_cast<float> (1.0 / s.depth) : 0.0f, values };
+        const float nearness = s.depth > near ? static_cast<float> (1.0 / s.depth) : 0.0f;
+        return { s.x * f, s.y * f, nearness, values, static_cast<float> (s.depth), static_cast<float> (near) };
     }
 
     /// Writes the picture over the image, which must be at least as large, and have the format ARGB. Where nothing was drawn, it stays
@@ -71,6 +76,24 @@ public:
     double coverage() const noexcept;
 
 private:
+    enum class Fate
+    {
+        drawn,
+        turned_away,
+        outside
+    };
+
+    /// Fills a triangle whose corners are all in front of the camera.
+    template <std::size_t N, typename Shade>
+    Fate fill (const Corner<N>&, const Corner<N>&, const Corner<N>&, Sides, Shade&&);
+
+    /// Where the edge between a corner in front of the near plane and one behind it meets the plane.
+    template <std::size_t N>
+    Corner<N> cut (const Corner<N>& front, const Corner<N>& behind) const noexcept;
+
+    void note (Fate f) noexcept { ++(f == Fate::drawn ? counted.drawn : f == Fate::turned_away ? counted.turned_away
+                                                                                               : counted.outside); }
+
     /// The first of `count` samples whose middle is not before this place; `count` if all are. A place may be as far away as a float goes.
     static int firstAfter (float place, int count) noexcept
     {
@@ -94,14 +117,51 @@ private:
 template <std::size_t N, typename Shade>
 void Raster::triangle (const Corner<N>& a, const Corner<N>& b, const Corner<N>& c, Sides sides, Shade&& shade)
 {
-    if (! (a.nearness > 0.0f && b.nearness > 0.0f && c.nearness > 0.0f)) return void (++counted.outside);
+    if (a.nearness > 0.0f && b.nearness > 0.0f && c.nearness > 0.0f) return note (fill (a, b, c, sides, shade));
+    if (! (a.nearness > 0.0f || b.nearness > 0.0f || c.nearness > 0.0f)) return note (Fate::outside);
+
+    // The part in front of the near plane has three or four corners, in the same order.
+    const std::array all { &a, &b, &c };
+    std::array<Corner<N>, 4> kept;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+        const auto &from = *all[i], &to = *all[(i + 1) % 3];
+        const bool begins = from.nearness > 0.0f, ends = to.nearness > 0.0f;
+        if (! begins && ! (from.near > 0.0f)) return note (Fate::outside);   // where it is behind the plane is not known
+        if (begins) kept[count++] = from;
+        if (begins != ends) kept[count++] = begins ? cut (from, to) : cut (to, from);
+    }
+    auto fate = fill (kept[0], kept[1], kept[2], sides, shade);
+    if (count == 4)
+        if (const auto second = fill (kept[0], kept[2], kept[3], sides, shade); fate != Fate::drawn) fate = second;
+    note (fate);
+}
+
+template <std::size_t N>
+Raster::Corner<N> Raster::cut (const Corner<N>& front, const Corner<N>& behind) const noexcept
+{
+    const float near = behind.near, depth = 1.0f / front.nearness, share = std::clamp ((depth - near) / (depth - behind.depth), 0.0f, 1.0f);
+    const auto between = [share] (float v, float w) { return v + share * (w - v); };
+    const auto place = [&] (float v, float w, int size) {   // in space, the distance from the middle is in proportion to the depth
+        const float middle = 0.5f * static_cast<float> (size);
+        return middle + between ((v - middle) * depth, (w - middle) * near) / near;
+    };
+    Corner<N> made { place (front.x, behind.x, columns), place (front.y, behind.y, rows), 1.0f / near, {}, near, near };
+    for (std::size_t i = 0; i < N; ++i)
+        made.values[i] = between (front.values[i], behind.values[i]);
+    return made;
+}
+
+template <std::size_t N, typename Shade>
+Raster::Fate Raster::fill (const Corner<N>& a, const Corner<N>& b, const Corner<N>& c, Sides sides, Shade&& shade)
+{
     const float low_y = std::min ({ a.y, b.y, c.y }), high_y = std::max ({ a.y, b.y, c.y });
     const float low_x = std::min ({ a.x, b.x, c.x }), high_x = std::max ({ a.x, b.x, c.x });
     const auto width = static_cast<float> (columns), height = static_cast<float> (rows);
-    if (! (low_x < width && high_x > 0.0f && low_y < height && high_y > 0.0f)) return void (++counted.outside);
+    if (! (low_x < width && high_x > 0.0f && low_y < height && high_y > 0.0f)) return Fate::outside;
     const float area = (b.x - a.x) * (a.y - c.y) - (a.y - b.y) * (c.x - a.x);   // y points down: positive is counter-clockwise
-    if (area == 0.0f || (area < 0.0f && sides == Sides::front)) return void (++counted.turned_away);
-    ++counted.drawn;
+    if (area == 0.0f || (area < 0.0f && sides == Sides::front)) return Fate::turned_away;
 
     // The nearness, and each value times the nearness, are linear over the picture: `base` at a, and slopes along x and y.
     const float over = 1.0f / area;
@@ -140,6 +200,7 @@ void Raster::triangle (const Corner<N>& a, const Corner<N>& b, const Corner<N>& 
                 now[i] += along_x[i];
         }
     }
+    return Fate::drawn;
 }
 
 template <typename Shade>

@@ -107,6 +107,31 @@ TEST_CASE ("a mesh of 100 000 triangles is drawn whole, and its far side is left
     CHECK (studio.at (studio.camera.target).getAlpha() == 255);
 }
 
+TEST_CASE ("a coarse cube stays when the camera comes close to one of its faces", "[app][scene]")
+{
+    auto mesh = std::make_shared<Mesh>();
+    for (int i = 0; i < 8; ++i)
+        mesh->points.push_back (0.05 * Vec3 (i % 2 == 0 ? -1.0 : 1.0, i / 2 % 2 == 0 ? -1.0 : 1.0, i / 4 == 0 ? -1.0 : 1.0));
+    mesh->triangles = { { 0, 2, 1 }, { 1, 2, 3 }, { 4, 5, 6 }, { 5, 7, 6 }, { 0, 1, 4 }, { 1, 5, 4 },
+                        { 2, 6, 3 }, { 3, 6, 7 }, { 0, 4, 2 }, { 2, 4, 6 }, { 1, 3, 5 }, { 3, 7, 5 } };
+    auto surface = std::make_shared<Surface>();
+    surface->mesh = mesh;
+    Body cube { .kind = Kind::body, .path = "cube", .role = "tool", .is_placed = true };
+    cube.surface = surface;
+    Studio studio ({ cube });
+    studio.camera.target = { 0.0, 0.0, 0.05 };   // the middle of the upper face
+    studio.camera.pitch = 0.3;                   // seen along the face, so that a part of it is behind the camera
+    for (const double distance : { 0.03, 0.015, scene::Camera::nearest })
+    {
+        studio.camera.distance = distance;
+        studio.draw();
+        INFO (distance);
+        CHECK (studio.at (studio.camera.target).getAlpha() == 255);
+        CHECK (studio.image.getPixelAt (width / 2, height - 2).getAlpha() == 255);
+        CHECK (studio.raster.coverage() > 0.5);
+    }
+}
+
 TEST_CASE ("the liver at 800 x 600, with the time that a picture takes", "[app][scene]")
 {
     Studio studio (bodiesIn ("liver"));

@@ -4,6 +4,9 @@
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
 
+#include <cmath>
+#include <optional>
+
 using namespace tactus;
 using host::scene::Camera;
 using host::scene::Raster;
@@ -149,4 +152,66 @@ TEST_CASE ("a ball is round and hides what is behind it", "[app][scene]")
     CHECK (colour (2) == juce::Colour (0xff0000ff));
     quad (r, 0.0f, 0.0f, 40.0f, 30.0f, static_cast<float> (camera.distance - 2.0 * radius), 0xffff0000);
     CHECK (colour (width / 2) == juce::Colour (0xffff0000));
+}
+
+namespace
+{
+using Corners = std::array<Vec3, 3>;
+
+/// Where the ray through a place in the picture meets a triangle in front of the near plane, as shares of the triangle's corners.
+std::optional<Vec3> meets (const Camera& camera, const Corners& t, double x, double y)
+{
+    const Vec3 ray = camera.ray ({ static_cast<float> (x), static_cast<float> (y) }), eye = camera.eye();
+    Eigen::Matrix3d sides;
+    sides << t[1] - t[0], t[2] - t[0], -ray;
+    if (std::abs (sides.determinant()) < 1e-12) return std::nullopt;
+    const Vec3 found = sides.inverse() * (eye - t[0]);
+    const Vec3 shares (1.0 - found.x() - found.y(), found.x(), found.y());
+    if (shares.minCoeff() < 0.0 || found.z() * ray.dot (camera.view()) <= camera.near()) return std::nullopt;
+    return shares;
+}
+}   // namespace
+
+TEST_CASE ("a triangle that reaches behind the camera is drawn as far as it is in front of it", "[app][scene]")
+{
+    rc::check ("as rays from the eye meet it", [] {
+        Camera camera;
+        camera.setSize (width, height);
+        camera.yaw = *rc::gen::inRange (-300, 300) / 100.0;
+        camera.pitch = *rc::gen::inRange (-150, 150) / 100.0;
+        camera.distance = 0.1;
+        Corners corners;
+        for (auto& p : corners)
+        {
+            const int x = *rc::gen::inRange (-300, 300), y = *rc::gen::inRange (-300, 300), z = *rc::gen::inRange (-300, 300);
+            p = camera.eye() + 1e-3 * Vec3 (x, y, z);
+        }
+        Raster r;
+        r.begin (width, height, 1);
+        const auto made = [&] (std::size_t i) {
+            std::array<float, 3> shares {};
+            shares[i] = 1.0f;
+            return r.corner<3> (camera.see (corners[i]), camera.near(), shares);
+        };
+        const auto shade = [] (const std::array<float, 3>& s) {
+            const auto part = [] (float v) { return static_cast<std::uint32_t> (std::clamp (v, 0.0f, 1.0f) * 255.0f + 0.5f); };
+            return 0xff000000u | part (s[0]) << 16 | part (s[1]) << 8 | part (s[2]);
+        };
+        r.triangle (made (0), made (1), made (2), Raster::Sides::both, shade);
+        RC_ASSERT (r.count().all() == 1);
+        const auto image = pictureOf (r);
+        int wrong = 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+            {
+                const auto shares = meets (camera, corners, x + 0.5, y + 0.5);
+                const auto colour = image.getPixelAt (x, y);
+                const bool is_drawn = colour.getAlpha() > 0;
+                if (is_drawn != shares.has_value()) ++wrong;
+                if (! is_drawn || ! shares) continue;
+                const Vec3 seen (colour.getRed(), colour.getGreen(), colour.getBlue());
+                RC_ASSERT ((seen / 255.0 - *shares).cwiseAbs().maxCoeff() < 0.05);
+            }
+        RC_ASSERT (wrong <= 6);   // samples on an edge
+    });
 }

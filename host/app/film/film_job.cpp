@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "film_job.hpp"
+
+namespace tactus::host
+{
+
+FilmJob::FilmJob (Film f, const Theme& theme, juce::Rectangle<int> view, int width, std::filesystem::path path)
+    : film (std::move (f)), picture (theme, view, width), named (std::move (path))
+{
+    worker = std::thread ([this] {
+        outcome = writeFilm (film, picture, named, [this] (double part) {
+            done.store (part, std::memory_order_relaxed);
+            return ! is_stopped.load (std::memory_order_relaxed);
+        });
+        is_over.store (true, std::memory_order_release);
+    });
+}
+
+FilmJob::~FilmJob()
+{
+    stop();
+    if (worker.joinable()) worker.join();
+}
+
+const std::optional<Result<WrittenFilm>>& FilmJob::result()
+{
+    static const std::optional<Result<WrittenFilm>> none;
+    if (! is_over.load (std::memory_order_acquire)) return none;
+    if (worker.joinable()) worker.join();
+    return outcome;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "film_files.hpp"
+
+#include <atomic>
+#include <optional>
+#include <thread>
+
+namespace tactus::host
+{
+
+/// Saves a film on its own thread. [main thread]
+class FilmJob
+{
+public:
+    FilmJob (Film, const Theme&, juce::Rectangle<int> view, int width, std::filesystem::path);
+    ~FilmJob();   ///< ends the work, and waits for that
+
+    double progress() const noexcept { return done.load (std::memory_order_relaxed); }   ///< the part that is done, 0…1
+    void stop() noexcept { is_stopped.store (true, std::memory_order_relaxed); }
+
+    /// The result, once it is there.
+    const std::optional<Result<WrittenFilm>>& result();
+
+private:
+    Film film;
+    FilmPicture picture;
+    std::filesystem::path named;
+    std::atomic<double> done = 0.0;
+    std::atomic<bool> is_stopped = false, is_over = false;
+    std::optional<Result<WrittenFilm>> outcome;
+    std::thread worker;
+};
+
+}   // namespace tactus::host

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "film_button.hpp"
+
+#include <host/app/model/message_text.hpp>
+
+namespace tactus::host
+{
+
+FilmButton::FilmButton (Playback& p, SceneView& s) : playback (p), space (s)
+{
+    button.setTitle ("Film");
+    button.onClick = [this] { click(); };
+    addAndMakeVisible (button);
+    setLength (length_s);
+}
+
+/// The same for every label, so that the buttons next to it stay in place.
+int FilmButton::wantedWidth() const { return static_cast<int> (std::ceil (lookOf (*this).font (12.0f).getStringWidthFloat (widest))) + 14; }
+
+void FilmButton::setLength (double seconds)
+{
+    length_s = std::clamp (seconds, 1.0, FilmTape::longest_s);
+    if (! isFilming()) tape().keep (length_s);
+}
+
+void FilmButton::label (const juce::String& text)
+{
+    if (text == button.getButtonText()) return;
+    button.setButtonText (text);
+    button.setTitle (text);
+}
+
+void FilmButton::refresh()
+{
+    tape().keep (isFilming() ? FilmTape::longest_s : length_s);   // the tape of a preview is another one
+    if (job)
+    {
+        label ("Saving " + juce::String (juce::roundToInt (std::floor (99.0 * job->progress()))) + " %");
+        if (job->result()) finish();
+    }
+    else if (isFilming())
+    {
+        const double seconds = static_cast<double> (tape().end() - std::min (tape().end(), *first_tick)) / filming_rate;
+        label ("Stop " + juce::String (juce::roundToInt (std::floor (seconds))) + " s");
+        if (seconds >= FilmTape::longest_s - 0.5 || tape().end() < *first_tick) end();   // the tape is full, or another run has begun
+    }
+    else
+        label ("Film");
+    button.setToggleState (isFilming() || job, juce::dontSendNotification);
+}
+
+void FilmButton::click()
+{
+    if (job) return job->stop();
+    isFilming() ? end() : openMenu();
+}
+
+void FilmButton::openMenu()
+{
+    juce::PopupMenu menu, lengths;
+    const auto safe = juce::Component::SafePointer (this);
+    const auto add = [&safe] (juce::PopupMenu& to, const juce::String& text, bool is_on, bool is_ticked, std::function<void (FilmButton&)> act) {
+        to.addItem (text, is_on, is_ticked, [safe, act = std::move (act)] {
+            if (safe != nullptr) act (*safe);
+        });
+    };
+    const bool has_something = tape().end() > 0;
+    add (menu, juce::String::fromUTF8 ("Save the last ") + juce::String (length_s, 0) + juce::String::fromUTF8 (" s\xe2\x80\xa6"), has_something, false,
+         [] (FilmButton& b) { b.saveLast(); });
+    add (menu, "Film from now on", playback.current().isRunning(), false, [] (FilmButton& b) { b.begin(); });
+    menu.addSeparator();
+    for (const double seconds : { 5.0, 10.0, 20.0, 30.0, 60.0 })
+        add (lengths, juce::String (seconds, 0) + " s", true, seconds == length_s, [seconds] (FilmButton& b) {
+            b.setLength (seconds);
+            if (b.onLength) b.onLength();
+        });
+    menu.addSubMenu ("Length of the past", lengths);
+    menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (this));
+}
+
+void FilmButton::saveLast() { ask (tape().last (length_s)); }
+
+void FilmButton::begin()
+{
+    first_tick = tape().end();
+    filming_rate = std::max (1.0, tape().rate());
+    tape().keep (FilmTape::longest_s);
+}
+
+void FilmButton::end()
+{
+    if (const auto first = std::exchange (first_tick, {})) ask (tape().end() < *first ? tape().last (FilmTape::longest_s) : tape().since (*first));
+    tape().keep (length_s);
+}
+
+void FilmButton::ask (Film film)
+{
+    if (job) return;
+    if (film.ticks.empty() || film.states.empty())
+    {
+        if (onHint) onHint ("There is no film to save yet: start the graph, and move the tool");
+        return;
+    }
+    const auto folder = juce::File::getSpecialLocation (juce::File::userDocumentsDirectory).getChildFile ("Tactus");
+    folder.createDirectory();
+    const auto file = folder.getChildFile ("film" + juce::Time::getCurrentTime().formatted (" %Y-%m-%d %H-%M-%S") + ".png");
+    constexpr bool of_the_desktop = false;   // such a dialog would keep Esc from this program, see MainView::askForFile
+    chooser = std::make_unique<juce::FileChooser> ("Save film", file, "*.png", of_the_desktop);
+    using Choice = juce::FileBrowserComponent;
+    auto kept = std::make_shared<Film> (std::move (film));
+    chooser->launchAsync (Choice::saveMode | Choice::canSelectFiles | Choice::warnAboutOverwriting,
+                          [safe = juce::Component::SafePointer (this), kept] (const juce::FileChooser& c) {
+                              const auto chosen = c.getResult();
+                              if (safe != nullptr && chosen != juce::File()) safe->save (std::move (*kept), chosen.getFullPathName().toStdString());
+                          });
+}
+
+void FilmButton::save (Film film, const std::filesystem::path& named)
+{
+    job = std::make_unique<FilmJob> (std::move (film), themeOf (*this), space.getLocalBounds(), picture_width, named);
+    refresh();
+}
+
+void FilmButton::finish()
+{
+    const auto& result = *job->result();
+    juce::String text;
+    if (result)
+    {
+        text = "Saved " + juce::String (result->files.front().string());
+        for (std::size_t i = 1; i < result->files.size(); ++i)
+            text << ", " << juce::String (result->files[i].extension().string());
+        for (const auto& note : result->notes)
+            text << ". " << juce::String (messageText (note));
+    }
+    else
+        text = juce::String (messageText (result.error()));
+    job.reset();
+    label ("Film");
+    if (onHint) onHint (text);
+}
+
+}   // namespace tactus::host

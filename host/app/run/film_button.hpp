@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "scene_view.hpp"
+
+#include <host/app/film/film_job.hpp>
+
+namespace tactus::host
+{
+
+/// Saves what the scene has shown as a film: an animated picture, a sound and a table of the force. A click opens a menu: the last seconds,
+/// or from now until the next click. While a film is saved, the button shows how far that is, and a click ends it. [main thread]
+class FilmButton final : public juce::Component
+{
+public:
+    FilmButton (Playback&, SceneView&);
+
+    void refresh();   ///< call many times a second
+    int wantedWidth() const;
+
+    /// How many seconds are kept and saved.
+    void setLength (double seconds);
+    double length() const noexcept { return length_s; }
+    std::function<void()> onLength;   ///< called when the user has chosen another length
+
+    std::function<void (const juce::String&)> onHint;   ///< receives what was saved, or why nothing was
+
+    // What the menu does.
+    void saveLast();                                  ///< asks for a name, and saves the last seconds
+    void begin();                                     ///< films from now on
+    void end();                                       ///< asks for a name, and saves what was filmed
+    void save (Film, const std::filesystem::path&);   ///< saves a film under this name
+    bool isFilming() const noexcept { return first_tick.has_value(); }
+    bool isSaving() const noexcept { return job != nullptr; }
+
+    void resized() override { button.setBounds (getLocalBounds()); }
+
+private:
+    void click();
+    void openMenu();
+    void ask (Film);
+    void label (const juce::String&);
+    FilmTape& tape() const { return playback.current().film(); }
+    void finish();
+
+    static constexpr int picture_width = 960;
+    static constexpr const char* widest = "Saving 99 %";
+
+    Playback& playback;
+    SceneView& space;
+    LabelButton button { "Film", "Saves the scene as a film: pictures, sound and force" };
+    double length_s = 10.0;
+    std::optional<std::uint64_t> first_tick;   // while it films
+    double filming_rate = 1.0;
+    std::unique_ptr<FilmJob> job;
+    std::unique_ptr<juce::FileChooser> chooser;
+};
+
+}   // namespace tactus::host
