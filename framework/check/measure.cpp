@@ -271,7 +271,7 @@ private:
             }
     }
 
-    /// The nodes whose inputs are all hits: they play when they are hit.
+    /// The nodes that play when they are hit, or by themselves, such as a clip: they take hits, and nothing else is wired into their inputs.
     std::vector<std::size_t> struckNodes() const
     {
         std::vector<std::size_t> all;
@@ -279,7 +279,10 @@ private:
         for (std::size_t n = 0; n < nodes.size(); ++n)
         {
             const auto& inputs = nodes[n].type->inputs;
-            if (nodes[n].runs() && ! inputs.empty() && std::ranges::all_of (inputs, plan::takesHits)) all.push_back (n);
+            const auto isFollowed = [&] (const plan::FlatWire& w) {
+                return w.to.node == static_cast<int> (n) && w.to.role == Role::input && ! plan::takesHits (inputs[at (w.to.port)]);
+            };
+            if (nodes[n].runs() && std::ranges::any_of (inputs, plan::takesHits) && std::ranges::none_of (plan->flat().wires, isFollowed)) all.push_back (n);
         }
         return all;
     }

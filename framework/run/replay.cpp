@@ -25,7 +25,12 @@ Result<std::unique_ptr<Replay>> Replay::open (const std::string& path, Options o
 {
     auto log = RunLogReader::open (path);
     if (! log) return log.error();
-    std::unique_ptr<Replay> replay { new Replay (std::move (*log), std::move (options)) };
+    return open (std::move (*log), std::move (options));
+}
+
+Result<std::unique_ptr<Replay>> Replay::open (RunLogReader log, Options options)
+{
+    std::unique_ptr<Replay> replay { new Replay (std::move (log), std::move (options)) };
     if (auto begun = replay->begin(); ! begun) return begun.error();
     return replay;
 }

@@ -33,7 +33,8 @@ namespace tactus::nodes
 /// transient events). Own definition.
 ///
 /// Good to know
-///  - The clip is a file: .haptic, .ahap, .hjif, a clip of Tactus (.json), or a table of clip rows (.csv). See docs/clips.md.
+///  - The clip is a file: .haptic, .ahap, .hjif, a clip of Tactus (.json), a recording (.wav), or a table of clip rows (.csv). See
+///    docs/clips.md.
 ///  - Clips count from 0 to 1. `gain` is what 1 means on the device, in its unit, N or m/s2. lowest and highest are the frequencies that
 ///    the device renders well; 0 takes those of the clip. A slower or faster clip has lower or higher tones.
 ///  - A hit plays the clip once, and a hit while it plays starts it again. With full_speed, its amplitude is in proportion to the

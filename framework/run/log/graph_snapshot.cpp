@@ -136,4 +136,29 @@ Messages checkAssets (const Json& snapshot, const fs::path& folder)
     return messages;
 }
 
+Json movedSnapshot (Json snapshot, const fs::path& from_folder, const fs::path& to_folder)
+{
+    const auto moved = [&] (const std::string& path) { return relativeTo (to_folder, from_folder / path); };
+    if (auto files = snapshot.find ("files"); files != snapshot.end() && files->is_array())
+        for (auto& entry : files->asArray())
+            if (auto place = entry.find ("folder"); place != entry.end() && place->is_string()) *place = moved (place->asString());
+    const auto* assets = member (snapshot, "assets");
+    if (assets == nullptr || ! assets->is_object()) return snapshot;
+    auto named = Json::object();
+    for (const auto& [path, hash] : assets->items())
+        named[moved (path)] = hash;
+    snapshot["assets"] = std::move (named);
+    return snapshot;
+}
+
+std::string snapshotHash (const Json& snapshot)
+{
+    std::string texts;
+    if (const auto* files = member (snapshot, "files"); files != nullptr && files->is_array())
+        for (const auto& entry : *files)
+            if (entry.is_object())
+                if (const auto* text = member (entry, "text"); text != nullptr && text->is_string()) texts += text->asString() + '\n';
+    return contentHash (texts);
+}
+
 }   // namespace tactus

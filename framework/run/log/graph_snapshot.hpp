@@ -23,4 +23,10 @@ Result<graph::Graph> readSnapshot (const Json&, const std::filesystem::path& fol
 /// Returns a message for each file that is missing or has changed. Ids: log/asset_missing, log/asset_changed.
 Messages checkAssets (const Json& snapshot, const std::filesystem::path& folder);
 
+/// The same snapshot with its paths relative to another folder.
+Json movedSnapshot (Json snapshot, const std::filesystem::path& from_folder, const std::filesystem::path& to_folder);
+
+/// A hash of the texts of the graph and of the files that it includes. It does not depend on where they are.
+std::string snapshotHash (const Json& snapshot);
+
 }   // namespace tactus

@@ -173,9 +173,10 @@ Result<RunLogReader> RunLogReader::open (const std::string& path)
     return open (std::move (file), path);
 }
 
-Result<RunLogReader> RunLogReader::open (std::unique_ptr<std::istream> from, std::string name)
+Result<RunLogReader> RunLogReader::open (std::unique_ptr<std::istream> from, std::string name, int lines_before)
 {
     RunLogReader reader;
+    reader.number = lines_before;
     reader.in = std::move (from);
     reader.called = std::move (name);
     if (auto head = reader.readHead(); ! head) return std::move (head.error());
@@ -201,8 +202,9 @@ std::optional<std::string> RunLogReader::line()
 
 Result<> RunLogReader::readHead()
 {
+    const int before_head = number;
     const auto text = line();
-    number = 1;
+    number = before_head + 1;
     const auto no_log = [&] (const std::string& why) {
         const auto what = "this is not a run log: " + why;
         return at ("log/not_a_log", what, "name the file that `tactus play --log` wrote");

@@ -58,8 +58,8 @@ class RunLogReader
 public:
     static Result<RunLogReader> open (const std::string& path);
 
-    /// `name` appears in error messages.
-    static Result<RunLogReader> open (std::unique_ptr<std::istream>, std::string name);
+    /// `name` appears in error messages, and lines count from `lines_before`: the stream may begin behind other lines.
+    static Result<RunLogReader> open (std::unique_ptr<std::istream>, std::string name, int lines_before = 0);
 
     const RunHead& head() const noexcept { return begin; }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <tactus/file/csv.hpp>
-#include <tactus/kit/assets.hpp>
 #include <tactus/kit/clip.hpp>
 #include <tactus/text/message.hpp>
 #include <tactus/text/result.hpp>
@@ -12,9 +11,6 @@
 
 namespace tactus::host
 {
-
-/// A recording as a clip: a wave on each channel. Values beyond -1 to 1 are scaled to it, which a note says.
-Clip clipOfSignal (const Signal&, Messages& notes);
 
 /// A table as a clip: the rows of a clip (kind, track, a, b, c), or a column t (or time) with columns value, amplitude and sharpness, each
 /// with _2, _3 and so on for further channels. `name` is for messages. Error: clip/columns, clip/range.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "listening.hpp"
+#include "resample_file.hpp"
 
-#include <host/audio/resample_file.hpp>
 #include <host/io/wav_header.hpp>
 #include <tactus/file/atomic_file.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "clip_samples.hpp"
 
+#include <tactus/file/clips/clip_signal.hpp>
 #include <tactus/kit/clip_score.hpp>
-#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,49 +13,8 @@ namespace tactus::host
 
 namespace
 {
-/// Scales waves to -1…1, all by the same factor.
-void scaleWaves (Clip& clip, const std::string& what, Messages& notes)
-{
-    double most = 1.0;
-    for (const auto& t : clip.tracks)
-        for (const auto& p : t.amplitude)
-            most = std::max (most, std::abs (p.value));
-    if (most <= 1.0) return;
-    for (auto& t : clip.tracks)
-        for (auto& p : t.amplitude)
-            p.value /= most;
-    notes.push_back (Message::warning ("clip/changed", what, "the values are divided by " + numberText (most) + ", so that they are at most 1",
-                                       "set the gain of signal.clip to " + numberText (most)));
-}
-
 std::string columnName (const std::string& name, int channel) { return channel == 1 ? name : name + "_" + std::to_string (channel); }
-}   // namespace
 
-Clip clipOfSignal (const Signal& signal, Messages& notes)
-{
-    Clip clip;
-    clip.notes.emplace_back ("rate", numberText (signal.rate_hz));
-    for (const auto& samples : signal.channels)
-    {
-        if (clip.tracks.size() >= at (most_clip_tracks))
-        {
-            notes.push_back (Message::warning ("clip/not_carried", "channels", "those after the first " + std::to_string (most_clip_tracks) + " are left out",
-                                               "convert them from a file of their own"));
-            break;
-        }
-        auto& track = clip.tracks.emplace_back (ClipTrack { .channel = static_cast<int> (clip.tracks.size()) + 1, .is_wave = true });
-        track.amplitude.reserve (samples.size() + 1);
-        for (std::size_t i = 0; i < samples.size(); ++i)
-            track.amplitude.push_back ({ static_cast<double> (i) / signal.rate_hz, samples[i] });
-        // The last sample lasts as long as the others.
-        if (! samples.empty()) track.amplitude.push_back ({ static_cast<double> (samples.size()) / signal.rate_hz, samples.back() });
-    }
-    scaleWaves (clip, "samples", notes);
-    return clip;
-}
-
-namespace
-{
 Clip clipOfRows (const Table& table)
 {
     return clipOf ({ .rows = static_cast<int> (table.rows()), .columns = clip_columns, .values = table.values }).clip;
@@ -96,7 +55,7 @@ Result<Clip> clipOfTable (const Table& table, const std::string& name, Messages&
         if (const auto sharpness = table.column (columnName ("sharpness", channel))) track.sharpness = pointsOf (table, *time, *sharpness);
     }
     if (clip.tracks.empty()) return refuse ("clip/columns", "it has neither a column amplitude nor a column value", "name one of its columns so");
-    scaleWaves (clip, name, notes);
+    readers::scaleWaves (clip, name, notes);
     if (const auto what = problemOf (clip); ! what.empty()) return refuse ("clip/range", what, "correct the column");
     return clip;
 }

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Clip files that are dropped on the canvas, and the clip of a node as a file.
+#include "canvas.hpp"
+
+#include <host/app/model/clip_graph.hpp>
+#include <host/app/model/file_path.hpp>
+#include <host/io/clip_io.hpp>
+#include <tactus/text/quote.hpp>
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+namespace
+{
+namespace fs = std::filesystem;
+
+fs::path droppedFile (const juce::StringArray& files) { return fs::path (files[0].toStdString()); }
+}   // namespace
+
+bool Canvas::isInterestedInFileDrag (const juce::StringArray& files)
+{
+    return files.size() == 1 && (isClipExtension (droppedFile (files)) || extensionOf (droppedFile (files)) == ".json");
+}
+
+void Canvas::fileDragEnter (const juce::StringArray& files, int x, int y) { fileDragMove (files, x, y); }
+
+void Canvas::fileDragMove (const juce::StringArray& files, int x, int y)
+{
+    file_over = { x, y };
+    const auto* node = shown->nodeAt (window.toCanvas (juce::Point<int> (x, y).toFloat()));
+    const auto name = juce::String (printableName (droppedFile (files).filename().string()));
+    if (node == nullptr)
+        hint ("Drop " + name + " to add a node that plays it.");
+    else if (node->type == clip_type)
+        hint ("Drop " + name + " to let " + juce::String (node->name) + " play it.");
+    else
+        hint (juce::String (node->name) + " plays no clips. Drop " + name + " on empty canvas, or on a clip node.");
+    repaint();
+}
+
+void Canvas::fileDragExit (const juce::StringArray&)
+{
+    file_over.reset();
+    hint ({});
+    repaint();
+}
+
+void Canvas::filesDropped (const juce::StringArray& files, int x, int y)
+{
+    fileDragExit (files);
+    const auto file = droppedFile (files);
+    if (isClipFile (file)) return dropClip (file, juce::Point<int> (x, y).toFloat());
+    if (onFileDropped) onFileDropped (file);
+}
+
+void Canvas::dropClip (const fs::path& file, juce::Point<float> pixel)
+{
+    const auto at = window.toCanvas (pixel);
+    const auto written = pathFrom (file, document.graph().folder);
+    const auto* node = shown->nodeAt (at);
+    if (node != nullptr && node->type != clip_type)
+        return notice (juce::String (node->name) + " plays no clips. Drop the file on empty canvas, or on a clip node.");
+    if (node != nullptr)
+    {
+        const auto name = node->name;
+        perform (graph::SetSetting { patch(), name, "clip", Json (written) });
+        return;
+    }
+    graph::Id made = 0;
+    auto add = addNode (document.graph(), patch(), clip_type, freePlace (at), made);
+    if (auto* one = std::get_if<graph::AddNode> (&add.edit)) playClip (one->node, written);
+    if (! perform (std::move (add))) return;
+    select ({ made });
+    notice ("Added a node that plays " + juce::String (printableName (file.filename().string())) + " over and over. Wire its value to a motor to feel it.");
+}
+
+void Canvas::paintFileOver (juce::Graphics& g) const
+{
+    const auto& theme = themeOf (*this);
+    g.setColour (theme.accent);
+    const auto* node = shown->nodeAt (window.toCanvas (file_over->toFloat()));
+    if (node == nullptr)
+        g.drawRect (getLocalBounds(), 2);
+    else if (node->type == clip_type)
+        g.drawRoundedRectangle (node->bounds().transformedBy (window.transform()).expanded (3.0f), 6.0f, 2.0f);
+}
+
+void Canvas::saveClipOfSelection()
+{
+    const auto nodes = selectedNodes();
+    if (nodes.size() != 1 || ! onSaveClip) return;
+    const auto* node = patchShown().find (nodes[0]->name);
+    if (node == nullptr) return;
+    const auto written = node->settings.find ("clip");
+    if (written == node->settings.end() || ! written->is_string() || written->asString().empty())
+        return notice (juce::String (node->name) + " has no clip yet. Drop a clip file on it first.");
+    onSaveClip (fs::path (resolved (written->asString(), document.graph().folder)));
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "take.hpp"
+
+#include <host/assets/nearest_by_embree.hpp>
+
+#include <juce_core/juce_core.h>
+
+#include <utility>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr auto slice = std::chrono::milliseconds (10);   // of each call
+constexpr std::uint64_t ticks_at_once = 64;
+}   // namespace
+
+Take::Take (Playback& p) : playback (p) {}
+Take::~Take() { discard(); }
+
+void Take::discard()
+{
+    std::error_code ignored;
+    if (! file.empty()) std::filesystem::remove (file, ignored);
+    file.clear();
+    reader.reset();
+    done = nullptr;
+    length_s = 0.0;
+    now = State::empty;
+}
+
+void Take::record()
+{
+    playback.endPreview();
+    discard();
+    file = juce::File::createTempFile (".jsonl").getFullPathName().toStdString();
+    playback.run().logNextTo (file, program);
+    playback.restart();
+    began = std::chrono::steady_clock::now();
+    now = State::recording;
+}
+
+void Take::stop()
+{
+    if (now == State::recording) playback.run().stop();
+}
+
+double Take::seconds() const noexcept
+{
+    if (now != State::recording) return length_s;
+    return std::chrono::duration<double> (std::chrono::steady_clock::now() - began).count();
+}
+
+void Take::read (StretchReader::Options options, std::function<void (Result<Stretch>)> then)
+{
+    if (now != State::ready && now != State::reading) return;
+    options.assets = &assets;
+    options.services.nearest_triangle = nearestByEmbree;
+    options.program = program;
+    auto opened = StretchReader::open (file.string(), std::move (options));
+    if (! opened) return then (std::move (opened).error());
+    reader = std::move (*opened);
+    done = std::move (then);
+    now = State::reading;
+}
+
+void Take::attend()
+{
+    if (now == State::recording)
+    {
+        if (seconds() > longest_s) stop();
+        if (playback.run().isLogging()) return;
+        std::error_code failed;
+        const bool is_there = std::filesystem::file_size (file, failed) > 0 && ! failed;
+        length_s = seconds();
+        hand = playback.run().handRole();
+        now = is_there ? State::ready : State::empty;
+        if (is_there && onRecorded) onRecorded();
+    }
+    else if (now == State::reading && ! readOn())
+    {
+        now = State::ready;
+        const auto ended = std::exchange (reader, nullptr);
+        const auto then = std::exchange (done, nullptr);
+        auto stretch = ended->take();
+        then (std::move (stretch));
+    }
+}
+
+/// Plays for a moment. Returns false at the end.
+bool Take::readOn()
+{
+    const auto until = std::chrono::steady_clock::now() + slice;
+    while (std::chrono::steady_clock::now() < until)
+    {
+        const auto more = reader->advance (ticks_at_once);
+        if (! more)
+        {
+            now = State::ready;
+            reader.reset();
+            const auto then = std::exchange (done, nullptr);
+            then (more.error());
+            return true;
+        }
+        if (! *more) return false;
+    }
+    return true;
+}
+
+}   // namespace tactus::host

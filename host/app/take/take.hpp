@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <host/app/run/playback.hpp>
+#include <tactus/run/log/stretch.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace tactus::host
+{
+
+/// A recording of everything that enters a run of the window, from its first tick to its end, and what it holds. It is played again
+/// without devices, a little on each call of attend(), so the window stays responsive. [main thread]
+class Take
+{
+public:
+    enum class State
+    {
+        empty,
+        recording,
+        reading,   ///< the recording is being played again
+        ready
+    };
+
+    static constexpr double longest_s = 60.0;
+
+    explicit Take (Playback&);
+    ~Take();
+
+    /// This program and its version, as logs state it.
+    std::string program = "tactus";
+
+    void record();   ///< starts the run again, and records it
+    void stop();     ///< stops the run
+
+    State state() const noexcept { return now; }
+    double seconds() const noexcept;   ///< the length so far, or of the complete recording
+
+    /// Plays the recording again and hands over a stretch, or the reason why that failed. Replaces any earlier request.
+    void read (StretchReader::Options, std::function<void (Result<Stretch>)>);
+
+    void attend();   ///< call many times a second
+
+    std::function<void()> onRecorded;   ///< called when a recording is complete
+
+    /// The role of the hand in the recording; empty if it has none.
+    const std::string& role() const noexcept { return hand; }
+
+    /// The log of the recording; empty if there is none.
+    const std::filesystem::path& log() const noexcept { return file; }
+
+private:
+    bool readOn();
+    void discard();
+
+    Playback& playback;
+    FileAssets assets;
+    State now = State::empty;
+    std::filesystem::path file;
+    std::string hand;
+    std::chrono::steady_clock::time_point began;
+    double length_s = 0.0;
+    std::unique_ptr<StretchReader> reader;
+    std::function<void (Result<Stretch>)> done;
+};
+
+}   // namespace tactus::host

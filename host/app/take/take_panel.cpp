@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "take_panel.hpp"
+
+#include <host/app/model/message_text.hpp>
+#include <host/app/scopes/scope_ports.hpp>
+#include <host/io/stretch_files.hpp>
+#include <tactus/run/log/run_test.hpp>
+#include <tactus/text/quote.hpp>
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr auto how_to = "Press Record, move, and press Stop. Then mark a stretch of the curve, and make a clip, a gesture or a test of it.";
+
+/// A time that was typed, in s; the old one if it is not a number.
+double secondsIn (const juce::String& text, double before)
+{
+    const auto number = text.trim().upToFirstOccurrenceOf ("s", false, true).trim();
+    return number.isNotEmpty() && number.containsOnly ("0123456789.,") ? number.replaceCharacter (',', '.').getDoubleValue() : before;
+}
+}   // namespace
+
+TakePanel::TakePanel (Document& d, Playback& p, const Catalogue& c) : document (d), catalogue (c), recording (p)
+{
+    setTitle ("Take");
+    record.setColour ([] (const Theme& t) { return t.stop; });
+    record.onClick = [this] { toggleRecording(); };
+    clip.onClick = [this] { makeClip(); };
+    gesture.onClick = [this] { makeGesture(); };
+    test.onClick = [this] { makeTest(); };
+    ports.setTitle ("Port to show");
+    ports.setTooltip ("The port that the curve shows, and that a clip plays");
+    ports.onChange = [this] {
+        if (const int i = ports.getSelectedItemIndex(); i >= 0 && i < static_cast<int> (names.size())) showPort (names[static_cast<std::size_t> (i)]);
+    };
+    from.setTitle ("Start of the stretch in s");
+    until.setTitle ("End of the stretch in s");
+    from.onApply = until.onApply = [this] (const juce::String&) { applyFields(); };
+    curve.onMark = [this] { showMark(); };
+    curve.onHint = [this] (const juce::String& text) {
+        if (onHint) onHint (text);
+    };
+    curve.setText (how_to);
+    recording.onRecorded = [this] { readPort(); };
+    for (auto* child : std::initializer_list<juce::Component*> { &curve, &record, &ports, &from, &until, &clip, &gesture, &test })
+        addAndMakeVisible (child);
+    document.add (*this);
+    listPorts();
+    refresh();
+}
+
+TakePanel::~TakePanel() { document.remove (*this); }
+
+void TakePanel::documentChanged()
+{
+    if (recording.state() == Take::State::empty) listPorts();
+}
+
+/// The ports of the graph. While there is a recording, they stay those of the recorded graph.
+void TakePanel::listPorts()
+{
+    names.clear();
+    for (const auto& p : scopePorts (document.graph(), catalogue))
+        names.push_back (p.name);
+    if (std::ranges::count (names, shown_port) == 0)
+    {
+        const auto suggested = suggestedScope (ScopeKind::time, document.graph(), catalogue).ports;
+        const auto first = names.empty() ? std::string() : names.front();
+        shown_port = suggested.empty() ? first : suggested.front();
+    }
+    ports.clear (juce::dontSendNotification);
+    for (std::size_t i = 0; i < names.size(); ++i)
+        ports.addItem (juce::String (printableName (names[i])), static_cast<int> (i) + 1);
+    const auto at = std::ranges::find (names, shown_port);
+    if (at != names.end()) ports.setSelectedItemIndex (static_cast<int> (at - names.begin()), juce::dontSendNotification);
+}
+
+void TakePanel::toggleRecording()
+{
+    if (recording.state() == Take::State::recording) return recording.stop();
+    listPorts();
+    curve.show ({});
+    recording.record();
+    refresh();
+}
+
+void TakePanel::showPort (const std::string& port)
+{
+    if (port == shown_port || port.empty()) return;
+    shown_port = port;
+    readPort();
+}
+
+void TakePanel::readPort()
+{
+    if (shown_port.empty()) return;
+    recording.read ({ .records = { shown_port } }, [this] (Result<Stretch> read) {
+        if (! read) return refuse (read.error());
+        curve.show (std::move (*read));
+        showMark();
+    });
+}
+
+StretchReader::Options TakePanel::marked() const { return { .from_s = curve.from(), .until_s = curve.until() }; }
+
+void TakePanel::refuse (const Message& m)
+{
+    if (onSaid) onSaid ("This did not work", juce::String (messageText (m)) + ".");
+}
+
+void TakePanel::makeClip()
+{
+    auto options = marked();
+    options.records = { shown_port };
+    recording.read (std::move (options), [this] (Result<Stretch> read) {
+        if (! read) return refuse (read.error());
+        Messages notes;
+        const auto made = clipOfStretch (*read, notes);
+        if (onChoose && onClip) onChoose ("take.haptic", [this, made, notes] (const std::filesystem::path& to) { onClip (made, notes, to); });
+    });
+}
+
+void TakePanel::makeGesture()
+{
+    auto options = marked();
+    options.role = recording.role();
+    recording.read (std::move (options), [this] (Result<Stretch> read) {
+        if (! read) return refuse (read.error());
+        if (! onChoose) return;
+        onChoose ("gesture.csv", [this, stretch = std::make_shared<Stretch> (std::move (*read))] (const std::filesystem::path& to) {
+            if (const auto saved = saveMovement (*stretch, to); ! saved) return refuse (saved.error());
+            if (onSaid)
+                onSaid ("Saved " + juce::String (printableName (to.filename().string())),
+                        "To let a simulated hand follow it, drop the file on the panel of the hand at the lower left.");
+        });
+    });
+}
+
+void TakePanel::makeTest()
+{
+    recording.read (marked(), [this] (Result<Stretch> read) {
+        if (! read) return refuse (read.error());
+        if (! onChoose) return;
+        onChoose ("test.jsonl", [this, stretch = std::make_shared<Stretch> (std::move (*read))] (const std::filesystem::path& to) {
+            if (const auto saved = writeRunTest (recording.log().string(), to, *stretch, {}, recording.program); ! saved) return refuse (saved.error());
+            const auto name = juce::String (printableName (to.filename().string()));
+            juce::String text = "`tactus test " + name + "` plays the run again and compares " + juce::String (stretch->ticks()) + " ticks, bit for bit.";
+            if (stretch->from > 0)
+                text << " The test begins at the start of the run, because the state of the nodes is known there; it compares from "
+                     << juce::String (curve.from(), 3) << " s on.";
+            if (onSaid) onSaid ("Saved " + name, text);
+        });
+    });
+}
+
+void TakePanel::applyFields()
+{
+    curve.mark (secondsIn (from.getText(), curve.from()), secondsIn (until.getText(), curve.until()));
+}
+
+void TakePanel::showMark()
+{
+    from.show (juce::String (curve.from(), 3));
+    until.show (juce::String (curve.until(), 3));
+    repaint();
+}
+
+juce::String TakePanel::statusText() const
+{
+    switch (recording.state())
+    {
+    case Take::State::recording:
+        return "Recording: " + juce::String (recording.seconds(), 1) + " s of at most " + juce::String (juce::roundToInt (Take::longest_s)) + " s";
+    case Take::State::reading:
+        return "Playing the recording again ...";
+    case Take::State::ready:
+        return juce::String (curve.until() - curve.from(), 3) + " s marked";
+    default:
+        return {};
+    }
+}
+
+void TakePanel::refresh()
+{
+    const auto before = recording.state();
+    recording.attend();
+    const auto now = recording.state();
+    const bool records = now == Take::State::recording, is_ready = now == Take::State::ready && curve.until() > curve.from();
+    record.setToggleState (records, juce::dontSendNotification);
+    record.setButtonText (records ? "Stop" : "Record");
+    for (auto* b : { &clip, &test })
+        b->setEnabled (is_ready);
+    gesture.setEnabled (is_ready && ! recording.role().empty());
+    for (auto* f : { &from, &until })
+        f->setEnabled (curve.length() > 0.0);
+    const bool has_curve = curve.length() > 0.0;
+    const auto waiting = records ? juce::String ("Recording. Move, and press Stop when you are done.") : juce::String (how_to);
+    if (! has_curve) curve.setText (now == Take::State::reading ? juce::String ("Playing the recording again ...") : waiting);
+    if (records || now != before) repaint();
+}
+
+void TakePanel::paint (juce::Graphics& g)
+{
+    const auto& look = lookOf (*this);
+    g.fillAll (look.theme().panel);
+    g.setColour (look.theme().dim);
+    g.setFont (look.font (12.0f));
+    g.drawText (statusText(), record.getRight() + 12, record.getY(), std::max (0, ports.getX() - record.getRight() - 20), record.getHeight(),
+                juce::Justification::centredLeft, true);
+    const auto label = [&] (const juce::String& text, const juce::Component& field) {
+        g.drawText (text, field.getX() - 44, field.getY(), 40, field.getHeight(), juce::Justification::centredRight, false);
+    };
+    label ("from", from);
+    label ("until", until);
+    g.drawText ("s", until.getRight() + 4, until.getY(), 12, until.getHeight(), juce::Justification::centredLeft, false);
+}
+
+void TakePanel::resized()
+{
+    auto rest = getLocalBounds().reduced (12, 6);
+    auto head = rest.removeFromTop (26);
+    record.setBounds (head.removeFromLeft (84));
+    ports.setBounds (head.removeFromRight (std::min (220, head.getWidth() / 2)));
+    auto foot = rest.removeFromBottom (28).withTrimmedTop (2);
+    foot.removeFromLeft (36);
+    from.setBounds (foot.removeFromLeft (60));
+    foot.removeFromLeft (44);
+    until.setBounds (foot.removeFromLeft (60));
+    for (auto* b : { &test, &gesture, &clip })
+    {
+        b->setBounds (foot.removeFromRight (b->bestWidth()));
+        foot.removeFromRight (6);
+    }
+    curve.setBounds (rest.withTrimmedTop (6).withTrimmedBottom (4));
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "take.hpp"
+#include "take_plot.hpp"
+
+#include <host/app/inspector/fields.hpp>
+#include <host/app/inspector/tool_button.hpp>
+#include <tactus/kit/clip.hpp>
+
+namespace tactus::host
+{
+
+/// Records a run, shows one of its ports, and makes a clip, a gesture or a test of a stretch of it.
+class TakePanel final : public juce::Component, private Document::Listener
+{
+public:
+    TakePanel (Document&, Playback&, const Catalogue&);
+    ~TakePanel() override;
+
+    void refresh();   ///< call many times a second
+
+    Take& take() noexcept { return recording; }
+    TakePlot& plot() noexcept { return curve; }
+
+    void showPort (const std::string& port);   ///< shows another port of the recording
+    const std::string& port() const noexcept { return shown_port; }
+    void toggleRecording();
+
+    // What the buttons do. They ask for a file.
+    void makeClip();
+    void makeGesture();
+    void makeTest();
+
+    /// Asks for a file to write; `name` is proposed.
+    std::function<void (const std::string& name, std::function<void (const std::filesystem::path&)>)> onChoose;
+    std::function<void (const Clip&, Messages, const std::filesystem::path&)> onClip;   ///< writes a clip, and says what it lost
+    std::function<void (const juce::String& title, const juce::String& text)> onSaid;   ///< shows a result or a problem
+    std::function<void (const juce::String&)> onHint;
+
+    void paint (juce::Graphics&) override;
+    void resized() override;
+
+private:
+    void documentChanged() override;
+    void readPort();
+    void listPorts();
+    void showMark();
+    void applyFields();
+    void refuse (const Message&);
+    juce::String statusText() const;
+    StretchReader::Options marked() const;
+
+    Document& document;
+    const Catalogue& catalogue;
+    Take recording;
+    TakePlot curve;
+    ToolButton record { "Record", ToolButton::Kind::toggle, "Start the run again and record it, from its first tick on" };
+    ToolButton clip { "Make a clip...", ToolButton::Kind::framed, "Save the marked stretch of this port as a clip that signal.clip plays" };
+    ToolButton gesture { "Make a gesture...", ToolButton::Kind::framed,
+                         "Save the movement of the hand in the marked stretch as a path that a simulated hand follows" };
+    ToolButton test { "Make a test...", ToolButton::Kind::framed,
+                      "Save a test that plays this run again and compares the marked stretch, bit for bit. It begins at the start of the run, "
+                      "because the state of the nodes is known there." };
+    juce::ComboBox ports;
+    TextField from, until;
+    std::vector<std::string> names;   // of the ports to choose from
+    std::string shown_port;
+};
+
+}   // namespace tactus::host

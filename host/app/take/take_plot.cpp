@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "take_plot.hpp"
+
+#include <host/app/look/component_colour.hpp>
+#include <host/app/model/with_prefix.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr float grip = 6.0f;        // pixels beside an edge
+constexpr double key_step = 0.01;   // s
+}   // namespace
+
+TakePlot::TakePlot()
+{
+    setTitle ("Recording; arrow keys move the stretch, with Shift its end");
+    setWantsKeyboardFocus (true);
+}
+
+void TakePlot::show (Stretch s)
+{
+    const bool is_other = s.ticks() != shown.ticks();
+    shown = std::move (s);
+    low = high = 0.0;
+    for (const double v : shown.values)
+        if (std::isfinite (v))
+        {
+            low = std::min (low, v);
+            high = std::max (high, v);
+        }
+    if (high - low < 1e-12) high = low + 1.0;
+    columnsOf();
+    if (is_other) mark (0.0, length());
+    repaint();
+}
+
+void TakePlot::setText (const juce::String& t)
+{
+    if (t == text) return;
+    text = t;
+    repaint();
+}
+
+void TakePlot::mark (double from, double until)
+{
+    if (from > until) std::swap (from, until);
+    from_s = std::clamp (from, 0.0, length());
+    until_s = std::clamp (until, 0.0, length());
+    if (onMark) onMark();
+    repaint();
+}
+
+float TakePlot::xAt (double s) const { return area().getX() + static_cast<float> (s / std::max (1e-9, length())) * area().getWidth(); }
+
+double TakePlot::timeAt (float x) const { return std::clamp (static_cast<double> ((x - area().getX()) / area().getWidth()), 0.0, 1.0) * length(); }
+
+TakePlot::Edge TakePlot::edgeAt (float x) const
+{
+    const float to_from = std::abs (x - xAt (from_s)), to_until = std::abs (x - xAt (until_s));
+    if (std::min (to_from, to_until) > grip) return Edge::none;
+    return to_from < to_until ? Edge::from : Edge::until;
+}
+
+void TakePlot::columnsOf()
+{
+    columns.assign (shown.names.size(), {});
+    const auto width = static_cast<std::size_t> (std::max (1.0f, area().getWidth()));
+    const auto ticks = shown.ticks();
+    if (ticks == 0) return;
+    for (std::size_t c = 0; c < columns.size(); ++c)
+        for (std::size_t x = 0; x < width; ++x)
+        {
+            const auto begin = x * ticks / width, end = std::max (begin + 1, (x + 1) * ticks / width);
+            double least = shown.value (begin, c), most = least;
+            for (auto k = begin; k < std::min (end + 1, ticks); ++k)   // one more, so that the columns join
+            {
+                least = std::min (least, shown.value (k, c));
+                most = std::max (most, shown.value (k, c));
+            }
+            columns[c].emplace_back (least, most);
+        }
+}
+
+juce::Colour TakePlot::colourOf (std::size_t component) const
+{
+    const auto& theme = themeOf (*this);
+    return componentColour (theme, theme.of (shown.quantity), component, columns.size());
+}
+
+/// The largest and smallest value, and the names of the components.
+void TakePlot::paintScale (juce::Graphics& g) const
+{
+    const auto& look = lookOf (*this);
+    const auto box = area().reduced (6.0f, 3.0f).toNearestInt();
+    g.setFont (look.font (11.0f));
+    g.setColour (look.theme().dim);
+    g.drawText (juce::String::fromUTF8 (withPrefix (high, shown.unit).c_str()), box, juce::Justification::topLeft, false);
+    g.drawText (juce::String::fromUTF8 (withPrefix (low, shown.unit).c_str()), box, juce::Justification::bottomLeft, false);
+    if (columns.size() != 3) return;
+    auto names = box.withHeight (14);
+    for (std::size_t c = 3; c-- > 0;)
+    {
+        g.setColour (colourOf (c));
+        g.drawText (juce::String::charToString (static_cast<juce::juce_wchar> ('x' + static_cast<int> (c))), names.removeFromRight (14),
+                    juce::Justification::centred, false);
+    }
+}
+
+void TakePlot::paintCurves (juce::Graphics& g) const
+{
+    const auto& theme = themeOf (*this);
+    const auto box = area().reduced (0.0f, 4.0f);
+    const auto yAt = [&] (double v) { return box.getBottom() - static_cast<float> ((v - low) / (high - low)) * box.getHeight(); };
+    g.setColour (theme.hairline);
+    g.drawHorizontalLine (juce::roundToInt (yAt (0.0)), box.getX(), box.getRight());
+    for (std::size_t c = columns.size(); c-- > 0;)
+    {
+        g.setColour (colourOf (c));
+        for (std::size_t x = 0; x < columns[c].size(); ++x)
+        {
+            const auto [least, most] = columns[c][x];
+            if (! std::isfinite (least) || ! std::isfinite (most)) continue;
+            const float top = yAt (most), bottom = std::max (yAt (least), top + 1.2f);
+            g.fillRect (box.getX() + static_cast<float> (x), top, 1.2f, bottom - top);
+        }
+    }
+}
+
+void TakePlot::paintMark (juce::Graphics& g) const
+{
+    const auto& look = lookOf (*this);
+    const auto& theme = look.theme();
+    const auto box = area();
+    const float a = xAt (from_s), b = xAt (until_s);
+    g.setColour (theme.canvas.withAlpha (0.45f));
+    g.fillRect (box.withRight (a));
+    g.fillRect (box.withLeft (b));
+    g.setColour (theme.accent.withAlpha (0.10f));
+    g.fillRect (box.withLeft (a).withRight (b));
+    g.setColour (theme.accent);
+    g.fillRect (a - 1.0f, box.getY(), 2.0f, box.getHeight());
+    g.fillRect (b - 1.0f, box.getY(), 2.0f, box.getHeight());
+    g.setColour (theme.dim);
+    g.setFont (look.font (11.0f));
+    const auto low_edge = getLocalBounds().removeFromBottom (15).reduced (2, 0);
+    g.drawText ("0 s", low_edge, juce::Justification::centredLeft, false);
+    g.drawText (juce::String (length(), 2) + " s", low_edge, juce::Justification::centredRight, false);
+}
+
+void TakePlot::paint (juce::Graphics& g)
+{
+    const auto& look = lookOf (*this);
+    const auto& theme = look.theme();
+    g.setColour (theme.canvas);
+    g.fillRoundedRectangle (area(), 4.0f);
+    if (shown.ticks() == 0)
+    {
+        g.setColour (theme.dim);
+        g.setFont (look.font (13.0f));
+        g.drawFittedText (text, area().reduced (16.0f, 8.0f).toNearestInt(), juce::Justification::centred, 5);
+    }
+    else
+    {
+        paintCurves (g);
+        paintMark (g);
+        paintScale (g);
+    }
+    g.setColour (hasKeyboardFocus (false) ? theme.accent : theme.hairline);
+    g.drawRoundedRectangle (area(), 4.0f, 1.0f);
+}
+
+void TakePlot::mouseDown (const juce::MouseEvent& e)
+{
+    if (shown.ticks() == 0) return;
+    held = edgeAt (e.position.x);
+    pressed_s = timeAt (e.position.x);
+    if (held == Edge::from) pressed_s = until_s;
+    if (held == Edge::until) pressed_s = from_s;
+}
+
+void TakePlot::mouseDrag (const juce::MouseEvent& e)
+{
+    if (shown.ticks() == 0 || (held == Edge::none && ! e.mouseWasDraggedSinceMouseDown())) return;
+    mark (pressed_s, timeAt (e.position.x));
+}
+
+void TakePlot::mouseDoubleClick (const juce::MouseEvent&) { mark (0.0, length()); }
+
+void TakePlot::mouseMove (const juce::MouseEvent& e)
+{
+    const bool on_edge = shown.ticks() > 0 && edgeAt (e.position.x) != Edge::none;
+    if (onHint && shown.ticks() > 0) onHint ("Drag to mark a stretch, or to move its edge. Double-click to mark all. The arrow keys move the stretch.");
+    setMouseCursor (on_edge ? juce::MouseCursor::LeftRightResizeCursor : juce::MouseCursor::NormalCursor);
+}
+
+void TakePlot::mouseExit (const juce::MouseEvent&)
+{
+    if (onHint) onHint ({});
+}
+
+bool TakePlot::keyPressed (const juce::KeyPress& key)
+{
+    const bool left = key.getKeyCode() == juce::KeyPress::leftKey, right = key.getKeyCode() == juce::KeyPress::rightKey;
+    if ((! left && ! right) || shown.ticks() == 0) return false;
+    const double by = left ? -key_step : key_step;
+    if (key.getModifiers().isShiftDown())
+        mark (from_s, std::max (from_s, until_s + by));
+    else if (from_s + by >= 0.0 && until_s + by <= length())
+        mark (from_s + by, until_s + by);
+    return true;
+}
+
+}   // namespace tactus::host

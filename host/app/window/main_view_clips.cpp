@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files that are dropped on the window, and clips that are saved.
+#include "main_view.hpp"
+
+#include <host/app/model/message_text.hpp>
+#include <host/io/clip_io.hpp>
+#include <tactus/text/quote.hpp>
+
+namespace tactus::host
+{
+
+namespace
+{
+namespace fs = std::filesystem;
+
+/// What a saved clip lost, a line each.
+juce::String lossText (const SavedClip& saved, const Messages& notes)
+{
+    constexpr std::size_t most = 8;
+    std::vector<std::string> lines;
+    for (const auto& m : notes)
+        lines.push_back (m.text + (m.remedy.empty() ? "" : "; " + m.remedy));
+    std::ranges::move (lossReport (saved), std::back_inserter (lines));
+    juce::String text ("What the file does not hold, or holds differently:\n");
+    for (std::size_t i = 0; i < std::min (most, lines.size()); ++i)
+        text << "\n- " << juce::String (lines[i]) << ".";
+    if (lines.size() > most) text << "\n\nThere are " << juce::String (lines.size() - most) << " more. `tactus convert` lists all.";
+    return text;
+}
+
+bool isTable (const fs::path& file)
+{
+    const auto extension = extensionOf (file);
+    return extension == ".csv" || extension == ".tsv" || extension == ".txt";
+}
+}   // namespace
+
+bool MainView::isInterestedInFileDrag (const juce::StringArray& dragged)
+{
+    if (dragged.size() != 1 || question.isOpen()) return false;
+    const fs::path file { dragged[0].toStdString() };
+    return isClipExtension (file) || isTable (file) || extensionOf (file) == ".json";
+}
+
+void MainView::filesDropped (const juce::StringArray& dropped, int, int)
+{
+    const fs::path file { dropped[0].toStdString() };
+    isTable (file) ? fitRecordingIn (file) : open (file);
+}
+
+void MainView::saveClipAs (const fs::path& file)
+{
+    const auto read = loadClip (file);
+    if (! read)
+        return question.ask ("Cannot read " + juce::String (printableName (file.filename().string())), messageText (read.error()) + ".", { { "Close", {} } });
+    const auto other = extensionOf (file) == ".haptic" ? ".ahap" : ".haptic";
+    chooseOwnFile (file.stem().string() + other, [this, clip = read->clip] (const fs::path& to) { writeClip (clip, {}, to); });
+}
+
+/// Asks where to save a file of the user. The clips of presets are in a folder that may be read-only.
+void MainView::chooseOwnFile (const std::string& name, std::function<void (const fs::path&)> chosen)
+{
+    std::error_code failed;
+    fs::create_directories (ownFolder(), failed);
+    chooseFile (true, ownFolder() / name, std::move (chosen));
+}
+
+void MainView::writeClip (const Clip& clip, Messages notes, const fs::path& to)
+{
+    auto file = to;
+    if (! file.has_extension()) file += ".haptic";
+    const auto name = juce::String (printableName (file.filename().string()));
+    const auto saved = saveClip (clip, file);
+    if (! saved) return question.ask ("The clip was not saved", messageText (saved.error()) + ".", { { "Close", {} } });
+    question.ask ("Saved " + name, lossText (*saved, notes), { { "Close", {} } });
+}
+
+void MainView::connectTakes()
+{
+    takes.onChoose = [this] (const std::string& name, std::function<void (const fs::path&)> chosen) { chooseOwnFile (name, std::move (chosen)); };
+    takes.onClip = [this] (const Clip& clip, Messages notes, const fs::path& to) { writeClip (clip, std::move (notes), to); };
+    takes.onSaid = [this] (const juce::String& title, const juce::String& text) { question.ask (title, text, { { "Close", {} } }); };
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tactus/file/clips/clip_difference.hpp>
+#include <tactus/file/clips/clip_file.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// The extension of a file in lower case, such as ".haptic".
+std::string extensionOf (const std::filesystem::path&);
+
+/// True if the extension is one of a clip and of nothing else: .haptic, .ahap, .hjif or .wav. A .json may be a clip or a graph.
+bool isClipExtension (const std::filesystem::path&);
+
+/// True if the file is a clip: by its extension, or because it is a .json that reads as one.
+bool isClipFile (const std::filesystem::path&);
+
+/// Reads a clip of any format: .haptic, .ahap, .hjif, .json, .wav or .csv. Ids: those of readClip, readWav, readTable and clipOfTable,
+/// file/unreadable, clip/unknown_kind. [main thread]
+Result<readers::ClipFile> loadClip (const std::filesystem::path&);
+
+/// What was written, and what it lost.
+struct SavedClip
+{
+    Messages losses;                                       ///< what the format cannot hold
+    std::vector<readers::ChannelDifference> differences;   ///< of the rendered clip; only those that can be measured
+    bool is_mixed = false;                                 ///< all channels were added up
+};
+
+/// Writes a clip in the format of the extension: .haptic, .ahap, .hjif, .json, .wav or the rows of a clip in a .csv. Reads it back to
+/// find out what was lost. `rate_hz` is for a .wav; 0: the rate of the recording that the clip came from, or 8 kHz. Ids: those of
+/// writeClip, WavWriter and TableWriter, clip/too_large, clip/too_few. [main thread]
+Result<SavedClip> saveClip (const Clip&, const std::filesystem::path&, double rate_hz = 0.0);
+
+/// The losses as sentences: each thing that the format cannot hold, and how far the rendered clip differs. Never empty.
+std::vector<std::string> lossReport (const SavedClip&);
+
+/// The differences only, as sentences. Never empty.
+std::vector<std::string> differenceReport (const SavedClip&);
+
+/// Refuses a rendering that is too large. Id: clip/too_large.
+Result<> checkRendered (const Clip&, double rate_hz, const std::string& remedy);
+
+}   // namespace tactus::host

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The presets that play clips.
+
+#include "support/sketch.hpp"
+
+#include <host/assets/file_assets.hpp>
+#include <tactus/check/hands.hpp>
+#include <tactus/check/measure.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/run/device/make_device.hpp>
+#include <tactus/run/engine.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+using namespace tactus;
+namespace fs = std::filesystem;
+
+namespace
+{
+const fs::path clip_presets = fs::path (TACTUS_SOURCE_DIR) / "graphs";
+
+graph::Graph withGain (graph::Graph g, const char* node, double gain)
+{
+    for (auto& n : g.root.nodes)
+        if (n.name == node) n.params["gain"] = gain;
+    std::erase_if (g.controls, [] (const graph::Control& c) { return c.id == "strength" || c.id == "teeth"; });
+    return g;
+}
+
+/// The largest stiffness and damping that the graph asks of its device.
+std::pair<double, double> slopesOf (const graph::Graph& g)
+{
+    host::FileAssets assets;
+    const check::Subject subject { g, catalogue(), { .assets = &assets } };
+    const auto demand = check::measure (subject, check::recordMotion (subject, {}, clip_presets).motion, { .places = 32 });
+    double stiffness = 0.0, damping = 0.0;
+    for (const auto& slope : demand.roles.at (0).slopes)
+    {
+        stiffness = std::max (stiffness, slope.stiffness);
+        damping = std::max (damping, slope.damping);
+    }
+    return { stiffness, damping };
+}
+}   // namespace
+
+TEST_CASE ("a clip that plays in time, faded in by the contact, counts neither as stiffness nor as damping", "[graphs][check]")
+{
+    const auto g = loadGraph (clip_presets / "heartbeat.json").graph;
+    const auto with = slopesOf (withGain (g, "beat", 1.0)), without = slopesOf (withGain (g, "beat", 0.0));
+    CHECK (without.second > 0.1);   // of the chest
+    CHECK (with.first == Approx (without.first).epsilon (0.02));
+    CHECK (with.second == Approx (without.second).epsilon (0.02));
+}
+
+TEST_CASE ("a clip along the path counts as a texture: its slope is found", "[graphs][check]")
+{
+    const auto g = loadGraph (clip_presets / "zip.json").graph;
+    const auto with = slopesOf (withGain (g, "teeth", 2.0)), without = slopesOf (withGain (g, "teeth", 0.0));
+    CHECK (with.first > 1.2 * without.first);
+}

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/take/take_panel.hpp>
+#include <host/assets/file_assets.hpp>
+#include <tactus/file/csv.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/run/log/run_test.hpp>
+
+#include "support/temporary_folder.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+using namespace tactus;
+using namespace tactus::host;
+namespace fs = std::filesystem;
+
+namespace
+{
+struct TakeRig
+{
+    juce::ScopedJuceInitialiser_GUI juce_runs;
+    Look look;
+    TemporaryFolder folder;
+    Document document { loadGraph (TACTUS_SOURCE_DIR "/graphs/dry_wood.json").graph };
+    Sound sound;
+    DeviceSetup setup;
+    std::unique_ptr<Playback> playback;
+    std::unique_ptr<TakePanel> panel;
+    juce::String said;
+    Clip clip;
+    fs::path chosen;
+
+    TakeRig()
+    {
+        juce::LookAndFeel::setDefaultLookAndFeel (&look);
+        playback = std::make_unique<Playback> (document, catalogue(), sound, setup, [] {});
+        panel = std::make_unique<TakePanel> (document, *playback, catalogue());
+        panel->setBounds (0, 0, 600, 232);
+        panel->onChoose = [this] (const std::string& name, const std::function<void (const fs::path&)>& then) {
+            chosen = folder / name;
+            then (chosen);
+        };
+        panel->onClip = [this] (const Clip& c, const Messages&, const fs::path&) { clip = c; };
+        panel->onSaid = [this] (const juce::String& title, const juce::String& text) { said = title + ": " + text; };
+    }
+
+    ~TakeRig()
+    {
+        panel.reset();
+        playback.reset();
+        juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
+    }
+
+    /// Does what the window's timer does, until the condition holds. False after 30 s.
+    template <typename F>
+    bool until (F&& isSo)
+    {
+        for (int i = 0; i < 6000 && ! isSo(); ++i)
+        {
+            playback->attend();
+            panel->refresh();
+            std::this_thread::sleep_for (std::chrono::milliseconds (5));
+        }
+        return isSo();
+    }
+
+    bool isReady() { return panel->take().state() == Take::State::ready && panel->plot().length() > 0.0; }
+
+    /// Records at least these seconds of the run, not counting the time until it stops.
+    void record (double s)
+    {
+        panel->toggleRecording();
+        REQUIRE (panel->take().state() == Take::State::recording);
+        REQUIRE (until ([&] { return playback->run().status() && static_cast<double> (playback->run().status()->ticks) > 4000.0 * s; }));
+        panel->toggleRecording();
+        REQUIRE (until ([&] { return isReady(); }));
+    }
+};
+}   // namespace
+
+TEST_CASE ("a take records the run from its first tick, and shows the force of the motor", "[take]")
+{
+    TakeRig rig;
+    CHECK (rig.panel->port() == "motor.force");
+    rig.record (0.3);
+    CHECK (rig.panel->plot().length() > 0.29);
+    CHECK (rig.panel->plot().from() == 0.0);
+    CHECK (rig.panel->plot().until() == rig.panel->plot().length());
+    rig.panel->showPort ("drag.state");
+    CHECK (rig.until ([&] { return rig.panel->take().state() == Take::State::ready; }));
+    const auto log = rig.panel->take().log();
+    CHECK (fs::exists (log));
+    rig.record (0.05);
+    CHECK (! fs::exists (log));   // the new take replaced it
+}
+
+TEST_CASE ("a marked stretch of a take becomes a clip, a gesture and a test", "[take]")
+{
+    TakeRig rig;
+    rig.record (0.4);
+    rig.panel->plot().mark (0.3, 0.1);
+    CHECK (rig.panel->plot().from() == 0.1);
+
+    rig.panel->makeClip();
+    REQUIRE (rig.until ([&] { return ! rig.clip.tracks.empty(); }));
+    CHECK (rig.clip.tracks.size() == 3);
+    CHECK (rig.clip.tracks[0].is_wave);
+    CHECK (rig.clip.lastEvent() == Approx (0.2));
+
+    rig.panel->makeGesture();
+    REQUIRE (rig.until ([&] { return fs::exists (rig.folder / "gesture.csv"); }));
+    const auto movement = readTable (rig.folder / "gesture.csv");
+    REQUIRE (movement);
+    CHECK (movement->rows() == 800);
+    CHECK (rig.said.startsWith ("Saved gesture.csv"));
+
+    rig.panel->makeTest();
+    REQUIRE (rig.until ([&] { return fs::exists (rig.folder / "test.jsonl"); }));
+    CHECK (rig.said.contains ("begins at the start of the run"));
+    host::FileAssets assets;
+    const auto played = playRunTest ((rig.folder / "test.jsonl").string(), { .assets = &assets, .program = "tactus" });
+    INFO ((played ? std::string() : describe (played.error())));
+    REQUIRE (played);
+    CHECK (played->isSame());
+    CHECK (played->ticks == 800);
+}
+
+TEST_CASE ("an edit while a take is recorded is part of it", "[take]")
+{
+    TakeRig rig;
+    rig.panel->toggleRecording();
+    REQUIRE (rig.until ([&] { return rig.playback->run().status() && rig.playback->run().status()->ticks > 400; }));
+    REQUIRE (rig.document.perform (graph::SetParam { "", "drag", "mu", Json (0.9) }));
+    const auto ticks = rig.playback->run().status()->ticks;
+    REQUIRE (rig.until ([&] { return rig.playback->run().status()->ticks > ticks + 400; }));
+    rig.panel->toggleRecording();
+    REQUIRE (rig.until ([&] { return rig.isReady(); }));
+    rig.panel->makeTest();
+    REQUIRE (rig.until ([&] { return fs::exists (rig.folder / "test.jsonl"); }));
+    host::FileAssets assets;
+    const auto played = playRunTest ((rig.folder / "test.jsonl").string(), { .assets = &assets, .program = "tactus" });
+    REQUIRE (played);
+    CHECK (played->isSame());
+}
+
+TEST_CASE ("a graph that does not run gives no take, and the buttons stay off", "[take]")
+{
+    TakeRig rig;
+    rig.document.open ({}, {}, "empty");
+    rig.panel->toggleRecording();
+    CHECK (rig.until ([&] { return rig.panel->take().state() != Take::State::recording || rig.playback->run().isRunning(); }));
+    rig.panel->makeClip();
+    CHECK (rig.clip.tracks.empty());
+}
