@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/math/math.hpp>
+#include <tactus/kit/mixing_desk.hpp>
 #include <tactus/node/generic.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
 #include <string>
 
 namespace tactus::nodes
@@ -41,23 +37,11 @@ namespace tactus::nodes
 ///  - Ducking depends on time. A spring that is ducked while it is pressed but not while it is released generates energy.
 ///  - The first tick starts without ramps, and so does the tick after a fault. One non-finite input silences all channels.
 ///  - `names` are the labels of the channels for people and hosts, separated by commas: "contact, texture, shock".
-///  - It mixes numbers. For forces in three axes, mix before vector.scale, or use one desk per axis.
+///  - It mixes numbers. layer.mix_vectors mixes forces in three axes.
 struct LayerMix
 {
-    struct Inputs
-    {
-        InputList<double> in;
-    };
-
-    struct Params
-    {
-        List gain { 1.0 };
-        List mute;
-        List solo;
-        List priority;
-        double duck_db = 12.0;
-        double ceiling = 0.0;
-    };
+    using Inputs = In<InputList<double>>;
+    using Params = DeskParams;
 
     struct Settings
     {
@@ -98,130 +82,14 @@ struct LayerMix
     Params params;
     Settings settings;
 
-    void prepare (const Setup& setup) noexcept
-    {
-        const double dt = setup.dt_s();
-        ramp = dt / 10e-3;
-        attack = -math::expm1 (-dt / 5e-3);
-        release = -math::expm1 (-dt / 100e-3);
-        decay = math::exp (-dt / 50e-3);
-        fading = math::exp (-dt / 2.0);
-        forget();
-    }
-
-    void update() noexcept
-    {
-        any_solo = false;
-        for (int i = 0; i < settings.inputs; ++i)
-            any_solo = any_solo || params.solo[i] > 0.5;
-        ducked = math::pow (10.0, -params.duck_db / 20.0);
-    }
-
-    void adopt (const LayerMix& old) noexcept
-    {
-        channels = old.channels;
-        loudest = old.loudest;
-        started = old.started;
-    }
-
-    Outputs tick (const Inputs& in) noexcept;
+    void prepare (const Setup& setup) noexcept { desk.prepare (setup.dt_s()); }
+    void update() noexcept { desk.update (params, settings.inputs); }
+    void adopt (const LayerMix& old) noexcept { desk.adopt (old.desk); }
+    Outputs tick (const Inputs& in) noexcept { return desk.mix<Outputs> (in.in, params); }
 
 private:
-    struct Channel
-    {
-        double open = 1.0;    // m_i, the ramp of mute and solo
-        double level = 0.0;   // level of m_i x_i
-        double duck = 1.0;    // d_i
-    };
-
-    bool mix (const InputList<double>& in, Outputs&) noexcept;
-    bool isOpen (int i) const noexcept { return ! (params.mute[i] > 0.5) && (! any_solo || params.solo[i] > 0.5); }
-    bool isDucked (int i, int size) const noexcept;
-
-    void forget() noexcept
-    {
-        channels = {};
-        loudest = 0.0;
-        started = false;
-    }
-
-    /// A falling peak. It ends at 0 rather than in subnormal numbers.
-    static double fall (double level, double factor) noexcept { return level > 1e-300 ? level * factor : 0.0; }
-
-    static constexpr double audible = 0.01;   // share of `loudest` above which a channel sounds
-
-    std::array<Channel, list_capacity> channels;
-    double loudest = 0.0;
-    double ramp = 1.0, attack = 1.0, release = 1.0, decay = 0.0, fading = 0.0;   // per tick
-    double ducked = 1.0;
-    bool any_solo = false;
-    bool started = false;
+    MixingDesk<double> desk;
 };
-
-//==============================================================================
-// Implementation below.
-
-inline LayerMix::Outputs LayerMix::tick (const Inputs& in) noexcept
-{
-    Outputs out { .level = { 0.0, in.in.size() } };   // the only result that is returned, so that its list is not copied
-    if (! mix (in.in, out))
-    {
-        forget();
-        out = {};
-    }
-    return out;
-}
-
-/// Returns false if something is not finite.
-inline bool LayerMix::mix (const InputList<double>& in, Outputs& out) noexcept
-{
-    if (! isFinite (in)) return false;
-
-    const int size = in.size();
-    std::array<double, list_capacity> heard;
-    loudest = fall (loudest, fading);
-    for (int i = 0; i < size; ++i)
-    {
-        Channel& c = channels[at (i)];
-        const double target = isOpen (i) ? 1.0 : 0.0;
-        c.open = started ? std::clamp (target, c.open - ramp, c.open + ramp) : target;
-
-        const double x = c.open * (params.gain[i] * in[i]);
-        heard[at (i)] = x;
-        c.level = std::max (std::abs (x), fall (c.level, decay));
-        loudest = std::max (loudest, c.level);
-        out.level[i] = c.level;
-        if (! isFinite (x)) return false;
-    }
-
-    double sum = 0.0;
-    for (int i = 0; i < size; ++i)
-    {
-        Channel& c = channels[at (i)];
-        const double target = isDucked (i, size) ? ducked : 1.0;
-        c.duck += (target < c.duck ? attack : release) * (target - c.duck);
-        if (std::abs (target - c.duck) < 1e-9) c.duck = target;
-        sum += c.duck * heard[at (i)];
-    }
-    if (! isFinite (sum)) return false;
-
-    started = true;
-    out.out = sum;
-    if (params.ceiling > 0.0 && std::abs (sum) > params.ceiling)
-    {
-        out.out = std::copysign (params.ceiling, sum);
-        out.reduction = 20.0 / std::numbers::ln10 * (math::log (std::abs (sum)) - math::log (params.ceiling));   // their quotient may be infinite
-    }
-    return true;
-}
-
-/// True if a layer of higher priority sounds.
-inline bool LayerMix::isDucked (int i, int size) const noexcept
-{
-    for (int j = 0; j < size; ++j)
-        if (params.priority[j] > params.priority[i] && channels[at (j)].level > audible * loudest) return true;
-    return false;
-}
 
 }   // namespace tactus::nodes
 

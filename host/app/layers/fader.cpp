@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fader.hpp"
+#include "gain_text.hpp"
 #include "taper.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -14,9 +16,34 @@ constexpr double fine = 0.1;
 
 /// Rounds a gain to the precision with which a drag sets it.
 double roundedGain (double gain) { return gain < 0.1 ? std::round (gain * 1e4) * 1e-4 : std::round (gain * 1e3) * 1e-3; }
+/// What a screen reader says of a fader, in dB.
+class FaderValue final : public juce::AccessibilityValueInterface
+{
+public:
+    FaderValue (const double& g, std::function<void (double)> f) : gain (g), set (std::move (f)) {}
+
+    bool isReadOnly() const override { return false; }
+    double getCurrentValue() const override { return decibelsOf (gain); }
+    void setValue (double db) override { set (gainOf (db)); }
+    void setValueAsString (const juce::String& text) override
+    {
+        if (const auto db = readGain (text.toStdString(), {})) setValue (*db);
+    }
+    juce::String getCurrentValueAsString() const override { return juce::String (getCurrentValue(), 1) + " dB"; }
+    AccessibleValueRange getRange() const override { return { { silent_db, decibelsOf (Taper::most) }, 0.1 }; }
+
+private:
+    const double& gain;
+    std::function<void (double)> set;
+};
 }   // namespace
 
-Fader::Fader() { setMouseCursor (juce::MouseCursor::UpDownResizeCursor); }
+Fader::Fader()
+{
+    setMouseCursor (juce::MouseCursor::UpDownResizeCursor);
+    setWantsKeyboardFocus (true);
+    setMouseClickGrabsKeyboardFocus (false);   // the canvas keeps the keyboard focus during a drag
+}
 
 void Fader::show (double g)
 {
@@ -53,7 +80,37 @@ void Fader::mouseUp (const juce::MouseEvent&) { dragged = false; }
 
 void Fader::mouseDoubleClick (const juce::MouseEvent& e)
 {
-    if (! e.mods.isAltDown() && onTextEntry) onTextEntry();
+    if (! e.mods.isAltDown() && onChange) onChange (1.0, false);
+}
+
+bool Fader::keyPressed (const juce::KeyPress& key)
+{
+    const double step = key.getModifiers().isShiftDown() ? 0.1 : 1.0;
+    if (key.isKeyCode (juce::KeyPress::upKey))
+        nudge (step);
+    else if (key.isKeyCode (juce::KeyPress::downKey))
+        nudge (-step);
+    else if (key.isKeyCode (juce::KeyPress::homeKey))
+        nudge (-decibelsOf (gain));
+    else
+        return false;
+    return true;
+}
+
+void Fader::nudge (double decibels)
+{
+    const double before = std::max (decibelsOf (gain), -60.0);   // from off, it starts at the bottom of the usual range
+    const double sign = gain < 0.0 ? -1.0 : 1.0;
+    if (onChange) onChange (sign * roundedGain (std::min (gainOf (before + decibels), Taper::most)), false);
+}
+
+std::unique_ptr<juce::AccessibilityHandler> Fader::createAccessibilityHandler()
+{
+    const auto set = [this] (double to) {
+        if (onChange) onChange (to, false);
+    };
+    return std::make_unique<juce::AccessibilityHandler> (*this, juce::AccessibilityRole::slider, juce::AccessibilityActions(),
+                                                         juce::AccessibilityHandler::Interfaces { std::make_unique<FaderValue> (gain, set) });
 }
 
 void Fader::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel)
@@ -83,6 +140,11 @@ void Fader::paint (juce::Graphics& g)
     const bool beyond = gain > Taper::most || gain < 0.0;
     g.setColour (theme.raised.interpolatedWith (theme.text, isMouseOverOrDragging() ? 0.35f : 0.2f));
     g.fillRoundedRectangle (knob, 3.0f);
+    if (hasKeyboardFocus (false))
+    {
+        g.setColour (theme.accent);
+        g.drawRoundedRectangle (knob, 3.0f, 1.5f);
+    }
     g.setColour (beyond ? theme.warning : theme.text);
     g.fillRect (knob.withSizeKeepingCentre (knob.getWidth() - 6.0f, 1.5f));
 }

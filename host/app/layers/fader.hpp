@@ -9,7 +9,8 @@
 namespace tactus::host
 {
 
-/// A gain fader. Dragging with Shift moves it in fine steps, Alt-click resets it to the default, and the wheel nudges it.
+/// A gain fader. Dragging with Shift moves it in fine steps, a double click sets 0 dB, and Alt-click the default. The wheel and the arrow keys
+/// nudge it.
 class Fader final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
@@ -19,20 +20,23 @@ public:
 
     /// Without a gain: resets to the default. `goes_on`: continues the previous change of the same drag.
     std::function<void (std::optional<double> gain, bool goes_on)> onChange;
-    std::function<void()> onTextEntry;   ///< called on a double click
-
     void paint (juce::Graphics&) override;
     void mouseDown (const juce::MouseEvent&) override;
     void mouseDrag (const juce::MouseEvent&) override;
     void mouseUp (const juce::MouseEvent&) override;
     void mouseDoubleClick (const juce::MouseEvent&) override;
     void mouseWheelMove (const juce::MouseEvent&, const juce::MouseWheelDetails&) override;
+    bool keyPressed (const juce::KeyPress&) override;
+    void focusGained (FocusChangeType) override { repaint(); }
+    void focusLost (FocusChangeType) override { repaint(); }
+    std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override;
     void mouseEnter (const juce::MouseEvent&) override { repaint(); }
     void mouseExit (const juce::MouseEvent&) override { repaint(); }
 
 private:
     juce::Rectangle<float> slot() const { return getLocalBounds().toFloat().reduced (0.0f, 8.0f); }
     void moveTo (double position);
+    void nudge (double decibels);
 
     double gain = 1.0, grabbed = 0.0;   // grabbed: the fader position at the start of a drag
     bool dragged = false;

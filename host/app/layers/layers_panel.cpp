@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "layers_panel.hpp"
 
+#include <host/app/model/file_path.hpp>
 #include <host/app/model/message_text.hpp>
+#include <host/io/clip_io.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 
@@ -10,19 +13,35 @@ namespace tactus::host
 
 namespace
 {
+constexpr int most_probes = 18;     // components; all panels share the 32 of the run. Layers beyond that have a meter, but no spectrum
 constexpr int spectrum_every = 3;   // every third refresh updates the spectra
-constexpr auto introduction = "A layer mixer mixes textures and vibrations. Each layer has gain, mute and solo, and layers of higher "
+constexpr int introduction_height = 132, button_line = 28;
+const char* headingOf (std::string_view family)
+{
+    if (family == "texture") return "Textures";
+    return family == "friction" ? "Friction" : "Vibrations";
+}
+
+constexpr auto introduction = "A layer mixer mixes forces, textures and vibrations. Each layer has gain, mute and solo, and layers of higher "
                               "priority can duck the others. The layers appear here as strips with faders and meters in newtons.";
 }   // namespace
 
 LayersPanel::LayersPanel (Document& d, Traces& t, const Catalogue& c) : document (d), catalogue (c), traces (t)
 {
     setTitle ("Layers");
+    for (const auto& kind : layerKinds())
+    {
+        auto& b = *kinds.emplace_back (std::make_unique<ToolButton> ("+ " + juce::String (kind.name), ToolButton::Kind::framed, kind.about));
+        b.setTitle ("Add a layer: " + juce::String (kind.name));
+        b.onClick = [this, type = kind.type] { add (type); };
+        addAndMakeVisible (b);
+    }
     more.onClick = [this] { openMenu(); };
     first.onClick = [this] { addMixerNow(); };
     scroll.setViewedComponent (&row, false);
     scroll.setScrollBarsShown (false, true);
     scroll.setScrollBarThickness (8);
+    scroll.setWantsKeyboardFocus (false);   // the keys are for the strips
     addAndMakeVisible (scroll);
     addAndMakeVisible (more);
     addAndMakeVisible (first);
@@ -51,6 +70,8 @@ void LayersPanel::rebuild()
         s->show();
     if (total) total->show();
 
+    for (auto& b : kinds)
+        b->setEnabled (true);
     more.setVisible (! all.empty());
     scroll.setVisible (! all.empty());
     first.setVisible (false);
@@ -60,6 +81,8 @@ void LayersPanel::rebuild()
         const auto added = addMixer (graph, catalogue);
         preview = juce::String (added ? added->description : "Cannot add a mixer: " + messageText (added.error()) + ".");
         first.setVisible (added.has_value());
+        for (auto& b : kinds)
+            b->setEnabled (added.has_value());
     }
     resized();
     repaint();
@@ -104,8 +127,14 @@ void LayersPanel::requestTraces()
     if (isVisible() && ! all.empty())
     {
         ports = { chosen.path + ".out", chosen.path + ".reduction" };
+        const int each = chosen.vectors ? 3 : 1;
+        int used = each + 1;
         for (std::size_t i = 0; i < strips.size(); ++i)
-            ports.push_back (chosen.path + ".in[" + std::to_string (i) + ']');
+        {
+            const bool whole = used + each <= most_probes;
+            used += whole ? each : 1;
+            ports.push_back (chosen.path + (whole ? ".in[" : ".level[") + std::to_string (i) + ']');
+        }
     }
     traces.want (std::move (ports));
 }
@@ -132,21 +161,35 @@ void LayersPanel::choose (std::size_t mixer)
         if (safe == nullptr) return;
         const auto at = std::ranges::find (safe->all, id, &MixerPlace::id);
         if (at == safe->all.end()) return;
-        safe->chosen = { id, {}, {}, {} };
+        safe->chosen = {};
+        safe->chosen.id = id;
         safe->rebuild();
     });
 }
 
 void LayersPanel::add (const std::string& type)
 {
-    if (all.empty()) return;
-    auto added = addLayer (document.graph(), chosen, catalogue, type);
-    if (! added)
+    graph::Batch batch { "add a layer", {} };
+    auto place = chosen;
+    auto graph = document.graph();
+    const auto refuse = [this] (const Message& why) {
+        if (onHint) onHint (juce::String (messageText (why)));
+    };
+    if (all.empty())
     {
-        if (onHint) onHint (juce::String (messageText (added.error())));
-        return;
+        auto mixer = addMixer (graph, catalogue);
+        if (! mixer) return refuse (mixer.error());
+        if (const auto applied = graph::apply (graph, mixer->command); ! applied) return refuse (applied.error());
+        place = mixer->place;
+        batch.commands.push_back (std::move (mixer->command));
     }
-    if (! document.perform (std::move (added->command))) return;
+    auto added = addLayer (graph, place, catalogue, type);
+    if (! added) return refuse (added.error());
+    if (const auto* named = std::get_if<graph::Batch> (&added->command.edit)) batch.name = named->name;
+    batch.commands.push_back (std::move (added->command));
+    chosen = place;
+    if (! document.perform (std::move (batch))) return;
+    if (added->node != 0 && onSelect) onSelect (place.patch, added->node);
     if (onHint && ! added->missing.empty()) onHint (juce::String (added->missing));
     scroll.setViewPosition (row.getWidth(), 0);
 }
@@ -159,16 +202,71 @@ void LayersPanel::addMixerNow()
         });
 }
 
+void LayersPanel::addClip (const std::filesystem::path& file)
+{
+    const auto say = [this] (const juce::String& text) {
+        if (onHint) onHint (text);
+    };
+    const auto& graph = document.graph();
+    graph::Batch batch { "add a clip as a layer", {} };
+    auto with_mixer = graph;
+    auto place = chosen;
+    if (all.empty())
+    {
+        auto mixer = addMixer (graph, catalogue);
+        if (! mixer) return say (juce::String (messageText (mixer.error())));
+        if (! graph::apply (with_mixer, mixer->command)) return;
+        const auto made = mixersOf (with_mixer);
+        if (made.empty()) return;
+        place = made.front();
+        batch.commands.push_back (std::move (mixer->command));
+    }
+    auto layer = addClipLayer (with_mixer, place, catalogue, pathFrom (file, graph.folder));
+    if (! layer) return say (juce::String (messageText (layer.error())));
+    batch.commands.push_back (std::move (layer->command));
+    if (! document.perform (std::move (batch))) return;
+    say (juce::String (printableName (file.filename().string())) + " is a layer now. It plays over and over.");
+    scroll.setViewPosition (row.getWidth(), 0);
+}
+
+bool LayersPanel::isInterestedInFileDrag (const juce::StringArray& files)
+{
+    const std::filesystem::path file { files.size() == 1 ? files[0].toStdString() : std::string() };
+    return isClipExtension (file) || extensionOf (file) == ".json";
+}
+
+void LayersPanel::fileDragEnter (const juce::StringArray&, int, int)
+{
+    file_over = true;
+    if (onHint) onHint ("Drop the clip to add a layer that plays it.");
+    repaint();
+}
+
+void LayersPanel::fileDragExit (const juce::StringArray&)
+{
+    file_over = false;
+    if (onHint) onHint ({});
+    repaint();
+}
+
+void LayersPanel::filesDropped (const juce::StringArray& files, int, int)
+{
+    fileDragExit (files);
+    const std::filesystem::path file { files[0].toStdString() };
+    if (isClipFile (file)) return addClip (file);
+    if (onHint) onHint (juce::String (printableName (file.filename().string())) + " is not a clip.");
+}
+
 void LayersPanel::openMenu()
 {
     juce::PopupMenu menu;
     std::vector<std::string> types { "" };
     menu.addItem (1, "Empty layer");
     std::string family;
-    for (const auto* t : layerTypes (catalogue))
+    for (const auto* t : layerTypes (catalogue, chosen.vectors))
     {
         const std::string id (t->info.id), of = id.substr (0, id.find ('.'));
-        if (of != family) menu.addSectionHeader (of == "texture" ? "Textures" : "Vibrations");
+        if (of != family) menu.addSectionHeader (headingOf (of));
         family = of;
         types.push_back (id);
         menu.addItem (static_cast<int> (types.size()), std::string (t->info.name));
@@ -217,27 +315,52 @@ void LayersPanel::paint (juce::Graphics& g)
 
 void LayersPanel::paintOverChildren (juce::Graphics& g)
 {
+    if (file_over)
+    {
+        g.setColour (themeOf (*this).accent);
+        g.drawRect (getLocalBounds(), 2);
+    }
     if (drop_at < 0) return;
     g.setColour (themeOf (*this).accent);
     g.fillRect (head_width + drop_at * LayerStrip::width - scroll.getViewPositionX() - 1, 0, 2, getHeight());
 }
 
-void LayersPanel::resized()
+void LayersPanel::layOutHead (juce::Rectangle<int> head)
 {
-    auto area = getLocalBounds();
-    if (all.empty())
-    {
-        first.setBounds (area.reduced (24, 16).withTop (std::min (148, std::max (0, area.getHeight() - 40))).withSize (first.bestWidth() + 8, 28));
-        return;
-    }
-    auto head = area.removeFromLeft (head_width).reduced (12, 4);
     head.removeFromTop (24);
-    more.setBounds (head.removeFromBottom (28));
+    auto buttons = head.removeFromBottom (3 * button_line);
+    more.setBounds (buttons.removeFromBottom (button_line).withTrimmedTop (2));
+    for (std::size_t i = 0; i < kinds.size(); i += 2)
+    {
+        auto pair = buttons.removeFromTop (button_line).withTrimmedTop (2);
+        kinds[i]->setBounds (pair.removeFromLeft (pair.getWidth() / 2).withTrimmedRight (1));
+        if (i + 1 < kinds.size()) kinds[i + 1]->setBounds (pair.withTrimmedLeft (1));
+    }
     for (auto& n : names)
         n->setBounds (head.removeFromTop (26).withTrimmedBottom (2));
+}
+
+void LayersPanel::layOutIntroduction()
+{
+    auto area = getLocalBounds().reduced (24, 16).withTop (std::min (16 + introduction_height, std::max (0, getHeight() - 40))).withHeight (button_line);
+    first.setBounds (area.removeFromLeft (first.bestWidth() + 8));
+    for (auto& b : kinds)
+    {
+        area.removeFromLeft (4);
+        b->setBounds (area.removeFromLeft (b->bestWidth() + 8));
+    }
+}
+
+void LayersPanel::resized()
+{
+    if (all.empty()) return layOutIntroduction();
+    auto area = getLocalBounds();
+    layOutHead (area.removeFromLeft (head_width).reduced (12, 4));
     if (total) total->setBounds (area.removeFromRight (MixStrip::width));
     scroll.setBounds (area);
-    row.setSize (static_cast<int> (strips.size()) * LayerStrip::width, scroll.getMaximumVisibleHeight());
+    const int width = static_cast<int> (strips.size()) * LayerStrip::width;
+    const int bar = width > scroll.getWidth() ? scroll.getScrollBarThickness() : 0;   // the bar itself may still be that of another width
+    row.setSize (width, scroll.getHeight() - bar);
     for (std::size_t i = 0; i < strips.size(); ++i)
         strips[i]->setBounds (static_cast<int> (i) * LayerStrip::width, 0, LayerStrip::width, row.getHeight());
 }

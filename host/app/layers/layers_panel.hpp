@@ -3,11 +3,14 @@
 
 #include "strip.hpp"
 
+#include <filesystem>
+
 namespace tactus::host
 {
 
-/// A layer mixer of the graph as a mixing desk: a strip for each layer, and the master strip.
-class LayersPanel final : public juce::Component, private Document::Listener
+/// A layer mixer of the graph as a mixing desk: a strip for each layer, and the master strip. A clip file that is dropped on it becomes a
+/// layer.
+class LayersPanel final : public juce::Component, public juce::FileDragAndDropTarget, private Document::Listener
 {
 public:
     LayersPanel (Document&, Traces&, const Catalogue&);
@@ -23,8 +26,16 @@ public:
     std::size_t layers() const noexcept { return strips.size(); }
     LayerStrip& layer (std::size_t i) { return *strips[i]; }
     MixStrip* mix() noexcept { return total.get(); }
-    void add (const std::string& type);   ///< adds a layer with a node of that type; "" for an empty one
+    void add (const std::string& type);   ///< adds a layer with a node of that type, "" for an empty one; adds a mixer first if there is none
     void addMixerNow();
+
+    /// Adds a layer that plays a clip file. Without a mixer, adds one first, in the same step.
+    void addClip (const std::filesystem::path& file);
+
+    bool isInterestedInFileDrag (const juce::StringArray&) override;
+    void fileDragEnter (const juce::StringArray&, int, int) override;
+    void fileDragExit (const juce::StringArray&) override;
+    void filesDropped (const juce::StringArray&, int, int) override;
 
     void paint (juce::Graphics&) override;
     void paintOverChildren (juce::Graphics&) override;
@@ -32,7 +43,7 @@ public:
     void visibilityChanged() override;
 
 private:
-    static constexpr int head_width = 136;
+    static constexpr int head_width = 184;
 
     void documentChanged() override { rebuild(); }
     void typesChanged() override { rebuildStrips (strips.size()); }   // their fields point into the datasheet of the mixer
@@ -41,6 +52,8 @@ private:
     void rebuildStrips (std::size_t layers);
     void requestTraces();
     void openMenu();
+    void layOutHead (juce::Rectangle<int>);
+    void layOutIntroduction();
     void drag (int layer, int x, bool let_go);
 
     Document& document;
@@ -49,7 +62,8 @@ private:
     std::vector<MixerPlace> all;
     MixerPlace chosen;
     std::vector<std::unique_ptr<ToolButton>> names;   // one button for each mixer
-    ToolButton more { "+ layer", ToolButton::Kind::framed, "Add a layer, with a texture or vibration wired into it" };
+    std::vector<std::unique_ptr<ToolButton>> kinds;   // one button for each kind of layer
+    ToolButton more { "Other layer...", ToolButton::Kind::framed, "Add an empty layer, or one with another texture or vibration" };
     ToolButton first { "Add a mixer before the motor", ToolButton::Kind::framed };
     juce::String preview;   // what adding a mixer would do, or why it is not possible
     juce::Viewport scroll;
@@ -58,6 +72,7 @@ private:
     std::unique_ptr<MixStrip> total;
     double refreshed_ms = 0.0;
     int refreshes = 0, drop_at = -1;
+    bool file_over = false;   // a clip file is being dragged over the desk
 };
 
 }   // namespace tactus::host

@@ -20,6 +20,7 @@ struct MixerPlace
 {
     graph::Id id = 0;
     std::string patch, node, path;
+    bool vectors = false;   ///< true for layer.mix_vectors, whose layers are forces in three axes
 
     bool operator== (const MixerPlace&) const = default;
 };
@@ -29,6 +30,9 @@ std::vector<MixerPlace> mixersOf (const graph::Graph&);
 const graph::Node* findMixer (const graph::Graph&, const MixerPlace&);
 
 int layersOf (const graph::Node&, const Catalogue&);
+
+/// The datasheet row of a param of mixers.
+const PortSheet& mixerSheet (const Catalogue&, std::string_view param);
 
 /// The names in the setting `names`; "" for a layer without a name.
 std::vector<std::string> layerNames (const graph::Node&, int layers);
@@ -50,15 +54,34 @@ graph::Command renameLayer (const graph::Node&, const MixerPlace&, int layers, i
 struct AddedLayer
 {
     graph::Command command;
-    std::string missing;   ///< "Wire something into ring.hit ..."; "" if all inputs are wired
+    std::string missing;   ///< "Wire something into ring.hit ..."; "" if nothing is left to do
+    graph::Id node = 0;    ///< the new node; 0 for an empty layer
 };
 
 /// A texture is felt only in contact: it is multiplied by the gain of a contact window, if the patch has one, or the depth for a new one.
+/// A mixer of vectors gets the force of a texture with its direction, and numbers along z.
 /// Fills the layer of a mixer that has only one, and that one without a wire. Ids: mixer/gone, mixer/full, mixer/type.
 Result<AddedLayer> addLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, const std::string& type = {});
 
-/// The types that can be a layer: textures and vibrations with a scalar force output.
-std::vector<const NodeType*> layerTypes (const Catalogue&);
+/// A layer that plays a clip over and over, as a vibration: `file` is as written in the graph. Ids: as addLayer.
+Result<AddedLayer> addClipLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, const std::string& file);
+
+/// What the desk adds with one click.
+struct LayerKind
+{
+    std::string name, type, about;
+};
+
+const std::vector<LayerKind>& layerKinds();
+
+/// The types that can be a layer: textures and vibrations with a force output; for a mixer of vectors, friction, too.
+std::vector<const NodeType*> layerTypes (const Catalogue&, bool vectors = false);
+
+/// True if a layer is multiplied by the gain of a contact window.
+bool isGated (const graph::Graph&, const MixerPlace&, int layer);
+
+/// Makes a layer felt only in contact, or always. Ids: mixer/gone, mixer/empty, mixer/no_contact.
+Result<graph::Command> setGate (const graph::Graph&, const MixerPlace&, const Catalogue&, int layer, bool on);
 
 /// Removes a layer and its wires; the layers after it move up. Ids: mixer/gone, mixer/last_layer, mixer/exposed.
 Result<graph::Command> removeLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, int layer);
@@ -66,12 +89,13 @@ Result<graph::Command> removeLayer (const graph::Graph&, const MixerPlace&, cons
 /// Moves a layer to another position, with its name, values, wires and controls.
 graph::Command moveLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, int layer, int to);
 
-/// The result of addMixer(). The mixer is inserted between scalar forces and the input where they are summed, or else added next to vector
-/// forces, with an empty layer that pushes along z.
+/// The result of addMixer(). The mixer is inserted between forces and the input where they are summed: a mixer of vectors if one of them
+/// is a vector. Before a device without forces, it has one empty layer.
 struct AddedMixer
 {
     graph::Command command;
     std::string description;   ///< what the command does, for the user
+    MixerPlace place;
 };
 
 /// Ids: mixer/no_motor, mixer/in_subgraph, mixer/no_forces.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "bands.hpp"
 #include "fader.hpp"
-#include "meter.hpp"
+#include "gain_text.hpp"
+#include "meter_feed.hpp"
 #include "mixer.hpp"
+#include "sends.hpp"
 
 #include <host/app/inspector/number_field.hpp>
 #include <host/app/inspector/tool_button.hpp>
 #include <host/app/model/document.hpp>
-#include <host/app/run/traces.hpp>
 
 namespace tactus::host
 {
@@ -26,28 +26,10 @@ struct MixerContext
 
     const graph::Node* node() const { return findMixer (document.graph(), place); }
     void perform (graph::Command c, bool goes_on = false) const { document.perform (std::move (c), goes_on ? graph::Step::joined : graph::Step::own); }
+
+    /// Performs a command, or says why there is none.
+    void perform (Result<graph::Command>) const;
 };
-
-/// Feeds a meter from a trace.
-struct MeterFeed
-{
-    Meter meter;
-    std::string unit;
-    Quantity quantity = Quantity::any;
-
-    /// Returns true if there is a trace. `factor` scales the level.
-    bool take (const std::vector<std::shared_ptr<const Trace>>&, double factor, double dt_s);
-
-private:
-    std::uint64_t seen = 0;
-    std::vector<double> latest;
-};
-
-/// Paints a level as a bar with its peak as a line, on a scale of four decades, from 0.001 to 10.
-void paintMeter (juce::Graphics&, juce::Rectangle<float>, const Meter&, juce::Colour, const Look&, bool with_scale);
-
-/// "0.42 N", or "–" for silence.
-juce::String levelText (double level, const std::string& unit);
 
 /// A name that can be edited by a double click.
 class NameLabel final : public juce::Label
@@ -60,7 +42,7 @@ public:
 class LayerStrip final : public juce::Component
 {
 public:
-    static constexpr int width = 112;
+    static constexpr int width = 120;
 
     LayerStrip (std::shared_ptr<const MixerContext>, int layer);
 
@@ -70,6 +52,10 @@ public:
     // What the user does.
     void setGain (std::optional<Json>, bool goes_on);
     void setValue (const std::string& param, std::optional<Json>, bool goes_on);
+    void typeGain (const juce::String&);   ///< as typed into the field of the gain: "-6 dB", "0.3 N"
+    void setGate (bool on);
+    void sendTo (const std::string& sink);   ///< sends the layer to an output, or no longer; "" adds a vibration motor
+    void setSendGain (double decibels, bool goes_on);
     void rename (const juce::String&);
     void remove();
 
@@ -77,6 +63,8 @@ public:
     const Bands& bands() const noexcept { return spectrum; }
     juce::String sourceText() const { return source.getButtonText(); }
     double shownGain() const noexcept { return gain; }
+    bool isGateShown() const { return gate.getToggleState(); }
+    juce::String sendText() const { return send.getButtonText(); }
 
     void paint (juce::Graphics&) override;
     void resized() override;
@@ -87,6 +75,14 @@ private:
     std::string pathOf (const std::string& param) const { return context->place.path + '.' + param + '[' + std::to_string (layer) + ']'; }
     bool isOn (const graph::Node&, const std::string& param) const;
     double numberOf (const graph::Node&, const std::string& param) const;
+    void connectFields();
+    void placeGains (juce::Rectangle<int>&);
+    void showSwitches (const graph::Node&);
+    void showSource();
+    void showSends();
+    void openSends();
+    void nameControls (const juce::String&);
+    UnityLevel unityLevel() const;
 
     std::shared_ptr<const MixerContext> context;
     int layer;
@@ -94,8 +90,11 @@ private:
     ToolButton source { "", ToolButton::Kind::plain };
     ToolButton close { juce::String::fromUTF8 ("\xc3\x97"), ToolButton::Kind::plain, "Remove this layer and its wires" };
     ToolButton mute { "M", ToolButton::Kind::toggle, "Mute this layer" }, solo { "S", ToolButton::Kind::toggle, "Solo: mute all layers that are not soloed" };
+    ToolButton gate { "C", ToolButton::Kind::toggle, "Contact: this layer is felt only while the tool touches" };
+    ToolButton send { "", ToolButton::Kind::plain };
     Fader fader;
-    NumberField gain_field, priority;
+    NumberField gain_field { decibelSheet() }, priority, send_gain { decibelSheet() };
+    std::vector<Send> sends;
     MeterFeed feed;
     Bands spectrum;
     juce::Rectangle<int> meter_area, spectrum_area, peak_area;

@@ -228,3 +228,23 @@ TEST_CASE ("the master strip shows the gain reduction of the ceiling", "[layers]
     CHECK (rig.panel->mix()->reduction() == Approx (20.0 * std::log10 (2.0)));
     CHECK (rig.panel->layer (0).meter().rms() == Approx (2.0));
 }
+
+TEST_CASE ("a clip dropped on the desk becomes a layer; without a mixer, the same step adds one", "[layers][clips]")
+{
+    const juce::StringArray clip { juce::String (TACTUS_SOURCE_DIR "/graphs/assets/heartbeat.haptic") };
+    for (const auto* preset : { "bronze_bell.json", "door_knock.json" })
+    {
+        INFO (preset);
+        Rig rig (preset);
+        const auto before = writeGraph (rig.document->graph());
+        const auto layers = rig.panel->layers();
+        REQUIRE (rig.panel->isInterestedInFileDrag (clip));
+        rig.panel->filesDropped (clip, 10, 10);
+        CHECK (rig.panel->layers() >= layers + 1);
+        CHECK (std::ranges::count (rig.document->graph().root.nodes, "signal.clip", &graph::Node::type) == 1);
+        rig.document->undo();
+        CHECK (writeGraph (rig.document->graph()) == before);
+        rig.panel->filesDropped ({ juce::String (TACTUS_SOURCE_DIR "/README.md") }, 10, 10);
+        CHECK (writeGraph (rig.document->graph()) == before);
+    }
+}

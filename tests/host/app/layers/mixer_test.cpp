@@ -197,23 +197,19 @@ TEST_CASE ("the inputs of a new layer are never wired to anything downstream of 
     CHECK (added->missing.find (".hit") != std::string::npos);
 }
 
-TEST_CASE ("a mixer is inserted between scalar forces and the motor, or next to vector forces", "[layers]")
+TEST_CASE ("a mixer is inserted between scalar forces and the motor", "[layers]")
 {
-    graph::History joined (loadGraph (TACTUS_SOURCE_DIR "/graphs/steel_bar.json").graph);
+    graph::History joined (loadGraph (TACTUS_SOURCE_DIR "/graphs/scissors_cloth.json").graph);
     auto between = addMixer (joined.graph(), catalogue());
     REQUIRE (between);
     REQUIRE (joined.perform (between->command));
     const auto mixer = mixersOf (joined.graph()).front();
+    CHECK (mixer == between->place);
+    CHECK_FALSE (mixer.vectors);
     for (const auto& s : sources (joined.graph(), mixer))
         CHECK (s != "");
     CHECK (compiles (joined.graph()));
     CHECK (joined.names().size() == 1);
-
-    graph::History vectors (loadGraph (TACTUS_SOURCE_DIR "/graphs/layered_cloth.json").graph);
-    auto beside = addMixer (vectors.graph(), catalogue());
-    REQUIRE (beside);
-    REQUIRE (vectors.perform (beside->command));
-    CHECK (compiles (vectors.graph()));
 
     CHECK (addMixer ({}, catalogue()).error().id == "mixer/no_motor");
 }

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mixer.hpp"
+#include "mixer_parts.hpp"
+
+#include <host/app/model/clip_graph.hpp>
+#include <host/app/model/fragment.hpp>
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr int z_component = 2;   // the component along which a mixer of vectors gets scalar layers
+
+/// An output that can be a layer.
+struct LayerOutput
+{
+    std::string port;
+    bool is_vector = false;
+};
+
+/// The output of a type that can be a layer of a mixer: for a mixer of vectors, best a vector.
+std::optional<LayerOutput> layerOutput (const NodeType& type, bool vectors)
+{
+    if (type.info.id == clip_type) return LayerOutput { "value", false };
+    const auto force = [&] (int width) {
+        const auto at = std::ranges::find_if (type.outputs, [width] (const PortSheet& o) {
+            const bool is_force = o.unit.kind == UnitRule::Kind::fixed && o.unit.unit.quantity == Quantity::force;
+            return is_force && o.width == width && ! o.list;
+        });
+        return at == type.outputs.end() ? nullptr : &*at;
+    };
+    if (const auto* o = vectors ? force (3) : nullptr) return LayerOutput { std::string (o->id), true };
+    if (const auto* o = force (1)) return LayerOutput { std::string (o->id), false };
+    return {};
+}
+
+bool isTexture (std::string_view type) { return type.starts_with ("texture."); }
+
+/// Values of a new layer that differ from the defaults of its type: what one feels well, and what breaks no limit of a usual device.
+Json firstParams (std::string_view type)
+{
+    auto params = Json::object();
+    if (type == clip_type) params["gain"] = "0.2 N";
+    if (type == "texture.noise") params["gain"] = 0.1;   // at 1, its noise changes so fast with speed and depth that a usual device buzzes
+    return params;
+}
+
+/// The inputs of a new layer that are wired. A clip has one for each way to play it; a hit is the first of them.
+bool isWired (const NodeType& type, const PortSheet& input) { return type.info.id != clip_type || input.id == "hit"; }
+
+/// The speed of the tool, from a new node. Empty if the patch has no position.
+std::optional<graph::Endpoint> speedOfTool (const graph::Graph& g, const MixerPlace& at, const std::set<std::string>& excluded, const Catalogue& catalogue,
+                                            graph::Batch& batch)
+{
+    const auto& patch = *mixing::patchOf (g, at.patch);
+    const auto* type = catalogue.find ("motion.velocity");
+    auto position = type == nullptr ? std::nullopt : mixing::sourceFor (type->inputs.front(), g, patch, excluded, catalogue);
+    if (! position) return std::nullopt;
+    graph::Node velocity;
+    velocity.name = freeName (patch, {}, "velocity");
+    velocity.type = "motion.velocity";
+    const auto name = velocity.name;
+    batch.commands.push_back (graph::AddNode { at.patch, std::move (velocity) });
+    batch.commands.push_back (graph::AddWire { at.patch, mixing::wire (*std::move (position), mixing::endOf (name, type->inputs.front().id)) });
+    return mixing::endOf (name, "speed");
+}
+
+/// Wires the inputs of a new node as far as the patch has sources for them. Returns what is missing.
+std::string wireInputs (const NodeType& type, const std::string& name, const graph::Graph& g, const MixerPlace& at, const std::set<std::string>& excluded,
+                        const Catalogue& catalogue, graph::Batch& batch)
+{
+    std::string missing;
+    for (const auto& input : type.inputs)
+    {
+        if (! isWired (type, input)) continue;
+        auto from = mixing::sourceFor (input, g, *mixing::patchOf (g, at.patch), excluded, catalogue);
+        if (! from && input.id == "speed") from = speedOfTool (g, at, excluded, catalogue, batch);
+        if (from)
+            batch.commands.push_back (graph::AddWire { at.patch, mixing::wire (std::move (*from), mixing::endOf (name, input.id)) });
+        else if (missing.empty() && ! (input.width == 3 && input.id == "normal"))   // without one, it is up
+            missing = "Wire something into " + name + '.' + std::string (input.id) + ": " + std::string (input.about);
+    }
+    if (type.info.id == clip_type) missing = "Choose a clip for " + name + " in the inspector" + (missing.empty() ? "" : ". " + missing);
+    return missing;
+}
+}   // namespace
+
+const std::vector<LayerKind>& layerKinds()
+{
+    static const std::vector<LayerKind> kinds {
+        { "Texture", "texture.grating", "Add ridges that you feel while you stroke, only in contact" },
+        { "Vibration", "vibration.modal", "Add a ring that each tap excites" },
+        { "Recorded", "texture.noise", "Add a recorded texture: the hiss of a real surface, only in contact" },
+        { "Clip", std::string (clip_type), "Add a haptic clip that each tap plays" },
+    };
+    return kinds;
+}
+
+std::vector<const NodeType*> layerTypes (const Catalogue& catalogue, bool vectors)
+{
+    std::vector<const NodeType*> all;
+    for (const auto& t : catalogue)
+    {
+        const bool is_layer = isTexture (t.info.id) || t.info.id.starts_with ("vibration.") || (vectors && t.info.id.starts_with ("friction."));
+        if (is_layer && layerOutput (t, vectors)) all.push_back (&t);
+    }
+    return all;
+}
+
+namespace
+{
+/// A layer with a node of this type. A clip is played over and over, so its inputs stay unwired.
+Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, const std::string& type, const std::string& clip)
+{
+    const auto* mixer = findMixer (g, at);
+    const auto* patch = mixing::patchOf (g, at.patch);
+    if (mixer == nullptr) return mixing::mixerIsGone();
+    const int layers = layersOf (*mixer, catalogue);
+    const bool fills = layers == 1 && ! type.empty() && wireInto (g, at, 0) == nullptr;   // the only layer is still empty
+    if (layers >= list_capacity && ! fills)
+        return Message::error ("mixer/full", {}, "a mixer has at most " + std::to_string (list_capacity) + " layers", "add a second mixer");
+
+    const int place = fills ? 0 : layers;
+    graph::Batch batch { "add a layer", {} };
+    if (! fills) batch.commands.push_back (graph::SetSetting { at.patch, at.node, "inputs", Json (layers + 1) });
+    if (type.empty()) return AddedLayer { std::move (batch), {}, {} };
+    const auto* sheet = catalogue.find (type);
+    const auto output = sheet == nullptr ? std::nullopt : layerOutput (*sheet, at.vectors);
+    if (! output) return Message::error ("mixer/type", {}, type + " has no force output that fits, so it cannot be a layer");
+
+    graph::Node node;
+    node.name = freeName (*patch, {}, type.substr (type.find ('.') + 1));
+    node.type = type;
+    node.params = firstParams (type);
+    if (! clip.empty()) playClip (node, clip);
+    const auto name = node.name;
+    const auto id = node.id;
+    batch.name = "add the layer " + name;
+    batch.commands.push_back (graph::AddNode { at.patch, std::move (node) });
+    const auto later = mixing::downstreamOf (*patch, at.node);
+    auto missing = clip.empty() ? wireInputs (*sheet, name, g, at, later, catalogue, batch) : std::string();
+    auto out = mixing::endOf (name, output->port);
+    if (isTexture (type)) out = mixing::gated (std::move (out), output->is_vector, g, at, later, catalogue, batch);   // or it would be felt in the air
+    const int component = at.vectors && ! output->is_vector ? z_component : -1;
+    batch.commands.push_back (graph::AddWire { at.patch, mixing::wire (std::move (out), mixing::endOf (at.node, "in", place, component)) });
+    batch.commands.push_back (graph::SetSetting { at.patch, at.node, "names", Json (mixing::namesWith (*mixer, place + 1, name)) });
+    return AddedLayer { std::move (batch), std::move (missing), id };
+}
+}   // namespace
+
+Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, const std::string& type)
+{
+    return addLayer (g, at, catalogue, type, {});
+}
+
+Result<AddedLayer> addClipLayer (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, const std::string& file)
+{
+    return addLayer (g, at, catalogue, std::string (clip_type), file);
+}
+
+bool isGated (const graph::Graph& g, const MixerPlace& at, int layer)
+{
+    const auto* patch = mixing::patchOf (g, at.patch);
+    const auto* w = wireInto (g, at, layer);
+    return patch != nullptr && w != nullptr && mixing::gateOf (*patch, *w) != nullptr;
+}
+
+Result<graph::Command> setGate (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer, bool on)
+{
+    const auto* patch = mixing::patchOf (g, at.patch);
+    const auto* w = wireInto (g, at, layer);
+    if (patch == nullptr || findMixer (g, at) == nullptr) return mixing::mixerIsGone();
+    if (w == nullptr) return Message::error ("mixer/empty", {}, "nothing is wired into this layer", "wire something into it first");
+    const auto* product = mixing::gateOf (*patch, *w);
+    if (on == (product != nullptr)) return graph::Command (graph::Batch { "gate a layer", {} });
+
+    graph::Batch batch { on ? "gate a layer by contact" : "open the gate of a layer", {} };
+    auto changed = *w;
+    if (on)
+    {
+        const bool is_vector = at.vectors && w->to.component < 0;
+        changed.from = mixing::gated (w->from, is_vector, g, at, mixing::downstreamOf (*patch, at.node), catalogue, batch);
+        if (changed.from == w->from)
+            return Message::error ("mixer/no_contact", {}, "nothing in this patch says how deep the tool presses", "add a surface, such as deform.plane");
+    }
+    else
+    {
+        const graph::Wire* source = nullptr;
+        for (const auto& in : patch->wires)
+            if (const auto* from = patch->find (in.from.node); in.to.node == product->name && (from == nullptr || from->type != "contact.window")) source = &in;
+        if (source == nullptr) return Message::error ("mixer/empty", {}, "only the gate is wired into this layer", "wire something into " + product->name);
+        changed.from = source->from;
+    }
+    batch.commands.push_back (graph::ChangeWire { at.patch, w->id, std::move (changed) });
+    const auto uses = on ? 0 : std::ranges::count (patch->wires, product->name, [] (const graph::Wire& v) { return v.from.node; });
+    if (uses == 1) batch.commands.push_back (graph::RemoveNode { at.patch, product->name });
+    return graph::Command (std::move (batch));
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mixer.hpp"
+#include "mixer_parts.hpp"
+
+#include <host/app/model/fragment.hpp>
+#include <tactus/graph/endpoints.hpp>
+#include <tactus/graph/text.hpp>
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+namespace
+{
+/// The wires into one endpoint.
+struct Stream
+{
+    graph::Endpoint to;
+    std::vector<const graph::Wire*> wires;
+};
+
+/// The largest stream of scalars into a sink, directly or through a vector.join.
+Stream scalarsInto (const graph::Patch& patch, const graph::Node& sink)
+{
+    std::vector<Stream> streams;
+    const auto add = [&] (const graph::Wire& w) {
+        auto at = std::ranges::find (streams, w.to, &Stream::to);
+        if (at == streams.end()) at = streams.insert (at, Stream { w.to, {} });
+        at->wires.push_back (&w);
+    };
+    for (const auto& w : patch.wires)
+    {
+        if (w.to.node != sink.name) continue;
+        if (sink.type != "device.force" || w.to.component >= 0) add (w);
+        const auto* from = patch.find (w.from.node);
+        if (sink.type != "device.force" || w.to.component >= 0 || w.to.port != "force" || from == nullptr || from->type != "vector.join") continue;
+        for (const auto& into : patch.wires)
+            if (into.to.node == from->name) add (into);
+    }
+    const auto best = std::ranges::max_element (streams, {}, [] (const Stream& s) { return s.wires.size(); });
+    return best == streams.end() ? Stream {} : *best;
+}
+
+/// The wires into the force of a device, if one of them carries a vector that is more than a scalar along one axis.
+Stream vectorsInto (const graph::Patch& patch, const graph::Node& sink)
+{
+    Stream stream { mixing::endOf (sink.name, "force"), {} };
+    bool has_vector = false;
+    for (const auto& w : patch.wires)
+    {
+        if (sink.type != "device.force" || w.to.node != sink.name || w.to.port != "force") continue;
+        const auto* from = patch.find (w.from.node);
+        has_vector = has_vector || (w.to.component < 0 && (from == nullptr || from->type != "vector.join"));
+        stream.wires.push_back (&w);
+    }
+    return has_vector ? stream : Stream {};
+}
+
+Message noMotor (const graph::Graph& g)
+{
+    for (const auto& [subgraph, patch] : g.graphs)
+        for (const auto& n : patch.nodes)
+            if (n.type == "device.force")
+                return Message::error ("mixer/in_subgraph", {}, "the motor of this graph is inside the subgraph " + subgraph,
+                                       "enter the subgraph, and add a layer.mix before " + n.name);
+    return Message::error ("mixer/no_motor", {}, "this graph has no motor yet", "add a device.force node, which the mixer can then drive");
+}
+/// What the mixer mixes: the largest stream into a motor. Vectors before scalars, because scalars reach the motor as a part of them.
+Stream streamOf (const graph::Patch& patch, const graph::Node*& motor, bool& vectors)
+{
+    Stream found;
+    for (const bool of_vectors : { true, false })
+        for (const std::string_view type : { "device.force", "device.effort", "device.signal_out" })
+            for (const auto& n : patch.nodes)
+            {
+                if (n.type != type || ! found.wires.empty()) continue;
+                if (motor == nullptr) motor = &n;
+                auto stream = of_vectors ? vectorsInto (patch, n) : scalarsInto (patch, n);
+                if (stream.wires.empty()) continue;
+                motor = &n;
+                vectors = of_vectors;
+                found = std::move (stream);
+            }
+    if (found.wires.empty() && motor != nullptr && motor->type == "device.force")   // an empty mixer before it
+    {
+        vectors = true;
+        found.to = mixing::endOf (motor->name, "force");
+    }
+    return found;
+}
+}   // namespace
+
+Result<AddedMixer> addMixer (const graph::Graph& g, const Catalogue&)
+{
+    const graph::Node* motor = nullptr;
+    bool vectors = false;
+    const auto stream = streamOf (g.root, motor, vectors);
+    if (motor == nullptr) return noMotor (g);
+    const bool is_first = stream.wires.empty();
+    if (is_first && ! vectors)
+        return Message::error ("mixer/no_forces", {}, "nothing is wired into " + motor->name + " yet",
+                               "wire something into it first; the mixer is then inserted into that wire");
+
+    graph::Node mixer;
+    mixer.name = freeName (g.root, {}, "desk");
+    mixer.type = vectors ? mixing::vector_mixer : mixing::number_mixer;
+    const MixerPlace place { mixer.id, {}, mixer.name, mixer.name, vectors };
+    std::vector<std::string> names;
+    for (const auto* w : stream.wires)
+        names.push_back (graph::firstNameOf (w->from.node));
+    mixer.settings["inputs"] = std::max<std::size_t> (1, names.size());
+    if (! names.empty()) mixer.settings["names"] = mixing::joined (names);
+    graph::Batch batch { "add a layer mixer", { graph::AddNode { {}, std::move (mixer) } } };
+    for (std::size_t i = 0; i < stream.wires.size(); ++i)
+    {
+        auto to = *stream.wires[i];
+        to.to = mixing::endOf (place.node, "in", static_cast<int> (i), vectors ? to.to.component : -1);
+        batch.commands.push_back (graph::ChangeWire { {}, stream.wires[i]->id, std::move (to) });
+    }
+    batch.commands.push_back (graph::AddWire { {}, mixing::wire (mixing::endOf (place.node, "out"), stream.to) });
+    auto description = is_first ? "Adds a mixer before " + motor->name + '.'
+                                : "Inserts a mixer between " + mixing::joined (names) + " and " + graph::toText (stream.to) + '.';
+    return AddedMixer { std::move (batch), std::move (description), place };
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// Gains as people read and type them.
+
+#include <tactus/node/catalogue.hpp>
+#include <tactus/text/result.hpp>
+
+#include <string>
+
+namespace tactus::host
+{
+
+inline constexpr double silent_db = -120.0;   ///< what a field shows for a gain of 0
+
+/// The magnitude of a gain in dB, rounded to 0.1 dB.
+double decibelsOf (double gain);
+
+/// 0 for silent_db and below.
+double gainOf (double decibels);
+
+/// The datasheet row of a gain in dB, for a NumberField.
+const PortSheet& decibelSheet();
+
+/// The level of a layer at a gain of 1, which tells what gain makes it "0.3 N".
+struct UnityLevel
+{
+    double peak = 0.0;   ///< 0 if there is no signal
+    std::string unit;    ///< "N"; empty if it is not known
+};
+
+/// Reads a gain and returns it in dB: "-6" and "-6 dB", "off", "x0.5" and "50 %", or a level in the unit of the layer, such as "0.3 N".
+/// Ids: gain/syntax, gain/unit, gain/no_level.
+Result<double> readGain (const std::string& text, const UnityLevel&);
+
+}   // namespace tactus::host

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "bands.hpp"
+#include "meter.hpp"
+
+#include <host/app/look/look.hpp>
+#include <host/app/run/traces.hpp>
+
+namespace tactus::host
+{
+
+/// The traces of the components of a port.
+using PortTraces = std::vector<std::shared_ptr<const Trace>>;
+
+/// Feeds a meter from the trace of a port. The level of a vector is its length.
+struct MeterFeed
+{
+    Meter meter;
+    std::string unit;
+    Quantity quantity = Quantity::any;
+
+    /// Returns true if there is a trace. `factor` scales the level.
+    bool take (const PortTraces&, double factor, double dt_s);
+
+private:
+    std::uint64_t seen = 0;
+    std::vector<double> latest;
+};
+
+/// Paints a level as a bar with its peak as a line, on a scale of four decades, from 0.001 to 10.
+void paintMeter (juce::Graphics&, juce::Rectangle<float>, const Meter&, juce::Colour, const Look&, bool with_scale);
+
+/// "0.42 N", or "–" for silence.
+juce::String levelText (double level, const std::string& unit);
+
+/// The colour of a level.
+juce::Colour inkOf (Quantity, const Theme&);
+
+/// The latest samples of a trace, at most `n`.
+void latestOf (const Trace&, std::size_t n, double factor, std::vector<double>& into);
+
+/// The spectrum of a port: the sum of the spectra of its components.
+Bands bandsOfPort (const PortTraces&, double factor);
+
+}   // namespace tactus::host

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "strip.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tactus::host
+{
+
+MixStrip::MixStrip (std::shared_ptr<const MixerContext> c)
+    : context (std::move (c)), duck (mixerSheet (context->catalogue, "duck_db")), ceiling (mixerSheet (context->catalogue, "ceiling"))
+{
+    const auto bind = [this] (NumberField& field, const char* param) {
+        field.onChange = [this, param] (std::optional<Json> to, bool continues) {
+            const auto& at = context->place;
+            context->perform (graph::SetParam { at.patch, at.node, param, std::move (to) }, continues);
+        };
+        field.onRefused = context->hint;
+        addAndMakeVisible (field);
+    };
+    duck.setTitle ("Ducking in dB");
+    ceiling.setTitle ("Ceiling of the mix");
+    bind (duck, "duck_db");
+    bind (ceiling, "ceiling");
+    show();
+}
+
+void MixStrip::show()
+{
+    const auto* node = context->node();
+    if (node == nullptr) return;
+    const auto value = [&] (const char* param) {
+        const auto own = node->params.find (param);
+        return own != node->params.end() ? Json (*own) : Json (mixerSheet (context->catalogue, param).initial[0]);
+    };
+    duck.show (value ("duck_db"));
+    duck.setBold (node->params.contains ("duck_db"));
+    ceiling.show (value ("ceiling"));
+    ceiling.setBold (node->params.contains ("ceiling"));
+    limits = ceiling.shown().si() > 0.0;
+    repaint();
+}
+
+void MixStrip::refresh (const Traces::Client& traces, double dt_s)
+{
+    const auto before = over_db;
+    const auto shown_peak = std::exchange (peak, levelText (feed.meter.peak(), feed.unit));
+    feed.take (traces.of (context->place.path + ".out"), 1.0, dt_s);
+    over_db = 0.0;
+    if (const auto found = traces.of (context->place.path + ".reduction"); ! found.empty())
+    {
+        std::vector<double> latest;
+        latestOf (*found.front(), static_cast<std::size_t> (0.3 * found.front()->rate()), 1.0, latest);
+        for (const double v : latest)
+            if (v > over_db) over_db = v;
+    }
+    repaint (meter_area);
+    if (before != over_db || shown_peak != peak) repaint (text_area);
+}
+
+void MixStrip::paint (juce::Graphics& g)
+{
+    const auto& look = lookOf (*this);
+    const auto& theme = look.theme();
+    g.fillAll (theme.canvas.interpolatedWith (theme.panel, 0.5f));
+    auto area = getLocalBounds().reduced (12, 4).toFloat();
+    g.setFont (look.font (13.0f, true));
+    g.setColour (theme.text);
+    g.drawText ("Mix", area.removeFromTop (24.0f), juce::Justification::centredLeft, false);
+    const bool over = over_db > 0.05;
+    paintMeter (g, meter_area.toFloat(), feed.meter, over ? theme.warning : inkOf (feed.quantity, theme), look, true);
+    g.setFont (look.font (12.0f));
+    g.setColour (theme.dim);
+    g.drawText ("ducking", duck_label, juce::Justification::centredLeft, false);
+    g.drawText ("ceiling", ceiling_label, juce::Justification::centredLeft, false);
+    auto lines = text_area;
+    g.setColour (theme.text);
+    g.drawText ("peak " + peak, lines.removeFromTop (18), juce::Justification::centredLeft, false);
+    juce::String state = limits ? "below the ceiling" : "no ceiling";
+    if (limits && over) state = "over by " + juce::String (over_db, 1) + " dB";
+    g.setColour (over ? theme.warning : theme.dim);
+    g.drawText (state, lines.removeFromTop (18), juce::Justification::centredLeft, false);
+}
+
+void MixStrip::resized()
+{
+    auto area = getLocalBounds().reduced (12, 4).withTrimmedTop (28);
+    meter_area = area.removeFromLeft (46);
+    area.removeFromLeft (4);
+    const bool tall = area.getHeight() >= 148;
+    duck_label = tall ? area.removeFromTop (16) : juce::Rectangle<int>();
+    duck.setBounds (area.removeFromTop (24));
+    area.removeFromTop (4);
+    ceiling_label = tall ? area.removeFromTop (16) : juce::Rectangle<int>();
+    ceiling.setBounds (area.removeFromTop (24));
+    area.removeFromTop (4);
+    text_area = area;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <tactus/kit/mixing_desk.hpp>
+#include <tactus/node/generic.hpp>
+
+#include <string>
+
+namespace tactus::nodes
+{
+
+/// A mixing desk for layers that are forces in three axes: friction, a texture, and what pushes from below, each in its own direction.
+///
+/// On each tick, in this order:
+///
+///     gain       x_i = gain[i] in[i]
+///     mute       times m_i: 0 if mute[i] is on, else 1
+///     solo       m_i is also 0 if any solo is on and solo[i] is not; m_i moves in straight ramps of 10 ms
+///     level      level[i] = max (|m_i x_i|, level[i] e^(-T / 50 ms)): rises immediately, decays over 50 ms
+///     ducking    times d_i: goes to 10^(-duck_db / 20) with time constant 5 ms while a channel of higher priority
+///                sounds, else to 1 with 100 ms. Several such channels duck no more than one.
+///     sum        s = sum of d_i m_i x_i
+///     ceiling    out = s, shortened to the length `ceiling` if it is longer; reduction = 20 log10 (|s| / |out|), dB
+///
+/// |v| is the length of a vector. All factors are numbers, so each layer keeps its direction, and so does the sum under the ceiling.
+/// A channel sounds if its level is above 1 % of the loudest recent level (a peak that decays with time constant 2 s).
+///
+/// Source: definition; the order is the same as in layer.mix and in an audio mixing desk.
+///
+/// Good to know
+///  - Layers along one axis are mixed as layer.mix mixes numbers.
+///  - mute and solo are switches: on above 0.5. A channel that is both soloed and muted is silent. Muted channels duck no other
+///    channel.
+///  - Equal priorities, the default, do not duck each other. A higher number has priority.
+///  - A channel that is open, not ducked, and below the ceiling passes unchanged, bit for bit.
+///  - The ceiling has no memory: it cannot overshoot or pump. It is a limit on the length, so a strong layer in one direction also takes
+///    from the others. If reduction is not 0, turn the gains down.
+///  - Ducking depends on time. A spring that is ducked while it is pressed but not while it is released generates energy.
+///  - The first tick starts without ramps, and so does the tick after a fault. One component that is not finite silences all channels.
+///  - `names` are the labels of the channels for people and hosts, separated by commas: "friction, weave, shock".
+///  - vector.along and vector.scale give a scalar layer a direction.
+struct LayerMixVectors
+{
+    using Inputs = In<InputList<Vec3>>;
+    using Params = DeskParams;
+
+    struct Settings
+    {
+        int inputs = 2;
+        std::string names;
+    };
+
+    struct Outputs
+    {
+        Vec3 out = Vec3::Zero();
+        List level;
+        double reduction = 0.0;
+    };
+
+    static constexpr Info info {
+        .id = "layer.mix_vectors",
+        .name = "Force layer mixer",
+        .summary = "Mixes layers that are forces in three axes: gain, mute, solo, priority, ceiling.",
+        .source = "definition",
+        .keywords = "mixer desk faders",
+    };
+
+    static constexpr std::tuple ports {
+        input (&Inputs::in, "in", any_unit, "layers", 0.0),
+        param (&Params::gain, "gain", unit::gain, "factor on the layer with the same number", { .usual = { 0, 2 } }),
+        param (&Params::mute, "mute", unit::state, "on above 0.5: the layer is silent", { .hard = { 0, 1 } }),
+        param (&Params::solo, "solo", unit::state, "on above 0.5: only layers in solo are heard", { .hard = { 0, 1 } }),
+        param (&Params::priority, "priority", unit::count, "a layer is ducked while one of higher priority sounds", { .usual = { 0, 10 } }),
+        param (&Params::duck_db, "duck_db", unit::decibel, "attenuation of a ducked layer", { .hard = { 0, inf }, .usual = { 0, 60 } }),
+        param (&Params::ceiling, "ceiling", sameAs ("in"), "largest length of the mix; 0: no limit", { .hard = { 0, inf }, .usual = { 0, 20 } }),
+        inputCount (&Settings::inputs, "number of layers"),
+        setting (&Settings::names, "names", unit::count, "labels of the layers, separated by commas"),
+        output (&Outputs::out, "out", sameAs ("in"), "the mix"),
+        output (&Outputs::level, "level", sameAs ("in"), "peak length of each layer after gain, mute and solo, before ducking"),
+        output (&Outputs::reduction, "reduction", unit::decibel, "current attenuation by the ceiling"),
+    };
+
+    Params params;
+    Settings settings;
+
+    void prepare (const Setup& setup) noexcept { desk.prepare (setup.dt_s()); }
+    void update() noexcept { desk.update (params, settings.inputs); }
+    void adopt (const LayerMixVectors& old) noexcept { desk.adopt (old.desk); }
+    Outputs tick (const Inputs& in) noexcept { return desk.mix<Outputs> (in.in, params); }
+
+private:
+    MixingDesk<Vec3> desk;
+};
+
+}   // namespace tactus::nodes
+
+TACTUS_NODE (tactus::nodes::LayerMixVectors);

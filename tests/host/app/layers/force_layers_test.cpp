@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/layers/mixer.hpp>
+#include <host/app/layers/sends.hpp>
+
+#include <tactus/file/graph_file.hpp>
+#include <tactus/graph/history.hpp>
+#include <tactus/plan/compile.hpp>
+
+#include "support/sketch.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace tactus;
+using namespace tactus::host;
+
+namespace
+{
+/// A graph with a mixer of its forces.
+struct MixedForces
+{
+    graph::History history;
+    MixerPlace mixer;
+
+    explicit MixedForces (const graph::Graph& g) : history (g)
+    {
+        auto added = addMixer (history.graph(), catalogue());
+        REQUIRE (added);
+        REQUIRE (history.perform (added->command));
+        mixer = added->place;
+    }
+
+    explicit MixedForces (const std::string& preset) : MixedForces (loadGraph (TACTUS_SOURCE_DIR "/graphs/" + preset).graph) {}
+
+    std::string add (const std::string& type)
+    {
+        auto added = addLayer (history.graph(), mixer, catalogue(), type);
+        REQUIRE (added);
+        REQUIRE (history.perform (added->command));
+        return added->missing;
+    }
+
+    void perform (const Result<graph::Command>& c)
+    {
+        if (! c) UNSCOPED_INFO (c.error().text);
+        REQUIRE (c);
+        REQUIRE (history.perform (*c));
+    }
+
+    bool hasWire (const std::string& text) const
+    {
+        const auto& wires = history.graph().root.wires;
+        return std::ranges::any_of (wires, [&] (const graph::Wire& w) { return graph::toText (w) == text; });
+    }
+
+    int layers() const { return layersOf (*findMixer (history.graph(), mixer), catalogue()); }
+
+    bool compiles() const
+    {
+        const auto compiled = compile (history.graph(), catalogue());
+        for (const auto& m : compiled.messages)
+            if (m.severity == Message::Severity::error) UNSCOPED_INFO (m.where << ": " << m.text);
+        return compiled.plan != nullptr;
+    }
+};
+}   // namespace
+
+TEST_CASE ("forces in three axes become the layers of a mixer of vectors", "[layers]")
+{
+    MixedForces cloth ("layered_cloth.json");
+    CHECK (cloth.mixer.vectors);
+    CHECK (cloth.layers() == 3);
+    CHECK (cloth.hasWire ("table.force -> desk.in[0]"));
+    CHECK (cloth.hasWire ("drag.force -> desk.in[1]"));
+    CHECK (cloth.hasWire ("felt.out -> desk.in[2]"));
+    CHECK (cloth.hasWire ("desk.out -> motor.force"));
+    CHECK (cloth.compiles());
+    CHECK (mixersOf (cloth.history.graph()) == std::vector { cloth.mixer });
+
+    MixedForces key ("tactile_key.json");   // a vector, and scalars along one axis
+    CHECK (key.mixer.vectors);
+    CHECK (key.hasWire ("bump_felt.out -> desk.in[1].z"));
+    CHECK (key.compiles());
+}
+
+TEST_CASE ("a texture keeps its direction as a layer of vectors, and is felt only in contact", "[layers]")
+{
+    MixedForces wood ("dry_wood.json");
+    wood.add ("texture.grating");
+    CHECK (wood.hasWire ("grating.force -> grating_felt.in"));
+    CHECK (wood.hasWire ("grating_felt.out -> desk.in[3]"));
+    CHECK (isGated (wood.history.graph(), wood.mixer, 3));
+    CHECK (wood.compiles());
+
+    wood.add ("vibration.modal");   // numbers push along z
+    CHECK (wood.hasWire ("modal.value -> desk.in[4].z"));
+    CHECK_FALSE (isGated (wood.history.graph(), wood.mixer, 4));
+    wood.add ("friction.elasto_plastic");   // pressed by the surface, so it needs no gate
+    CHECK (wood.hasWire ("elasto_plastic.force -> desk.in[5]"));
+    CHECK_FALSE (isGated (wood.history.graph(), wood.mixer, 5));
+    CHECK (wood.compiles());
+}
+
+TEST_CASE ("every type that can be a layer of vectors can be added to every preset whose forces are vectors", "[layers]")
+{
+    const auto types = layerTypes (catalogue(), true);
+    CHECK (types.size() > layerTypes (catalogue()).size());
+    for (const char* preset : { "dry_wood.json", "soft_pad.json", "machined_steel.json" })
+        for (const auto* type : types)
+        {
+            INFO (preset << ' ' << type->info.id);
+            MixedForces all (preset);
+            const int before = all.layers();
+            all.add (std::string (type->info.id));
+            CHECK (all.layers() == before + 1);
+            CHECK (wireInto (all.history.graph(), all.mixer, before) != nullptr);
+            CHECK (all.compiles());
+        }
+}
+
+TEST_CASE ("a recorded texture gets the speed of the tool, also in a graph that does not measure it", "[layers]")
+{
+    MixedForces wood ("dry_wood.json");
+    CHECK (wood.add ("texture.noise").empty());
+    CHECK (wood.hasWire ("hand.position -> velocity.position"));
+    CHECK (wood.hasWire ("velocity.speed -> noise.speed"));
+    CHECK (wood.compiles());
+    CHECK (wood.add ("texture.noise").empty());   // the second one uses the same node
+    CHECK (wood.hasWire ("velocity.speed -> noise_2.speed"));
+}
+
+TEST_CASE ("a clip becomes a layer that each tap plays, and asks for its file", "[layers]")
+{
+    for (const char* preset : { "dry_wood.json", "scissors_cloth.json" })
+    {
+        MixedForces all (preset);
+        CHECK (all.add ("signal.clip").find ("Choose a clip") == 0);
+        CHECK (all.history.graph().root.find ("clip")->params["gain"] == "0.2 N");
+        CHECK (all.compiles());
+    }
+}
+
+TEST_CASE ("the gate of a layer closes and opens, and leaves nothing behind", "[layers]")
+{
+    for (const bool vectors : { true, false })
+    {
+        auto graph = loadGraph (TACTUS_SOURCE_DIR "/graphs/dry_wood.json").graph;
+        MixedForces mixed (vectors ? graph : loadGraph (TACTUS_SOURCE_DIR "/graphs/bronze_bell.json").graph);
+        if (! vectors) mixed.mixer = mixersOf (mixed.history.graph())[0].vectors ? mixersOf (mixed.history.graph())[1] : mixersOf (mixed.history.graph())[0];
+        REQUIRE (mixed.mixer.vectors == vectors);
+        REQUIRE_FALSE (isGated (mixed.history.graph(), mixed.mixer, 0));
+        const auto before = writeGraph (mixed.history.graph());
+        mixed.perform (setGate (mixed.history.graph(), mixed.mixer, catalogue(), 0, true));
+        CHECK (isGated (mixed.history.graph(), mixed.mixer, 0));
+        CHECK (mixed.compiles());
+        mixed.perform (setGate (mixed.history.graph(), mixed.mixer, catalogue(), 0, false));
+        CHECK (writeGraph (mixed.history.graph()) == before);
+    }
+}
+
+TEST_CASE ("without a surface there is nothing that can gate a layer", "[layers]")
+{
+    tactus::test::Sketch sketch;
+    sketch.node ("tone", "signal.lfo").node ("desk", "layer.mix").wire ("tone.out -> desk.in[0]");
+    const auto mixer = mixersOf (sketch.graph).front();
+    CHECK (setGate (sketch.graph, mixer, catalogue(), 0, true).error().id == "mixer/no_contact");
+    CHECK (setGate (sketch.graph, mixer, catalogue(), 1, true).error().id == "mixer/empty");
+}
+
+TEST_CASE ("a layer is sent to another device through a bus with a gain for each send", "[layers]")
+{
+    MixedForces wood ("dry_wood.json");
+    const auto graph = [&]() -> const graph::Graph& { return wood.history.graph(); };
+    CHECK (sendTargets (graph(), wood.mixer).empty());   // its only device is the one that the mixer drives
+    const auto before = writeGraph (graph());
+    wood.add ("vibration.modal");
+    wood.perform (addSendToNewMotor (graph(), wood.mixer, catalogue(), 3));
+    CHECK (wood.hasWire ("modal.value -> to_shaker.in[0]"));
+    CHECK (wood.hasWire ("to_shaker.out -> shaker.in"));
+    CHECK (wood.compiles());
+
+    REQUIRE (sendTargets (graph(), wood.mixer).size() == 1);
+    wood.perform (addSend (graph(), wood.mixer, catalogue(), 1, "shaker"));   // of a vector, the sum of its components
+    for (const char* component : { "x", "y", "z" })
+        CHECK (wood.hasWire ("drag.force." + std::string (component) + " -> to_shaker.in[1]"));
+    CHECK (wood.compiles());
+
+    const auto sends = sendsOf (graph(), wood.mixer, catalogue(), 1);
+    REQUIRE (sends.size() == 1);
+    CHECK (sends[0].to.name == "shaker");
+    CHECK (sends[0].layer == 1);
+    CHECK (sendsOf (graph(), wood.mixer, catalogue(), 0).empty());
+    const auto& bus = *findMixer (graph(), sends[0].bus);
+    CHECK (layerNames (bus, 2) == std::vector<std::string> { "modal", "drag" });
+    wood.perform (setLayerValue (bus, sends[0].bus, catalogue(), "gain", 1, Json (0.5)));
+    CHECK (graph().root.find ("to_shaker")->params["gain"].dump() == "[1.0,0.5]");
+
+    wood.perform (removeSend (graph(), sendsOf (graph(), wood.mixer, catalogue(), 3)[0], catalogue()));
+    CHECK (sendsOf (graph(), wood.mixer, catalogue(), 1)[0].layer == 0);
+    wood.perform (removeSend (graph(), sendsOf (graph(), wood.mixer, catalogue(), 1)[0], catalogue()));
+    CHECK (graph().root.find ("to_shaker") == nullptr);
+    while (writeGraph (graph()) != before)
+        REQUIRE (wood.history.undo());
+}
+
+TEST_CASE ("a number that is sent to a device with a tool pushes it along z", "[layers]")
+{
+    auto graph = loadGraph (TACTUS_SOURCE_DIR "/graphs/bronze_bell.json").graph;
+    tactus::test::Sketch second;
+    second.graph = std::move (graph);
+    second.node ("other", "device.force");
+    second.graph.root.nodes.back().role = "left";
+    graph::History history (second.graph);
+    const auto mixer = mixersOf (history.graph()).front();
+    REQUIRE (sendTargets (history.graph(), mixer).size() == 1);
+    CHECK (sendTargets (history.graph(), mixer)[0].name == "left");
+    const auto sent = addSend (history.graph(), mixer, catalogue(), 1, "other");
+    REQUIRE (sent);
+    REQUIRE (history.perform (*sent));
+    const auto has = [&] (const char* wire) {
+        return std::ranges::any_of (history.graph().root.wires, [&] (const graph::Wire& w) { return graph::toText (w) == wire; });
+    };
+    CHECK (has ("ring_felt.out -> to_left.in[0].z"));
+    CHECK (has ("to_left.out -> other.force"));
+    CHECK (compile (history.graph(), catalogue()).plan != nullptr);
+}
