@@ -53,7 +53,7 @@ public:
     {
         look = std::make_unique<Look>();
         juce::LookAndFeel::setDefaultLookAndFeel (look.get());
-        MainView::Start how { .home = homeFolder(), .stops_directly = true };
+        MainView::Start how { .home = homeFolder(), .stops_directly = true, .program = "tactus " TACTUS_VERSION };
         if (! readArguments (how)) return quit();
         std::fputs (textOf (usePlugins (plugin_folders)).c_str(), stderr);
         how.live = liveBuilds (catalogue());

@@ -2,8 +2,8 @@
 #include "box.hpp"
 
 #include <host/app/model/param_value.hpp>
+#include <host/app/model/quantity_text.hpp>
 #include <host/app/model/readable.hpp>
-#include <host/app/model/with_prefix.hpp>
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>
@@ -21,17 +21,13 @@ float toGrid (float x) { return std::ceil (x / Box::grid) * Box::grid; }
 
 std::string valueText (const Json& value, const FacePort& port)
 {
-    if (value.is_string()) return value.get<std::string>();
-    if (value.is_number())
+    if (value.is_string())
     {
-        const auto symbol = port.unit.kind == UnitRule::Kind::fixed ? port.unit.unit.symbol : std::string_view {};
-        const double si = value.get<double>();
-        constexpr double small = 0.1;
-        if (std::abs (si) < small && si != 0.0 && (symbol == "m" || symbol == "s" || symbol == "N" || symbol == "J"))
-            return withPrefix (si, std::string (symbol));
-        const auto number = numberText (si);
-        return symbol.empty() || symbol == "1" ? number : number + ' ' + std::string (symbol);
+        const auto text = value.get<std::string>();
+        const auto space = text.rfind (' ');
+        return space == text.npos ? text : text.substr (0, space + 1) + unitShown (text.substr (space + 1));
     }
+    if (value.is_number()) return shownQuantity (value.get<double>(), port.unit.kind == UnitRule::Kind::fixed ? port.unit.unit.symbol : std::string_view {});
     if (! value.is_array()) return {};
     const auto partText = [] (const Json& part) {
         if (part.is_number()) return numberText (part.get<double>());

@@ -4,10 +4,13 @@
 #include "drags.hpp"
 
 #include <host/app/look/focus.hpp>
+#include <host/app/look/key_text.hpp>
 #include <host/app/look/text.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/model/wire_rules.hpp>
+#include <tactus/graph/instances.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace tactus::host
@@ -135,10 +138,50 @@ void Canvas::selectNext (juce::Point<float> direction)
 
 std::string Canvas::address (const std::string& port) const
 {
-    std::string path;
-    for (const auto& [node, subgraph] : entered)
-        path += node + '/';
+    std::string path, names;
+    const auto* in = &document.graph().root;
+    for (const auto& [name, subgraph] : entered)
+    {
+        const auto* node = in == nullptr ? nullptr : in->find (name);
+        path += name;
+        names += name + '/';
+        if (const auto chosen = node == nullptr ? std::nullopt : instanceOf (*node, names)) path += '[' + std::to_string (chosen->number) + ']';
+        path += '/';
+        in = document.graph().find (subgraph);
+    }
     return path + port;
+}
+
+std::optional<Canvas::Instance> Canvas::instanceOf (const graph::Node& node, const std::string& names) const
+{
+    const auto count = graph::countOf (node);
+    if (! count || *count < 1) return {};
+    const auto chosen = chosen_instances.find (names);
+    return Instance { chosen == chosen_instances.end() ? 0 : std::clamp (chosen->second, 0, *count - 1), *count };
+}
+
+std::optional<Canvas::Instance> Canvas::instance() const
+{
+    std::string names;
+    const auto* in = &document.graph().root;
+    const graph::Node* node = nullptr;
+    for (const auto& [name, subgraph] : entered)
+    {
+        node = in == nullptr ? nullptr : in->find (name);
+        names += name + '/';
+        in = document.graph().find (subgraph);
+    }
+    return node == nullptr ? std::nullopt : instanceOf (*node, names);
+}
+
+void Canvas::chooseInstance (int number)
+{
+    std::string names;
+    for (const auto& [name, subgraph] : entered)
+        names += name + '/';
+    chosen_instances[names] = number;
+    point ({});
+    if (onBreadcrumbs) onBreadcrumbs();
 }
 
 void Canvas::breadcrumbsChanged()
@@ -248,6 +291,7 @@ void Canvas::paint (juce::Graphics& g)
     }
     paintScene (g, *shown, window, look, highlights);
     if (with_map) Minimap (*shown, window, getLocalBounds()).paint (g, look.theme());
+    if (file_over) paintFileOver (g);
     if (drag) return drag->paint (g);
     if (const auto& card = highlights.live.card) paintCard (g, *card, boundsOf (*card, window.toPixels (card->where.at), getLocalBounds()), look);
 }
@@ -355,7 +399,7 @@ void Canvas::showMenu()
         if (! c.in_menu || ! c.can (*this)) continue;
         juce::PopupMenu::Item item (c.name);
         const auto keys = juce::StringArray::fromTokens (c.keys, "|", {});
-        if (! keys.isEmpty()) item.shortcutKeyDescription = juce::KeyPress::createFromDescription (keys[0]).getTextDescription();
+        if (! keys.isEmpty()) item.shortcutKeyDescription = keyText (keys[0]);
         item.action = [safe = SafePointer (this), &c] {
             if (safe != nullptr && c.can (*safe)) c.run (*safe);
         };
@@ -398,14 +442,17 @@ void Canvas::mouseMagnify (const juce::MouseEvent& e, float factor)
 
 bool Canvas::keyPressed (const juce::KeyPress& key)
 {
+    bool is_known = false;
     for (const auto& c : canvasCommands())
         for (const auto& keys : juce::StringArray::fromTokens (c.keys, "|", {}))
             if (key == juce::KeyPress::createFromDescription (keys))
             {
-                if (c.can (*this)) c.run (*this);
+                is_known = true;
+                if (! c.can (*this)) continue;   // another command may have the same key
+                c.run (*this);
                 return true;
             }
-    return false;
+    return is_known;
 }
 
 }   // namespace tactus::host

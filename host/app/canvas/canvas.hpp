@@ -9,6 +9,10 @@
 #include <host/app/model/document.hpp>
 #include <host/app/palette/search.hpp>
 
+#include <filesystem>
+#include <map>
+#include <optional>
+
 namespace tactus::host
 {
 
@@ -34,8 +38,8 @@ struct NodeRequest
 ///
 /// Dragging on empty canvas selects. The middle or right button pans; a right-click opens the menu. The wheel zooms at the
 /// pointer; a trackpad pans. Dragging from a port draws a wire: ports that the wire fits are highlighted, the others show why
-/// it does not fit. Keyboard commands: commands.hpp.
-class Canvas final : public juce::Component, public juce::TooltipClient, private Document::Listener
+/// it does not fit. A clip file dropped on a clip node becomes its file; elsewhere, it becomes a new node. Keyboard commands: commands.hpp.
+class Canvas final : public juce::Component, public juce::TooltipClient, public juce::FileDragAndDropTarget, private Document::Listener
 {
 public:
     static constexpr float socket_reach = 9.0f, wire_reach = 6.0f;   ///< pixels that the pointer may be away from a port or a wire to hit it
@@ -64,8 +68,24 @@ public:
     /// Goes to a patch, then selects a node or wire in it and scrolls to it. No effect if the patch cannot be reached from the root.
     void show (const std::string& patch, graph::Id);
 
-    /// The full path of a port in the current patch: "grain/wave.value".
+    /// The full path of a port in the current patch: "grain/wave.value"; of the chosen instances: "finger[2]/drag.force".
     std::string address (const std::string& port) const;
+
+    /// Which of several instances of the current subgraph is shown live.
+    struct Instance
+    {
+        int number = 0, count = 1;
+
+        bool operator== (const Instance&) const = default;
+    };
+    std::optional<Instance> instance() const;   ///< empty if the subgraph has no `count`
+    void chooseInstance (int number);
+
+    std::function<void()> onEditParams;   ///< called when the keyboard should go to the parameters of what is selected
+    void editParams()
+    {
+        if (onEditParams) onEditParams();
+    }
 
     void frameAll();
     void frameSelection();
@@ -91,6 +111,7 @@ public:
     void recolourNotes();
     void probeSelection();
     void wireFromSelection();
+    void saveClipOfSelection();
     void exposeFromSelection();
 
     /// Adds a node and connects it as requested.
@@ -130,6 +151,9 @@ public:
 
     std::function<void (std::vector<std::string> ports)> onProbe;   ///< receives the full paths of the ports
 
+    std::function<void (const std::filesystem::path&)> onFileDropped;   ///< receives a file that is no clip
+    std::function<void (const std::filesystem::path&)> onSaveClip;      ///< receives the clip of a node, to be saved in another format
+
     std::function<void (const juce::String&)> onNotice;   ///< receives the reason why an edit was not made
 
     void hint (const juce::String&);
@@ -150,6 +174,11 @@ public:
     void mouseWheelMove (const juce::MouseEvent&, const juce::MouseWheelDetails&) override;
     void mouseMagnify (const juce::MouseEvent&, float) override;
     bool keyPressed (const juce::KeyPress&) override;
+    bool isInterestedInFileDrag (const juce::StringArray&) override;
+    void fileDragEnter (const juce::StringArray&, int x, int y) override;
+    void fileDragMove (const juce::StringArray&, int x, int y) override;
+    void fileDragExit (const juce::StringArray&) override;
+    void filesDropped (const juce::StringArray&, int x, int y) override;
 
 private:
     void documentChanged() override;
@@ -159,6 +188,7 @@ private:
         curves.clear();
     }
     void rebuild();
+    std::optional<Instance> instanceOf (const graph::Node&, const std::string& names) const;
     void breadcrumbsChanged();
     /// What is under the pointer: its id, a description, and the cursor to show.
     struct Hover
@@ -175,6 +205,8 @@ private:
     const graph::Patch& patchShown() const;
     std::optional<graph::Command> storePositions() const;      ///< stores those of automatically arranged nodes; empty if all are stored
     juce::Point<float> freePlace (juce::Point<float>) const;   ///< this point, or the next free one below
+    void dropClip (const std::filesystem::path&, juce::Point<float> at);
+    void paintFileOver (juce::Graphics&) const;
 
     /// Opens a text editor over part of the canvas.
     void openEditor (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<void (const juce::String&)> done);
@@ -187,12 +219,14 @@ private:
     View window;
     Highlights highlights;
     Breadcrumbs entered;
+    std::map<std::string, int> chosen_instances;   // by the path of a subgraph node, without numbers
     PointedPort pointed_at;
     std::unique_ptr<Drag> drag;
     std::unique_ptr<juce::TextEditor> editor;
     std::function<void (const juce::String&)> on_edited;
-    std::optional<View> framed;        // the view as it was fitted to the patch: at the first layout with enough room, and on request
-    juce::Rectangle<float> laid_out;   // of the last layout: while the user has not moved the view, it stays fitted, else its centre stays
+    std::optional<juce::Point<int>> file_over;   // where a file is being dragged over the canvas
+    std::optional<View> framed;                  // the view as it was fitted to the patch: at the first layout with enough room, and on request
+    juce::Rectangle<float> laid_out;             // of the last layout: while the user has not moved the view, it stays fitted, else its centre stays
     bool with_map = true;
 };
 

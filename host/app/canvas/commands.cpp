@@ -2,6 +2,8 @@
 #include "commands.hpp"
 #include "canvas.hpp"
 
+#include <host/app/model/clip_graph.hpp>
+
 #include <algorithm>
 
 namespace tactus::host
@@ -14,6 +16,7 @@ bool always (const Canvas&) noexcept { return true; }
 bool hasSelection (const Canvas& c) noexcept { return ! c.selection().empty(); }
 bool hasNode (const Canvas& c) noexcept { return ! c.selectedNodes().empty(); }
 bool hasOneNode (const Canvas& c) noexcept { return c.selectedNodes().size() == 1; }
+bool hasClip (const Canvas& c) noexcept { return hasOneNode (c) && c.selectedNodes()[0]->type == clip_type; }
 bool hasTwoNodes (const Canvas& c) noexcept { return c.selectedNodes().size() > 1; }
 bool hasNote (const Canvas& c) noexcept { return std::ranges::any_of (c.selection(), isNote); }
 bool hasSomeNodes (const Canvas& c) noexcept { return ! c.scene().nodes().empty(); }
@@ -80,6 +83,7 @@ constexpr CanvasCommand commands[] {
     { "Add note, or region around selection", "n", always, call<&Canvas::addNote> },
     { "Next region colour", "k", hasNote, call<&Canvas::recolourNotes> },
     { "Connect to...", "w", hasOneNode, call<&Canvas::wireFromSelection> },
+    { "Save clip as...", "", hasClip, call<&Canvas::saveClipOfSelection> },
     { "Probe signal", "p", hasSelection, call<&Canvas::probeSelection>, true },
 
     { "Undo", "ctrl + z", always, undo },
@@ -95,6 +99,7 @@ constexpr CanvasCommand commands[] {
     { "Group into subgraph", "g", hasNode, call<&Canvas::groupSelection> },
     { "Ungroup subgraph", "shift + g", hasSubgraph, call<&Canvas::expandSelection> },
     { "Enter subgraph", "return", hasSubgraph, call<&Canvas::enterSelection> },
+    { "Edit parameters", "return|shift + return", hasSelection, call<&Canvas::editParams> },
     { "Leave subgraph", "u", isInside, leave },
     { "Expose or hide port...", "o", isInsideWithNode, call<&Canvas::exposeFromSelection>, true },
 

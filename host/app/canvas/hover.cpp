@@ -25,7 +25,7 @@ Canvas::Hover Canvas::hoverAt (juce::Point<float> at) const
     {
         const auto* socket = node->paramAt (at);
         if (socket != nullptr && ! socket->port->isChoice())
-            return { node->id, fromUtf8 (nameOf (*socket->port) + ": " + socket->port->about) + ". Drag up or down; hold shift for fine steps",
+            return { node->id, fromUtf8 (nameOf (*socket->port) + ": " + socket->port->about) + ". Drag up or down; hold Shift for fine steps",
                      juce::MouseCursor::UpDownResizeCursor };
         if (node->face->type == nullptr) return { node->id, node->type };
         return { node->id, std::string (node->face->type->info.name) + ": " + std::string (node->face->type->info.summary) };

@@ -55,7 +55,7 @@ void paintCourse (juce::Graphics& g, const PortCard& card, juce::Rectangle<float
             high_before = course[i].high[part];
             spans.addWithoutMerging ({ x, toY (high) - thickness / 2, std::max (1.0f, step), toY (low) - toY (high) + thickness });
         }
-        g.setColour (componentColour (theme, theme.of (card.quantity), part));
+        g.setColour (componentColour (theme, theme.of (card.quantity), part, card.values.size()));
         g.fillRectList (spans);
     }
 }
@@ -73,7 +73,7 @@ void paintValues (juce::Graphics& g, const PortCard& card, juce::Rectangle<float
     for (std::size_t i = 0; i < card.values.size(); ++i)
     {
         const auto cell = area.removeFromLeft (width);
-        g.setColour (componentColour (theme, theme.of (card.quantity), i));
+        g.setColour (componentColour (theme, theme.of (card.quantity), i, card.values.size()));
         g.fillEllipse (juce::Rectangle<float> (5.0f, 5.0f).withCentre ({ cell.getX() + 3.0f, cell.getCentreY() }));
         g.setFont (look.font (12.0f, true));
         g.setColour (theme.text);

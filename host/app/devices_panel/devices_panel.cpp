@@ -53,10 +53,13 @@ constexpr Part parts_of_sound[] {
     { "/guard/max_signal", "max signal", "Limit of each output, in that output's unit" },
     { "/guard/ramp", "ramp", "Time from silence to full signal, such as 0.5 s" },
 };
+constexpr Part lists_of_card[] {
+    { "/type", "audio system", "The audio system, such as JACK (PipeWire, too) or ALSA" },
+    { "/output", "output", "The card for the outputs" },
+    { "/input", "input", "The card for the inputs" },
+};
+constexpr auto any_card = "automatic";
 constexpr Part parts_of_card[] {
-    { "/type", "audio system", "JACK, ALSA ... as listed by `tactus devices`. Default: any" },
-    { "/output", "output", "Name of the card for the outputs, or part of the name" },
-    { "/input", "input", "Name of the card for the inputs, or part of the name" },
     { "/rate_hz", "sample rate", "Sample rate in Hz. Default: the card's own rate" },
     { "/block", "block size", "Block size in frames. Small blocks risk gaps; large ones add delay" },
     { "/reserve", "reserve", "How late a tick or block may be without causing a gap, such as 10 ms. Adds to the delay" },
@@ -94,6 +97,7 @@ DevicesPanel::DevicesPanel (Document& d, LiveRun& r, DeviceSetup& s) : document 
     scroll.setViewedComponent (&sheet, false);
     scroll.setScrollBarsShown (true, false);
     scroll.setScrollBarThickness (8);
+    scroll.setWantsKeyboardFocus (false);   // the keys are for the fields
     addAndMakeVisible (scroll);
 }
 
@@ -252,6 +256,9 @@ std::unique_ptr<Column> DevicesPanel::roleCard (std::size_t i)
         "The device for this role, in every graph"));
     card->add (remark ([this, role] { return fitRemark (role); }));
     card->add (remark ([this, role] { return statusRemark (role); }));
+    card->add (buttonRow (
+        "Test " + fromUtf8 (role), [this, role] { tryDevice (role); },
+        "Plays one gentle pulse of 0.3 s on this device, at most a tenth of the limit of its guard. The graph must be running; it pauses during the test."));
     if (shape.drivers[i].empty()) return card;
     for (const auto& part : partsOf (shape.drivers[i]))
         card->add (textRow (
@@ -328,6 +335,10 @@ std::unique_ptr<Column> DevicesPanel::soundCard()
             [this, i] (const juce::String& text) { setRoute (i, text); },
             "PORT=CHANNEL@FULLSCALE, such as mix.out=3@4 N: a port of the graph, a channel of the card, and the value at full scale"));
     card->add (remark ([this] { return soundRemark(); }));
+    for (const auto& list : lists_of_card)
+        card->add (cardRow (list.pointer, list.label, list.about));
+    card->add (buttonRow (
+        "Look for sound cards", [this] { listSoundCards(); }, "Lists the sound cards again, such as one that you have just plugged in"));
     for (const auto& part : parts_of_card)
         card->add (textRow (
             part.label, [this, at = JsonPointer (part.pointer)] {
@@ -336,6 +347,40 @@ std::unique_ptr<Column> DevicesPanel::soundCard()
             [this, pointer = std::string (part.pointer)] (const juce::String& text) { setCard (pointer, text); },
             part.about));
     return card;
+}
+
+/// A setting of the sound card that is chosen from what the computer has.
+std::unique_ptr<Block> DevicesPanel::cardRow (const char* pointer, const char* label, const char* about)
+{
+    const std::string at (pointer);
+    const auto now = [this, at = JsonPointer (pointer)] {
+        const auto* sound = setup.session().session.audio();
+        return sound != nullptr && sound->contains (at) ? written (sound->at (at)).toStdString() : std::string (any_card);
+    };
+    std::vector<std::string> choices { any_card };
+    const auto offer = [&] (const std::string& choice) {
+        if (std::ranges::count (choices, choice) == 0) choices.push_back (choice);
+    };
+    for (const auto& c : sound_cards)
+        if (at == "/type" || ! (at == "/output" ? c.outputs : c.inputs).empty() || ! c.trouble.empty()) offer (at == "/type" ? c.type : c.name);
+    offer (now());   // a card that is not plugged in, or a part of a name
+    return choiceRow (
+        label, choices, now, [this, at] (const std::string& to) { setCard (at, to == any_card ? juce::String() : fromUtf8 (to)); }, about);
+}
+
+void DevicesPanel::listSoundCards()
+{
+    sound_cards = audio::soundCards().list();
+    has_listed = true;
+    if (! columns.empty()) rebuild();
+}
+
+void DevicesPanel::tryDevice (const std::string& role)
+{
+    if (! onTry) return;
+    const auto tried = onTry (role);
+    if (! onHint) return;
+    onHint (tried ? "Testing " + fromUtf8 (role) + ": a gentle pulse, at most a tenth of the limit of its guard." : fromUtf8 (messageText (tried.error())));
 }
 
 void DevicesPanel::paint (juce::Graphics& g) { g.fillAll (lookOf (*this).theme().panel); }
@@ -365,6 +410,7 @@ void DevicesPanel::resized()
 void DevicesPanel::visibilityChanged()
 {
     setup.scan (isVisible());
+    if (isShowing() && ! has_listed) listSoundCards();
     if (isVisible()) update();
 }
 

@@ -6,6 +6,7 @@
 #include <host/app/inspector/describe.hpp>
 #include <host/app/run/device_setup.hpp>
 #include <host/app/run/live_run.hpp>
+#include <host/audio/card.hpp>
 #include <host/sessions/role_fits.hpp>
 
 namespace tactus::host
@@ -23,6 +24,10 @@ public:
     void refresh();   ///< call many times a second; does nothing while hidden
 
     std::function<void (const juce::String&)> onHint;
+    std::function<Result<> (const std::string& role)> onTry;   ///< plays a gentle pulse on the device of a role
+    void tryDevice (const std::string& role);
+
+    void listSoundCards();   ///< looks for the sound cards of this computer
 
     std::size_t cards() const noexcept { return columns.size(); }   ///< one for the clock, one for each role, and one for the sound card
     Column& card (std::size_t i) { return *columns[i]; }
@@ -60,6 +65,7 @@ private:
     std::unique_ptr<Column> clockCard();
     std::unique_ptr<Column> roleCard (std::size_t);
     std::unique_ptr<Column> soundCard();
+    std::unique_ptr<Block> cardRow (const char* pointer, const char* label, const char* about);
     Json routes() const;
     void setSound (const std::function<void (Json&)>&);
     // In remarks.cpp
@@ -72,6 +78,8 @@ private:
     LiveRun& run;
     DeviceSetup& setup;
     std::vector<RoleFit> fits;
+    std::vector<audio::ListedCard> sound_cards;
+    bool has_listed = false;
     Shape shape;
     std::vector<std::unique_ptr<Column>> columns, retired;   // retired: kept alive, because a row may rebuild the card that contains it
     juce::Viewport scroll;

@@ -20,7 +20,7 @@ HistoryPanel::~HistoryPanel() { document.remove (*this); }
 
 void HistoryPanel::documentChanged()
 {
-    names = document.history().names();
+    names = document.stepNames();
     list.updateContent();
     list.scrollToEnsureRowIsOnscreen (static_cast<int> (document.history().position()));
     list.repaint();

@@ -41,6 +41,8 @@ public:
         name.onTextChange = [this] { change (document, id, [text = name.getText().toStdString()] (auto& c) { c.name = text; }); };
         fader.setSliderStyle (juce::Slider::LinearBar);
         fader.setRange (0.0, 1.0);
+        fader.setWantsKeyboardFocus (true);
+        fader.setMouseClickGrabsKeyboardFocus (false);   // the canvas keeps the keyboard focus
         fader.setNumDecimalPlacesToDisplay (2);
         fader.onDragStart = fader.onDragEnd = [this] { continues = false; };
         fader.onValueChange = [this] {
@@ -61,6 +63,8 @@ public:
     {
         const auto* c = find (document, id);
         if (c == nullptr) return;
+        fader.setTitle (c->name.empty() ? c->id : c->name);
+        name.setTitle ("Name of the control");
         if (! name.isBeingEdited()) name.setText (c->name.empty() ? c->id : c->name, juce::dontSendNotification);
         fader.setValue (c->value, juce::dontSendNotification);
     }

@@ -34,7 +34,7 @@ const char* patternsOf (SettingSheet::Kind kind)
     case SettingSheet::Kind::image:
         return "*.png;*.jpg;*.jpeg";
     case SettingSheet::Kind::table:
-        return "*.csv;*.haptic;*.ahap;*.hjif;*.json";   // a clip is a table for a node
+        return "*.csv;*.haptic;*.ahap;*.hjif;*.json;*.wav";   // a clip is a table for a node
     default:
         return "*.obj;*.off;*.ply;*.stl";
     }
@@ -47,6 +47,7 @@ public:
         : label (std::move (l)), kind (k), binding (std::move (s)), context (c)
     {
         field.setTooltip (about);
+        field.setTitle (label);
         field.onApply = [this] (const juce::String& text) {
             const auto path = text.trim();
             binding.set (path.isEmpty() ? std::nullopt : std::optional<Json> (path.toStdString()), false);

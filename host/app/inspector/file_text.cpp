@@ -43,12 +43,6 @@ FileText read (const Assets::Loaded<T>& loaded, F&& f)
 }
 }   // namespace
 
-std::string resolved (const std::string& path, const std::string& folder)
-{
-    const std::filesystem::path given (path);
-    return given.is_absolute() || folder.empty() ? given.string() : (std::filesystem::path (folder) / given).string();
-}
-
 FileText describeFile (const std::string& written, SettingSheet::Kind kind, const std::string& folder, Assets& assets)
 {
     if (written.empty()) return { "No file. Drop one here, or browse." };
@@ -66,15 +60,6 @@ FileText describeFile (const std::string& written, SettingSheet::Kind kind, cons
     default:
         return read (assets.mesh (path), [] (const auto& m) { return describe (*m); });
     }
-}
-
-std::string pathFrom (const std::filesystem::path& file, const std::string& folder)
-{
-    if (folder.empty()) return file.string();
-    std::error_code problem;
-    const auto from = std::filesystem::absolute (folder, problem).lexically_normal(), to = std::filesystem::absolute (file, problem).lexically_normal();
-    const auto relative = to.lexically_relative (from);
-    return relative.empty() ? file.string() : relative.generic_string();
 }
 
 }   // namespace tactus::host

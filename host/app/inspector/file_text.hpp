@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <host/app/model/file_path.hpp>
+
 #include <tactus/kit/assets.hpp>
 #include <tactus/node/setting.hpp>
 
-#include <filesystem>
+#include <memory>
 #include <string>
 
 namespace tactus::host
@@ -20,11 +22,5 @@ struct FileText
 
 /// Describes a file of kind signal, image, table, or surface (a mesh). The path is as written in a graph that is stored in `folder`.
 FileText describeFile (const std::string& path, SettingSheet::Kind kind, const std::string& folder, Assets&);
-
-/// Resolves a path that is written in a graph stored in `folder`.
-std::string resolved (const std::string& path, const std::string& folder);
-
-/// The path to write in a graph: relative to its folder, if it has one.
-std::string pathFrom (const std::filesystem::path& file, const std::string& folder);
 
 }   // namespace tactus::host

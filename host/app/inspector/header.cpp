@@ -16,6 +16,7 @@ public:
     {
         auto& document = at.document;
         name.setFont (lookOf (*this).font (15.0f, true));
+        name.setTitle ("Name of the node");
         name.setTooltip ("Node name: letters, digits and _");
         name.onApply = [&document, patch = at.patch, before = node.name, this] (const juce::String& to) {
             if (! document.perform (graph::RenameNode { patch, before, to.trim().toStdString() })) name.show (before);

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "inspector.hpp"
+#include "number_field.hpp"
+
+#include <host/app/look/focus.hpp>
 
 #include <algorithm>
 
@@ -12,7 +15,9 @@ Inspector::Inspector (Document& d, const Catalogue& c) : document (d), catalogue
     setFocusContainerType (FocusContainerType::keyboardFocusContainer);
     scroll.setScrollBarsShown (true, false);
     scroll.setScrollBarThickness (8);
+    scroll.setWantsKeyboardFocus (false);   // the keys are for the fields
     addAndMakeVisible (scroll);
+    addChildComponent (strip);
     document.add (*this);
     rebuild();
 }
@@ -86,6 +91,8 @@ void Inspector::rebuild()
     const auto at = inspected();
     const auto now = selected (at);
     const auto* node = now.nodes.size() == 1 ? now.nodes[0] : nullptr;
+    strip.refresh();
+    strip.setVisible (! now.isEmpty() && ! strip.isEmpty());   // with nothing selected, the column has the controls
     if (now.key != made_for || ! column)
     {
         made_for = now.key;
@@ -112,6 +119,28 @@ void Inspector::typesChanged()
     retired.reset();
 }
 
+void Inspector::focusFirst()
+{
+    juce::Component* first = nullptr;
+    for (auto* c : juce::KeyboardFocusTraverser().getAllComponents (this))
+    {
+        const bool is_field = dynamic_cast<NumberField*> (c) != nullptr || dynamic_cast<juce::ComboBox*> (c) != nullptr;
+        if (first == nullptr || is_field) first = c;
+        if (is_field) break;
+    }
+    if (first != nullptr) takeFocus (*first);
+}
+
+void Inspector::reveal (const juce::Component& field)
+{
+    const auto* inside = scroll.getViewedComponent();
+    if (inside == nullptr || ! inside->isParentOf (&field)) return;
+    const auto place = inside->getLocalArea (&field, field.getLocalBounds()).expanded (0, 8);
+    const auto seen = scroll.getViewArea();
+    if (place.getY() < seen.getY()) scroll.setViewPosition (0, place.getY());
+    if (place.getBottom() > seen.getBottom()) scroll.setViewPosition (0, place.getBottom() - seen.getHeight());
+}
+
 void Inspector::paint (juce::Graphics& g)
 {
     g.fillAll (themeOf (*this).panel);
@@ -121,7 +150,10 @@ void Inspector::paint (juce::Graphics& g)
 
 void Inspector::resized()
 {
-    scroll.setBounds (getLocalBounds().withTrimmedLeft (1));
+    auto area = getLocalBounds().withTrimmedLeft (1);
+    const int most = area.getHeight() / 3;
+    if (strip.isVisible()) strip.setBounds (area.removeFromBottom (std::min (most, strip.heightFor (area.getWidth()))));
+    scroll.setBounds (area);
     if (column) column->layOut (scroll.getMaximumVisibleWidth());
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "describe.hpp"
+#include "knob_strip.hpp"
 
 #include <host/assets/file_assets.hpp>
 
@@ -27,6 +28,10 @@ public:
     std::function<Messages()> messagesNow;              ///< returns the messages about the current graph
 
     Column& shown() noexcept { return *column; }
+    KnobStrip& knobs() noexcept { return strip; }
+
+    void focusFirst();                            ///< gives the keyboard focus to the first field
+    void reveal (const juce::Component& field);   ///< scrolls to a field
 
     void paint (juce::Graphics&) override;
     void resized() override;
@@ -59,6 +64,7 @@ private:
     std::unique_ptr<Column> column, retired;                // retired: kept alive because one of its fields may have triggered the rebuild
     std::pair<std::string, std::set<graph::Id>> shown_of;   // patch and selection; the scroll position is kept while they stay the same
     juce::Viewport scroll;
+    KnobStrip strip { document };   // the controls of the graph, while something is selected
 };
 
 }   // namespace tactus::host

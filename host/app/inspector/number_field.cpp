@@ -2,6 +2,9 @@
 #include "number_field.hpp"
 
 #include <host/app/look/focus.hpp>
+#include <host/app/look/text.hpp>
+#include <host/app/model/message_text.hpp>
+#include <host/app/model/readable.hpp>
 
 #include <tactus/text/number_text.hpp>
 
@@ -16,6 +19,20 @@ namespace tactus::host
 namespace
 {
 constexpr double fine = 0.1;
+
+/// What a screen reader says of a field, and how it sets it.
+class FieldValue final : public juce::AccessibilityTextValueInterface
+{
+public:
+    explicit FieldValue (NumberField& f) : field (f) {}
+
+    bool isReadOnly() const override { return false; }
+    juce::String getCurrentValueAsString() const override { return field.spokenValue(); }
+    void setValueAsString (const juce::String& text) override { field.type (text); }
+
+private:
+    NumberField& field;
+};
 
 /// Writes numbers of moderate size without an exponent: 500000, not 5e+05.
 std::string plainText (double v)
@@ -40,6 +57,20 @@ NumberField::NumberField (const PortSheet& s) : sheet (s)
     setWantsKeyboardFocus (true);
     setMouseClickGrabsKeyboardFocus (false);   // the canvas keeps the keyboard focus during a drag
     setTooltip (tooltipOf (sheet));
+    setTitle (spokenName (sheet));
+}
+
+juce::String NumberField::spokenValue() const
+{
+    const auto unit = value.unit.empty() ? unitText (sheet.unit) : fromUtf8 (unitShown (value.unit));
+    return juce::String (plainText (value.number)) + (unit.isEmpty() ? "" : " " + unit);
+}
+
+std::unique_ptr<juce::AccessibilityHandler> NumberField::createAccessibilityHandler()
+{
+    auto actions = juce::AccessibilityActions().addAction (juce::AccessibilityActionType::press, [this] { openEditor(); });
+    return std::make_unique<juce::AccessibilityHandler> (*this, juce::AccessibilityRole::slider, std::move (actions),
+                                                         juce::AccessibilityHandler::Interfaces { std::make_unique<FieldValue> (*this) });
 }
 
 void NumberField::setBold (bool is_set)
@@ -51,11 +82,10 @@ void NumberField::setBold (bool is_set)
 
 void NumberField::show (const Json& written)
 {
-    const auto read = readQuantity (written, sheet);
-    if (read)
+    if (const auto now = readQuantity (written, sheet))
     {
-        if (refused_text.isNotEmpty() && read->toText() != value.toText()) accept();   // changed from elsewhere, such as by an undo
-        value = *read;
+        if (refused_text.isNotEmpty() && now->toText() != value.toText()) accept();   // changed from elsewhere, such as by an undo
+        value = withBestPrefix (*now, sheet);
     }
     repaint();
 }
@@ -182,17 +212,24 @@ void NumberField::closeEditor()
 bool NumberField::type (const juce::String& text)
 {
     const auto trimmed = text.trim().toStdString();
+    const auto custom = read ? read (trimmed) : Result<double> (0.0);
+    if (! custom)
+    {
+        refuse (text, messageText (custom.error()));
+        return false;
+    }
     char* rest = nullptr;
     const double plain = std::strtod (trimmed.c_str(), &rest);
     // A number without a unit is in the unit shown.
     auto wanted = ! trimmed.empty() && *rest == '\0' ? QuantityText { plain, value.unit, value.scale }.toJson() : Json (trimmed);
-    const auto read = readQuantity (wanted, sheet);
-    if (! read)
+    if (read) wanted = *custom;
+    const auto taken = readQuantity (wanted, sheet);
+    if (! taken)
     {
-        refuse (text, read.error().text);
+        refuse (text, taken.error().text);
         return false;
     }
-    value = *read;
+    value = *taken;
     accept();
     if (onChange) onChange (value.toJson(), false);
     return true;
@@ -238,7 +275,7 @@ void NumberField::paintText (juce::Graphics& g, juce::Rectangle<float> text, juc
     const auto& look = lookOf (*this);
     const auto& theme = look.theme();
     g.setFont (look.font (12.0f));
-    const auto unit = value.unit.empty() ? unitText (sheet.unit) : juce::String (value.unit);
+    const auto unit = value.unit.empty() ? unitText (sheet.unit) : fromUtf8 (unitShown (value.unit));
     if (const float width = g.getCurrentFont().getStringWidthFloat (unit) + 5.0f; unit.isNotEmpty() && width < 0.55f * text.getWidth())
     {
         g.setColour (theme.dim);
@@ -270,22 +307,29 @@ juce::String unitText (const UnitRule& rule)
     return has_unit ? juce::String (std::string (rule.unit.symbol)) : juce::String();
 }
 
+juce::String spokenName (const PortSheet& sheet)
+{
+    const auto name = fromUtf8 (readable (sheet.id));
+    if (name.length() > 1) return name;
+    if (sheet.id.size() > 1) return fromUtf8 (sheet.id);
+    return "Parameter " + name + (sheet.about.empty() ? juce::String() : ", " + fromUtf8 (sheet.about));
+}
+
 juce::String tooltipOf (const PortSheet& sheet)
 {
     const auto symbol = unitText (sheet.unit).toStdString();
-    const auto unit = symbol.empty() ? symbol : ' ' + symbol;
     const auto range = [&] (const Interval& i) {
         if (std::isinf (i.min) && std::isinf (i.max)) return std::string();
-        if (std::isinf (i.max)) return "at least " + numberText (i.min) + unit;
-        if (std::isinf (i.min)) return "at most " + numberText (i.max) + unit;
-        return numberText (i.min) + " to " + numberText (i.max) + unit;
+        if (std::isinf (i.max)) return "at least " + shownQuantity (i.min, symbol);
+        if (std::isinf (i.min)) return "at most " + shownQuantity (i.max, symbol);
+        return shownQuantity (i.min, symbol) + " to " + shownQuantity (i.max, symbol);
     };
     auto text = std::string (sheet.about);
     if (! text.empty()) text[0] = static_cast<char> (std::toupper (static_cast<unsigned char> (text[0])));
     if (const auto hard = range (sheet.limits.hard); ! hard.empty()) text += "\nAllowed: " + hard;
     if (const auto usual = range (sheet.limits.usual); ! usual.empty() && ! (sheet.limits.usual == sheet.limits.hard)) text += "\nUsual: " + usual;
     if (sheet.limits.latch) text += "\nThe value is sampled when contact begins, or on a hit.";
-    return text;
+    return fromUtf8 (text);
 }
 
 }   // namespace tactus::host

@@ -33,6 +33,9 @@ public:
     std::function<void (std::optional<Json>, bool continues)> onChange;
     std::function<void (const juce::String&)> onRefused;
 
+    /// Reads typed text in place of the usual reading. The result is in the unit of the field.
+    std::function<Result<double> (const std::string&)> read;
+
     void setBold (bool);               ///< marks a value that is not the default
     bool type (const juce::String&);   ///< applies typed text; false if it is refused
     void openEditor();
@@ -42,6 +45,8 @@ public:
     const juce::String& refused() const noexcept { return refused_text; }
     const juce::String& whyRefused() const noexcept { return error.text(); }
 
+    juce::String spokenValue() const;   ///< "100 µm", for screen readers
+    std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override;
     juce::String getTooltip() override { return refused_text.isEmpty() ? SettableTooltipClient::getTooltip() : error.text(); }
     void paint (juce::Graphics&) override;
     void resized() override;
@@ -76,6 +81,9 @@ private:
 
 /// The unit symbol to show. Empty for a pure number and for a generic port.
 juce::String unitText (const UnitRule&);
+
+/// What a screen reader calls a number: its readable name, and for a symbol its id or description.
+juce::String spokenName (const PortSheet&);
 
 /// A tooltip for a number: description, allowed range and usual range.
 juce::String tooltipOf (const PortSheet&);

@@ -10,6 +10,7 @@
 #include <host/app/model/readable.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tactus::host
@@ -44,6 +45,8 @@ public:
                 change (is_component ? std::optional (withComponent (static_cast<std::size_t> (i), *v)) : std::move (v), continues);
             };
             field.onRefused = refused;
+            static constexpr std::array components { " x", " y", " z" };
+            field.setTitle ((label().length() > 1 ? label() : spokenName (*port.sheet)) + (port.width == 3 ? components[static_cast<std::size_t> (i)] : ""));
             addAndMakeVisible (field);
         }
         if (! port.isChoice()) return;

@@ -50,8 +50,15 @@ SetRow::SetRow (juce::String l) : label_text (std::move (l)), arrow (std::make_u
     arrow->onClick = [this] {
         if (onReset) onReset();
     };
+    arrow->setTitle ("Reset " + label_text);
     addChildComponent (*arrow);
     addMouseListener (watch.get(), true);
+}
+
+void SetRow::childrenChanged()
+{
+    for (auto* child : getChildren())
+        if (child != arrow.get() && child->getTitle().isEmpty()) child->setTitle (label_text);
 }
 
 SetRow::~SetRow() { removeMouseListener (watch.get()); }

@@ -24,6 +24,7 @@ public:
 
     void paint (juce::Graphics&) override;
     void resized() final;
+    void childrenChanged() override;   // names the fields for screen readers
 
 protected:
     void setIsSet (bool);

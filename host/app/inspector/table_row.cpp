@@ -27,6 +27,7 @@ TableRow::TableRow (std::vector<Cell> c, std::function<void()> remove, const std
         {
             auto field = std::make_unique<TextField>();
             field->setTooltip (std::string (cell.sheet.about));
+            field->setTitle (spokenName (cell.sheet));
             field->onApply = [binding = cell.binding] (const juce::String& text) { binding.set (parseText (text), false); };
             fields.push_back (std::move (field));
         }

@@ -23,7 +23,8 @@ public:
     ToolButton (const juce::String& caption, Kind k, const juce::String& tooltip = {}) : juce::Button (caption), kind (k)
     {
         setTooltip (tooltip);
-        setMouseClickGrabsKeyboardFocus (false);   // the canvas keeps the keyboard focus
+        if (caption.length() < 2) setTitle (tooltip.upToFirstOccurrenceOf (":", false, false));   // a sign says nothing to a screen reader
+        setMouseClickGrabsKeyboardFocus (false);                                                  // the canvas keeps the keyboard focus
         setMouseCursor (juce::MouseCursor::PointingHandCursor);
     }
 

@@ -8,12 +8,10 @@
 namespace tactus::host
 {
 
-/// The shade of a component of a vector whose colour is `hue`: x, y and z by number.
-inline juce::Colour componentColour (const Theme& theme, juce::Colour hue, std::size_t component)
+/// The colour of the n-th component of a port. A number has the colour of its quantity; x, y and z have a hue each.
+inline juce::Colour componentColour (const Theme& theme, juce::Colour hue, std::size_t component, std::size_t components)
 {
-    if (component == 1) return hue.interpolatedWith (theme.text, 0.5f);
-    if (component == 2) return hue.interpolatedWith (theme.canvas, 0.42f);
-    return hue;
+    return components == theme.axes.size() ? theme.axes[component] : hue;
 }
 
 }   // namespace tactus::host

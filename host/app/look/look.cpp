@@ -6,11 +6,30 @@
 namespace tactus::host
 {
 
+namespace
+{
+juce::LookAndFeel_V4::ColourScheme schemeOf (const Theme& t)
+{
+    const auto highlight = t.raised.interpolatedWith (t.accent, 0.25f);
+    // In the order of JUCE: window, widget, menu, outline, text, fill, text and fill of what is highlighted, text of menus.
+    return { t.panel, t.raised, t.raised, t.hairline, t.text, t.dim, t.text, highlight, t.text };
+}
+}   // namespace
+
 Look::Look() : regular (regularTypeface()), bold_face (boldTypeface()) { setTheme (Theme::dark()); }
+
+std::unique_ptr<Look> Look::apart (const Theme& t)
+{
+    auto look = std::make_unique<Look>();
+    look->font_width = 1.001f;
+    look->setTheme (t);
+    return look;
+}
 
 void Look::setTheme (const Theme& t)
 {
     current = &t;
+    setColourScheme (schemeOf (t));   // what the dialogs of JUCE use, such as that for files
     setColour (juce::ResizableWindow::backgroundColourId, t.panel);
     setColour (juce::TextEditor::textColourId, t.text);
     setColour (juce::TextEditor::backgroundColourId, t.raised);
@@ -36,6 +55,7 @@ juce::Font Look::font (float size, bool bold) const
 {
     juce::Font f (bold ? bold_face : regular);
     f.setHeight (size * 1.2f);   // JUCE's height is ascent plus descent
+    if (font_width != 1.0f) f.setHorizontalScale (font_width);
     return f;
 }
 

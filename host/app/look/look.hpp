@@ -14,6 +14,10 @@ class Look final : public juce::LookAndFeel_V4
 public:
     Look();
 
+    /// A Look for pictures that another thread draws while the window is drawn. It shares no typeface and no cached text with others:
+    /// JUCE tells fonts apart by name and size, so these are wider by a thousandth. Made and destroyed on the main thread.
+    static std::unique_ptr<Look> apart (const Theme&);
+
     const Theme& theme() const noexcept { return *current; }
     void setTheme (const Theme&);   ///< the caller has to repaint
 
@@ -38,6 +42,7 @@ public:
 private:
     const Theme* current = &Theme::dark();
     juce::Typeface::Ptr regular, bold_face;
+    float font_width = 1.0f;   // of the letters, in proportion
 };
 
 /// The Look of a component, which must use one.

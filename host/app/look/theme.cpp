@@ -26,6 +26,7 @@ const Theme& Theme::dark()
         .accent = juce::Colour (0xff56b4e9),
         .warning = juce::Colour (0xffe69f00),
         .stop = juce::Colour (0xffe5484d),
+        .axes = { juce::Colour (0xffff7a45), juce::Colour (0xff2fc48d), juce::Colour (0xff56b4e9) },
         .is_dark = true,
     };
     return theme;
@@ -44,6 +45,7 @@ const Theme& Theme::light()
         .accent = juce::Colour (0xff0072b2),
         .warning = juce::Colour (0xff9a5b00),
         .stop = juce::Colour (0xffc62a2f),
+        .axes = { juce::Colour (0xffb34700), juce::Colour (0xff00724f), juce::Colour (0xff005f9e) },
         .is_dark = false,
     };
     return theme;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "step_text.hpp"
+
 #include <tactus/graph/history.hpp>
 #include <tactus/text/message.hpp>
 
@@ -40,6 +42,10 @@ public:
 
     const graph::Graph& graph() const noexcept { return edits.graph(); }
     const graph::History& history() const noexcept { return edits; }
+
+    /// The names of the steps of the history, with values in the units of the catalogue.
+    std::vector<std::string> stepNames() const { return host::stepNames (edits, *types); }
+    void setCatalogue (const Catalogue& c) { types = &c; }   ///< the default is catalogue()
     const std::filesystem::path& file() const noexcept { return origin().source.file; }
     const std::filesystem::path& preset() const noexcept { return origin().source.preset; }
 
@@ -93,6 +99,7 @@ private:
 
     Origin& origin() const noexcept { return *origins[edits.position()]; }
 
+    const Catalogue* types = &catalogue();
     graph::History edits;
     std::vector<std::shared_ptr<Origin>> origins;   // one per position of the history
     std::vector<Listener*> listeners;

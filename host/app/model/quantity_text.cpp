@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "quantity_text.hpp"
+#include "with_prefix.hpp"
 
 #include <tactus/plan/values.hpp>
 #include <tactus/text/number_text.hpp>
@@ -7,6 +8,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <set>
 
 namespace tactus::host
 {
@@ -29,6 +31,32 @@ QuantityText QuantityText::moved (double to_si) const
 Json QuantityText::toJson() const { return unit.empty() ? Json (number) : Json (toText()); }
 
 std::string QuantityText::toText() const { return unit.empty() ? numberText (number) : numberText (number) + ' ' + unit; }
+
+QuantityText withBestPrefix (QuantityText q, const PortSheet& sheet)
+{
+    if (! q.unit.empty() || q.scale != 1.0 || sheet.unit.kind != UnitRule::Kind::fixed) return q;
+    const auto symbol = std::string (sheet.unit.unit.symbol);
+    const auto prefix = prefixFor (q.number, symbol);
+    if (prefix.factor >= 1.0) return q;   // next to 8 kHz, a typed 4000 would be ambiguous
+    q.unit = std::string (prefix.text) + symbol;
+    q.scale = prefix.factor;
+    q.number = rounded (q.number / prefix.factor, 12);   // without the last bits that the quotient adds
+    return q;
+}
+
+std::string shownQuantity (double si, std::string_view symbol)
+{
+    if (symbol.empty() || symbol == "1") return numberText (si);
+    const auto prefix = prefixFor (si, symbol);
+    const double number = prefix.text.empty() ? si : rounded (si / prefix.factor, 12);
+    return numberText (number) + ' ' + unitShown (std::string (prefix.text) + std::string (symbol));
+}
+
+std::string unitShown (const std::string& unit)
+{
+    static const std::set<std::string> with_prefix { "um", "us", "uN", "uJ", "um/s", "ug", "uW" };
+    return with_prefix.contains (unit) ? "µ" + unit.substr (1) : unit;
+}
 
 Result<QuantityText> readQuantity (const Json& value, const PortSheet& sheet)
 {

@@ -6,6 +6,7 @@
 #include <tactus/text/result.hpp>
 
 #include <string>
+#include <string_view>
 
 namespace tactus::host
 {
@@ -25,6 +26,15 @@ struct QuantityText
     Json toJson() const;   ///< a plain number if there is no unit
     std::string toText() const;
 };
+
+/// The same value with the prefix that reads best, 100 um for 0.0001 m, if it has no unit yet and that of the port takes prefixes.
+QuantityText withBestPrefix (QuantityText, const PortSheet&);
+
+/// A unit as people read it: "µm" for the "um" of files.
+std::string unitShown (const std::string& unit);
+
+/// A value in SI units as people read it: "100 µm", "2.5 N", and without a unit for "1" and "".
+std::string shownQuantity (double si, std::string_view symbol);
 
 /// Rounds to significant digits.
 double rounded (double, int digits = 3);

@@ -2,9 +2,20 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace tactus::host
 {
+
+/// An SI prefix as files have it: "u" for micro.
+struct SiPrefix
+{
+    std::string_view text;
+    double factor = 1.0;
+};
+
+/// The prefix with which a value reads best. None for 0, and for units that take none.
+SiPrefix prefixFor (double value, std::string_view unit) noexcept;
 
 /// Formats a value with an SI prefix: "3.1 mJ".
 std::string withPrefix (double value, const std::string& unit, int digits = 3);

@@ -12,6 +12,8 @@ Palette::Palette()
     setTitle ("Palette");
     query.setFont (lookOf (*this).font (14.0f));
     query.setIndents (10, 6);
+    query.setTitle ("Search");
+    list.setTitle ("Results");
     query.addListener (this);
     query.addKeyListener (this);
     list.setRowHeight (40);

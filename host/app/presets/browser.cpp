@@ -29,6 +29,7 @@ PresetBrowser::PresetBrowser (const Catalogue& c, Settings& s, PictureStore& p)
     const auto& look = lookOf (*this);
     query.setFont (look.font (13.0f));
     query.setIndents (8, 4);
+    query.setTitle ("Search presets");
     query.setTextToShowWhenEmpty ("Search presets", look.theme().dim);
     query.onTextChange = [this] { update(); };
     query.onEscapeKey = [this] { search ({}); };

@@ -70,6 +70,7 @@ private:
 ProblemList::ProblemList (Document& d) : document (d)
 {
     setTitle ("Problems");
+    scroll.setTitle ("Problems");
     scroll.setViewedComponent (&column, false);
     scroll.setScrollBarsShown (true, false);
     scroll.setScrollBarThickness (8);

@@ -68,6 +68,7 @@ public:
 
 HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (std::make_unique<PlayButton>()), listen (std::make_unique<SoundButton>())
 {
+    source.setTitle ("What moves the tool");
     source.addItem ("Device of the graph", as_described);
     source.addItem ("Mouse or pen", by_pointer);
     source.addSeparator();
@@ -82,6 +83,8 @@ HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (st
     play->onClick = [this] {
         if (transport != nullptr) transport->play (play->getToggleState());
     };
+    position.setTitle ("Position in the gesture");
+    speed.setTitle ("Speed of the gesture");
     position.setSliderStyle (juce::Slider::LinearBar);
     position.setNumDecimalPlacesToDisplay (2);
     position.setTextValueSuffix (" s");
@@ -126,6 +129,10 @@ void HandPanel::connectScene()
     in_space.onClick = [choose] { choose (true); };
     larger.onClick = [this] { enlarge (! is_large); };
     addChildComponent (space);
+    addChildComponent (film_button);
+    film_button.onHint = [this] (const juce::String& text) {
+        if (onHint) onHint (text);
+    };
     for (auto* b : { &from_above, &in_space, &larger })
         addAndMakeVisible (*b);
     showScene (false);
@@ -141,6 +148,7 @@ void HandPanel::showScene (bool scene)
     space.watch (is_scene && is_seen);
     surface.setVisible (! is_scene || showsBoth());
     larger.setVisible (is_scene);
+    film_button.setVisible (is_scene);
     resized();
     repaint();
 }
@@ -172,6 +180,7 @@ void HandPanel::refresh()
     const auto& run = playback.current();
     surface.refresh();
     if (is_scene) space.refresh();
+    film_button.refresh();
     listen->setToggleState (sound.isOn(), juce::dontSendNotification);
     showSource (run.hand());
     showTransport (run);
@@ -219,7 +228,7 @@ void HandPanel::showTransport (const LiveRun& run)
 juce::String HandPanel::noteFor (const LiveRun& run) const
 {
     if (! run.isRunning()) return "Not running. Press START at the top right.";
-    if (run.hand().kind != LiveRun::Hand::Kind::pointer) return is_scene ? "Drag: turn. Shift-drag: move. Wheel: zoom." : "The tool follows its device.";
+    if (run.hand().kind != LiveRun::Hand::Kind::pointer) return is_scene ? "Drag: turn. Shift+drag: move. Wheel: zoom." : "The tool follows its device.";
     if (is_scene && ! showsBoth()) return "Drag the tool to press. Elsewhere: turn; Shift: move; wheel: zoom.";
     const auto depth = juce::String (1000.0 * surface.depth(), 1) + " mm. ";
     return surface.isHeld() ? "Held at a depth of " + depth + "H: release" : "Press and drag. The wheel sets the depth: " + depth + "H: hold";
@@ -255,6 +264,11 @@ void HandPanel::resized()
     {
         b->setBounds (head.removeFromLeft (b->wantedWidth()));
         head.removeFromLeft (b == &in_space ? 8 : 2);
+    }
+    if (is_scene)
+    {
+        film_button.setBounds (head.removeFromLeft (film_button.wantedWidth()));
+        head.removeFromLeft (2);
     }
     source.setBounds (head.removeFromRight (std::min (200, head.getWidth() - 4)));
     auto low = area.removeFromBottom (bar_height).reduced (margin, 4);

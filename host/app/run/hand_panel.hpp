@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "film_button.hpp"
 #include "hand_view.hpp"
 #include "scene_view.hpp"
 
@@ -17,6 +18,7 @@ public:
 
     HandView& view() noexcept { return surface; }
     SceneView& scene() noexcept { return space; }
+    FilmButton& film() noexcept { return film_button; }
 
     /// Shows the scene in space instead of the surface from above. While enlarged, a wide panel shows both.
     void showScene (bool);
@@ -56,6 +58,7 @@ private:
     SceneView space { playback };
     LabelButton from_above { "2D", "The surface from above" }, in_space { "3D", "The scene in space" };
     LabelButton larger { "Enlarge", "Shows the scene in place of the canvas" };
+    FilmButton film_button { playback, space };
     bool is_scene = false, is_large = false, is_seen = true;
     juce::ComboBox source;
     std::unique_ptr<juce::Button> play, listen;

@@ -114,6 +114,29 @@ void LiveRun::beginSound()
                                           "to hear the force, move the role to other channels"));
 }
 
+void LiveRun::logNextTo (std::filesystem::path file, std::string program)
+{
+    log_next = std::move (file);
+    log_program = std::move (program);
+}
+
+void LiveRun::beginLog()
+{
+    const auto file = std::exchange (log_next, {});
+    if (file.empty()) return;
+    if (auto started = run->startLog (file, log_program, {}, document.graph()); ! started)
+        said.push_back (std::move (started).error());
+    else
+        is_logged = true;
+}
+
+/// Completes the log of a run that is over, or ends the run.
+void LiveRun::endLog()
+{
+    if (! std::exchange (is_logged, false)) return;
+    if (auto finished = run->finish(); ! finished) said.push_back (std::move (finished).error());
+}
+
 std::unique_ptr<Run> LiveRun::makeRun (Run::Queries queries)
 {
     CompileOptions options { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } };
@@ -157,11 +180,16 @@ void LiveRun::begin()
         std::ranges::move (choice.messages, std::back_inserter (said));
     }
     std::ranges::move (of_sound, std::back_inserter (said));
-    if (! run->hasEngine()) return run.reset();
+    if (! run->hasEngine())
+    {
+        log_next.clear();
+        return run.reset();
+    }
 
     note (run->engine().newest());
     probes.clear();
     run->openDevices (graph, said);
+    beginLog();
     if (stop_switch != nullptr) obeyed = stop_switch->noticed();
     alarms_told = alarms_stopped = Failsafe::alarms();   // earlier alarms have nothing to do with the devices of this run
     if (held) run->engine().emergencyStop();
@@ -170,6 +198,7 @@ void LiveRun::begin()
         if (const auto role = std::ranges::find (needed, real.role, &RoleNeeds::role); role != needed.end())
             std::ranges::move (missingTools (*role, partsOf (real.profile())), std::back_inserter (said));
     if (sound != nullptr) sound->setTickRate (run->rate());
+    film_tape.begin (run->rate());
     beginSound();
     clock = rig->clock() == nullptr ? makeClock() : nullptr;
     watch = HealthWatch { clock_role };
@@ -179,6 +208,7 @@ void LiveRun::begin()
 void LiveRun::end()
 {
     if (run) run->end();   // waits until the forces are zero
+    endLog();
     if (rig) static_cast<void> (rig->end());
     run.reset();
     clock.reset();
@@ -298,6 +328,15 @@ std::optional<double> LiveRun::mostForce() const
     return most;
 }
 
+std::optional<double> LiveRun::mostSignal() const
+{
+    std::optional<double> most;
+    if (run)
+        for (const auto& [role, d] : run->devices())
+            if (std::isfinite (d.limits.max_signal)) most = std::max (most.value_or (0.0), d.limits.max_signal);
+    return most;
+}
+
 std::vector<NodeCost> LiveRun::costs() { return isLive() ? run->live().costs() : std::vector<NodeCost> {}; }
 
 Result<> LiveRun::turn (const std::string& param, const Json& value) { return isRunning() ? turnParam (run->engine(), param, value) : Result<> (stopped()); }
@@ -343,7 +382,7 @@ void LiveRun::before (Plan&, std::uint64_t) noexcept
     if (now.stops != before.stops) run->live().stop();
 }
 
-void LiveRun::after (const Plan& plan, std::uint64_t, bool) noexcept
+void LiveRun::after (const Plan& plan, std::uint64_t tick, bool) noexcept
 {
     const auto role = std::ranges::find_if (plan.roles(), [this] (const auto& r) { return r.name == hand_role; });
     if (role == plan.roles().end()) return;
@@ -351,6 +390,7 @@ void LiveRun::after (const Plan& plan, std::uint64_t, bool) noexcept
     const auto &p = device.reading.position, &f = device.applied.force;
     if (sound != nullptr && ! mutes_sound) sound->push (f.sum());
     seen.store ({ p.x(), p.y(), p.z(), f.x(), f.y(), f.z() });
+    film_tape.note (tick, p, f);
 }
 
 std::optional<audio::AudioStatus> LiveRun::audioStatus() const
@@ -389,13 +429,15 @@ void LiveRun::attend()
     if (begins && ! isRunning()) begin();
     if (isLive())
     {
-        run->attend();
+        if (auto trouble = run->attend()) said.push_back (std::move (*trouble));
+        if (run->live().isOver()) endLog();
         if (++attended % looks_apart == 0) watch.look (realDevices());
         attendFusion();
     }
     if (rig) static_cast<void> (rig->attend());
     if (sound != nullptr) sound->attend();
     probes.collect();
+    film_tape.collect();
 }
 
 }   // namespace tactus::host

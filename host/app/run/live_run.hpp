@@ -9,6 +9,7 @@
 #include "traces.hpp"
 #include "transport_path.hpp"
 
+#include <host/app/film/film_tape.hpp>
 #include <host/app/model/document.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/audio/open_audio.hpp>
@@ -98,6 +99,8 @@ public:
     /// The gesture or recording that the first role follows; null if there is none that can be paused.
     const std::shared_ptr<TransportPath>& transport() const noexcept { return transported; }
 
+    const graph::Graph& edited() const { return document.graph(); }
+
     /// Errors and warnings about the current graph.
     const Messages& messages() const noexcept { return said; }
 
@@ -129,6 +132,7 @@ public:
 
     /// The largest force that the guards let through, in N; empty if they do not limit it.
     std::optional<double> mostForce() const;
+    std::optional<double> mostSignal() const;   ///< the same for signal outputs, in their unit
 
     /// Sets the position that the mouse points at, in m. No effect unless the mouse moves the tool.
     void point (const Vec3&);
@@ -151,6 +155,9 @@ public:
     /// What a picture of the scene shows.
     SceneFeed& scene() noexcept { return scene_feed; }
 
+    /// The last seconds of the scene and of the tool of the first role.
+    FilmTape& film() noexcept { return film_tape; }
+
     /// The costs of the nodes measured so far, the most expensive first.
     std::vector<NodeCost> costs();
 
@@ -168,6 +175,10 @@ public:
     const TriggeredCapture* captured() const noexcept { return run ? run->captured() : nullptr; }   ///< null until it has triggered
     bool isCapturing() const noexcept { return run && run->isCapturing(); }
     void endCapture();
+
+    /// The next run to start is logged to this file, from its first tick to its end; `program` is this program and its version.
+    void logNextTo (std::filesystem::path file, std::string program);
+    bool isLogging() const noexcept { return is_logged || ! log_next.empty(); }   ///< the log is wanted, or being written
 
     /// From now on, replaces the plan that runs by compiled code (docs/fusion.md); empty: runs by the plan. The forces do not change.
     void fuse (std::optional<Fuser::Options>);
@@ -200,6 +211,8 @@ private:
     MadeDevice make (const Json& description, const std::filesystem::path& folder, const std::string& role, const Plan&);
     audio::AudioSettings audioWanted (Messages&) const;
     void beginSound();
+    void beginLog();
+    void endLog();
     ClockChoice decideClock (const Plan&) const;
     std::unique_ptr<TickClock> makeClock();
     std::vector<RealDevice> realDevices() const;
@@ -214,6 +227,7 @@ private:
     Messages said;
     Traces probes;
     SceneFeed scene_feed;
+    FilmTape film_tape;
     PortFeed port_feed;
     Sound* sound;
     bool mutes_sound = false;   // a role of this run limits a channel that the sound may share
@@ -230,6 +244,9 @@ private:
     DeviceSession run_session;    // the session at the start of the run
     double graph_rate_hz = 0.0;   // the graph's rate at the start of the run
     std::string clock_role, hand_role;
+    std::filesystem::path log_next;   // of the next run; empty: none
+    std::string log_program;
+    bool is_logged = false;      // this run writes a log
     double hand_damping = 0.0;   // damping of the hand role's device, as seen in the graph's workspace, in N s/m
     HealthWatch watch;
     std::vector<RoleNeeds> needed;

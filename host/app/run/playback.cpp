@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "playback.hpp"
 
+#include <algorithm>
+
 namespace tactus::host
 {
 
 Playback::Playback (Document& document, const Catalogue& c, Sound& sound, DeviceSetup& setup, std::function<void()> b)
-    : catalogue (c), before_run (std::move (b)), live_run (document, c, &sound)
+    : catalogue (c), before_run (std::move (b)), live_run (document, c, &sound), devices (setup)
 {
     live_run.obey (stop_switch);
     live_run.use (setup);
@@ -30,7 +32,9 @@ void Playback::emergencyStop() noexcept
     current().emergencyStop();
 }
 
-void Playback::preview (graph::Graph g)
+void Playback::preview (graph::Graph g) { runInstead (std::move (g), false); }
+
+void Playback::runInstead (graph::Graph g, bool on_devices)
 {
     endPreview();
     resumes = live_run.isWanted() && ! live_run.isStoppedForGood();
@@ -38,6 +42,7 @@ void Playback::preview (graph::Graph g)
     preview_document = std::make_unique<Document> (std::move (g));
     preview_run = std::make_unique<LiveRun> (*preview_document, catalogue);
     preview_run->obey (stop_switch);
+    if (on_devices) preview_run->use (devices);
     before_run();
     preview_run->start (LiveRun::Hand {});
 }
@@ -45,9 +50,41 @@ void Playback::preview (graph::Graph g)
 void Playback::endPreview()
 {
     if (! isPreviewing()) return;
+    trial.reset();
+    preview_run->letGo();
     preview_run.reset();
     preview_document.reset();
     if (resumes) restart();
+}
+
+Result<> Playback::tryDevice (const std::string& role)
+{
+    if (isPreviewing() || ! live_run.isRunning() || live_run.isStoppedForGood())
+        return Message::error ("device_trial/stopped", {}, "a test needs the forces to be on, and they are off", "press START first");
+    const auto& needs = live_run.needs();
+    const auto of = std::ranges::find (needs, role, &RoleNeeds::role);
+    auto made = of == needs.end() ? std::nullopt : DeviceTrial::of (live_run.edited(), *of);
+    if (! made)
+        return Message::error ("device_trial/no_motor", {}, "the graph neither pushes nor shakes anything with " + role,
+                               "wire something into one of its outputs");
+    auto graph = made->graph;
+    runInstead (std::move (graph), true);
+    trial = Trial { *std::move (made), juce::Time::getMillisecondCounterHiRes() };
+    return {};
+}
+
+/// The pulse comes once the guard has ramped up. STOP ends the trial, and then nothing runs.
+void Playback::attendTrial()
+{
+    constexpr double ramp_ms = 1000.0, most_ms = 5000.0;
+    if (! trial || ! preview_run) return;
+    const double now = juce::Time::getMillisecondCounterHiRes();
+    const bool is_over = trial->pulsed_ms > 0.0 && now - trial->pulsed_ms > 2000.0 * DeviceTrial::length_s;
+    if (is_over || ! preview_run->isWanted() || preview_run->isStoppedForGood() || now - trial->began_ms > most_ms) return endPreview();
+    if (trial->pulsed_ms > 0.0 || ! preview_run->isRunning() || now - trial->began_ms < ramp_ms) return;
+    const double level = trial->of.level (preview_run->mostForce(), preview_run->mostSignal());
+    if (! preview_run->turn ("level.value", Json (level)) || ! preview_run->turn ("start.value", Json (1.0))) return;
+    trial->pulsed_ms = now;
 }
 
 void Playback::attend()
@@ -59,6 +96,7 @@ void Playback::attend()
     }
     live_run.attend();
     if (preview_run) preview_run->attend();
+    attendTrial();
 }
 
 }   // namespace tactus::host

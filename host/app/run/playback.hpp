@@ -2,6 +2,7 @@
 #pragma once
 
 #include "device_setup.hpp"
+#include "device_trial.hpp"
 #include "live_run.hpp"
 
 namespace tactus::host
@@ -27,6 +28,11 @@ public:
     void endPreview();   ///< runs the document again if it ran before
     bool isPreviewing() const noexcept { return preview_run != nullptr; }
 
+    /// Plays a short, gentle pulse on the device of a role, in place of the document, which then runs again. Only while the document runs:
+    /// somebody who has stopped the forces does not expect one. Ids: device_trial/stopped, device_trial/no_motor.
+    Result<> tryDevice (const std::string& role);
+    bool isTrying() const noexcept { return trial.has_value(); }
+
     /// Stops the document's run or the preview, even if the message thread is busy. Valid as long as this object exists.
     StopSwitch& stopSwitch() noexcept { return stop_switch; }
 
@@ -40,6 +46,18 @@ private:
     std::unique_ptr<Document> preview_document;
     std::unique_ptr<LiveRun> preview_run;
     bool resumes = false;   // runs the document again after the preview
+
+    /// A device that is being tried, in the preview.
+    struct Trial
+    {
+        DeviceTrial of;
+        double began_ms = 0.0, pulsed_ms = 0.0;   // 0: not yet
+    };
+    void attendTrial();
+    void runInstead (graph::Graph, bool on_devices);
+
+    DeviceSetup& devices;
+    std::optional<Trial> trial;
 };
 
 }   // namespace tactus::host

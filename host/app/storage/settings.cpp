@@ -104,6 +104,12 @@ ReadSettings readSettings (const std::string& text)
         s.scene = v.get<bool>();
         return true;
     });
+    reader.take ("film_s", &Json::is_number, [&] (const Json& v) {
+        const auto seconds = v.get<double>();
+        const bool fits = seconds >= 1.0 && seconds <= 120.0;
+        if (fits) s.film_s = seconds;
+        return fits;
+    });
     reader.take ("fuse", &Json::is_boolean, [&] (const Json& v) {
         s.fuse = v.get<bool>();
         return true;
@@ -137,6 +143,7 @@ std::string writeSettings (const Settings& s)
         { "scale", s.scale },
         { "welcomed", s.welcomed },
         { "scene", s.scene },
+        { "film_s", s.film_s },
         { "fuse", s.fuse },
         { "panels", Json::object() },
         { "recent", pathsToJson (s.recent) },

@@ -21,6 +21,7 @@ struct Settings
     double scale = 0.0;   ///< scale of the user interface; 0: automatic
     bool welcomed = false;
     bool scene = false;                          ///< the hand is shown in space, not from above
+    double film_s = 10.0;                        ///< how much of the past a film shows
     bool fuse = false;                           ///< runs the graph as compiled code
     std::map<std::string, double> panels;        ///< each panel's share of the window, by name; 0: folded; absent: the usual size
     std::vector<std::filesystem::path> recent;   ///< the latest first

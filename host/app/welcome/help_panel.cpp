@@ -4,7 +4,9 @@
 #include <host/app/canvas/commands.hpp>
 #include <host/app/inspector/formula_block.hpp>
 #include <host/app/look/focus.hpp>
+#include <host/app/look/key_text.hpp>
 #include <host/app/model/node_doc.hpp>
+#include <host/app/model/quantity_text.hpp>
 #include <host/app/model/readable.hpp>
 
 #include <tactus/text/number_text.hpp>
@@ -44,12 +46,12 @@ juce::String unitText (const UnitRule& u)
     return {};
 }
 
-juce::String rangeText (const Interval& i)
+juce::String rangeText (const Interval& i, std::string_view symbol)
 {
     if (std::isinf (i.min) && std::isinf (i.max)) return {};
-    if (std::isinf (i.max)) return "at least " + text (numberText (i.min));
-    if (std::isinf (i.min)) return "at most " + text (numberText (i.max));
-    return text (numberText (i.min)) + " to " + text (numberText (i.max));
+    if (std::isinf (i.max)) return "at least " + text (shownQuantity (i.min, symbol));
+    if (std::isinf (i.min)) return "at most " + text (shownQuantity (i.max, symbol));
+    return text (shownQuantity (i.min, symbol)) + " to " + text (shownQuantity (i.max, symbol));
 }
 
 juce::String about (const PortSheet& p)
@@ -67,11 +69,12 @@ juce::String about (const PortSheet& p)
         parts.add ((p.width == 3 ? "vector, " : "") + unitText (p.unit));
         if (p.role == Role::param)
         {
-            auto initial = "default " + text (numberText (p.initial[0]));
+            const auto symbol = p.unit.kind == UnitRule::Kind::fixed ? p.unit.unit.symbol : std::string_view {};
+            auto initial = "default " + text (p.width == 3 ? numberText (p.initial[0]) : shownQuantity (p.initial[0], symbol));
             if (p.width == 3) initial << " " << text (numberText (p.initial[1])) << " " << text (numberText (p.initial[2]));
             parts.add (initial);
-            if (const auto usual = rangeText (p.limits.usual); usual.isNotEmpty()) parts.add ("usually " + usual);
-            if (const auto hard = rangeText (p.limits.hard); hard.isNotEmpty() && p.limits.hard != p.limits.usual) parts.add ("must be " + hard);
+            if (const auto usual = rangeText (p.limits.usual, symbol); usual.isNotEmpty()) parts.add ("usually " + usual);
+            if (const auto hard = rangeText (p.limits.hard, symbol); hard.isNotEmpty() && p.limits.hard != p.limits.usual) parts.add ("must be " + hard);
         }
     }
     if (p.limits.latch) parts.add ("read at the start of contact");
@@ -167,6 +170,7 @@ HelpPanel::HelpPanel (const Catalogue& c) : catalogue (c)
 {
     setTitle ("Help");
     setVisible (false);
+    scroll.setTitle ("Help text");
     scroll.setScrollBarsShown (true, false);
     scroll.setScrollBarThickness (8);
     addAndMakeVisible (scroll);
@@ -228,7 +232,8 @@ void HelpPanel::showKeys()
     {
         juce::StringArray names;
         for (const auto& k : juce::StringArray::fromTokens (c.keys, "|", {}))
-            names.add (juce::KeyPress::createFromDescription (k).getTextDescription());
+            names.add (keyText (k));
+        if (names.isEmpty()) names.add ("menu");
         made->add (std::make_unique<PortLine> (names.joinIntoString (", "), juce::String (c.name), juce::String()));
     }
     made->add ("Mouse", TextBlock::Kind::heading);

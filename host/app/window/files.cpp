@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "files.hpp"
 
+#include <host/app/model/clip_graph.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/presets/preset_list.hpp>
 #include <host/app/storage/carry_files.hpp>
+#include <host/io/clip_io.hpp>
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/text/quote.hpp>
@@ -92,7 +94,9 @@ void Files::openGraph (graph::Graph g, const std::string& step)
 
 void Files::load (const fs::path& file, Document::Source source, bool by_pointer)
 {
+    if (isClipExtension (file)) return loadClipGraph (file, by_pointer);
     auto loaded = loadGraph (file);
+    if (hasErrors (loaded.messages) && isClipFile (file)) return loadClipGraph (file, by_pointer);
     if (hasErrors (loaded.messages)) return refuse (file, loaded.messages);
     if (! source.file.empty())
     {
@@ -102,6 +106,14 @@ void Files::load (const fs::path& file, Document::Source source, bool by_pointer
     const auto called = loaded.graph.name.empty() ? file.stem().string() : loaded.graph.name;
     show (std::move (loaded.graph), std::move (source), "open " + called, true, by_pointer);
     callbacks.notify (safe ? juce::String ("Safe mode: nothing runs until you press START.") : juce::String());
+}
+
+void Files::loadClipGraph (const fs::path& file, bool by_pointer)
+{
+    const auto clip = loadClip (file);
+    if (! clip) return refuse (file, { clip.error() });
+    show (graphOfClip (file), {}, "open the clip " + file.stem().string(), true, by_pointer);
+    callbacks.notify (safe ? "Safe mode: nothing runs until you press START." : "The clip plays over and over on a simulated device.");
 }
 
 /// A dialog, because the reason may be long, and a line at the edge of the window is easily missed by someone who waits for a graph.

@@ -2,6 +2,7 @@
 #include "main_view.hpp"
 #include "appearance.hpp"
 
+#include <host/app/look/focus.hpp>
 #include <host/app/model/message_text.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -23,19 +24,23 @@ MainView::MainView (const Catalogue& c)
       patching (edited, c), inspector (edited, c), live (patching, playback.run()),
       presets (left.add<PresetBrowser> ("Presets", c, settings, pictures)),
       scopes (bottom.add<ScopePanel> ("Scopes", edited, playback.run().traces(), c)),
+      takes (bottom.add<TakePanel> ("Take", edited, playback, c)),
       layers (bottom.add<LayersPanel> ("Layers", edited, playback.run().traces(), c)),
       devices (bottom.add<DevicesPanel> ("Devices", edited, playback.run(), device_setup)),
       problems (bottom.add<ProblemList> ("Problems", edited)),
       help (c)
 {
     left.add<HistoryPanel> ("History", edited);
+    setTitle ("Tactus");
     setWantsKeyboardFocus (true);
     chooseFile = [this] (bool saves, const std::filesystem::path& begin,
                          std::function<void (const std::filesystem::path&)> chosen) { askForFile (saves, begin, std::move (chosen)); };
     connectPresets();
     connectCanvas();
+    connectTakes();
     connectTopBar();
     connectWelcome();
+    connectFitPanel();
     addPanels();
     edited.add (*this);   // added after the canvas, which must be up to date when this view is notified
     documentChanged();
@@ -59,6 +64,10 @@ void MainView::addPanels()
         settings.scene = hand.showsScene();
         saveSettingsSoon();
     };
+    hand.film().onLength = [this] {
+        settings.film_s = hand.film().length();
+        saveSettingsSoon();
+    };
     hand.onEnlarge = [this] { resized(); };
     for (auto* edge : { &left_edge, &right_edge, &bottom_edge })
     {
@@ -68,7 +77,7 @@ void MainView::addPanels()
         };
         addAndMakeVisible (*edge);
     }
-    for (auto* over : std::initializer_list<juce::Component*> { &palette, &welcome, &help, &question })
+    for (auto* over : std::initializer_list<juce::Component*> { &palette, &welcome, &help, &fitting, &question })
         addChildComponent (over);
     resized();
 }
@@ -76,6 +85,7 @@ void MainView::addPanels()
 void MainView::begin (const Start& how)
 {
     home = how.home;
+    takes.take().program = how.program;
     auto read = loadSettings (home);
     settings = std::move (read.settings);
     light = how.light || settings.light;
@@ -139,6 +149,7 @@ void MainView::applySettings()
     applyTheme (*getTopLevelComponent(), light ? Theme::light() : Theme::dark());
     applyScale (settings.scale);
     hand.showScene (settings.scene);
+    hand.film().setLength (settings.film_s);
     applyFusion();
     resized();
 }
@@ -176,6 +187,8 @@ void MainView::closeSuddenly()
 void MainView::timerCallback()
 {
     playback.attend();
+    // A dialog for files that has just closed gives the focus back to what had it before.
+    if (question.isOpen() && ! question.hasKeyboardFocus (true) && juce::Component::getNumCurrentlyModalComponents() == 0) takeFocus (question);
     if (osc_server) osc_server->attend();
     strip.refresh();
     if (direct_stop)
@@ -193,9 +206,11 @@ void MainView::timerCallback()
     files.attend();
     presets.refresh();
     if (welcome.isVisible()) welcome.refresh();
+    fitting.attend();
     if (ticks_to_save > 0 && --ticks_to_save == 0)
         if (const auto saved = saveSettings (settings, home); ! saved) status.notify ("Could not save the settings: " + juce::String (saved.error().text));
     if (scopes.isVisible()) scopes.refresh();
+    takes.refresh();
     layers.refresh();
     devices.refresh();
 }
@@ -241,7 +256,8 @@ void MainView::documentChanged()
     if (onTitle) onTitle (trail.front() + (edited.isChanged() ? " (edited)" : ""));
     for (const auto& [node, subgraph] : patching.breadcrumbs())
         trail.emplace_back (printableName (node));
-    top.show (std::move (trail));
+    const auto instance = patching.instance();
+    top.show (std::move (trail), instance ? std::optional (TopBar::Instance { instance->number, instance->count }) : std::nullopt);
 }
 
 void MainView::documentRefused (const Message& m) { status.notify (juce::String (messageText (m))); }
@@ -264,6 +280,7 @@ void MainView::resized()
     if (hand.isEnlarged()) hand.setBounds (area);
     welcome.setBounds (area.withRight (getWidth()));
     help.setArea (area.withRight (getWidth()).withBottom (hand.getBottom()).reduced (16));
+    fitting.setBounds (getLocalBounds().withTrimmedTop (SafetyStrip::height));
     question.setBounds (getLocalBounds().withTrimmedTop (SafetyStrip::height));   // STOP stays within reach
 }
 

@@ -10,6 +10,7 @@
 #include "top_bar.hpp"
 
 #include <host/app/devices_panel/devices_panel.hpp>
+#include <host/app/fit_panel/fit_panel.hpp>
 #include <host/app/history/history_panel.hpp>
 #include <host/app/inspector/inspector.hpp>
 #include <host/app/layers/layers_panel.hpp>
@@ -24,8 +25,11 @@
 #include <host/app/run/osc_server.hpp>
 #include <host/app/run/safety_strip.hpp>
 #include <host/app/scopes/scope_panel.hpp>
+#include <host/app/take/take_panel.hpp>
 #include <host/app/welcome/help_panel.hpp>
 #include <host/app/welcome/welcome_page.hpp>
+
+#include <tactus/kit/clip.hpp>
 
 #include <array>
 #include <utility>
@@ -34,7 +38,12 @@ namespace tactus::host
 {
 
 /// The content of the main window: all panels around the canvas, and what connects them.
-class MainView final : public juce::Component, private Document::Listener, private juce::Timer, private juce::FocusChangeListener, private juce::KeyListener
+class MainView final : public juce::Component,
+                       public juce::FileDragAndDropTarget,
+                       private Document::Listener,
+                       private juce::Timer,
+                       private juce::FocusChangeListener,
+                       private juce::KeyListener
 {
 public:
     explicit MainView (const Catalogue&);
@@ -50,6 +59,7 @@ public:
         std::vector<LiveSource> live {};   ///< plugins whose code to watch; only if the view was made with catalogue()
         std::optional<OscListen> osc {};   ///< where to listen for OSC
         bool stops_directly = false;       ///< the view is in a native window, which DirectStop can watch
+        std::string program = "tactus";    ///< this program and its version, as logs state it
     };
 
     /// Reads the settings, offers to recover crashed sessions, and opens the files or the welcome page.
@@ -57,6 +67,9 @@ public:
 
     /// Opens a graph file. Problems appear in the status line.
     void open (const std::filesystem::path&);
+
+    /// Opens the panel that fits a model to a recording. [main thread]
+    void fitRecordingIn (const std::filesystem::path&);
 
     void closeWhenSaved (std::function<void()> close);   ///< calls `close` once unsaved changes are saved or discarded
     void closeSuddenly();                                ///< autosaves unsaved changes for the next start
@@ -71,9 +84,11 @@ public:
     LiveRun& run() noexcept { return playback.run(); }
     Question& asked() noexcept { return question; }
     HelpPanel& helpPanel() noexcept { return help; }
+    FitPanel& fitPanel() noexcept { return fitting; }
     WelcomePage& welcomePage() noexcept { return welcome; }
     PresetBrowser& browser() noexcept { return presets; }
     const ProblemList& problemList() const noexcept { return problems; }
+    TakePanel& takePanel() noexcept { return takes; }
     Inspector& inspected() noexcept { return inspector; }
     juce::String statusText() const { return status.text(); }
 
@@ -85,6 +100,10 @@ public:
     void resized() override;
     bool keyPressed (const juce::KeyPress&) override;
 
+    /// A graph or clip that is dropped where no panel takes it is opened. Of a table, the window asks what to fit to it.
+    bool isInterestedInFileDrag (const juce::StringArray&) override;
+    void filesDropped (const juce::StringArray&, int x, int y) override;
+
 private:
     void documentChanged() override;
     void documentRefused (const Message&) override;
@@ -95,8 +114,10 @@ private:
     Files::Callbacks fileCallbacks();
     void connectPresets();
     void connectCanvas();
+    void connectTakes();
     void connectTopBar();
     void connectWelcome();
+    void connectFitPanel();
     void addPanels();
     void openOscPort (const OscListen&);
     void attendLiveNodes();
@@ -109,9 +130,13 @@ private:
     bool fileKey (const juce::KeyPress&);
     void helpOnSelection();
     void openExample (const std::string& type);
+    void saveClipAs (const std::filesystem::path&);
+    void chooseOwnFile (const std::string& name, std::function<void (const std::filesystem::path&)>);
+    void writeClip (const Clip&, Messages notes, const std::filesystem::path& to);
     void recall (int snapshot);
     void store (int snapshot);
     void openMenu (juce::Component& at);
+    void askForRecording();
     void askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
     void applySettings();
     void applyFusion();
@@ -147,12 +172,14 @@ private:
     LiveFeed live;
     PresetBrowser& presets;
     ScopePanel& scopes;
+    TakePanel& takes;
     LayersPanel& layers;
     DevicesPanel& devices;
     ProblemList& problems;
     Palette palette;
     WelcomePage welcome { pictures };
     HelpPanel help;
+    FitPanel fitting;
     std::unique_ptr<juce::FileChooser> chooser;
     juce::Component::SafePointer<juce::Component> focused;   // the component with the focus, whose keys are listened to
     Messages missing;                                        // what the graph lacks to be felt

@@ -5,6 +5,7 @@
 
 #include <host/app/look/focus.hpp>
 #include <host/app/welcome/example.hpp>
+#include <host/io/clip_io.hpp>
 
 #include <tactus/file/graph_file.hpp>
 
@@ -18,6 +19,16 @@ namespace
 {
 constexpr int ticks_before_saving = 15;   // timer ticks; half a second, so that a drag writes the settings only once
 constexpr std::array scales { 1.0, 1.25, 1.5, 2.0 };
+
+/// The title of a dialog and the files that it shows. What is saved follows from the proposed name.
+std::pair<juce::String, juce::String> wordsFor (bool saves, const std::filesystem::path& begin)
+{
+    if (! saves) return { "Open graph or clip", "*.json;*.haptic;*.ahap;*.hjif;*.wav" };
+    if (isClipExtension (begin)) return { "Save clip; the ending of the name selects the format", "*.haptic;*.ahap;*.hjif;*.json;*.wav;*.csv" };
+    if (extensionOf (begin) == ".csv") return { "Save gesture", "*.csv" };
+    if (extensionOf (begin) == ".jsonl") return { "Save test", "*.jsonl" };
+    return { "Save graph", "*.json" };
+}
 }   // namespace
 
 bool MainView::keyPressed (const juce::KeyPress& key)
@@ -32,6 +43,7 @@ bool MainView::keyPressed (const juce::KeyPress& key)
         question.keyPressed (key);   // even if the question does not have the focus
         return true;
     }
+    if (fitting.isOpen()) return true;   // the panel has had the key
     if (fileKey (key)) return true;
     if (key == juce::KeyPress::F1Key || key.getTextCharacter() == '?')
     {
@@ -59,14 +71,18 @@ bool MainView::keyPressed (const juce::KeyPress& key)
         live.shows_costs = ! live.shows_costs;
         return true;
     }
+    // Elsewhere, Tab goes to the next field.
+    if (key.isKeyCode (juce::KeyPress::tabKey) && ! hasKeyboardFocus (false) && ! patching.hasKeyboardFocus (true)) return false;
     const bool is_hidden = hand.isEnlarged();   // you would not see what you edit
     return scopes.keyPressed (key) || (! is_hidden && patching.keyPressed (key));
 }
 
-/// True if Esc would close something: a question, the help, the palette, a menu, a dialog, or a field in which text is typed.
+/// True if Esc would close something: a question, the help, the palette, a menu, a dialog, or a field in which text is typed; or if it would
+/// bring the keyboard from the inspector back to the canvas.
 bool MainView::isAnythingOpen() const
 {
-    return question.isOpen() || help.isOpen() || palette.isVisible() || juce::Component::getNumCurrentlyModalComponents() > 0
+    return inspector.hasKeyboardFocus (true) || question.isOpen() || fitting.isOpen() || help.isOpen() || palette.isVisible()
+           || juce::Component::getNumCurrentlyModalComponents() > 0
            || dynamic_cast<juce::TextEditor*> (juce::Component::getCurrentlyFocusedComponent()) != nullptr;
 }
 
@@ -79,6 +95,7 @@ void MainView::globalFocusChanged (juce::Component* now)
     if (focused != nullptr) focused->removeKeyListener (this);
     focused = now != this ? now : nullptr;
     if (focused != nullptr) focused->addKeyListener (this);
+    if (focused != nullptr) inspector.reveal (*focused);
 }
 
 bool MainView::keyPressed (const juce::KeyPress& key, juce::Component*)
@@ -95,9 +112,11 @@ void MainView::escape (const juce::KeyPress& key)
 {
     if (playback.current().isWanted() && (key.getModifiers().isShiftDown() || escStops())) return stopBy (key);
     if (question.isOpen()) return question.cancel();
+    if (fitting.isOpen()) return fitting.close();
     if (help.isOpen()) return help.close();
     if (hand.isEnlarged() && ! palette.isVisible()) return hand.enlarge (false);
     palette.close();
+    if (inspector.hasKeyboardFocus (true)) takeFocus (patching);
 }
 
 void MainView::preview (const std::filesystem::path& file)
@@ -195,6 +214,7 @@ void MainView::openMenu (juce::Component& at)
     menu.addSubMenu ("Open recent", recent, ! settings.recent.empty());
     menu.addItem (item ("Save", "Ctrl+S", [this] { files.save(); }));
     menu.addItem (item ("Save as ...", "Ctrl+Shift+S", [this] { files.saveAs(); }));
+    menu.addItem (item ("Fit a recording ...", {}, [this] { askForRecording(); }));
     menu.addSeparator();
     menu.addItem (item (
         "Light theme", {}, [this] {
@@ -219,12 +239,28 @@ void MainView::askForFile (bool saves, const std::filesystem::path& begin, std::
 {
     // Never a dialog of the desktop: that is another program, so its window would keep Esc from stopping the forces.
     constexpr bool of_the_desktop = false;
-    chooser = std::make_unique<juce::FileChooser> (saves ? "Save graph" : "Open graph", juce::File (begin.string()), "*.json", of_the_desktop);
+    const auto [title, patterns] = wordsFor (saves, begin);
+    chooser = std::make_unique<juce::FileChooser> (title, juce::File (begin.string()), patterns, of_the_desktop);
     using Choice = juce::FileBrowserComponent;
     const int how = saves ? Choice::saveMode | Choice::canSelectFiles | Choice::warnAboutOverwriting : Choice::openMode | Choice::canSelectFiles;
     chooser->launchAsync (how, [this, chosen = std::move (chosen)] (const juce::FileChooser& c) {
         takeFocus (patching);
-        if (const auto file = c.getResult(); file != juce::File()) chosen (file.getFullPathName().toStdString());
+        // Later, when the dialog is gone: it gives the focus back, which a question that `chosen` asks needs.
+        if (const auto file = c.getResult(); file != juce::File())
+            juce::MessageManager::callAsync ([safe = SafePointer (this), chosen, path = file.getFullPathName().toStdString()] {
+                if (safe != nullptr) chosen (path);
+            });
+    });
+}
+
+void MainView::askForRecording()
+{
+    constexpr bool of_the_desktop = false;   // as in askForFile
+    chooser = std::make_unique<juce::FileChooser> ("Fit a recording", juce::File::getSpecialLocation (juce::File::userHomeDirectory), "*.csv;*.tsv;*.txt",
+                                                   of_the_desktop);
+    chooser->launchAsync (juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this] (const juce::FileChooser& c) {
+        takeFocus (patching);
+        if (const auto file = c.getResult(); file != juce::File()) fitRecordingIn (file.getFullPathName().toStdString());
     });
 }
 

@@ -2,6 +2,8 @@
 // What the window does on the callbacks of its panels, panel by panel.
 #include "main_view.hpp"
 
+#include <host/app/model/fragment.hpp>
+
 #include <algorithm>
 
 namespace tactus::host
@@ -39,10 +41,11 @@ void MainView::connectPresets()
 void MainView::connectCanvas()
 {
     const auto hint = [this] (const juce::String& text) { status.hint (text); };
-    patching.onHint = inspector.onHint = hand.onHint = scopes.onHint = layers.onHint = devices.onHint = hint;
+    patching.onHint = inspector.onHint = hand.onHint = scopes.onHint = layers.onHint = devices.onHint = takes.onHint = hint;
     patching.onNotice = [this] (const juce::String& text) { status.notify (text); };
     patching.onBreadcrumbs = [this] { documentChanged(); };
     patching.onSelection = [this] { inspector.inspect (patching.patch(), patching.selection()); };
+    patching.onEditParams = [this] { inspector.focusFirst(); };
     patching.onNodeRequested = [this] (const NodeRequest& request) {
         openNodePalette (palette, patching, catalogue, request, settings.recent_types, [this] (const std::string& type) {
             if (catalogue.find (type) == nullptr) return;   // a subgraph, which other graphs do not have
@@ -58,9 +61,12 @@ void MainView::connectCanvas()
             scopes.probe (port);
         bottom.show (scopes);
     };
+    patching.onFileDropped = [this] (const std::filesystem::path& file) { files.open (file); };
+    patching.onSaveClip = [this] (const std::filesystem::path& file) { saveClipAs (file); };
     inspector.messagesNow = [this] { return run().messages(); };
     layers.onSelect = [this] (const std::string& patch, graph::Id node) { patching.show (patch, node); };
     live.limits = &limits;
+    devices.onTry = [this] (const std::string& role) { return playback.tryDevice (role); };
     strip.onProblems = [this] { bottom.show (problems); };
     strip.limitLight().onClick = [this] { bottom.show (problems); };
     problems.onShow = [this] (const Culprit& c) { patching.show (c.patch, c.id); };
@@ -69,6 +75,7 @@ void MainView::connectCanvas()
 void MainView::connectTopBar()
 {
     top.onLeave = [this] (std::size_t depth) { patching.leaveTo (depth); };
+    top.onInstance = [this] (int number) { patching.chooseInstance (number); };
     top.onRecall = [this] (int number) { recall (number); };
     top.onStore = [this] (int number) { store (number); };
     top.onHelp = [this] { helpOnSelection(); };
@@ -86,6 +93,31 @@ void MainView::connectWelcome()
     welcome.onNew = [this] { files.create(); };
     welcome.onOpen = [this] { files.open(); };
     help.onExample = [this] (const std::string& type) { openExample (type); };
+}
+
+void MainView::fitRecordingIn (const std::filesystem::path& file) { fitting.open (file); }
+
+void MainView::connectFitPanel()
+{
+    fitting.onOpenGraph = [this] (const FittedGraph& made) { files.openGraph (made.preset, "fit " + made.preset.name); };
+    fitting.onInsert = [this] (const FittedGraph& made) {
+        auto source = made.preset;
+        auto place = (patching.pointerOrCentre() / Box::grid).roundToInt() * static_cast<int> (Box::grid);
+        std::set<graph::Id> ids;
+        for (auto& node : source.root.nodes)
+        {
+            if (std::ranges::count (made.nodes, node.name) == 0) continue;
+            node.extra["ui"]["at"] = Json::array ({ place.x, place.y });
+            place.y += 120;
+            ids.insert (node.id);
+        }
+        Selection added;
+        auto command = paste (edited.graph(), patching.patch(), copyText (source, {}, ids), {}, added);
+        if (! command) return status.notify (juce::String (command.error().text));
+        if (! patching.perform (*std::move (command))) return;
+        patching.select (added);
+        status.notify ("Added the fitted node. Wire it to feel it.");
+    };
 }
 
 void MainView::openOscPort (const OscListen& where)

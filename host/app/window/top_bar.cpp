@@ -53,7 +53,7 @@ public:
     {
         is_stored = s;
         const juce::String n (number);
-        setTooltip (s ? "Snapshot " + n + ": click or press " + n + " to recall it, Shift-click or press Ctrl+" + n + " to overwrite it"
+        setTooltip (s ? "Snapshot " + n + ": click or press " + n + " to recall it, Shift+click or press Ctrl+" + n + " to overwrite it"
                       : "Snapshot " + n + " is empty: click or press Ctrl+" + n + " to store all values in it");
         repaint();
     }
@@ -99,6 +99,9 @@ TopBar::TopBar (Document& d)
         };
         addAndMakeVisible (*slot);
     }
+    instance.setTitle ("Instance");
+    instance.onClick = [this] { openInstances(); };
+    addChildComponent (instance);
     undo->onClick = [this] { document.undo(); };
     redo->onClick = [this] { document.redo(); };
     help->onClick = [this] {
@@ -113,12 +116,16 @@ TopBar::TopBar (Document& d)
 
 TopBar::~TopBar() = default;
 
-void TopBar::show (std::vector<juce::String> t)
+void TopBar::show (std::vector<juce::String> t, std::optional<Instance> i)
 {
     trail = std::move (t);
+    shown = i;
+    instance.setVisible (shown.has_value());
+    if (shown) instance.setButtonText ("Instance [" + juce::String (shown->number) + "] of " + juce::String (shown->count));
+    resized();
     for (int n = 1; n <= snapshot_count; ++n)
         slots[static_cast<std::size_t> (n - 1)]->setStored (hasSnapshot (document.graph(), n));
-    const auto steps = document.history().names();
+    const auto steps = document.stepNames();
     const auto done = document.history().position();
     undo->setEnabled (done > 0);
     undo->setTooltip (done == 0 ? juce::String ("Nothing to undo") : "Undo: " + juce::String (steps[done - 1]) + " (Ctrl+Z)");
@@ -140,7 +147,19 @@ void TopBar::resized()
     put (*undo, 28, 12);
     for (auto s = slots.rbegin(); s != slots.rend(); ++s)
         put (**s, 26, 0);
+    if (instance.isVisible()) instance.setBounds (area.removeFromRight (instance.bestWidth()).withSizeKeepingCentre (instance.bestWidth(), 24));
     room = area.getWidth() - 8;
+}
+
+void TopBar::openInstances()
+{
+    constexpr int most_items = 64;
+    juce::PopupMenu list;
+    for (int i = 0; shown && i < std::min (shown->count, most_items); ++i)
+        list.addItem (i + 1, "Instance [" + juce::String (i) + "]", true, i == shown->number);
+    list.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (instance), [safe = juce::Component::SafePointer (this)] (int item) {
+        if (safe != nullptr && item > 0 && safe->onInstance) safe->onInstance (item - 1);
+    });
 }
 
 std::vector<juce::Rectangle<float>> TopBar::places() const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <host/app/inspector/tool_button.hpp>
 #include <host/app/look/plain_button.hpp>
 #include <host/app/model/document.hpp>
 
@@ -9,6 +10,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace tactus::host
@@ -24,10 +26,18 @@ public:
     explicit TopBar (Document&);
     ~TopBar() override;
 
-    void show (std::vector<juce::String> trail);   ///< call after each change of the document or the trail
+    /// Which of several instances of the shown subgraph is the one whose values are shown.
+    struct Instance
+    {
+        int number = 0, count = 1;
+    };
+
+    /// Call after each change of the document or the trail.
+    void show (std::vector<juce::String> trail, std::optional<Instance> = {});
 
     std::function<void (std::size_t depth)> onLeave;
     std::function<void (int number)> onRecall, onStore;   ///< receive the number of a snapshot, from 1
+    std::function<void (int instance)> onInstance;
     std::function<void()> onHelp;
     std::function<void (juce::Component& at)> onMenu;
 
@@ -40,7 +50,11 @@ private:
     class Slot;
     std::vector<juce::Rectangle<float>> places() const;
 
+    void openInstances();
+
     Document& document;
+    std::optional<Instance> shown;
+    ToolButton instance { "", ToolButton::Kind::framed, "Choose the instance of this subgraph whose values are shown" };
     std::vector<juce::String> trail;
     int room = 0;   // width available for the trail, in pixels
     std::array<std::unique_ptr<Slot>, snapshot_count> slots;

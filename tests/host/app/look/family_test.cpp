@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <host/app/look/component_colour.hpp>
 #include <host/app/look/family.hpp>
+
+#include "host/app/support/contrast.hpp"
 
 #include <tactus/node/catalogue.hpp>
 
@@ -11,19 +14,22 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::contrast;
 
-namespace
+TEST_CASE ("x, y and z have three hues that can be read on every background, in both themes", "[app][look]")
 {
-/// The contrast of two colours after WCAG 2.1: 1 to 21.
-double contrast (juce::Colour a, juce::Colour b)
-{
-    const auto light = [] (juce::Colour c) {
-        const auto part = [] (float v) { return v <= 0.04045f ? v / 12.92 : std::pow ((static_cast<double> (v) + 0.055) / 1.055, 2.4); };
-        return 0.2126 * part (c.getFloatRed()) + 0.7152 * part (c.getFloatGreen()) + 0.0722 * part (c.getFloatBlue());
-    };
-    return (std::max (light (a), light (b)) + 0.05) / (std::min (light (a), light (b)) + 0.05);
+    for (const auto* theme : { &Theme::dark(), &Theme::light() })
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+            INFO ("xyz"[i] << (theme->is_dark ? " dark" : " light"));
+            const auto colour = componentColour (*theme, theme->text, i, 3);
+            for (const auto& background : { theme->canvas, theme->panel, theme->raised })
+                CHECK (contrast (colour, background) >= 4.5);
+            const double apart = std::abs (static_cast<double> (colour.getHue() - componentColour (*theme, theme->text, (i + 1) % 3, 3).getHue()));
+            CHECK (std::min (apart, 1.0 - apart) > 0.1);   // of the circle of hues
+            CHECK (componentColour (*theme, theme->text, 0, 1) == theme->text);
+        }
 }
-}   // namespace
 
 TEST_CASE ("names and glyphs can be read on the header of every family, in both themes", "[app][look]")
 {

@@ -2,6 +2,7 @@
 #include "support/sketch.hpp"
 
 #include <host/app/model/quantities.hpp>
+#include <host/app/model/quantity_text.hpp>
 #include <tactus/file/graph_file.hpp>
 
 #include <catch2/catch.hpp>
@@ -61,4 +62,22 @@ TEST_CASE ("the quantity of every wired subgraph port of the presets is known", 
             }
     }
     CHECK (seen >= 2);
+}
+
+TEST_CASE ("a length is shown in one way everywhere, as 100 µm and not as 0.0001 m", "[app][units]")
+{
+    CHECK (shownQuantity (1e-4, "m") == "100 µm");
+    CHECK (shownQuantity (0.4, "m") == "400 mm");
+    CHECK (shownQuantity (0.06, "N") == "60 mN");
+    CHECK (shownQuantity (2500.0, "N/m") == "2500 N/m");
+    CHECK (shownQuantity (0.3, "1") == "0.3");
+    CHECK (shownQuantity (0.0, "m") == "0 m");
+    CHECK (unitShown ("um") == "µm");
+    CHECK (unitShown ("mm") == "mm");
+    const auto& params = catalogue().find ("friction.elasto_plastic")->params;
+    const auto& sheet = *std::ranges::find (params, std::string_view ("d_max"), &PortSheet::id);
+    const auto shown = withBestPrefix (*readQuantity (Json (1e-4), sheet), sheet);
+    CHECK (shown.toText() == "100 um");   // as files have it
+    CHECK (shown.si() == Approx (1e-4));
+    CHECK (withBestPrefix (*readQuantity (Json ("0.1 mm"), sheet), sheet).toText() == "0.1 mm");   // a unit that was typed stays
 }

@@ -209,10 +209,10 @@ def walk(w):
     w.shot("no-layers")
     w.click("Add a mixer before the motor")
     w.wait(lambda: w.has("desk"), "a mixer")
-    w.click("+ layer")
+    w.click("Other layer...")
     w.shot("layer-menu")
     w.key("Down", "Down", "Return")
-    w.wait(lambda: w.has("desk.in[1]"), "a second layer")
+    w.wait(lambda: w.has("desk.in[3]"), "another layer")
     w.shot("layers")
 
     # Group two nodes into a subgraph, and enter it.

@@ -17,6 +17,7 @@ Settings some()
     s.scale = 1.5;
     s.welcomed = true;
     s.fuse = true;
+    s.film_s = 30.0;
     s.panels = { { "left", 0.1875 }, { "bottom", 0.0 } };
     s.recent = { "/a/b.json", "/c.json" };
     s.favourites = { "/presets/wood.json" };
@@ -34,6 +35,7 @@ TEST_CASE ("settings survive a round trip, including unknown keys")
     CHECK (read.settings.light);
     CHECK (read.settings.scale == 1.5);
     CHECK (read.settings.fuse);
+    CHECK (read.settings.film_s == 30.0);
     CHECK (read.settings.panels == some().panels);
     CHECK (read.settings.recent == some().recent);
     CHECK (read.settings.favourites == some().favourites);

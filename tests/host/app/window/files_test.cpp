@@ -6,6 +6,8 @@
 
 #include <tactus/file/graph_file.hpp>
 
+#include <fstream>
+
 using namespace tactus;
 using namespace tactus::host;
 namespace fs = std::filesystem;
@@ -390,4 +392,25 @@ TEST_CASE ("a program that must close suddenly autosaves unsaved changes, and no
     e.files->open (wood);
     e.files->endSuddenly();
     CHECK (fs::is_empty (e.folder / "sessions"));
+}
+
+TEST_CASE ("an opened clip becomes a graph without a file that plays it, and a damaged one is refused")
+{
+    Rig d;
+    const fs::path heart = TACTUS_SOURCE_DIR "/graphs/assets/heartbeat.haptic", zip = TACTUS_SOURCE_DIR "/graphs/assets/zip.json";
+    d.files->open (heart);
+    CHECK (d.runs);
+    CHECK (d.document.file().empty());
+    CHECK (d.document.graph().root.find ("clip")->settings.at ("clip") == Json ("heartbeat.haptic"));
+    d.files->open (zip);   // a .json that is a clip
+    CHECK (d.document.graph().root.find ("clip")->settings.at ("clip") == Json ("zip.json"));
+
+    d.chosen = d.folder / "mine.json";
+    d.files->save();
+    CHECK (fs::exists (d.folder / "zip.json"));   // the clip is copied along
+    std::ofstream (d.folder / "broken.haptic") << "{}";
+    d.files->open (d.folder / "broken.haptic");
+    CHECK (d.question.title() == "Cannot open broken.haptic");
+    CHECK (d.document.graph().name == "zip");
+    d.question.cancel();
 }

@@ -357,3 +357,23 @@ TEST_CASE ("Z gives the window to the canvas, also on small screens, and brings 
     o.press ("z");
     CHECK (o.view->canvas().getWidth() < 1000);
 }
+
+TEST_CASE ("saving a clip in another format says what it lost")
+{
+    Opened o;
+    o.view->begin ({ o.home.path() });
+    o.view->open (TACTUS_SOURCE_DIR "/graphs/heartbeat.json");
+    o.view->chooseFile = [&] (bool saves, const fs::path& begin, const std::function<void (const fs::path&)>& then) {
+        CHECK (saves);
+        CHECK (begin.filename() == "heartbeat.ahap");
+        then (o.mine / "heart.ahap");
+    };
+    const auto& scene = o.view->canvas().scene();
+    for (const auto& n : scene.nodes())
+        if (n.name == "beat") o.view->canvas().select ({ n.id });
+    o.view->canvas().saveClipOfSelection();
+    CHECK (fs::exists (o.mine / "heart.ahap"));
+    CHECK (o.view->asked().isOpen());
+    CHECK (o.view->asked().title() == "Saved heart.ahap");
+    o.view->asked().cancel();
+}

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit_panel.hpp"
+
+#include <host/app/look/focus.hpp>
+#include <host/app/look/text.hpp>
+#include <host/app/model/message_text.hpp>
+#include <tactus/text/quote.hpp>
+#include <tactus/text/units.hpp>
+
+#include <cmath>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr int fit_margin = 24, widest_box = 1080, highest_box = 640, field_height = 28, table_width = 380;
+
+/// What a kind needs to know and a recording does not contain.
+struct Amount
+{
+    const char *label, *unit, *usual;
+    double FitSettings::*member;
+};
+
+std::optional<Amount> amountOf (FitKind kind)
+{
+    switch (kind)
+    {
+    case FitKind::friction:
+    case FitKind::grating:
+        return Amount { "Normal force", "N", "1 N", &FitSettings::load };
+    case FitKind::texture:
+        return Amount { "Mass of the tip", "kg", "10 g", &FitSettings::mass };
+    case FitKind::blade:
+        return Amount { "Width of the cut", "m", "20 mm", &FitSettings::width };
+    case FitKind::shock:
+        return Amount { "Mass", "kg", "", &FitSettings::mass };
+    case FitKind::modes:
+    case FitKind::curve:
+        break;
+    }
+    return {};
+}
+
+/// A load that was recorded need not be typed.
+bool isRecorded (FitKind kind, const Table& table)
+{
+    if (kind != FitKind::friction) return false;
+    const auto& columns = infoOf (kind).columns;
+    return findColumn (table, *std::ranges::find (columns, "load", &FitColumn::role)).has_value();
+}
+}   // namespace
+
+FitPanel::FitPanel()
+{
+    setVisible (false);
+    setWantsKeyboardFocus (true);
+    setTitle ("Fit a recording");
+    kinds.setTitle ("What was recorded");
+    for (const auto& info : fitKinds())
+        kinds.addItem (fromUtf8 (info.name) + " - " + fromUtf8 (info.about), static_cast<int> (info.kind) + 1);
+    kinds.setTextWhenNothingSelected ("Choose what was recorded");
+    kinds.onChange = [this] {
+        if (kinds.getSelectedId() > 0) choose (static_cast<FitKind> (kinds.getSelectedId() - 1));
+    };
+    amount.onReturnKey = amount.onFocusLost = [this] { readAmount(); };
+    amount.onEscapeKey = [this] { close(); };
+    amount.setSelectAllWhenFocused (true);
+    amount_label.setJustificationType (juce::Justification::centredRight);
+    as_graph.setFirst (true);
+    as_graph.setTooltip ("Open a new graph in which the fit can be felt; the open graph is saved first if you like");
+    into_graph.setTooltip ("Add only the fitted nodes to the open graph, without wires");
+    as_graph.onClick = [this] { acceptAsGraph(); };
+    into_graph.onClick = [this] { acceptIntoGraph(); };
+    cancel.onClick = [this] { close(); };
+    scroll.setViewedComponent (&values, false);
+    scroll.setScrollBarsShown (true, false);
+    for (auto* c : std::initializer_list<juce::Component*> { &kinds, &amount_label, &amount, &plot, &scroll, &as_graph, &into_graph, &cancel })
+        addAndMakeVisible (c);
+}
+
+void FitPanel::open (const std::filesystem::path& path)
+{
+    job.cancel();
+    file = path;
+    chosen.reset();
+    kinds.setSelectedId (0, juce::dontSendNotification);
+    table.reset();
+    setVisible (true);
+    toFront (false);
+    auto read = readRecording (path);
+    if (read)
+        table = std::make_shared<const Table> (std::move (*read));
+    else
+        fail (juce::String (messageText (read.error())));
+    if (table)
+    {
+        const auto guessed = guessKind (*table);
+        guessed ? choose (*guessed) : fail ("The columns do not say what was recorded. Choose it in the list.");
+    }
+    takeFocus (*this);
+}
+
+void FitPanel::close()
+{
+    job.cancel();
+    if (! isOpen()) return;
+    setVisible (false);
+    if (auto* parent = getParentComponent()) takeFocus (*parent);
+}
+
+void FitPanel::choose (FitKind kind)
+{
+    chosen = kind;
+    kinds.setSelectedId (static_cast<int> (kind) + 1, juce::dontSendNotification);
+    const auto wanted = amountOf (kind);
+    amount.setText (wanted ? wanted->usual : "", false);
+    amount_label.setText (wanted ? wanted->label : "", juce::dontSendNotification);
+    amount.setTitle (wanted ? wanted->label : "");
+    amount.setTextToShowWhenEmpty ("from the times", themeOf (*this).dim);
+    fit();
+}
+
+void FitPanel::setAmount (const juce::String& text)
+{
+    amount.setText (text, false);
+    readAmount();
+}
+
+void FitPanel::readAmount()
+{
+    if (isOpen() && chosen && amount.getText() != amount.getProperties()["fitted"].toString()) fit();
+}
+
+void FitPanel::fit()
+{
+    job.cancel();
+    result.reset();
+    failure.clear();
+    plot.show ({});
+    values.show ({});
+    FitSettings settings;
+    const auto wanted = chosen ? amountOf (*chosen) : std::nullopt;
+    amount.getProperties().set ("fitted", amount.getText());
+    if (! table || ! chosen) return;
+    if (wanted && amount.getText().trim().isNotEmpty())
+    {
+        const auto typed = parseMeasure (amount.getText().trim().toStdString()), unit = parseMeasure (std::string ("1 ") + wanted->unit);
+        const bool fits = typed && (typed->dimension == unit->dimension || typed->dimension == Dimension {});
+        if (! fits || ! (typed->value > 0.0) || ! std::isfinite (typed->value))
+            return fail (juce::String (wanted->label) + ": " + amount.getText().quoted() + " does not fit. Type a number above 0 with its unit, such as 1.5 "
+                         + wanted->unit + ".");
+        settings.*(wanted->member) = typed->value;
+    }
+    job.start (*chosen, table, file.string(), settings);
+    showResult();
+}
+
+void FitPanel::fail (const juce::String& why)
+{
+    failure = why;
+    result.reset();
+    showResult();
+}
+
+void FitPanel::attend()
+{
+    if (! isOpen()) return;
+    if (job.isRunning()) repaint (plot.getBounds());
+    auto done = job.take();
+    if (! done) return;
+    if (! *done) return fail (juce::String (messageText (done->error())));
+    result = std::move (**done);
+    plot.show (result->report.picture);
+    values.show (result->report);
+    showResult();
+}
+
+/// Everything that depends on whether there is a fit.
+void FitPanel::showResult()
+{
+    as_graph.setEnabled (result.has_value());
+    into_graph.setEnabled (result.has_value());
+    for (auto* button : { &as_graph, &into_graph })
+        button->setAlpha (button->isEnabled() ? 1.0f : 0.4f);
+    plot.setVisible (result.has_value());
+    scroll.setVisible (result.has_value());
+    const bool asks = chosen && amountOf (*chosen) && table && ! isRecorded (*chosen, *table);
+    amount.setVisible (asks);
+    amount_label.setVisible (asks);
+    setDescription (failure.isNotEmpty() ? failure : juce::String (job.isRunning() ? "Fitting" : ""));
+    resized();
+    repaint();
+}
+
+void FitPanel::acceptAsGraph()
+{
+    if (! result) return;
+    const auto made = *result;
+    close();
+    if (onOpenGraph) onOpenGraph (made);
+}
+
+void FitPanel::acceptIntoGraph()
+{
+    if (! result) return;
+    const auto made = *result;
+    close();
+    if (onInsert) onInsert (made);
+}
+
+bool FitPanel::keyPressed (const juce::KeyPress& key)
+{
+    if (key != juce::KeyPress::returnKey || ! result) return false;
+    acceptAsGraph();
+    return true;
+}
+
+void FitPanel::resized()
+{
+    box = getLocalBounds().withSizeKeepingCentre (std::min (widest_box, getWidth() - 32), std::min (highest_box, getHeight() - 24));
+    auto area = box.reduced (fit_margin, 20);
+    area.removeFromTop (24 + 10);   // heading
+    auto row = area.removeFromTop (field_height);
+    if (amount.isVisible())
+    {
+        amount.setBounds (row.removeFromRight (120));
+        amount_label.setBounds (row.removeFromRight (130));
+    }
+    kinds.setBounds (row.removeFromLeft (std::min (row.getWidth(), 460)));
+    area.removeFromTop (14);
+    auto buttons = area.removeFromBottom (32);
+    area.removeFromBottom (16);
+    for (auto* button : { &as_graph, &into_graph, &cancel })
+    {
+        button->setBounds (buttons.removeFromRight (button->widthFor()));
+        buttons.removeFromRight (8);
+    }
+    auto right = area.removeFromRight (std::min (table_width, area.getWidth() * 45 / 100));
+    area.removeFromRight (20);
+    plot.setBounds (area);
+    scroll.setBounds (right);
+    const int bar = scroll.getScrollBarThickness() + 6, high = values.heightFor (right.getWidth() - bar);
+    values.setSize (right.getWidth() - bar, std::max (1, high));
+}
+
+void FitPanel::paint (juce::Graphics& g)
+{
+    const auto& look = lookOf (*this);
+    const auto& theme = look.theme();
+    g.fillAll (juce::Colours::black.withAlpha (theme.is_dark ? 0.55f : 0.35f));
+    g.setColour (theme.panel);
+    g.fillRoundedRectangle (box.toFloat(), 8.0f);
+    g.setColour (theme.hairline);
+    g.drawRoundedRectangle (box.toFloat().reduced (0.5f), 8.0f, 1.0f);
+    g.setColour (theme.text);
+    g.setFont (look.font (16.0f, true));
+    const auto heading = box.reduced (fit_margin, 20).removeFromTop (24);
+    g.drawText ("Fit " + fromUtf8 (printableName (file.filename().string())), heading, juce::Justification::centredLeft, true);
+    if (table)
+    {
+        g.setColour (theme.dim);
+        g.setFont (look.font (12.0f));
+        g.drawText (juce::String (static_cast<juce::int64> (table->rows())) + " rows", heading, juce::Justification::centredRight, false);
+    }
+    if (result) return;
+
+    const auto place = plot.getBounds().getUnion (scroll.getBounds());
+    if (failure.isNotEmpty())
+    {
+        const auto text = wrapText (failure, look.font (13.0f), theme.stop, static_cast<float> (place.getWidth()));
+        text.draw (g, place.toFloat());
+        return;
+    }
+    if (! job.isRunning()) return;
+    auto line = place.withSizeKeepingCentre (280, 40);
+    g.setColour (theme.dim);
+    g.setFont (look.font (13.0f));
+    g.drawText ("Fitting ...", line.removeFromTop (20), juce::Justification::centred, false);
+    const auto bar = line.removeFromTop (8).toFloat();
+    g.setColour (theme.raised);
+    g.fillRoundedRectangle (bar, 4.0f);
+    g.setColour (theme.accent);
+    g.fillRoundedRectangle (bar.withWidth (bar.getWidth() * static_cast<float> (juce::jlimit (0.03, 1.0, job.share()))), 4.0f);
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fit_job.hpp"
+#include "fit_plot.hpp"
+#include "fit_table.hpp"
+
+#include <host/app/look/plain_button.hpp>
+
+#include <functional>
+
+namespace tactus::host
+{
+
+/// A recording and a model fitted to it, over the window: what was recorded, recording and fit over each other, parameters with intervals, and
+/// the verdict. Nothing changes until the user accepts the fit. [main thread]
+class FitPanel final : public juce::Component
+{
+public:
+    FitPanel();
+
+    /// Opens the panel and fits the kind that the columns suggest. A file that cannot be read is reported in the panel.
+    void open (const std::filesystem::path&);
+    void close();   ///< and ends a fit that runs; nothing has changed
+    bool isOpen() const { return isVisible(); }
+
+    void attend();   ///< call many times a second
+
+    void choose (FitKind);                  ///< as in the list
+    void setAmount (const juce::String&);   ///< as typed into the field, such as "2 N"
+    bool isFitting() const { return job.isRunning(); }
+    const std::optional<FittedGraph>& fitted() const noexcept { return result; }
+    juce::String problem() const { return failure; }   ///< why there is no fit; empty if there is one
+    std::optional<FitKind> kind() const noexcept { return chosen; }
+
+    void acceptAsGraph();
+    void acceptIntoGraph();
+
+    std::function<void (const FittedGraph&)> onOpenGraph, onInsert;
+
+    void paint (juce::Graphics&) override;
+    void resized() override;
+    bool keyPressed (const juce::KeyPress&) override;
+
+private:
+    void fit();
+    void fail (const juce::String&);
+    void readAmount();
+    void showResult();
+
+    std::shared_ptr<const Table> table;
+    std::filesystem::path file;
+    std::optional<FitKind> chosen;
+    FitJob job;
+    std::optional<FittedGraph> result;
+    juce::String failure;
+
+    juce::ComboBox kinds;
+    juce::Label amount_label;
+    juce::TextEditor amount;
+    FitPlot plot;
+    FitTable values;
+    juce::Viewport scroll;
+    PlainButton as_graph { "Open as new graph" }, into_graph { "Add to this graph" }, cancel { "Cancel" };
+    juce::Rectangle<int> box;
+};
+
+}   // namespace tactus::host

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit_plot.hpp"
+
+#include <host/app/look/look.hpp>
+#include <host/app/look/text.hpp>
+#include <host/io/axis.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr int row = 16;   // height of a line of text, in pixels
+
+struct FitAxes
+{
+    AxisScale along, up;
+    Extent xs, ys;   // as shown
+    juce::Rectangle<float> inner;
+
+    float toX (double v) const { return inner.getX() + inner.getWidth() * static_cast<float> ((along.shown (v) - xs.low) / xs.size()); }
+    float toY (double v) const { return inner.getBottom() - inner.getHeight() * static_cast<float> ((up.shown (v) - ys.low) / ys.size()); }
+};
+
+FitAxes fitAxes (const FitPicture& picture)
+{
+    Extent x, y;
+    for (const auto& curve : picture.curves)
+        for (std::size_t i = 0; i < curve.x.size(); ++i)
+            if (isPlottable (curve.x[i]) && isPlottable (curve.y[i]))
+            {
+                x.include (curve.x[i]);
+                y.include (curve.y[i]);
+            }
+    if (x.isEmpty())
+    {
+        x = { 0.0, 1.0 };
+        y = { 0.0, 1.0 };
+    }
+    x = widened (x, 0.02);
+    y = widened (y, 0.06);
+    FitAxes axes { axisScale (x, picture.x_name, picture.x_unit), axisScale (y, picture.y_name, picture.y_unit), {}, {}, {} };
+    axes.xs = axes.along.shown (x);
+    axes.ys = axes.up.shown (y);
+    return axes;
+}
+
+/// Grid and labels. Leaves the area of the curves in axes.inner.
+void paintFitAxes (juce::Graphics& g, juce::Rectangle<int> area, FitAxes& axes, const Theme& theme)
+{
+    const auto top = area.removeFromTop (row + 4), bottom = area.removeFromBottom (2 * row + 2);
+    const auto y_ticks = ticksWithin (axes.ys, std::max (2, area.getHeight() / 48)), x_ticks = ticksWithin (axes.xs, std::max (2, area.getWidth() / 90));
+    float left = 0.0f;
+    for (const auto& t : y_ticks)
+        left = std::max (left, g.getCurrentFont().getStringWidthFloat (fromUtf8 (t.text)));
+    axes.inner = area.toFloat().withTrimmedLeft (left + 8.0f).withTrimmedRight (8.0f);
+    const auto& inner = axes.inner;
+    const auto xOf = [&] (const Tick& t) { return inner.getX() + inner.getWidth() * static_cast<float> ((t.at - axes.xs.low) / axes.xs.size()); };
+    const auto yOf = [&] (const Tick& t) { return inner.getBottom() - inner.getHeight() * static_cast<float> ((t.at - axes.ys.low) / axes.ys.size()); };
+    g.setColour (theme.hairline);
+    for (const auto& t : y_ticks)
+        g.drawHorizontalLine (juce::roundToInt (yOf (t)), inner.getX(), inner.getRight());
+    for (const auto& t : x_ticks)
+        g.drawVerticalLine (juce::roundToInt (xOf (t)), inner.getY(), inner.getBottom());
+    g.setColour (theme.dim);
+    for (const auto& t : y_ticks)
+        g.drawText (fromUtf8 (t.text), juce::Rectangle<float> (static_cast<float> (area.getX()), yOf (t) - 8.0f, left, 16.0f),
+                    juce::Justification::centredRight, false);
+    for (const auto& t : x_ticks)
+        g.drawText (fromUtf8 (t.text), juce::Rectangle<float> (xOf (t) - 40.0f, static_cast<float> (bottom.getY()) + 2.0f, 80.0f, row),
+                    juce::Justification::centred, false);
+    g.drawText (fromUtf8 (axes.up.label), top.withTrimmedBottom (4), juce::Justification::centredLeft, false);
+    g.drawText (fromUtf8 (axes.along.label), bottom.withTrimmedTop (row + 2), juce::Justification::centred, false);
+}
+
+/// A line, at most about two points per pixel column: the lowest and the highest row of each.
+juce::Path fitPath (const FitCurve& curve, const FitAxes& axes)
+{
+    juce::Path path;
+    bool begun = false;
+    const auto step = std::max<std::size_t> (1, curve.x.size() / 20000);
+    for (std::size_t i = 0; i < curve.x.size(); i += step)
+    {
+        if (! isPlottable (curve.x[i]) || ! isPlottable (curve.y[i]))
+        {
+            begun = false;
+            continue;
+        }
+        const juce::Point<float> p { axes.toX (curve.x[i]), axes.toY (curve.y[i]) };
+        std::exchange (begun, true) ? path.lineTo (p) : path.startNewSubPath (p);
+    }
+    return path;
+}
+
+juce::Colour fitColour (const FitCurve& curve, std::size_t index, const Theme& theme)
+{
+    if (! curve.is_recorded) return theme.accent;
+    return index == 0 ? theme.dim : theme.of (Quantity::length);
+}
+
+/// Names and colours in the upper right corner.
+void paintLegend (juce::Graphics& g, juce::Rectangle<int> area, const FitPicture& picture, const Theme& theme)
+{
+    auto line = area.removeFromTop (row);
+    for (std::size_t i = picture.curves.size(); i-- > 0;)
+    {
+        const auto label = fromUtf8 (picture.curves[i].label);
+        const int width = juce::roundToInt (g.getCurrentFont().getStringWidthFloat (label)) + 1;
+        g.setColour (theme.text);
+        g.drawText (label, line.removeFromRight (width), juce::Justification::centredLeft, false);
+        line.removeFromRight (6);
+        g.setColour (fitColour (picture.curves[i], i, theme));
+        g.fillRect (line.removeFromRight (16).withSizeKeepingCentre (16, 3));
+        line.removeFromRight (16);
+    }
+}
+}   // namespace
+
+FitPlot::FitPlot()
+{
+    setInterceptsMouseClicks (false, false);
+    setTitle ("Recording and fit");
+}
+
+void FitPlot::show (FitPicture p)
+{
+    picture = std::move (p);
+    juce::StringArray names;
+    for (const auto& curve : picture.curves)
+        names.add (fromUtf8 (curve.label));
+    setDescription (names.joinIntoString (", "));
+    repaint();
+}
+
+void FitPlot::paint (juce::Graphics& g)
+{
+    const auto& look = lookOf (*this);
+    const auto& theme = look.theme();
+    g.setColour (theme.canvas);
+    g.fillRoundedRectangle (getLocalBounds().toFloat(), 4.0f);
+    if (picture.curves.empty()) return;
+    g.setFont (look.font (12.0f));
+    auto axes = fitAxes (picture);
+    paintFitAxes (g, getLocalBounds().reduced (12, 10), axes, theme);
+    {
+        const juce::Graphics::ScopedSaveState clipped (g);
+        g.reduceClipRegion (axes.inner.toNearestInt());
+        for (std::size_t i = 0; i < picture.curves.size(); ++i)
+        {
+            const auto& curve = picture.curves[i];
+            g.setColour (fitColour (curve, i, theme).withMultipliedAlpha (curve.is_recorded ? 0.8f : 1.0f));
+            g.strokePath (fitPath (curve, axes), juce::PathStrokeType (curve.is_recorded ? 2.6f : 1.4f, juce::PathStrokeType::curved));
+        }
+    }
+    paintLegend (g, getLocalBounds().reduced (16, 10), picture, theme);
+}
+
+}   // namespace tactus::host

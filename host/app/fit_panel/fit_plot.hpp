@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tactus/fit/fit_report.hpp>
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+namespace tactus::host
+{
+
+/// The recording and the fit over each other.
+class FitPlot final : public juce::Component
+{
+public:
+    FitPlot();
+
+    void show (FitPicture);   ///< an empty picture shows nothing
+    const FitPicture& shown() const noexcept { return picture; }
+
+    void paint (juce::Graphics&) override;
+
+private:
+    FitPicture picture;
+};
+
+}   // namespace tactus::host

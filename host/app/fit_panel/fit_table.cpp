@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit_table.hpp"
+
+#include <host/app/look/look.hpp>
+#include <host/app/look/text.hpp>
+#include <host/fitting/fitting.hpp>
+#include <tactus/text/number_text.hpp>
+
+#include <cmath>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr int verdict_height = 34, header_height = 22, row_height = 22, gap = 10;
+
+/// "402 um" and "[398, 407]" of "402 um  [398, 407]".
+std::pair<juce::String, juce::String> valueAndInterval (const FitValue& v)
+{
+    const auto text = fromUtf8 (textOf (v)).replace (" u", juce::String::fromUTF8 (" \xc2\xb5"));
+    const int at = text.indexOf ("  [");
+    auto interval = text.substring (at + 3).upToLastOccurrenceOf ("]", false, false).replace (", ", juce::String::fromUTF8 (" \xe2\x80\xa6 "));
+    if (! std::isfinite (v.low) && ! std::isfinite (v.high)) interval = "unknown";
+    return { text.substring (0, at), interval };
+}
+}   // namespace
+
+void FitTable::show (FitReport r)
+{
+    report = std::move (r);
+    rows.clear();
+    juce::StringArray read;
+    for (const auto& v : report.values)
+    {
+        const auto [value, interval] = valueAndInterval (v);
+        rows.push_back ({ fromUtf8 (v.name), value, interval, v.is_main });
+        read.add (rows.back().name + " " + value + ", 95 % interval " + interval);
+    }
+    setDescription ((report.is_good ? "Good fit. " : "Poor fit. ") + read.joinIntoString ("; "));
+    repaint();
+}
+
+juce::TextLayout FitTable::remarks (int width) const
+{
+    const auto& look = lookOf (*this);
+    juce::String text;
+    for (const auto& lack : report.lacking)
+        text << fromUtf8 (lack).substring (0, 1).toUpperCase() << fromUtf8 (lack).substring (1) << (lack.ends_with ('.') ? "" : ".") << "\n";
+    const auto unit = report.residual_unit.empty() ? juce::String() : " " + fromUtf8 (report.residual_unit);
+    text << "Unexplained: " << fromUtf8 (roundedText (100.0 * report.residual / report.size, 2)) << " % (" << fromUtf8 (roundedText (report.residual, 3))
+         << unit << " rms); " << fromUtf8 (roundedText (report.left_out_residual, 3)) << unit << " on a part that was left out.\n";
+    for (const auto& note : report.notes)
+        text << fromUtf8 (note).substring (0, 1).toUpperCase() << fromUtf8 (note).substring (1) << ".\n";
+    return wrapText (text.trimEnd(), look.font (12.0f), look.theme().dim, static_cast<float> (width));
+}
+
+int FitTable::heightFor (int width) const
+{
+    if (rows.empty()) return 0;
+    return verdict_height + header_height + row_height * static_cast<int> (rows.size()) + gap + static_cast<int> (std::ceil (remarks (width).getHeight())) + 4;
+}
+
+void FitTable::paint (juce::Graphics& g)
+{
+    if (rows.empty()) return;
+    const auto& look = lookOf (*this);
+    const auto& theme = look.theme();
+    auto area = getLocalBounds();
+    auto verdict = area.removeFromTop (verdict_height);
+    const auto colour = report.is_good ? theme.accent : theme.warning;
+    g.setColour (colour);
+    g.fillEllipse (verdict.removeFromLeft (10).withSizeKeepingCentre (10, 10).toFloat());
+    g.setFont (look.font (14.0f, true));
+    g.setColour (theme.text);
+    g.drawText (report.is_good ? "Good fit" : "Poor fit", verdict.withTrimmedLeft (8), juce::Justification::centredLeft, false);
+
+    const int width = area.getWidth(), name_width = width * 38 / 100, value_width = width * 27 / 100;
+    const auto cells = [&] (juce::Rectangle<int> line, const juce::String& name, const juce::String& value, const juce::String& interval) {
+        g.drawText (name, line.removeFromLeft (name_width), juce::Justification::centredLeft, true);
+        g.drawText (value, line.removeFromLeft (value_width), juce::Justification::centredRight, true);
+        g.drawText (interval, line, juce::Justification::centredRight, true);
+    };
+    g.setFont (look.font (12.0f));
+    g.setColour (theme.dim);
+    cells (area.removeFromTop (header_height), "Parameter", "Value", "95 % interval");
+    for (const auto& row : rows)
+    {
+        g.setColour (theme.hairline);
+        g.drawHorizontalLine (area.getY(), static_cast<float> (area.getX()), static_cast<float> (area.getRight()));
+        g.setColour (row.is_main ? theme.text : theme.dim);
+        g.setFont (look.font (12.5f));
+        cells (area.removeFromTop (row_height), row.name, row.value, row.interval);
+    }
+    area.removeFromTop (gap);
+    remarks (width).draw (g, area.toFloat());
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "knob_strip.hpp"
+
+#include <host/app/look/text.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr int knob_width = 68, knob_height = 64, strip_margin = 8;
+constexpr double scale_start = 1.25, scale_end = 2.75;   // of the scale, in half turns from the top
+}   // namespace
+
+/// A control: a dial with its name and its value.
+class KnobStrip::Knob final : public juce::Slider
+{
+public:
+    Knob (Document& d, std::string i) : juce::Slider (RotaryHorizontalVerticalDrag, NoTextBox), document (d), id (std::move (i))
+    {
+        setRange (0.0, 1.0);
+        setNumDecimalPlacesToDisplay (2);
+        setDoubleClickReturnValue (true, 0.5);
+        setWantsKeyboardFocus (true);
+        setMouseClickGrabsKeyboardFocus (false);   // the canvas keeps the keyboard focus
+        onDragStart = onDragEnd = [this] { continues = false; };
+        onValueChange = [this] {
+            change (getValue(), continues);
+            continues = isMouseButtonDown();
+        };
+    }
+
+    const std::string& control() const noexcept { return id; }
+
+    void refresh()
+    {
+        const auto& all = document.graph().controls;
+        const auto c = std::ranges::find (all, id, &graph::Control::id);
+        if (c == all.end()) return;
+        name = fromUtf8 (c->name.empty() ? c->id : c->name);
+        setTitle (name);
+        setTooltip (name + ": drag up or down, Ctrl+drag for fine steps; double-click for the middle");
+        setValue (c->value, juce::dontSendNotification);
+        repaint();
+    }
+
+    bool keyPressed (const juce::KeyPress& key) override
+    {
+        const bool is_up = key.isKeyCode (juce::KeyPress::upKey) || key.isKeyCode (juce::KeyPress::rightKey);
+        const bool is_down = key.isKeyCode (juce::KeyPress::downKey) || key.isKeyCode (juce::KeyPress::leftKey);
+        if (! is_up && ! is_down) return false;
+        const double by = key.getModifiers().isShiftDown() ? 0.001 : 0.01;
+        change (std::clamp (getValue() + (is_up ? by : -by), 0.0, 1.0), false);
+        return true;
+    }
+
+    void focusGained (FocusChangeType cause) override
+    {
+        juce::Slider::focusGained (cause);
+        repaint();
+    }
+
+    void focusLost (FocusChangeType cause) override
+    {
+        juce::Slider::focusLost (cause);
+        repaint();
+    }
+
+    void paint (juce::Graphics& g) override
+    {
+        const auto& look = lookOf (*this);
+        const auto& theme = look.theme();
+        auto area = getLocalBounds().toFloat();
+        const auto label = area.removeFromBottom (16.0f);
+        const auto dial = area.withSizeKeepingCentre (36.0f, 36.0f);
+        const auto arc = [&] (double to, juce::Colour colour) {
+            juce::Path p;
+            const auto angle = [] (double half_turns) { return static_cast<float> (half_turns * juce::MathConstants<double>::pi); };
+            p.addCentredArc (dial.getCentreX(), dial.getCentreY(), 16.0f, 16.0f, 0.0f, angle (scale_start), angle (to), true);
+            g.setColour (colour);
+            g.strokePath (p, juce::PathStrokeType (4.0f, juce::PathStrokeType::curved, juce::PathStrokeType::rounded));
+        };
+        arc (scale_end, theme.hairline);
+        if (getValue() > 0.0) arc (scale_start + (scale_end - scale_start) * getValue(), theme.accent);
+        if (hasKeyboardFocus (false))
+        {
+            g.setColour (theme.accent);
+            g.drawRoundedRectangle (getLocalBounds().toFloat().reduced (0.5f), 4.0f, 1.0f);
+        }
+        g.setFont (look.font (11.0f));
+        g.setColour (theme.text);
+        g.drawText (juce::String (getValue(), 2), dial, juce::Justification::centred, false);
+        g.setColour (isMouseOverOrDragging() ? theme.text : theme.dim);
+        g.drawText (name, label, juce::Justification::centred, true);
+    }
+
+private:
+    void change (double to, bool joins)
+    {
+        const auto& all = document.graph().controls;
+        const auto c = std::ranges::find (all, id, &graph::Control::id);
+        if (c == all.end() || c->value == to) return;
+        auto changed = *c;
+        changed.value = to;
+        document.perform (graph::ChangeControl { id, std::move (changed) }, joins ? graph::Step::joined : graph::Step::own);
+    }
+
+    Document& document;
+    std::string id;
+    juce::String name;
+    bool continues = false;
+};
+
+KnobStrip::KnobStrip (Document& d) : document (d) { setTitle ("Controls"); }
+
+KnobStrip::~KnobStrip() = default;
+
+juce::Slider& KnobStrip::knob (std::size_t i) { return *knobs[i]; }
+
+void KnobStrip::refresh()
+{
+    const auto& controls = document.graph().controls;
+    if (! std::ranges::equal (controls, knobs, {}, &graph::Control::id, [] (const auto& k) { return k->control(); }))
+    {
+        knobs.clear();
+        for (const auto& c : controls)
+            addAndMakeVisible (*knobs.emplace_back (std::make_unique<Knob> (document, c.id)));
+        resized();
+    }
+    for (auto& k : knobs)
+        k->refresh();
+}
+
+int KnobStrip::columnsFor (int width) const { return std::max (1, (width - 2 * strip_margin) / knob_width); }
+
+int KnobStrip::heightFor (int width) const
+{
+    if (knobs.empty()) return 0;
+    const int columns = columnsFor (width), rows = (static_cast<int> (knobs.size()) + columns - 1) / columns;
+    return rows * knob_height + strip_margin;
+}
+
+void KnobStrip::paint (juce::Graphics& g)
+{
+    g.setColour (themeOf (*this).hairline);
+    g.drawHorizontalLine (0, 0.0f, static_cast<float> (getWidth()));
+}
+
+void KnobStrip::resized()
+{
+    const int columns = columnsFor (getWidth()), each = (getWidth() - 2 * strip_margin) / columns;
+    for (std::size_t i = 0; i < knobs.size(); ++i)
+    {
+        const int n = static_cast<int> (i);
+        knobs[i]->setBounds (strip_margin + n % columns * each, strip_margin / 2 + n / columns * knob_height, each, knob_height);
+    }
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <host/app/look/look.hpp>
+#include <host/app/model/document.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// The controls of the graph as knobs, which stay in reach while a node is selected. Drag a knob, turn the wheel over it, or use the arrow
+/// keys; a double click sets it to the middle.
+class KnobStrip final : public juce::Component
+{
+public:
+    explicit KnobStrip (Document&);
+    ~KnobStrip() override;
+
+    void refresh();   ///< after each change of the document
+    bool isEmpty() const noexcept { return knobs.empty(); }
+    int heightFor (int width) const;
+    std::size_t size() const noexcept { return knobs.size(); }
+    juce::Slider& knob (std::size_t i);
+
+    void paint (juce::Graphics&) override;
+    void resized() override;
+
+private:
+    class Knob;
+    int columnsFor (int width) const;
+
+    Document& document;
+    std::vector<std::unique_ptr<Knob>> knobs;
+};
+
+}   // namespace tactus::host

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "step_text.hpp"
+#include "face.hpp"
+#include "patch.hpp"
+#include "quantity_text.hpp"
+#include "readable.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr auto value_arrow = " -> ";
+
+/// A value as a field shows it, in two parts: the number, and the unit.
+struct ShownValue
+{
+    std::string number, unit;
+
+    std::string text() const { return unit.empty() ? number : number + ' ' + unit; }
+};
+
+/// Empty if the value is no number.
+std::optional<ShownValue> shownValue (const Json& value, const PortSheet& sheet)
+{
+    if (! sheet.choices.empty()) return value.is_string() ? std::optional (ShownValue { value.get<std::string>(), {} }) : std::nullopt;
+    const auto read = readQuantity (value, sheet);
+    if (! read) return {};
+    auto shown = withBestPrefix (*read, sheet);
+    shown.number = rounded (shown.number);
+    const bool has_unit = sheet.unit.kind == UnitRule::Kind::fixed && sheet.unit.unit.symbol != "1";
+    const auto unit = shown.unit.empty() && has_unit ? std::string (sheet.unit.unit.symbol) : unitShown (shown.unit);
+    return ShownValue { QuantityText { shown.number, {}, 1.0 }.toText(), unit };
+}
+
+std::string changeText (const std::string& what, const ShownValue& before, const ShownValue& after)
+{
+    return what + ' ' + (before.unit == after.unit ? before.number : before.text()) + value_arrow + after.text();
+}
+
+/// The entry in which two values differ: the values themselves, or one entry of two lists. Nothing if more than one entry differs.
+struct Difference
+{
+    Json before, after;
+    std::string index;
+};
+
+std::optional<Difference> differenceOf (const Json& before, const Json& after, double initial)
+{
+    if (! before.is_array() && ! after.is_array()) return Difference { before, after, {} };
+    std::optional<Difference> found;
+    const auto at = [initial] (const Json& list, std::size_t i) { return list.is_array() && i < list.size() ? Json (list[i]) : Json (initial); };
+    for (std::size_t i = 0; i < std::max (before.is_array() ? before.size() : 0, after.is_array() ? after.size() : 0); ++i)
+    {
+        const auto b = at (before, i), a = at (after, i);
+        if (b == a) continue;
+        if (found) return {};
+        found = Difference { b, a, '[' + std::to_string (i) + ']' };
+    }
+    return found;
+}
+
+std::optional<std::string> textOf (const graph::SetParam& back, const graph::SetParam& to, const graph::Graph& g, const Catalogue& catalogue)
+{
+    if (back.patch != to.patch || back.node != to.node || back.param != to.param) return {};
+    const auto* patch = findPatch (g, to.patch);
+    const auto* node = patch == nullptr ? nullptr : patch->find (to.node);
+    if (node == nullptr) return {};
+    const auto face = faceOf (g, *patch, *node, catalogue);
+    const auto at = std::ranges::find_if (face.params, [&] (const FacePort& p) { return p.id == to.param || p.id.starts_with (to.param + '['); });
+    if (at == face.params.end() || at->sheet == nullptr) return {};
+    const double initial = at->sheet->initial[0];
+    const Json otherwise = at->isChoice() ? Json (std::string (at->sheet->choices[static_cast<std::size_t> (initial)])) : Json (initial);
+    const auto change = differenceOf (back.value.value_or (otherwise), to.value.value_or (otherwise), initial);
+    const auto before = change ? shownValue (change->before, *at->sheet) : std::nullopt;
+    const auto after = change ? shownValue (change->after, *at->sheet) : std::nullopt;
+    if (! before || ! after) return {};
+    return changeText (to.node + ": " + readable (to.param) + change->index, *before, *after);
+}
+
+std::optional<std::string> textOf (const graph::ChangeControl& back, const graph::ChangeControl& to)
+{
+    if (back.control != to.control || back.to.value == to.to.value || back.to.to.size() != to.to.to.size()) return {};
+    char text[48];
+    std::snprintf (text, sizeof text, " %.2f%s%.2f", back.to.value, value_arrow, to.to.value);
+    return (to.to.name.empty() ? to.control : to.to.name) + text;
+}
+
+/// Empty if the step is more than a change of one value.
+std::optional<std::string> textOf (const graph::History& history, std::size_t step, const Catalogue& catalogue)
+{
+    const auto commands = history.commandsOf (step), inverses = history.inversesOf (step);
+    if (commands.empty() || inverses.empty()) return {};
+    const auto& first = commands.front().edit;
+    if (std::ranges::any_of (commands, [&] (const graph::Command& c) { return c.edit.index() != first.index(); })) return {};
+    const auto &back = inverses.front().edit, &to = commands.back().edit;
+    if (const auto* a = std::get_if<graph::SetParam> (&back), *b = std::get_if<graph::SetParam> (&to); a != nullptr && b != nullptr)
+        return textOf (*a, *b, history.graph(), catalogue);
+    if (const auto* a = std::get_if<graph::ChangeControl> (&back), *b = std::get_if<graph::ChangeControl> (&to); a != nullptr && b != nullptr)
+        return textOf (*a, *b);
+    return {};
+}
+}   // namespace
+
+std::vector<std::string> stepNames (const graph::History& history, const Catalogue& catalogue)
+{
+    auto names = history.names();
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (auto text = textOf (history, i, catalogue)) names[i] = *std::move (text);
+    return names;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tactus/graph/history.hpp>
+#include <tactus/node/catalogue.hpp>
+
+#include <string>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// The names of the steps of a history, oldest first. A step that only changes one value says which and how:
+/// "wall: Stiffness 400 -> 550 N/m".
+std::vector<std::string> stepNames (const graph::History&, const Catalogue&);
+
+}   // namespace tactus::host

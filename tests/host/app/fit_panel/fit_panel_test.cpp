@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/fit_panel/fit_panel.hpp>
+#include <host/app/window/main_view.hpp>
+
+#include "support/temporary_folder.hpp"
+
+#include <tactus/kit/random.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <fstream>
+#include <sstream>
+
+using namespace tactus;
+using namespace tactus::host;
+
+namespace
+{
+struct FitRig
+{
+    juce::ScopedJuceInitialiser_GUI gui;
+    Look look;
+    struct AsDefault
+    {
+        explicit AsDefault (Look& l) { juce::LookAndFeel::setDefaultLookAndFeel (&l); }
+        ~AsDefault() { juce::LookAndFeel::setDefaultLookAndFeel (nullptr); }
+    } as_default { look };
+    TemporaryFolder home;
+    MainView view { catalogue() };
+
+    FitRig()
+    {
+        view.setSize (1280, 720);
+        view.begin ({ home.path(), true });
+    }
+
+    FitPanel& panel() { return view.fitPanel(); }
+
+    std::filesystem::path write (const std::string& name, const std::string& text)
+    {
+        const auto file = home / name;
+        std::ofstream (file) << text;
+        return file;
+    }
+
+    void finish()
+    {
+        for (int i = 0; i < 4000 && panel().isFitting(); ++i)
+        {
+            panel().attend();
+            juce::Thread::sleep (5);
+        }
+        REQUIRE_FALSE (panel().isFitting());
+    }
+};
+
+/// Strokes on a contact that gives 0.1 mm and slides at 0.8 N.
+std::string strokedRows (bool with_load)
+{
+    Random random { 3 };
+    std::ostringstream text;
+    text << (with_load ? "position,force,load\n" : "position,force\n");
+    double d = 0.0, last = 0.0;
+    for (int i = 0; i < 1200; ++i)
+    {
+        const double phase = std::fmod (i / 400.0, 1.0), x = 1e-3 * (1.0 - std::abs (2.0 * phase - 1.0));
+        d = std::clamp (d + x - last, -1e-4, 1e-4);
+        last = x;
+        text << x << "," << -0.8 * d / 1e-4 + 0.02 * random.normal() << (with_load ? ",2\n" : "\n");
+    }
+    return text.str();
+}
+}   // namespace
+
+TEST_CASE ("fit panel: a recording opens with the kind that its columns suggest, and the fit opens as a graph", "[app][fit]")
+{
+    FitRig rig;
+    rig.view.fitRecordingIn (rig.write ("strokes.csv", strokedRows (true)));
+    REQUIRE (rig.panel().isOpen());
+    CHECK (rig.panel().kind() == FitKind::friction);
+    const auto before = rig.view.document().identity();
+    rig.finish();
+    REQUIRE (rig.panel().fitted());
+    CHECK (rig.panel().fitted()->report.is_good);
+    CHECK (rig.panel().fitted()->report.at ("mu").value == Approx (0.4).epsilon (0.02));
+    CHECK (rig.view.document().identity() == before);   // nothing changes until it is accepted
+
+    rig.panel().acceptAsGraph();
+    CHECK_FALSE (rig.panel().isOpen());
+    CHECK (rig.view.document().identity() != before);
+    const auto* drag = rig.view.document().graph().root.find ("drag");
+    REQUIRE (drag);
+    CHECK (drag->params.at ("mu").get<double>() == Approx (0.4).epsilon (0.02));
+}
+
+TEST_CASE ("fit panel: the fitted node can be added to the open graph as one undo step", "[app][fit]")
+{
+    FitRig rig;
+    rig.view.open (TACTUS_SOURCE_DIR "/graphs/dry_wood.json");
+    const auto nodes = rig.view.document().graph().root.nodes.size();
+    rig.view.fitRecordingIn (rig.write ("strokes.csv", strokedRows (true)));
+    rig.finish();
+    REQUIRE (rig.panel().fitted());
+    rig.panel().acceptIntoGraph();
+    const auto& graph = rig.view.document().graph();
+    REQUIRE (graph.root.nodes.size() == nodes + 1);
+    CHECK (graph.root.nodes.back().type == "friction.elasto_plastic");
+    CHECK (graph.root.nodes.back().name != "drag");   // the graph has one already
+    CHECK (rig.view.canvas().selection().count (graph.root.nodes.back().id) == 1);
+    rig.view.document().undo();
+    CHECK (rig.view.document().graph().root.nodes.size() == nodes);
+}
+
+TEST_CASE ("fit panel: Cancel and Esc change nothing, also while a fit runs", "[app][fit]")
+{
+    FitRig rig;
+    const auto file = rig.write ("strokes.csv", strokedRows (false));
+    const auto before = rig.view.document().history().position();
+    for (const bool waits : { false, true })
+    {
+        rig.view.fitRecordingIn (file);
+        REQUIRE (rig.panel().isFitting());
+        if (waits) rig.finish();
+        rig.view.keyPressed (juce::KeyPress::createFromDescription ("escape"));
+        CHECK_FALSE (rig.panel().isOpen());
+        CHECK_FALSE (rig.panel().isFitting());
+    }
+    CHECK (rig.view.document().history().position() == before);
+}
+
+TEST_CASE ("fit panel: another kind or amount fits again, and what is wrong is said in the panel", "[app][fit]")
+{
+    FitRig rig;
+    rig.view.fitRecordingIn (rig.write ("strokes.csv", strokedRows (false)));
+    rig.finish();
+    REQUIRE (rig.panel().fitted());
+    CHECK (rig.panel().fitted()->report.at ("mu").value == Approx (0.8).epsilon (0.02));   // of 1 N
+    rig.panel().setAmount ("2 N");
+    rig.finish();
+    REQUIRE (rig.panel().fitted());
+    CHECK (rig.panel().fitted()->report.at ("mu").value == Approx (0.4).epsilon (0.02));
+    rig.panel().setAmount ("2 m");
+    CHECK_FALSE (rig.panel().fitted());
+    CHECK (rig.panel().problem().contains ("does not fit"));
+    rig.panel().acceptAsGraph();
+    CHECK (rig.panel().isOpen());   // there is nothing to accept
+
+    rig.panel().choose (FitKind::texture);
+    rig.finish();
+    CHECK_FALSE (rig.panel().fitted());
+    CHECK (rig.panel().problem().contains ("no column"));
+}
+
+TEST_CASE ("fit panel: a file that is no recording, or whose columns say nothing, is reported in the panel", "[app][fit]")
+{
+    FitRig rig;
+    rig.view.fitRecordingIn (rig.write ("text.csv", "this is\nno table\n"));
+    REQUIRE (rig.panel().isOpen());
+    CHECK (rig.panel().problem().isNotEmpty());
+    rig.view.fitRecordingIn (rig.write ("letters.csv", "a,b\n1,2\n3,4\n"));
+    CHECK_FALSE (rig.panel().kind());
+    CHECK (rig.panel().problem().contains ("Choose"));
+    rig.view.fitRecordingIn (rig.home / "missing.csv");
+    CHECK (rig.panel().problem().isNotEmpty());
+}
+
+TEST_CASE ("fit panel: a CSV file that is dropped on the window opens the panel, other files do not", "[app][fit]")
+{
+    FitRig rig;
+    const auto file = juce::String (rig.write ("strokes.csv", strokedRows (true)).string());
+    CHECK (rig.view.isInterestedInFileDrag ({ file }));
+    CHECK_FALSE (rig.view.isInterestedInFileDrag ({ "picture.png" }));
+    CHECK_FALSE (rig.view.isInterestedInFileDrag ({ file, file }));
+    rig.view.filesDropped ({ file }, 600, 300);
+    CHECK (rig.panel().isOpen());
+    rig.finish();
+    CHECK (rig.panel().fitted());
+}
+
+TEST_CASE ("fit panel: it is drawn in both themes at each size", "[app][fit]")
+{
+    FitRig rig;
+    rig.view.fitRecordingIn (rig.write ("strokes.csv", strokedRows (true)));
+    rig.finish();
+    for (const auto* theme : { &Theme::dark(), &Theme::light() })
+        for (const auto& [width, height] : { std::pair { 1280, 720 }, std::pair { 1024, 700 }, std::pair { 640, 480 } })
+        {
+            rig.look.setTheme (*theme);
+            rig.view.setSize (width, height);
+            const auto picture = rig.panel().createComponentSnapshot (rig.panel().getLocalBounds());
+            CHECK (picture.getPixelAt (picture.getWidth() / 2, picture.getHeight() / 2) != picture.getPixelAt (2, 2));
+        }
+}

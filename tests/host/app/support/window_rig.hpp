@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "stage.hpp"
+
+#include <host/app/window/main_view.hpp>
+
+#include "support/temporary_folder.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <optional>
+
+namespace tactus::host::test
+{
+
+/// The whole window on a screen, with a mouse and a keyboard that reach only what is visible.
+struct WindowRig
+{
+    juce::ScopedJuceInitialiser_GUI gui;
+    Look look;
+    TemporaryFolder home;
+    std::unique_ptr<Stage> stage;
+    std::unique_ptr<MainView> view;
+    int clicks = 0;
+
+    /// Without a preset: the welcome page.
+    explicit WindowRig (const std::string& preset = {}, int width = 1280, int height = 720)
+    {
+        juce::LookAndFeel::setDefaultLookAndFeel (&look);
+        setenv ("TACTUS_PRESETS", TACTUS_SOURCE_DIR "/graphs", 1);
+        stage = std::make_unique<Stage> (width, height);
+        view = std::make_unique<MainView> (catalogue());
+        stage->fill (*view);
+        MainView::Start start { .home = home.path(), .safe = true };
+        if (! preset.empty()) start.files = { std::string (TACTUS_SOURCE_DIR "/graphs/") + preset };
+        view->begin (start);
+        settle();
+    }
+
+    ~WindowRig()
+    {
+        view.reset();
+        stage.reset();
+        juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
+    }
+
+    static void settle (int ms = 20) { juce::MessageManager::getInstance()->runDispatchLoopUntil (ms); }
+
+    static juce::Button* buttonIn (juce::Component& c, const juce::String& text)
+    {
+        if (auto* b = dynamic_cast<juce::Button*> (&c); b != nullptr && b->isShowing() && b->getButtonText() == text) return b;
+        for (auto* child : c.getChildren())
+            if (auto* b = buttonIn (*child, text)) return b;
+        return nullptr;
+    }
+
+    static std::optional<juce::Point<float>> tabIn (juce::Component& c, const juce::Component& root, const juce::String& text)
+    {
+        if (const auto* tabs = dynamic_cast<Tabs*> (&c); tabs != nullptr && c.isShowing())
+            for (const auto& [name, place] : tabs->titles())
+                if (name == text) return root.getLocalPoint (&c, place.getCentre());
+        for (auto* child : c.getChildren())
+            if (const auto at = tabIn (*child, root, text)) return at;
+        return {};
+    }
+
+    /// Clicks the middle of the button or the tab with this text.
+    void click (const juce::String& text)
+    {
+        INFO (text);
+        if (const auto tab = tabIn (*view, *stage, text))
+        {
+            stage->click (*tab);
+            ++clicks;
+            return settle();
+        }
+        auto* b = buttonIn (*view, text);
+        REQUIRE (b != nullptr);
+        REQUIRE (b->isEnabled());
+        const auto at = stage->getLocalPoint (b, b->getLocalBounds().getCentre());
+        REQUIRE (stage->getComponentAt (at) == b);   // nothing covers it
+        stage->click (at.toFloat());
+        ++clicks;
+        settle();
+    }
+
+    void key (const juce::String& described)
+    {
+        stage->key (described);
+        settle (2);   // JUCE tells of the focus, and of Enter in a field, later
+    }
+
+    static juce::Component* focused() { return juce::Component::getCurrentlyFocusedComponent(); }
+
+    const graph::Graph& graph() { return view->document().graph(); }
+};
+
+}   // namespace tactus::host::test

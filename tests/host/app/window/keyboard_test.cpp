@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "host/app/support/window_rig.hpp"
+
+#include <host/app/inspector/number_field.hpp>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+juce::Component* firstTextEditor (juce::Component& c)
+{
+    if (dynamic_cast<juce::TextEditor*> (&c) != nullptr && c.isVisible()) return &c;
+    for (auto* child : c.getChildren())
+        if (auto* e = firstTextEditor (*child)) return e;
+    return nullptr;
+}
+}   // namespace
+
+TEST_CASE ("every parameter is reached from the canvas with the keyboard alone, and Esc leads back", "[app][keys]")
+{
+    WindowRig w ("dry_wood.json");
+    auto& canvas = w.view->canvas();
+    canvas.grabKeyboardFocus();
+    canvas.select ({});
+    w.key ("ctrl + cursor right");
+    REQUIRE (canvas.selection().size() == 1);
+    canvas.select ({ w.graph().root.find ("drag")->id });
+
+    w.key ("return");
+    auto* field = dynamic_cast<NumberField*> (WindowRig::focused());
+    REQUIRE (field != nullptr);
+    CHECK (w.view->inspected().isParentOf (field));
+
+    // Tab goes through all fields of the node, and opens nothing.
+    std::set<std::string> titles;
+    for (int i = 0; i < 60; ++i)
+    {
+        if (auto* f = dynamic_cast<NumberField*> (WindowRig::focused())) titles.insert (f->getTitle().toStdString());
+        w.key ("tab");
+        REQUIRE (w.view->inspected().hasKeyboardFocus (true));
+    }
+    for (const char* param : { "d max", "Static ratio", "Stiffness" })
+        CHECK (titles.contains (param));
+
+    for (int i = 0; i < 60 && WindowRig::focused()->getTitle() != "Stiffness"; ++i)
+        w.key ("tab");
+    REQUIRE (WindowRig::focused()->getTitle() == "Stiffness");
+    w.key ("return");
+    REQUIRE (firstTextEditor (w.view->inspected()) != nullptr);
+    w.stage->type ("2 kN/m");
+    w.key ("return");
+    CHECK (w.graph().root.find ("drag")->params["stiffness"] == "2 kN/m");
+    CHECK (w.view->document().stepNames().back() == "drag: Stiffness 0 N/m -> 2 kN/m");
+
+    w.key ("escape");
+    CHECK (canvas.hasKeyboardFocus (true));
+    CHECK (canvas.selection() == tactus::host::Selection { w.graph().root.find ("drag")->id });
+}
+
+TEST_CASE ("a field that gets the focus is scrolled into view", "[app][keys]")
+{
+    WindowRig w ("dry_wood.json", 1024, 420);
+    auto& canvas = w.view->canvas();
+    canvas.grabKeyboardFocus();
+    canvas.select ({ w.graph().root.find ("drag")->id });
+    w.key ("return");
+    for (int i = 0; i < 30; ++i)
+    {
+        w.key ("tab");
+        const auto* now = WindowRig::focused();
+        REQUIRE (now != nullptr);
+        const auto place = w.view->inspected().getLocalArea (now, now->getLocalBounds());
+        INFO (now->getTitle());
+        CHECK (w.view->inspected().getLocalBounds().contains (place.getCentre()));
+    }
+}
+
+TEST_CASE ("the controls of a graph stay in reach as knobs while a node is selected", "[app][keys]")
+{
+    WindowRig w ("bronze_bell.json");
+    auto& knobs = w.view->inspected().knobs();
+    w.view->canvas().select ({});
+    CHECK_FALSE (knobs.isVisible());
+    w.view->canvas().select ({ w.graph().root.find ("wall")->id });
+    REQUIRE (knobs.isVisible());
+    REQUIRE (knobs.size() == 4);
+    const auto before = w.view->document().history().position();
+    const auto middle = [&] (std::size_t i) { return w.stage->getLocalPoint (&knobs.knob (i), knobs.knob (i).getLocalBounds().getCentre()).toFloat(); };
+    w.stage->drag (middle (0), middle (0).translated (0, -40));
+    CHECK (w.graph().controls[0].value > 0.65);
+    CHECK (w.view->document().history().position() == before + 1);   // one step for the whole drag
+    CHECK (w.view->document().stepNames().back().starts_with ("Blow 0.60 -> "));
+    w.view->document().undo();
+    CHECK (knobs.knob (0).getValue() == Approx (0.6));
+    knobs.knob (1).grabKeyboardFocus();
+    w.key ("cursor up");
+    CHECK (w.graph().controls[1].value == Approx (0.51));
+}
+
+TEST_CASE ("an opened subgraph with several instances shows the values of the chosen one", "[app][keys]")
+{
+    WindowRig w ("two_fingers.json");
+    std::string counted;
+    for (const auto& n : w.graph().root.nodes)
+        if (n.extra.contains ("count")) counted = n.name;
+    REQUIRE_FALSE (counted.empty());
+    auto& canvas = w.view->canvas();
+    CHECK_FALSE (canvas.instance());
+    for (const auto& n : canvas.scene().nodes())
+        if (n.name == counted)
+        {
+            canvas.enter (n);
+            break;
+        }
+    REQUIRE (canvas.instance());
+    CHECK (canvas.instance()->number == 0);
+    CHECK (canvas.address ("x.out") == counted + "[0]/x.out");
+    CHECK (WindowRig::buttonIn (*w.view, "Instance [0] of " + juce::String (canvas.instance()->count)) != nullptr);
+    canvas.chooseInstance (1);
+    CHECK (canvas.address ("x.out") == counted + "[1]/x.out");
+    CHECK (WindowRig::buttonIn (*w.view, "Instance [1] of " + juce::String (canvas.instance()->count)) != nullptr);
+    canvas.chooseInstance (99);   // at most the last one
+    CHECK (canvas.instance()->number == canvas.instance()->count - 1);
+}

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "host/app/support/window_rig.hpp"
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+/// True if the component takes the keyboard, or is a control that a mouse uses.
+bool isControl (const juce::Component& c)
+{
+    return c.getWantsKeyboardFocus() || dynamic_cast<const juce::Button*> (&c) != nullptr || dynamic_cast<const juce::Slider*> (&c) != nullptr
+           || dynamic_cast<const juce::ComboBox*> (&c) != nullptr || dynamic_cast<const juce::TextEditor*> (&c) != nullptr;
+}
+
+/// What a screen reader says. One letter or a sign says nothing.
+bool hasName (juce::Component& c)
+{
+    auto* handler = c.getAccessibilityHandler();
+    const auto title = handler != nullptr ? handler->getTitle() : c.getTitle();
+    return title.trim().length() > 1;
+}
+
+juce::String pathOf (const juce::Component& c)
+{
+    const auto name = c.getTitle().isNotEmpty() ? c.getTitle() : juce::String (typeid (c).name());
+    return (c.getParentComponent() == nullptr ? juce::String() : pathOf (*c.getParentComponent()) + " / ") + name;
+}
+
+void checkNames (juce::Component& c)
+{
+    if (! c.isVisible() || c.getWidth() == 0) return;
+    if (isControl (c) && c.isAccessible())
+    {
+        INFO (pathOf (c) << " at " << c.getScreenBounds().toString());
+        CHECK (hasName (c));
+    }
+    if (dynamic_cast<juce::Slider*> (&c) != nullptr || dynamic_cast<juce::ComboBox*> (&c) != nullptr) return;   // their parts
+    for (auto* child : c.getChildren())
+        checkNames (*child);
+}
+}   // namespace
+
+TEST_CASE ("every control of the window has a name for screen readers", "[app][names]")
+{
+    SECTION ("on the welcome page")
+    {
+        WindowRig w;
+        checkNames (*w.view);
+    }
+    SECTION ("with a graph")
+    {
+        WindowRig w ("bronze_bell.json");
+        checkNames (*w.view);
+        for (const char* tab : { "Layers", "Devices", "Problems", "Scopes", "History", "Presets" })
+        {
+            w.click (tab);
+            checkNames (*w.view);
+        }
+        w.key ("F1");
+        checkNames (*w.view);
+    }
+    SECTION ("with any of its nodes selected")
+    {
+        for (const char* preset : { "bronze_bell.json", "dry_wood.json", "layered_cloth.json", "denim.json" })
+        {
+            WindowRig w (preset);
+            for (const auto& n : w.graph().root.nodes)
+            {
+                INFO (n.name);
+                w.view->canvas().select ({ n.id });
+                checkNames (w.view->inspected());
+            }
+            w.view->canvas().select ({ w.graph().root.wires.front().id });
+            checkNames (w.view->inspected());
+        }
+    }
+    SECTION ("with the palette open")
+    {
+        WindowRig w ("dry_wood.json");
+        w.view->canvas().grabKeyboardFocus();
+        w.key ("spacebar");
+        checkNames (*w.view);
+    }
+}

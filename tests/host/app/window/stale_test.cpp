@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "host/app/support/window_rig.hpp"
+
+#include <cstring>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+juce::Component* titled (juce::Component& c, const juce::String& title)
+{
+    if (c.isShowing() && c.getTitle() == title) return &c;
+    for (auto* child : c.getChildren())
+        if (auto* found = titled (*child, title)) return found;
+    return nullptr;
+}
+
+juce::Image panelPicture (juce::Component& root, const juce::String& title)
+{
+    INFO (title);
+    auto* panel = titled (root, title);
+    REQUIRE (panel != nullptr);
+    return panel->createComponentSnapshot (panel->getLocalBounds());
+}
+
+bool hasSamePixels (const juce::Image& a, const juce::Image& b)
+{
+    if (a.getBounds() != b.getBounds()) return false;
+    const juce::Image::BitmapData x (a, juce::Image::BitmapData::readOnly), y (b, juce::Image::BitmapData::readOnly);
+    for (int row = 0; row < x.height; ++row)
+        if (std::memcmp (x.getLinePointer (row), y.getLinePointer (row), static_cast<std::size_t> (x.width * x.pixelStride)) != 0) return false;
+    return true;
+}
+}   // namespace
+
+TEST_CASE ("after an undo, every panel shows what it showed before the edit", "[app][stale]")
+{
+    WindowRig w ("bronze_bell.json");
+    auto& document = w.view->document();
+    w.click ("Layers");
+    w.view->canvas().select ({ w.graph().root.find ("desk")->id });
+    WindowRig::settle();
+    const std::vector<juce::String> panels { "Inspector", "Layers", "Canvas" };
+    std::vector<juce::Image> before;
+    for (const auto& p : panels)
+        before.push_back (panelPicture (*w.view, p));
+
+    auto other = w.graph().controls[0];
+    other.value = 0.1;
+    auto louder = Json::array();
+    for (const double g : { 0.1, 0.2, 0.3 })
+        louder.push_back (g);
+    const std::vector<graph::Command> edits {
+        graph::SetParam { "", "desk", "ceiling", Json ("1 N") },
+        graph::SetParam { "", "desk", "mute", louder },
+        graph::SetSetting { "", "desk", "names", Json ("a, b, c") },
+        graph::SetSetting { "", "desk", "inputs", Json (5) },
+        graph::ChangeControl { other.id, other },
+        graph::RemoveNode { "", "warble_felt" },
+        graph::RenameNode { "", "ring", "sound" },
+        graph::RemoveControl { "ring" },
+        graph::RemoveNode { "", "desk" },
+    };
+    for (const auto& edit : edits)
+    {
+        INFO (nameOf (edit));
+        REQUIRE (document.perform (edit));
+        WindowRig::settle();
+        document.undo();
+        w.view->canvas().select ({ w.graph().root.find ("desk")->id });
+        WindowRig::settle();
+        for (std::size_t i = 0; i < panels.size(); ++i)
+        {
+            INFO (panels[i]);
+            CHECK (hasSamePixels (before[i], panelPicture (*w.view, panels[i])));
+        }
+    }
+}
