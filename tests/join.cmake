@@ -23,7 +23,7 @@ if (CMAKE_SCRIPT_MODE_FILE)   # cmake -D batch=FILE.cpp -D files=A.cpp;B.cpp… 
     return ()
 endif ()
 
-# tactus_join (VARIABLE): replaces the files of tests in this list by batches of them. Files that define namespaces of their own are left
+# tactus_join (VARIABLE): replaces the files of tests in this list by batches of them. Files that define or extend namespaces are left
 # as they are.
 function (tactus_join variable)
     set (out)
@@ -33,7 +33,7 @@ function (tactus_join variable)
     list (SORT ${variable})
     foreach (file IN LISTS ${variable} ITEMS last)
         if (NOT file STREQUAL last)
-            file (STRINGS ${file} own_namespace REGEX "^namespace [a-z]" LIMIT_COUNT 1)
+            file (STRINGS ${file} own_namespace REGEX "^(namespace [a-z_:]+$|template <>)" LIMIT_COUNT 1)
             if (own_namespace OR NOT file MATCHES "_test.cpp$")
                 list (APPEND out ${file})
                 continue ()
@@ -42,7 +42,7 @@ function (tactus_join variable)
             file (SIZE ${file} bytes)
             math (EXPR size "${size} + ${bytes}")
         endif ()
-        if (files AND (size GREATER 100000 OR file STREQUAL last))
+        if (files AND (size GREATER 200000 OR file STREQUAL last))
             set (batch ${CMAKE_CURRENT_BINARY_DIR}/joined_${variable}_${number}.cpp)
             add_custom_command (OUTPUT ${batch} DEPENDS ${files} ${CMAKE_CURRENT_FUNCTION_LIST_FILE} VERBATIM
                 COMMAND ${CMAKE_COMMAND} -D batch=${batch} "-D files=${files}" -P ${CMAKE_CURRENT_FUNCTION_LIST_FILE})

@@ -13,7 +13,7 @@ import pathlib
 import re
 import sys
 
-LAYERS = ["text", "kit", "node", "plugin", "examine", "graph", "plan", "file", "run", "check", "capi", "python"]   # lowest first
+LAYERS = ["text", "kit", "fit", "node", "plugin", "examine", "graph", "plan", "file", "run", "check", "capi", "python"]   # lowest first
 PARTS = ["framework", "nodes", "host"]                             # the same for the parts of the project
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
