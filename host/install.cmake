@@ -46,7 +46,7 @@ if (TARGET tactus-fuse-llvm)
 endif ()
 install (TARGETS tactus tactus-bench ${check_plugin} ${fuse_llvm} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install (DIRECTORY graphs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/tactus/graphs COMPONENT program
-    FILES_MATCHING PATTERN "*.json" PATTERN "assets/*.png" PATTERN "assets/*.obj" PATTERN "assets/*.csv")
+    FILES_MATCHING PATTERN "*.json" PATTERN "assets/*.png" PATTERN "assets/*.obj" PATTERN "assets/*.csv" PATTERN "assets/*.haptic")
 install (FILES ${profiles} DESTINATION ${CMAKE_INSTALL_DATADIR}/tactus/profiles COMPONENT program)
 install (FILES ${packaging}/names_in_graph.py DESTINATION ${CMAKE_INSTALL_DATADIR}/tactus COMPONENT program)
 install (FILES ${made}/70-tactus.rules DESTINATION lib/udev/rules.d COMPONENT program)

@@ -2,6 +2,7 @@
 #include "graph_file.hpp"
 #include "text_file.hpp"
 
+#include <tactus/text/closest_match.hpp>
 #include <tactus/text/json_text.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -9,7 +10,9 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace tactus
 {
@@ -20,10 +23,22 @@ namespace
 constexpr std::string_view file_type = "file:";
 constexpr std::size_t longest_chain = 32;
 
+/// The file in the same folder that was probably meant. Empty if there is none.
+std::string similarFile (const fs::path& path)
+{
+    std::vector<std::string> names;
+    std::error_code failed;
+    for (fs::directory_iterator entry (path.has_parent_path() ? path.parent_path() : ".", failed), end; ! failed && entry != end; entry.increment (failed))
+        if (entry->path().extension() == ".json" && names.size() < 1000) names.push_back (entry->path().filename().string());
+    return std::string (closestMatch (path.filename().string(), std::vector<std::string_view> (names.begin(), names.end())));
+}
+
 Message unreadable (const fs::path& path, const std::string& reason)
 {
+    std::error_code failed;
+    const auto meant = fs::exists (path, failed) ? "" : similarFile (path);
     return Message::error ("file/unreadable", {}, quotePath (path) + " cannot be read: " + reason,
-                           "check the path; a path in a file is relative to the folder of that file");
+                           meant.empty() ? "check the path; a path in a file is relative to the folder of that file" : "did you mean " + quote (meant) + "?");
 }
 
 /// The text of a file.

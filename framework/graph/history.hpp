@@ -3,6 +3,8 @@
 
 #include "edit.hpp"
 
+#include <span>
+
 namespace tactus::graph
 {
 
@@ -31,6 +33,10 @@ public:
     /// The names of the steps, oldest first. Steps from position() on have been undone.
     std::vector<std::string> names() const;
     std::size_t position() const noexcept { return done; }
+
+    /// The edits of a step: the commands that carry it out, and for each of them the command that takes it back.
+    std::span<const Command> commandsOf (std::size_t step) const { return steps[step].commands; }
+    std::span<const Command> inversesOf (std::size_t step) const { return steps[step].inverses; }
 
 private:
     struct Done

@@ -82,9 +82,15 @@ public:
         on_thread      ///< live: they are answered on their own thread
     };
 
+    enum class Steps
+    {
+        in_lanes,   ///< instances of a subgraph may run together (docs/lanes.md)
+        one_each    ///< each node has its own step: for programs that read the plan, such as the export
+    };
+
     /// The catalogue, and the assets and services in the options, must outlive the run. The run sets CompileOptions::lanes, before and
     /// withdrawn itself.
-    Run (const Catalogue&, CompileOptions, OpenDevice = {}, Queries = Queries::within_tick);
+    Run (const Catalogue&, CompileOptions, OpenDevice = {}, Queries = Queries::within_tick, Steps = Steps::in_lanes);
     ~Run() override;
     Run (const Run&) = delete;
     Run& operator= (const Run&) = delete;

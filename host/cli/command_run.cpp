@@ -271,6 +271,14 @@ void CommandRun::decideLength (Pace pace)
     }
 }
 
+std::size_t CommandRun::ticksOrFail() const
+{
+    if (! count)
+        fail ("run/no_length", "the length of the run is unknown: there is no feed, trace or gesture",
+              "give --duration S, --feed IN.csv, or --device ROLE=gesture:NAME");
+    return *count;
+}
+
 void CommandRun::startAudio()
 {
     if (! rig.isNeeded() && options.capture.empty()) return rig.seal();

@@ -52,6 +52,7 @@ public:
 
     /// The length of the run, in ticks; empty if no option, feed or device gives one.
     std::optional<std::size_t> ticks() const noexcept { return count; }
+    std::size_t ticksOrFail() const;   ///< the command ends if the length is unknown
 
     /// Reads the graph file again and swaps it in; what both versions contain keeps running. If the file has errors,
     /// prints them and returns false, and the previous graph keeps running. Roles keep their devices; a new role gets

@@ -11,6 +11,8 @@ void addNodes (const Command&);
 void addValidate (const Command&);
 void addCheck (const Command&);
 void addRender (const Command&);
+void addSpectrogram (const Command&);
+void addSweep (const Command&);
 void addPlay (const Command&);
 void addSet (const Command&);
 void addHit (const Command&);
@@ -24,5 +26,7 @@ void addCurve (const Command&);
 void addCheckPlugin (const Command&);
 void addExport (const Command&);
 void addConvert (const Command&);
+void addCapture (const Command&);
+void addTest (const Command&);
 
 }   // namespace tactus::host

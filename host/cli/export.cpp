@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "graph_argument.hpp"
 #include "report.hpp"
 #include "run_options.hpp"
 
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/generate/export_graph.hpp>
-#include <host/platform/preset_folder.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -79,7 +79,7 @@ void addExport (const Command& app)
     const auto command = app.add ("export", "Write a graph as C++ code that computes the same bits: for firmware, simulators and other programs");
     command
         .addOption (
-            "graph", [options] (const std::string& given) { options->graph = graphFile (given); },
+            "graph", [options] (const std::string& given) { options->graph = graphArgument (given); },
             "A graph file, such as graphs/dry_wood.json, or the name of a preset, such as dry_wood")
         .required();
     command.addOption ("-o,--out", options->folder, "The folder to write: new, empty, or an earlier export, which is replaced").required();

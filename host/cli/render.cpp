@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command_run.hpp"
 #include "commands.hpp"
-#include "listening.hpp"
 #include "overwriting.hpp"
 #include "plot_options.hpp"
 #include "plotter.hpp"
@@ -11,6 +10,7 @@
 
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
+#include <host/audio/listening.hpp>
 #include <host/platform/signals.hpp>
 #include <tactus/file/atomic_file.hpp>
 #include <tactus/run/replay.hpp>
@@ -96,18 +96,15 @@ private:
 void render (const RenderOptions& options)
 {
     CommandRun command { options, CommandRun::Pace::offline };
-    if (! command.ticks())
-        fail ("run/no_length", "the length of the run is unknown: there is no feed, trace or gesture",
-              "give --duration S, --feed IN.csv, or --device ROLE=gesture:NAME");
-
+    const auto ticks = command.ticksOrFail();
     auto outputs = options.outputs;
     std::ranges::copy (options.pictures(), std::back_inserter (outputs));
     refuseOverwriting (outputs, command.inputs());
     watchForStop();
     auto& run = command.run();
     Output output { options, run.engine().plan().taps(), run.rate() };
-    Progress progress { *command.ticks() };
-    for (std::size_t k = 0; k < *command.ticks(); ++k)
+    Progress progress { ticks };
+    for (std::size_t k = 0; k < ticks; ++k)
     {
         run.tick();
         output.frame (run.engine().plan());

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run_options.hpp"
 
-#include <host/platform/preset_folder.hpp>
+#include "graph_argument.hpp"
+
 #include <tactus/run/turn.hpp>
 #include <tactus/text/budget.hpp>
 
@@ -47,15 +48,18 @@ void addPlugins (const Command& app)
         .oneValueEach();
 }
 
-void RunOptions::addTo (const Command& app)
+void RunOptions::addTo (const Command& app, Files files)
 {
     app.addOption (
-           "graph", [this] (const std::string& given) { graph = graphFile (given); },
+           "graph", [this] (const std::string& given) { graph = graphArgument (given); },
            "A graph file, such as graphs/dry_wood.json, or the name of a preset, such as dry_wood")
         .required();
     app.addOption ("--feed", feed, "A CSV file with a column for each port that it drives, named node.port or node.port.x; a column t gives the time in s");
-    app.addOption ("--record", records, "Ports to record, separated by commas; default: the inputs of every sink").separatedBy (',').oneValueEach();
-    app.addOption ("--out", outputs, "Output file, .csv or .wav; may be given more than once").oneValueEach();
+    if (files == Files::chosen)
+    {
+        app.addOption ("--record", records, "Ports to record, separated by commas; default: the inputs of every sink").separatedBy (',').oneValueEach();
+        app.addOption ("--out", outputs, "Output file, .csv or .wav; may be given more than once").oneValueEach();
+    }
     app.addOption ("--rate", rate_hz, "Ticks per second; default: the feed's rate, else the graph's").check (finiteWithin (1.0, 1e6));
     app.addOption ("--duration", duration_s, "Length of the run in s").check (finiteWithin (1e-9, 1e9));
     app.addOption ("--set", sets, "Set a parameter, NODE.PARAM=VALUE, or a control, CONTROL=0…1; may be given more than once").oneValueEach();

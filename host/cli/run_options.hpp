@@ -25,7 +25,13 @@ struct RunOptions
     std::string capture;   ///< the WAV file for the signal to the sound card; "": none
     double rate_hz = 0.0, duration_s = 0.0;
 
-    void addTo (const Command&);
+    /// `Files::chosen`: adds --record and --out, too.
+    enum class Files
+    {
+        chosen,
+        fixed   ///< the command decides what is recorded, and where to
+    };
+    void addTo (const Command&, Files = Files::chosen);
 };
 
 /// Adds --limits. Parsing it sets the budgets of files (framework/text/budget.hpp).

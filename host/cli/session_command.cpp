@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "graph_argument.hpp"
 #include "report.hpp"
 
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/hid_link/profile_library.hpp>
 #include <host/platform/home_folder.hpp>
-#include <host/platform/preset_folder.hpp>
 #include <host/sessions/choose_clock.hpp>
 #include <host/sessions/numbers_device.hpp>
 #include <host/sessions/role_fits.hpp>
@@ -265,7 +265,7 @@ void addSession (const Command& app)
     const auto options = std::make_shared<SessionOptions>();
     const auto command = app.add ("session", "Show or change which devices the roles of graphs are bound to, and show whether they fit a graph");
     command.addOption (
-        "graph", [options] (const std::string& given) { options->graph = graphFile (given); },
+        "graph", [options] (const std::string& given) { options->graph = graphArgument (given); },
         "A graph file or the name of a preset: check whether the devices of the session fit its roles");
     const auto bind = command.addOption ("--bind", options->bind,
                                          "Bind a role to a device: ROLE=hid:PROFILE (hid:auto), ROLE=FILE.json, ROLE=sim, "

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "graph_argument.hpp"
 #include "report.hpp"
 #include "run_options.hpp"
 
@@ -7,7 +8,6 @@
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/hid_link/profile_library.hpp>
-#include <host/platform/preset_folder.hpp>
 #include <host/sessions/role_fits.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/compile.hpp>
@@ -73,6 +73,17 @@ bool check (const std::string& file)
         std::cout << describe (d);
     return true;
 }
+
+/// As check(), for a file or the name of a preset. An argument that names neither does not end the command.
+bool checkArgument (const std::string& argument)
+try
+{
+    return check (graphArgument (argument));
+}
+catch (const Stop&)
+{
+    return false;
+}
 }   // namespace
 
 void addValidate (const Command& app)
@@ -91,7 +102,7 @@ void addValidate (const Command& app)
     command.callback ([files] {
         bool all_fine = true;
         for (const auto& file : *files)
-            all_fine = check (graphFile (file)) && all_fine;
+            all_fine = checkArgument (file) && all_fine;
         if (! all_fine) throw Stop {};
     });
 }

@@ -230,7 +230,7 @@ constexpr const char* manifest = "tactus_export.txt";
 ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& options)
 {
     ExportedFolder folder;
-    Run tried { catalogue(), options.compile, options.open ? options.open : simulatedDevices() };
+    Run tried { catalogue(), options.compile, options.open ? options.open : simulatedDevices(), Run::Queries::within_tick, Run::Steps::one_each };
     folder.messages = tried.load (graph);
     if (hasErrors (folder.messages)) return folder;
     refuseSingle (options, folder.messages);
@@ -240,7 +240,7 @@ ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& opti
     tried.openDevices (graph, folder.messages);
     if (hasErrors (folder.messages)) return folder;
 
-    Run run { catalogue(), options.compile, repeatedDevices (tried) };
+    Run run { catalogue(), options.compile, repeatedDevices (tried), Run::Queries::within_tick, Run::Steps::one_each };
     (void)run.load (graph);   // as before, so it has the same messages
     Messages known;
     run.openDevices (graph, known);

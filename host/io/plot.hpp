@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "axis.hpp"
 #include "colours.hpp"
 #include <tactus/text/result.hpp>
 
@@ -36,6 +37,16 @@ struct Series
     Style style = Style::line;
 };
 
+/// Values over a plane as colours, from dark (low) to bright (high). A bar next to the panel shows the scale.
+struct HeatMap
+{
+    Extent x {}, y {};   // from edge to edge
+    std::size_t columns = 0, rows = 0;
+    std::vector<double> values {};   // column by column, from low y to high y; nan is a gap
+    Quantity colour {};              // a unit that begins with "dB" gets no prefix
+    Extent range {};                 // of the darkest and the brightest colour
+};
+
 /// One panel. The first series without a colour gets the colour of the quantity on the y axis; each further one gets the next
 /// colour of the palette.
 struct Axes
@@ -43,6 +54,7 @@ struct Axes
     std::string title {};
     Quantity x {}, y {};
     std::vector<Series> series {};
+    std::optional<HeatMap> map {};   // drawn below the series
 };
 
 /// Panels from top to bottom. Neighbours with the same x quantity share its range, with labels only under the last one.
@@ -63,7 +75,7 @@ bool isFigureFile (const std::filesystem::path& path);
 /// paper. SVG and PDF hold lines and outlines, and no fonts. Needs no display. [main thread], or any thread while a
 /// juce::ScopedJuceInitialiser_GUI exists.
 ///
-/// Error ids: plot/kind, plot/no_panels, plot/ragged_series, plot/size, output/unwritable.
+/// Error ids: plot/kind, plot/no_panels, plot/ragged_series, plot/ragged_map, plot/size, output/unwritable.
 [[nodiscard]] Result<> writeFigure (const Figure& figure, const std::filesystem::path& path);
 
 }   // namespace tactus::host

@@ -12,10 +12,10 @@ import program_help
 
 # What the value of an option is, and what a positional argument is. `file` is any file, `graph` a graph file or a preset; the
 # others are kinds of names_in_graph.py. The values of other options can be completed only if --help lists them.
-VALUES = {"--record": "ports", "--input": "ports", "--over": "ports", "--trigger": "ports", "--route": "ports", "--set": "sets", "--device": "roles",
+VALUES = {"--record": "ports", "--input": "ports", "--over": "ports", "--port": "ports", "--trigger": "ports", "--route": "ports", "--set": "sets", "--device": "roles",
           "--bind": "roles", "--feed": "file", "--out": "file", "--plot": "file", "--log": "file", "--replay": "file",
           "--capture": "file", "--calibration": "file", "--session": "file", "--file": "file", "--places": "file", "--plugins": "file", "--live": "file",
-          "in": "file", "graph": "graph", "graphs": "graph", "files": "file", "type": "nodes", "values": "sets", "hits": "hits", "port": "ports"}
+          "--clip": "file", "--gesture": "file", "--test": "file", "--role": "roles", "--graph": "graph", "log": "file", "in": "file", "graph": "graph", "graphs": "graph", "files": "file", "type": "nodes", "values": "sets", "hits": "hits", "port": "ports"}
 
 BASH = r'''# bash completion for tactus and tactus-host. Written by completions.py from --help.
 

@@ -4,6 +4,7 @@
 #include "table.hpp"
 
 #include <tactus/file/clips/clip_file.hpp>
+#include <tactus/file/clips/clip_signal.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/budget.hpp>
 
@@ -49,6 +50,13 @@ Message noDecoder (std::string_view path, const char* kind)
 {
     return Message::error ("asset/no_decoder", std::string (path), std::string ("this program has no decoder for ") + kind,
                            "let the program supply the numbers in it (docs/library.md), or play the graph with `tactus` or `tactus-host`");
+}
+
+bool isWave (std::string_view path)
+{
+    std::string extension (path.substr (std::min (path.rfind ('.'), path.size())));
+    std::ranges::transform (extension, extension.begin(), [] (char c) { return c >= 'A' && c <= 'Z' ? static_cast<char> (c - 'A' + 'a') : c; });
+    return extension == ".wav";
 }
 
 /// A file that could be read only in part may have taken as long as a large one.
@@ -122,6 +130,7 @@ Assets::Loaded<Grid> FileAssets::image (const std::string& path)
 
 Assets::Loaded<Grid> FileAssets::table (const std::string& path)
 {
+    if (isWave (path)) return load (tables, path, [&] { return readWave (path); });
     const auto parse = [] (std::string_view bytes, std::string_view name) -> Result<Grid> {
         if (! isClipName (name)) return readGrid (bytes, name);
         auto file = readClip (bytes, name);
@@ -129,6 +138,27 @@ Assets::Loaded<Grid> FileAssets::table (const std::string& path)
         return gridOf (file->clip);
     };
     return load (tables, path, [&] { return fromBytes<Grid> (path, parse); });
+}
+
+/// A recording as a clip of waves. Each sample is a row of a table.
+Result<Grid> FileAssets::readWave (const std::string& path)
+{
+    auto signal = readSignal (path);
+    if (! signal) return std::move (signal).error();
+    if (auto why = whyUnusable (*signal, path)) return *std::move (why);
+    const double numbers = static_cast<double> (clip_columns * signal->channels.size() * signal->channels.front().size());
+    if (numbers > budgets().numbers)
+    {
+        auto over = overBudget ("table/too_large", &Budgets::numbers, "the recording as a clip", numbers, "cut it, or convert it with `tactus convert`");
+        over.where = path;
+        return over;
+    }
+    Messages notes;
+    const auto clip = clipOfSignal (*signal, notes);
+    if (! notes.empty())
+        return Message::error ("clip/range", path, notes.front().text.starts_with ("the values") ? "it has samples beyond -1 to 1" : notes.front().text,
+                               "convert it with `tactus convert`, which says what changes");
+    return gridOf (clip);
 }
 
 Assets::Loaded<Mesh> FileAssets::mesh (const std::string& path)

@@ -28,7 +28,7 @@ class FileAssets : public Assets
 public:
     Loaded<Signal> signal (const std::string& path) override;
     Loaded<Grid> image (const std::string& path) override;
-    Loaded<Grid> table (const std::string& path) override;   ///< numbers, or a clip as rows (tactus/kit/clip.hpp)
+    Loaded<Grid> table (const std::string& path) override;   ///< numbers, or a clip or recording as rows (tactus/kit/clip.hpp)
     Loaded<Mesh> mesh (const std::string& path) override;
 
 protected:
@@ -49,6 +49,8 @@ private:
 
     template <typename T>
     using Cache = std::map<std::string, Kept<T>>;
+
+    Result<Grid> readWave (const std::string& path);
 
     template <typename T, typename Read>
     static Loaded<T> load (Cache<T>&, const std::string& path, Read);

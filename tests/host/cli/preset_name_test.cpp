@@ -31,6 +31,23 @@ TEST_CASE ("what looks like a file is never taken for a preset", "[cli]")
     }
 }
 
+TEST_CASE ("a mistyped preset or file gets a suggestion", "[cli]")
+{
+    for (const auto* command : { "validate", "render", "session" })
+    {
+        const auto ran = runTactus ({ command, "dry_wod" });
+        CHECK (ran.status == 1);
+        CHECK (ran.err.find ("did you mean 'dry_wood'?") != std::string::npos);
+    }
+    const auto file = runTactus ({ "validate", TACTUS_SOURCE_DIR "/graphs/dry_wod.json" });
+    CHECK (file.err.find ("did you mean 'dry_wood.json'?") != std::string::npos);
+    CHECK (runTactus ({ "validate", "qqqqqq" }).err.find ("did you mean") == std::string::npos);
+
+    const auto several = runTactus ({ "validate", "dry_wod", "steel_bar" });   // one mistake does not hide the other files
+    CHECK (several.status == 1);
+    CHECK (several.out.find ("graphs/steel_bar.json: ok") != std::string::npos);
+}
+
 TEST_CASE ("the version names the program and the C API", "[cli]")
 {
     const auto version = runTactus ({ "--version" }).out;

@@ -42,6 +42,25 @@ void require (ExportedProgram& program, const host::ExportedFolder& exported, co
         CHECK (text.find ("static const auto ") == std::string::npos);
     program.add (exported);
 }
+
+/// Two contacts that the plan of a run computes together, as lanes.
+host::ExportedFolder exportedContacts()
+{
+    test::Sketch s;
+    auto& part = s.subgraph ("contact");
+    s.add (part, "board", "deform.plane", { { "damping", 1.0 } }).add (part, "drag", "friction.elasto_plastic");
+    s.add (part, "board.resistance -> drag.normal_force");
+    s.node ("c", "graph:contact");
+    s.graph.root.nodes.front().extra["count"] = 2;
+    s.node ("z", "signal.lfo", { { "frequency", 30.0 }, { "amplitude", 2e-3 } }).node ("hand", "vector.join").wire ("z.out -> hand.z").wire ("z.out -> hand.x");
+    host::ExportOptions options { .file = "contacts.json", .program = "tactus", .compile = {}, .open = {} };
+    for (const std::string contact : { "c[0]/", "c[1]/" })
+    {
+        s.wire ("hand.out -> " + contact + "board.position").wire ("hand.out -> " + contact + "drag.position");
+        options.compile.records.push_back (contact + "drag.force");
+    }
+    return host::exportGraph (s.graph, options);
+}
 }   // namespace
 
 TEST_CASE ("exported graphs give the bits of the engine while parameters move", "[export]")
@@ -52,6 +71,7 @@ TEST_CASE ("exported graphs give the bits of the engine while parameters move", 
         require (program, test::exportedPreset (name), name);
     for (unsigned seed = 1; seed <= 12; ++seed)
         require (program, test::exportedRandomGraph (seed, 12), "random graph " + std::to_string (seed));
+    require (program, exportedContacts(), "contacts");
 
     // A graph with a fault in its code: its self-test has to notice.
     auto broken = test::exportedPreset ("soft_pad");
@@ -72,7 +92,7 @@ TEST_CASE ("exported graphs give the bits of the engine while parameters move", 
         is_right ? ++right : ++wrong;
         CHECK (is_right != line.starts_with ("soft_pad:"));
     }
-    CHECK (right == 20);
+    CHECK (right == 21);
     CHECK (wrong == 1);
 }
 
