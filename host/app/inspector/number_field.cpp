@@ -62,7 +62,7 @@ NumberField::NumberField (const PortSheet& s) : sheet (s)
 
 juce::String NumberField::spokenValue() const
 {
-    const auto unit = value.unit.empty() ? unitText (sheet.unit) : fromUtf8 (unitShown (value.unit));
+    const auto unit = fromUtf8 (unitShown (value.unit.empty() ? unitText (sheet.unit).toStdString() : value.unit));
     return juce::String (plainText (value.number)) + (unit.isEmpty() ? "" : " " + unit);
 }
 
@@ -275,7 +275,7 @@ void NumberField::paintText (juce::Graphics& g, juce::Rectangle<float> text, juc
     const auto& look = lookOf (*this);
     const auto& theme = look.theme();
     g.setFont (look.font (12.0f));
-    const auto unit = value.unit.empty() ? unitText (sheet.unit) : fromUtf8 (unitShown (value.unit));
+    const auto unit = fromUtf8 (unitShown (value.unit.empty() ? unitText (sheet.unit).toStdString() : value.unit));
     if (const float width = g.getCurrentFont().getStringWidthFloat (unit) + 5.0f; unit.isNotEmpty() && width < 0.55f * text.getWidth())
     {
         g.setColour (theme.dim);

@@ -55,7 +55,9 @@ std::string shownQuantity (double si, std::string_view symbol)
 std::string unitShown (const std::string& unit)
 {
     static const std::set<std::string> with_prefix { "um", "us", "uN", "uJ", "um/s", "ug", "uW" };
-    return with_prefix.contains (unit) ? "µ" + unit.substr (1) : unit;
+    std::string shown;
+    for (const char c : unit) shown += c == '*' ? std::string ("·") : std::string (1, c);
+    return with_prefix.contains (unit) ? "µ" + shown.substr (1) : shown;
 }
 
 Result<QuantityText> readQuantity (const Json& value, const PortSheet& sheet)

@@ -30,7 +30,7 @@ struct QuantityText
 /// The same value with the prefix that reads best, 100 um for 0.0001 m, if it has no unit yet and that of the port takes prefixes.
 QuantityText withBestPrefix (QuantityText, const PortSheet&);
 
-/// A unit as people read it: "µm" for the "um" of files.
+/// A unit as people read it: "µm" for the "um" of files, and "N·s/m" for "N*s/m".
 std::string unitShown (const std::string& unit);
 
 /// A value in SI units as people read it: "100 µm", "2.5 N", and without a unit for "1" and "".

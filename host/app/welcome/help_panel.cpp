@@ -5,6 +5,7 @@
 #include <host/app/inspector/formula_block.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/look/key_text.hpp>
+#include <host/app/look/text.hpp>
 #include <host/app/model/node_doc.hpp>
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/model/readable.hpp>
@@ -33,7 +34,7 @@ juce::String unitText (const UnitRule& u)
     switch (u.kind)
     {
     case UnitRule::Kind::fixed:
-        return u.unit.symbol == "1" ? juce::String ("no unit") : text (u.unit.symbol);
+        return u.unit.symbol == "1" ? juce::String ("no unit") : fromUtf8 (unitShown (std::string (u.unit.symbol)));
     case UnitRule::Kind::open:
         return "unit of the wired port";
     case UnitRule::Kind::each:

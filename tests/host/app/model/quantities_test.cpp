@@ -74,6 +74,7 @@ TEST_CASE ("a length is shown in one way everywhere, as 100 µm and not as 0.000
     CHECK (shownQuantity (0.0, "m") == "0 m");
     CHECK (unitShown ("um") == "µm");
     CHECK (unitShown ("mm") == "mm");
+    CHECK (unitShown ("N*s/m") == "N·s/m");
     const auto& params = catalogue().find ("friction.elasto_plastic")->params;
     const auto& sheet = *std::ranges::find (params, std::string_view ("d_max"), &PortSheet::id);
     const auto shown = withBestPrefix (*readQuantity (Json (1e-4), sheet), sheet);
