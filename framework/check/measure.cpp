@@ -271,7 +271,7 @@ private:
             }
     }
 
-    /// The nodes that play when they are hit, or by themselves, such as a clip: they take hits, and nothing else is wired into their inputs.
+    /// The nodes that play by themselves or when they are hit, such as a clip: they have an input for hits, and no other input is wired.
     std::vector<std::size_t> struckNodes() const
     {
         std::vector<std::size_t> all;

@@ -23,7 +23,7 @@ namespace
 constexpr std::string_view file_type = "file:";
 constexpr std::size_t longest_chain = 32;
 
-/// The file in the same folder that was probably meant. Empty if there is none.
+/// The file in the same folder that the user probably meant. Empty if there is none.
 std::string similarFile (const fs::path& path)
 {
     std::vector<std::string> names;

@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 constexpr std::size_t fewest_cut_rows = 20;
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-/// The rows, with the last row of the whole sample; all rows are before the burst if the sample does not burst.
+/// The rows, and the last row before the burst. If the sample does not burst, all rows are before the burst.
 struct Cut
 {
     std::vector<double> depth, force;
@@ -34,7 +34,7 @@ struct Cut
 };
 
 /// The parameters of the search: ln force at the depth `length`, [ln power of the law], and, after a burst: depth of the burst over length, ln force
-/// while cutting, ln stiffness of the cracked sample over that of the whole one. Forces are over the unit.
+/// while cutting, ln stiffness of the cracked sample over that of the whole one. Forces are divided by `unit`.
 class CutSearch
 {
 public:
@@ -134,7 +134,7 @@ double meanOf (const std::vector<double>& v, Index from, Index to)
     return sum / static_cast<double> (to - from);
 }
 
-/// The largest fall of the force while the blade goes in. It must stick out of the noise.
+/// The largest drop of the force while the blade goes in. It must be clearly larger than the noise.
 void findBurst (Cut& cut)
 {
     const Index n = cut.size(), window = std::clamp<Index> (n / 60, 2, 12);
@@ -165,7 +165,7 @@ void findBurst (Cut& cut)
 Result<Cut> cutOf (const RecordedCut& recorded)
 {
     if (auto checked =
-            detail::checkColumns ({ &recorded.depth, &recorded.force }, fewest_cut_rows, "the blade from the touch until it has cut several millimetres");
+            detail::checkColumns ({ &recorded.depth, &recorded.force }, fewest_cut_rows, "from the touch until the blade has cut several millimetres");
         ! checked)
         return checked.error();
     const auto first = std::ranges::find_if (recorded.depth, [] (double d) { return d > 0.0; });
@@ -190,7 +190,7 @@ struct FoundCut
     double score = endless;
 };
 
-/// Straight or bent laws, and the burst at the steepest fall or a row beside it.
+/// Tries linear and power laws, each with the burst at the steepest drop of the force or at a neighbouring row.
 FoundCut searchCut (const Cut& around, FitCourse* course)
 {
     FoundCut best;
@@ -254,7 +254,7 @@ void reportBurst (const CutSearch& search, const FoundCut& found, const Eigen::M
     if (result.rupture_force < search.cutting (x))
     {
         result.report.notes.push_back (
-            "the fitted force at the burst is below that of cutting, which the node cannot play; the preset bursts at the force of cutting");
+            "the fitted force at the burst is below the cutting force, which the node cannot render; the preset bursts at the cutting force");
         result.rupture_force = search.cutting (x);
     }
 }
@@ -288,7 +288,7 @@ Result<BladeFit> fitBlade (const RecordedCut& recorded, FitCourse* course)
     const auto found = searchCut (*read, course);
     if (detail::isCancelled (course)) return detail::fitCancelled();
     if (! std::isfinite (found.score))
-        return fitError ("fit/no_cut", "the force does not follow the depth as that of a cut does", "check the columns: depth in m, force in N");
+        return fitError ("fit/no_cut", "the force does not change with the depth as in a cut", "check the columns: depth in m, force in N");
     const auto& cut = found.cut;
 
     BladeFit result { .width = recorded.width };
@@ -313,7 +313,7 @@ Result<BladeFit> fitBlade (const RecordedCut& recorded, FitCourse* course)
     report.picture = {
         "depth", "m", "force", "N", { { "recorded", cut.depth, cut.force, true }, { "fitted", cut.depth, { modelled.begin(), modelled.end() } } }
     };
-    judge (report, "Press the blade in slowly and at a constant speed, until it has cut at a steady force for as long as it took to burst the sample.");
+    judge (report, "Press the blade in slowly, at a constant speed. Then cut at a steady force for as long as it took until the sample burst.");
     return result;
 }
 

@@ -27,9 +27,9 @@ struct BladeFit
 };
 
 /// Fits the stiffness before and after the burst, the force at the burst and the toughness. The crack right after the burst follows from the
-/// energy that the sample had stored (Griffith), as in the node. Rupture is a jump between two rows, so its force has the narrower of two
-/// intervals: that of the fit and that of the two rows. A recording that ends before the burst only bounds the two forces from below.
-/// The cross-validation leaves out every fifth of 50 parts.
+/// energy that the sample had stored (Griffith), as in the node. The burst is a jump between two rows, so the interval
+/// of its force is the narrower of two: that of the fit, and that between the two rows. A recording that ends before the burst gives only
+/// lower bounds for the two forces. The cross-validation divides the rows into 50 blocks and leaves out every fifth block.
 ///
 /// Errors: fit/too_short, fit/not_finite, fit/no_contact, fit/pulls, fit/no_cut, fit/cancelled. [any thread]
 Result<BladeFit> fitBlade (const RecordedCut&, FitCourse* = nullptr);

@@ -38,7 +38,7 @@ Fitted leastSquares (const std::vector<double>& d, const std::vector<double>& f,
     for (std::size_t i = 0; i < d.size(); ++i)
     {
         const double u = d[i] / spacing;
-        const int upper = std::clamp (static_cast<int> (u), 0, points - 1);   // the table's point above the row; the one below is upper - 1
+        const int upper = std::clamp (static_cast<int> (u), 0, points - 1);   // the point of the table above the row; the point below is upper - 1
         const double share = u - upper;
         right[upper] += share * f[i];
         normal (upper, upper) += share * share;
@@ -142,7 +142,7 @@ Result<CurveFit> rowsOf (const RecordedLoop& loop)
     }
     return fit;
 }
-/// How the force at each depth of the table moves with the recorded forces, before it is made monotone.
+/// How the force at each depth of the table changes with each recorded force, before the curve is made monotone.
 Eigen::MatrixXd influenceOnBranch (const std::vector<double>& d, double spacing, int points)
 {
     constexpr double straight = 1e-6;
@@ -160,7 +160,7 @@ Eigen::MatrixXd influenceOnBranch (const std::vector<double>& d, double spacing,
     return normal.ldlt().solve (terms.transpose());
 }
 
-/// The squares of what a branch leaves when every fifth of 50 parts is predicted from the rest, and their number.
+/// Cross-validation of a branch, of which every fifth of 50 blocks is predicted from the rest: the sum of squared errors, and their number.
 std::pair<double, double> leftOutOfBranch (const std::vector<double>& d, const std::vector<double>& f, double spacing, int points)
 {
     const auto block = std::max<std::size_t> (1, d.size() / 50);
@@ -188,7 +188,8 @@ std::pair<double, double> leftOutOfBranch (const std::vector<double>& d, const s
     return sum;
 }
 
-/// Intervals of at most 20 points. Making the branches monotone only moves forces that differ less than their errors, or that the curve cannot follow.
+/// Intervals of at most 20 points. They ignore that the branches are made monotone: this changes only forces that differ by less than their errors,
+/// or that the curve cannot follow.
 void reportCurve (CurveFit& fit, int points)
 {
     struct Branch

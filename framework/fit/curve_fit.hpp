@@ -32,7 +32,7 @@ struct CurveFit
 /// is the gradient of an energy: a node that plays it is passive, and does not show the recorded hysteresis.
 ///
 /// The rows are in the order of time. Times are not used, so the indentation must be slow. The depth must be 0 at the touch.
-/// `points` is from 2 to 1000. The cross-validation leaves out every fifth of 50 parts.
+/// `points` is from 2 to 1000. The cross-validation leaves out every fifth of 50 blocks of rows.
 ///
 /// Errors: fit/too_short, fit/not_finite, fit/no_contact, fit/pulls. [any thread]
 ///

@@ -18,11 +18,11 @@ void judge (FitReport& report, const std::string& record_more, double most)
         report.lacking.push_back ("the model leaves " + roundedText (100.0 * report.residual / report.size) + " % of the recording unexplained");
     if (! (report.left_out_residual <= much_worse * report.residual + 1e-3 * report.size))
         report.lacking.push_back (
-            "a part that was not fitted is predicted much worse than the rest is fitted: the recording is too short or changes on the way");
+            "the model predicts a part that was left out much worse than it fits the rest: the recording is too short, or the object changed");
     std::string unsure;
     for (const auto& v : report.values)
         if (v.is_main && ! (v.high - v.low <= 2.0 * wide * std::abs (v.value))) unsure += (unsure.empty() ? "" : ", ") + v.name;
-    if (! unsure.empty()) report.lacking.push_back ("the recording says little about: " + unsure);
+    if (! unsure.empty()) report.lacking.push_back ("the recording does not contain enough information about: " + unsure);
     report.is_good = report.lacking.empty();
     if (! report.is_good) report.lacking.push_back (record_more);
 }
@@ -58,10 +58,10 @@ Result<double> evenStep (const std::vector<double>& time)
 {
     const double step = (time.back() - time.front()) / static_cast<double> (time.size() - 1);
     if (std::ranges::adjacent_find (time, std::ranges::greater_equal {}) != time.end() || ! (step > 0.0))
-        return fitError ("fit/time", "the times do not rise from row to row", "sort the rows by time");
+        return fitError ("fit/time", "the times do not increase from row to row", "sort the rows by time");
     for (std::size_t i = 0; i < time.size(); ++i)
         if (std::abs (time[i] - time.front() - step * static_cast<double> (i)) > 0.5 * step)
-            return fitError ("fit/uneven", "the rows are not evenly spaced: row " + std::to_string (i + 1) + " is off by more than half a row",
+            return fitError ("fit/uneven", "the rows are not evenly spaced: row " + std::to_string (i + 1) + " is off by more than half a step",
                              "record at a constant rate, or resample the recording");
     return step;
 }

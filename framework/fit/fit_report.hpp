@@ -11,10 +11,10 @@ namespace tactus
 {
 
 /// A fitted parameter with its 95 % interval: if the recording were made 100 times with other noise, the interval would contain the true value
-/// in about 95 of them. A bound that the recording does not set is infinite.
+/// in about 95 of them. A bound that the recording does not determine is infinite.
 struct FitValue
 {
-    std::string name;   ///< such as "mu"; in plain words where no node has the name
+    std::string name;   ///< such as "mu"; plain words if the value is not a parameter of a node
     std::string unit;   ///< SI, as symbolOf writes it; empty: a ratio
     double value = 0.0, low = 0.0, high = 0.0;
     bool is_main = true;   ///< the verdict depends on its interval
@@ -22,7 +22,7 @@ struct FitValue
     bool operator== (const FitValue&) const = default;
 };
 
-/// A curve of a picture of a fit.
+/// A curve in the plot of a fit.
 struct FitCurve
 {
     std::string label {};
@@ -30,21 +30,21 @@ struct FitCurve
     bool is_recorded = false;   ///< measured, so drawn as points or in the background
 };
 
-/// The recording and the fit over each other.
+/// A plot of the recording and the fit in the same axes.
 struct FitPicture
 {
     std::string x_name {}, x_unit {}, y_name {}, y_unit {};
     std::vector<FitCurve> curves {};
 };
 
-/// How well a model fits a recording, and how sure its parameters are.
+/// How well a model fits a recording, and how certain its parameters are.
 struct FitReport
 {
     std::vector<FitValue> values {};
     std::size_t rows = 0;                  ///< rows of the recording that were used
     std::string residual_unit {};          ///< of the three numbers below
     double residual = 0.0;                 ///< root mean square of recorded minus fitted
-    double left_out_residual = 0.0;        ///< the same on a part of the recording, for a fit to the rest
+    double left_out_residual = 0.0;        ///< the same on a part of the recording that was left out of the fit
     double size = 0.0;                     ///< root mean square of the recording, to compare the residuals with
     bool is_good = false;                  ///< the verdict
     std::vector<std::string> lacking {};   ///< what makes the verdict poor, and which data would help; empty if it is good
@@ -60,11 +60,11 @@ struct FitReport
 /// `record_more` says which data would help.
 void judge (FitReport&, const std::string& record_more, double most = 0.25);
 
-/// Lets another thread end a fit and see how far it is.
+/// Lets another thread cancel a fit and read its progress.
 struct FitCourse
 {
     std::atomic<bool> cancelled { false };
-    std::atomic<double> share { 0.0 };   ///< from 0 to 1
+    std::atomic<double> share { 0.0 };   ///< the progress, from 0 to 1
 };
 
 namespace detail
@@ -79,10 +79,10 @@ inline void setShare (FitCourse* course, double share)
 }
 double rootMeanSquare (const std::vector<double>&);
 
-/// fit/not_finite, if a number is nan or infinite; fit/too_short, if there are fewer rows or the columns have different lengths.
+/// Errors: fit/not_finite, if a number is nan or infinite; fit/too_short, if there are fewer than `fewest` rows, or the columns have different lengths.
 Result<> checkColumns (const std::vector<const std::vector<double>*>& columns, std::size_t fewest, const std::string& what);
 
-/// The time between two rows in s, if it is the same throughout: within 1 % of a row, as programs round times. Errors: fit/time, fit/uneven.
+/// The mean time step between two rows, in s. Each time may be off by up to half a step, because programs round times. Errors: fit/time, fit/uneven.
 Result<double> evenStep (const std::vector<double>& time);
 }   // namespace detail
 

@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 
 constexpr std::size_t fewest_drag_rows = 50;
 
-/// What the fit varies besides mu and the offset, in which the force is linear.
+/// The parameters that the search varies, besides mu and the offset. The force is linear in these two.
 struct DragShape
 {
     BristleAdhesion adhesion {};
@@ -152,7 +152,7 @@ Result<Drag> dragOf (const RecordedDrag& recorded, std::vector<std::string>& not
     {
         for (double& f : drag.force)
             f = -f;
-        notes.push_back ("the recorded force is along the movement, so it is taken as the force of the hand; friction is its opposite");
+        notes.push_back ("the recorded force points along the movement, so it is taken as the force of the hand; friction is the opposite force");
     }
     return drag;
 }
@@ -192,11 +192,11 @@ struct FoundDrag
     double score = 0.0;   // BIC
 };
 
-/// Fits for the adhesion functions, the best first. A function with another parameter must earn it (BIC).
+/// Fits for the adhesion functions, the best first. BIC penalises a function that has an additional parameter.
 std::vector<FoundDrag> search (const Drag& drag, FitCourse* course)
 {
     constexpr std::array all { BristleAdhesion::stick, BristleAdhesion::dupont, BristleAdhesion::ramp, BristleAdhesion::dahl };
-    constexpr double hopeless = 2.0;   // sum of squares of a coarse search, relative to the best one
+    constexpr double hopeless = 2.0;   // functions whose coarse sum of squares is larger than this many times the smallest one are not refined
     std::array<DragStart, all.size()> starts;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -221,7 +221,7 @@ std::vector<FoundDrag> search (const Drag& drag, FitCourse* course)
     std::ranges::sort (found, {}, &FoundDrag::score);
     return found;
 }
-/// Deviations of ln mu, ln d_max and ln stiffness for one adhesion function; infinite for what the recording does not set.
+/// Deviations of ln mu, ln d_max and ln stiffness for one adhesion function; infinite if the recording does not determine them.
 Eigen::Vector3d deviations (Index parameters, const detail::LeastSquaresFit& fit)
 {
     const auto covariance = detail::covarianceOf (detail::influenceOf (fit), fit.residual, parameters);
@@ -232,7 +232,7 @@ Eigen::Vector3d deviations (Index parameters, const detail::LeastSquaresFit& fit
     return { one (0), one (1), of_stiffness };
 }
 
-/// Adhesion functions that fit almost as well widen the intervals, each by its probability (Buckland, Burnham & Augustin 1997).
+/// Adhesion functions that fit almost as well widen the intervals, each weighted by its probability (Buckland, Burnham & Augustin 1997).
 void reportDrag (const Drag& drag, const std::vector<FoundDrag>& all, FrictionFit& result)
 {
     const auto& best = all.front();
@@ -291,7 +291,7 @@ Result<FrictionFit> fitFriction (const RecordedDrag& recorded, FitCourse* course
     const auto all = search (drag, course);
     if (detail::isCancelled (course)) return detail::fitCancelled();
     if (all.empty())
-        return fitError ("fit/no_friction", "the force does not follow the movement as friction does",
+        return fitError ("fit/no_friction", "the force does not depend on the movement as friction does",
                          "check the columns: the force along the stroke in N, the position in m");
 
     const auto& found = all.front();
@@ -323,7 +323,7 @@ Result<FrictionFit> fitFriction (const RecordedDrag& recorded, FitCourse* course
                        "friction force",
                        "N",
                        { { "recorded", drag.position, drag.force, true }, { "fitted", drag.position, { modelled.begin(), modelled.end() } } } };
-    judge (report, "Record at least three slow strokes back and forth, each several times longer than the contact gives before it slides.");
+    judge (report, "Record at least three slow strokes back and forth, each several times longer than the contact stretches before it slides.");
     return result;
 }
 

@@ -12,9 +12,9 @@ namespace tactus
 struct RecordedDrag
 {
     std::vector<double> position {};   ///< along the stroke, in m
-    std::vector<double> force {};      ///< along the stroke, in N: on the tool (against its movement), or of the hand (the fit finds out)
+    std::vector<double> force {};      ///< along the stroke, in N: on the tool (against its movement), or of the hand; the fit detects which
     std::vector<double> load {};       ///< normal force in N; empty: constant, and not recorded
-    double assumed_load = 1.0;         ///< N; counts if the load was not recorded
+    double assumed_load = 1.0;         ///< N; used if the load was not recorded
 };
 
 /// The parameters of friction.elasto_plastic with load `bound`, and a static_ratio of 1.
@@ -24,7 +24,7 @@ struct FrictionFit
     double mu = 0.0, d_max = 0.0, break_away = 1.0;
     double reference_load = 1.0;   ///< N: the mean load of the recording
     double offset = 0.0;           ///< zero error of the force sensor, in N
-    double first_stretch = 0.0;    ///< of the contact at the first row, in d_max
+    double first_stretch = 0.0;    ///< of the contact at the first row, in units of d_max
     FitReport report {};
 
     double stiffness() const noexcept { return mu * reference_load / d_max; }   ///< N/m
@@ -34,8 +34,9 @@ struct FrictionFit
 };
 
 /// Fits mu, d_max, the adhesion function and, for `dupont`, break_away by least squares of the force. Two more unknowns are fitted, but are not
-/// part of the friction: the stretch of the contact at the first row, and the zero of the force sensor if the tool slides both ways.
-/// The first half predicts the second one for the cross-validation. Adhesion functions that fit almost as well widen the intervals.
+/// part of the friction: the stretch of the contact at the first row and, if the tool slides both ways, the zero offset of the force sensor.
+/// For the cross-validation, a fit to the first half predicts the second half. Adhesion functions that fit almost as well as the best one widen
+/// the intervals.
 ///
 /// Errors: fit/too_short, fit/not_finite, fit/no_motion, fit/no_load, fit/no_friction, fit/cancelled. [any thread]
 Result<FrictionFit> fitFriction (const RecordedDrag&, FitCourse* = nullptr);

@@ -51,7 +51,7 @@ public:
     bool isLeftOut (Index i) const { return weight[i] == 0.0; }
     VectorXd modelled (const VectorXd& x) const { return terms (math::exp (x[0])) * x.tail (linear()); }
 
-    /// With the amounts by linear least squares.
+    /// The parameters for this many ridges per metre, with harmonics and bow by linear least squares.
     VectorXd start (double per_metre) const
     {
         const MatrixXd all = weight.asDiagonal() * terms (per_metre);
@@ -114,7 +114,7 @@ Result<Profile> profileOf (const RecordedProfile& recorded)
     if (auto checked = detail::checkColumns ({ &recorded.position, &recorded.height }, fewest_profile_rows, "at least five ridges"); ! checked)
         return checked.error();
     if (std::ranges::adjacent_find (recorded.position, std::ranges::greater_equal {}) != recorded.position.end())
-        return fitError ("fit/position", "the positions do not rise from row to row", "sort the rows by position, and scan in one direction");
+        return fitError ("fit/position", "the positions do not increase from row to row", "sort the rows by position, and scan in one direction");
     const auto n = static_cast<Index> (recorded.height.size());
     Profile p { .x = Eigen::Map<const VectorXd> (recorded.position.data(), n),
                 .height = Eigen::Map<const VectorXd> (recorded.height.data(), n),
@@ -126,7 +126,7 @@ Result<Profile> profileOf (const RecordedProfile& recorded)
     return p;
 }
 
-/// The strongest spatial frequency, in 1/m, with at least two ridges, from at most 2000 averaged rows.
+/// The strongest spatial frequency that has at least two ridges, in 1/m. Rows are averaged to at most 2000.
 double strongestRidge (const Profile& p, const FitCourse* course)
 {
     const RidgeSearch bow (p, 0, nullptr);
@@ -169,7 +169,7 @@ struct FoundRidges
 FoundRidges searchRidges (const Profile& p, Index most, FitCourse* course)
 {
     const double strongest = strongestRidge (p, course);
-    constexpr double doubt = 12.0;   // a line that is not the first harmonic must be much more likely, or noise doubles the period
+    constexpr double doubt = 12.0;   // penalty for a strongest line that is not the first harmonic: without it, noise could double the period
     FoundRidges best;
     double independent = 0.0;
     for (Index number = 1; number <= 3; ++number)
@@ -227,7 +227,7 @@ Result<GratingFit> fitGrating (const RecordedProfile& recorded, FitCourse* cours
     const auto found = searchRidges (p, std::clamp (recorded.most_harmonics, 1, 32), course);
     if (detail::isCancelled (course)) return detail::fitCancelled();
     if (found.harmonics == 0)
-        return fitError ("fit/no_ridges", "the profile has no regular ridges", "record at least five ridges, with ten rows or more for each");
+        return fitError ("fit/no_ridges", "the profile has no regular ridges", "record at least five ridges, with at least ten rows per ridge");
 
     GratingFit result;
     auto& report = result.report;
@@ -256,7 +256,7 @@ Result<GratingFit> fitGrating (const RecordedProfile& recorded, FitCourse* cours
                        { { "recorded", recorded.position, recorded.height, true }, { "fitted", recorded.position, { drawn.begin(), drawn.end() } } } };
     if (p.length() < 3.0 * result.period)
         report.lacking.push_back ("the recording contains only " + std::to_string (static_cast<int> (p.length() / result.period)) + " whole ridges");
-    judge (report, "Scan at least five ridges in a straight line across them, with ten rows or more for each.");
+    judge (report, "Scan at least five ridges in a straight line across them, with at least ten rows per ridge.");
     return result;
 }
 

@@ -9,11 +9,11 @@ namespace tactus
 /// The height of a surface along a line across its ridges.
 struct RecordedProfile
 {
-    std::vector<double> position {}, height {};   ///< m; positions rise, evenly or not
+    std::vector<double> position {}, height {};   ///< m; positions increase, but need not be evenly spaced
     int most_harmonics = 8;
 };
 
-/// Ridges, sum of amplitude_i sin (2 pi i x / period + phase_i) with i from 1, x as recorded.
+/// Ridges: the height is the sum of amplitude_i sin (2 pi i x / period + phase_i), with i from 1, and x as recorded.
 struct GratingFit
 {
     struct Harmonic
@@ -27,8 +27,8 @@ struct GratingFit
     FitReport report {};
 };
 
-/// Fits period and harmonics, together with the tilt and bow of the sample. The recording selects how many harmonics there are (BIC). The
-/// cross-validation leaves out every fifth of 50 parts.
+/// Fits period and harmonics, together with the tilt and bow of the sample. BIC selects the number of harmonics. The cross-validation divides
+/// the rows into 50 blocks and leaves out every fifth block.
 ///
 /// Errors: fit/too_short, fit/not_finite, fit/position, fit/flat, fit/no_ridges, fit/cancelled. [any thread]
 Result<GratingFit> fitGrating (const RecordedProfile&, FitCourse* = nullptr);

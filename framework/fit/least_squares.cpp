@@ -15,7 +15,7 @@ namespace tactus::detail
 
 namespace
 {
-/// What Eigen's optimiser asks for.
+/// The interface that Eigen's optimiser needs.
 struct Functor
 {
     using Scalar = double;
@@ -120,7 +120,7 @@ LeastSquaresFit minimise (const LeastSquares& problem, Eigen::VectorXd x)
 
 Eigen::MatrixXd influenceOf (const LeastSquaresFit& fit)
 {
-    // The residual is recorded minus model, so the sign of its slope is that of the model, turned.
+    // The residual is recorded minus model, so its slope is minus that of the model.
     constexpr double none = 1e-10;
     Eigen::VectorXd scale = fit.jacobian.colwise().norm();
     for (double& s : scale)
@@ -152,8 +152,9 @@ std::vector<bool> isSet (const LeastSquaresFit& fit)
     return set;
 }
 
-/// Errors e that are independent pass an all-pole filter and become r. So the estimate moves with e by the influence, filtered backwards in time.
-/// A parameter takes up the error of one independent row, which is that of several rows if they depend on one another.
+/// Independent errors e pass an all-pole filter and become the residuals r. So the influence of e on an estimate is the influence of r, filtered
+/// backwards in time. Each fitted parameter takes up the error of one independent row. If rows depend on one another, several of them count as
+/// one independent row.
 Eigen::MatrixXd covarianceOf (const Eigen::MatrixXd& influence, const Eigen::VectorXd& residual, Eigen::Index parameters)
 {
     const auto n = residual.size(), p = influence.rows();
@@ -162,7 +163,7 @@ Eigen::MatrixXd covarianceOf (const Eigen::MatrixXd& influence, const Eigen::Vec
     const double variance = residual.squaredNorm() / static_cast<double> (n) * independent / (independent - taken) * dependence.variance;
     if (dependence.a.empty()) return variance * influence * influence.transpose();
 
-    // The filter rings beyond the first row.
+    // The response of the filter extends to before the first row.
     const Eigen::Index before = std::min<Eigen::Index> (n, 2000);
     Eigen::MatrixXd filtered = Eigen::MatrixXd::Zero (p, n + before);
     for (Eigen::Index s = n + before; s-- > 0;)

@@ -38,7 +38,7 @@ struct Ring
     double duration() const { return dt * static_cast<double> (size()); }
 };
 
-/// A tone in the search: frequency and decay, and the parts of cosine and sine.
+/// A tone in the search: frequency and decay, and the amplitudes of its cosine and sine.
 struct Part
 {
     double frequency, decay, cosine, sine;
@@ -214,8 +214,8 @@ VectorXd thinned (const Ring& ring, Index factor, Index drift)
     return few;
 }
 
-/// How many rows can be averaged: about six remain per period of the highest important frequency. The mean square of the slope is dominated by
-/// high frequencies, so noise keeps the number small.
+/// The number of rows that can be averaged. About six averaged rows remain per period of the highest important frequency. The mean square of the
+/// slope depends mostly on high frequencies, so noise keeps the number small.
 Index thinning (const Ring& ring)
 {
     const Index n = ring.size();
@@ -266,8 +266,8 @@ struct FoundRing
     double score = std::numeric_limits<double>::infinity();
 };
 
-/// False if a tone left the range in which it could be one, if it is too faint to matter, or if two are so close that they describe one tone
-/// whose pitch or decay changes.
+/// False if the frequency, decay or amplitude of a tone is outside its possible range, if a tone is too faint to matter, or if two tones are so
+/// close that they describe one tone whose pitch or decay changes.
 bool isRing (const VectorXd& x, Index tones, const Ring& ring)
 {
     for (Index k = 0; k < tones; ++k)
@@ -285,7 +285,7 @@ bool isRing (const VectorXd& x, Index tones, const Ring& ring)
     return true;
 }
 
-/// Tries numbers of tones, until two more do not help.
+/// Tries increasing numbers of tones, until two more do not improve the fit.
 FoundRing searchRing (const Ring& ring, int most, FitCourse* course)
 {
     const Index factor = thinning (ring), slow = ring.size() > 400 ? 7 : 3;
@@ -402,7 +402,7 @@ Result<ModesFit> fitModes (const RecordedRing& recorded, FitCourse* course)
         "time", "s", "ring", "", { { "recorded", recorded.time, recorded.value, true }, { "fitted", t, { modelled.begin(), modelled.end() } } }
     };
     if (detail::isCancelled (course)) return detail::fitCancelled();
-    judge (report, "Strike once, cleanly, and record until the ring has died away, at five times the highest frequency or faster.");
+    judge (report, "Strike once, cleanly, and record until the ring has died away, at a sample rate of at least five times the highest frequency.");
     return result;
 }
 

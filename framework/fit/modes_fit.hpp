@@ -12,7 +12,7 @@ namespace tactus
 struct RecordedRing
 {
     std::vector<double> time {}, value {};   ///< s, evenly spaced
-    std::optional<double> from {}, to {};    ///< s; the part that is fitted. Not given: from the largest value to where the ring is a twentieth of it
+    std::optional<double> from {}, to {};    ///< s; the fitted part. Default: from the largest value to where the ring has fallen to a twentieth
     int most_modes = 8;
 };
 
@@ -30,8 +30,8 @@ struct ModesFit
     FitReport report {};
 };
 
-/// Fits decaying tones and a slow drift of the sensor. The matrix pencil method gives start values for each number of tones, least squares
-/// refines them, and the recording selects the number (BIC). The cross-validation leaves out every fifth of 50 parts.
+/// Fits decaying tones and a slow drift of the sensor. For each number of tones, the matrix pencil method gives start values, and
+/// least squares refines them. BIC selects the number. The cross-validation divides the rows into 50 blocks and leaves out every fifth block.
 ///
 /// Errors: fit/too_short, fit/not_finite, fit/time, fit/uneven, fit/silent, fit/no_ring, fit/cancelled. [any thread]
 ///

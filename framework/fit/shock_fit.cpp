@@ -60,7 +60,7 @@ Result<> checkImpact (const RecordedLoop& loop)
         if (! std::ranges::all_of (*column, [] (double v) { return std::isfinite (v); }))
             return detail::fitError ("fit/not_finite", "the recording contains nan or inf", "leave out the rows without a measurement");
     if (std::ranges::adjacent_find (loop.time, std::ranges::greater_equal {}) != loop.time.end())
-        return detail::fitError ("fit/time", "the times do not rise from row to row", "sort the rows by time, or leave out the column t");
+        return detail::fitError ("fit/time", "the times do not increase from row to row", "sort the rows by time, or leave out the column t");
     return {};
 }
 
@@ -227,7 +227,7 @@ double playedArea (const Candidate& law, double mass, double speed, double durat
         if (const auto out = freeImpact (force, mass, speed, longest); out.isKnown()) return 0.5 * mass * (speed * speed - out.speed * out.speed);
     return 0.5 * mass * speed * speed;   // the damping keeps the mass inside
 }
-/// The integral over the path as weights of the rows, for a force over depth or over time.
+/// The weights of the rows in the integral of a force over depth or over time.
 Eigen::RowVectorXd weightsOf (const std::vector<double>& along)
 {
     Eigen::RowVectorXd w = Eigen::RowVectorXd::Zero (static_cast<Eigen::Index> (along.size()));
@@ -240,8 +240,8 @@ Eigen::RowVectorXd weightsOf (const std::vector<double>& along)
     return w;
 }
 
-/// The law as F = u^n (K + C d'), with u the depth over the largest depth. Of (K, n, C), only the directions along which the area stays are fitted; the
-/// third one follows from the recorded area.
+/// The law as F = u^n (K + C d'), with u the depth over the largest depth. Of the three directions of (K, n, C), two keep the area, and only these
+/// are fitted; the third one follows from the recorded area.
 void reportShock (const Contact& x, const Candidate& law, bool estimates_mass, ShockFit& fit)
 {
     const auto rows = static_cast<Eigen::Index> (x.size());
@@ -281,7 +281,7 @@ void reportShock (const Contact& x, const Candidate& law, bool estimates_mass, S
         report.values.push_back (detail::withInterval ("mass", "kg", fit.mass, std::sqrt (of_mass (0, 0)), freedom));
     }
 
-    // One step of Gauss and Newton's method without the rows that are left out.
+    // One Gauss-Newton step without the rows that are left out.
     const Eigen::Index block = std::max<Eigen::Index> (1, rows / 50);
     Eigen::VectorXd kept = Eigen::VectorXd::Ones (rows);
     for (Eigen::Index i = 0; i < rows; ++i)
@@ -311,7 +311,7 @@ Result<ShockFit> fitShock (const RecordedLoop& loop, double mass)
     const bool estimates_mass = ! (mass > 0.0) && has_times;
     if (estimates_mass) mass = massByTime (x);
     if (! (mass > 0.0) || ! std::isfinite (mass))
-        return detail::fitError ("fit/mass", "the mass that was thrown back cannot be found from the recording", "give the mass, for example --mass \"50 g\"");
+        return detail::fitError ("fit/mass", "the mass that rebounded cannot be found from the recording", "give the mass, for example --mass \"50 g\"");
     if (! has_times) setRatesByEnergy (x, mass);
 
     const double area = x.work ([&] (std::size_t i) { return x.f[i]; });

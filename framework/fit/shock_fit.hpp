@@ -23,7 +23,7 @@ struct ShockFit
 {
     Law stiffness;                                 ///< K = k d^n
     Law damping;                                   ///< {"dissipation": lambda}: D = lambda K
-    double mass = 0.0;                             ///< mass that was thrown back, in kg: as given, or estimated from the times
+    double mass = 0.0;                             ///< mass that rebounded, in kg: as given, or estimated from the times
     double speed = 0.0;                            ///< at the touch, on the way in, in m/s
     double recorded_area = 0.0;                    ///< of the recorded loop, in J
     double fitted_area = 0.0;                      ///< of the fitted force over the recorded path, in J; equal to recorded_area
@@ -41,7 +41,8 @@ struct ShockFit
 /// d' then follows from the energy that the mass has lost so far, v^2 = 2 (W_deepest - W) / m. `mass` is in kg. If it is 0, the
 /// mass is computed from the times, as impulse over change of speed; this, too, requires a free impact.
 ///
-/// The intervals take the recorded area into account, and hold for errors of the force. The cross-validation leaves out every fifth of 50 parts.
+/// The intervals take the recorded area into account, and include only errors of the force. The cross-validation divides the rows into 50 blocks
+/// and leaves out every fifth block.
 ///
 /// Errors: fit/too_short, fit/not_finite, fit/time, fit/no_contact, fit/no_loop, fit/gains_energy, fit/mass, fit/no_spring.
 /// [any thread]

@@ -45,7 +45,7 @@ void addStretch (std::span<const double> y, Periodogram& p)
     }
     std::vector<std::complex<double>> lines;
     Eigen::FFT<double>().fwd (lines, windowed);
-    for (std::size_t j = 2; j < n / 2; ++j)   // the mean was taken out
+    for (std::size_t j = 2; j < n / 2; ++j)   // the mean was removed
     {
         p.frequency.push_back (2.0 * std::numbers::pi * static_cast<double> (j) / static_cast<double> (n));
         p.power.push_back (std::norm (lines[j]) / squares);
@@ -140,7 +140,7 @@ public:
                  .course = course };
     }
 
-    /// The slopes of ln S with the coefficients, ln variance and the floor or its logarithm.
+    /// The derivatives of ln S by the coefficients, by ln variance, and by the floor or its logarithm.
     MatrixXd slopes (const VectorXd& x, bool in_ln = true) const
     {
         const VectorXd a = coefficients (x);
@@ -217,7 +217,7 @@ Periodogram periodogramOf (const std::vector<std::span<const double>>& stretches
 
 SpectrumModel fitSpectrum (const Periodogram& data, const std::vector<std::span<const double>>& stretches, int most, const FitCourse* course)
 {
-    constexpr int patience = 3;   // orders that do not help
+    constexpr int patience = 3;   // stops after this many orders without an improvement
     const Turns turns (data, most);
     const auto reflections = reflectionsByBurg (stretches, most);
     double power = 0.0;
@@ -241,7 +241,7 @@ SpectrumModel fitSpectrum (const Periodogram& data, const std::vector<std::span<
         const auto fit = minimise (search.problem(), x);
         const double score = fit.sum() + static_cast<double> (search.parameters()) * math::log (n);
         if (! fit.x.allFinite() || ! (score < least)) continue;
-        // With the floor itself instead of its logarithm, so that a floor of 0 widens the other intervals, too.
+        // Uses the floor itself instead of its logarithm, so that a floor of 0 also widens the other intervals.
         MatrixXd g = search.slopes (fit.x, false);
         g.col (order + 1) *= power;
         const Eigen::SelfAdjointEigenSolver<MatrixXd> information (g.transpose() * g);

@@ -15,7 +15,7 @@ namespace tactus::detail
 struct Periodogram
 {
     std::vector<double> frequency {}, power {};
-    double widening = 1.0;   ///< by which tapering the ends of the stretches increases variances
+    double widening = 1.0;   ///< the factor by which tapering the ends of the stretches increases variances
 };
 
 Periodogram periodogramOf (const std::vector<std::span<const double>>& stretches);
@@ -28,7 +28,7 @@ struct SpectrumModel
     Eigen::MatrixXd covariance {};   ///< of the coefficients, ln variance and the floor
 };
 
-/// By Whittle's likelihood, with at most this many coefficients. The stretches give the start values.
+/// Fits a model by Whittle's likelihood, with at most this many coefficients. The stretches give the start values.
 SpectrumModel fitSpectrum (const Periodogram&, const std::vector<std::span<const double>>& stretches, int most_coefficients, const FitCourse*);
 
 }   // namespace tactus::detail

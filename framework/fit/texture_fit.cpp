@@ -21,7 +21,7 @@ using Stretch = std::span<const double>;
 
 constexpr std::size_t fewest_texture_rows = 256, shortest_stretch = 128;
 
-/// The centre of the group of each value: as few groups as keep the values of a group within about 15 % of the centre, at most four.
+/// Divides values into groups, at most four, and as few as possible with all values of a group within about 15 % of its centre.
 std::vector<int> groupsOf (const std::vector<double>& values, const std::vector<bool>& counts)
 {
     constexpr int most = 4;
@@ -131,7 +131,7 @@ std::pair<double, double> predictionErrors (const std::vector<Stretch>& stretche
     return { sum, count };
 }
 
-/// Each stretch cut in the middle, or the stretches divided into two halves.
+/// Cuts each stretch in the middle. Returns the first halves, and the second halves.
 std::pair<std::vector<Stretch>, std::vector<Stretch>> halves (const std::vector<Stretch>& all)
 {
     std::pair<std::vector<Stretch>, std::vector<Stretch>> both;
@@ -236,7 +236,7 @@ Result<TextureFit> fitTexture (const RecordedTexture& recorded, FitCourse* cours
     report.residual = std::sqrt (sum / count);
     report.left_out_residual = std::sqrt (left_out / std::max (1.0, left_out_count));
     report.size = std::sqrt (squares / count);
-    report.notes.push_back ("the residual is the part of each row that the rows before do not predict; a texture is noise, so it is large");
+    report.notes.push_back ("the residual is the part of each row that the previous rows do not predict; a texture is noise, so the residual is large");
     if (recorded.speed.empty()) report.notes.push_back ("the speed was not recorded: it is taken as " + roundedText (recorded.assumed_speed) + " m/s");
     if (recorded.force.empty()) report.notes.push_back ("the force was not recorded: it is taken as " + roundedText (recorded.assumed_force) + " N");
     judge (report, "Record at least three seconds at each speed and force, and hold both steady.", std::numeric_limits<double>::infinity());

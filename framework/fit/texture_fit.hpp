@@ -13,7 +13,7 @@ struct RecordedTexture
     std::vector<double> acceleration {};               ///< of the tool, in m/s2
     std::vector<double> speed {};                      ///< m/s; empty: not recorded
     std::vector<double> force {};                      ///< N, normal to the surface; empty: not recorded
-    double assumed_speed = 0.1, assumed_force = 1.0;   ///< count if they were not recorded
+    double assumed_speed = 0.1, assumed_force = 1.0;   ///< used if they were not recorded
     int most_coefficients = 20;
 };
 
@@ -25,7 +25,7 @@ struct TextureFit
         double speed = 0.0, force = 0.0;   // m/s, N: means of the rows
         std::vector<double> coefficients {};
         double variance = 0.0;       // of e, in (m/s2)^2
-        double sensor_noise = 0.0;   // variance of white noise on top of y, which is not part of the texture, in (m/s2)^2
+        double sensor_noise = 0.0;   // variance of white noise added to y, which is not part of the texture, in (m/s2)^2
         std::size_t rows = 0;
     };
 
@@ -35,9 +35,9 @@ struct TextureFit
 };
 
 /// Groups the rows by speed and force, and fits a model to each group: the spectrum sigma^2 / |A|^2, plus a white floor for the noise of the
-/// sensor, which would otherwise make the texture duller than it is. Least squares of the deviance residuals, which is maximum likelihood by
-/// Whittle's approximation. The recording selects the number of coefficients (BIC). Every model is stable. The
-/// intervals follow from the Fisher information. The first half of each group predicts the second one, a row ahead, for the cross-validation.
+/// sensor, which would otherwise make the texture duller than it is. The fit minimises the squares of the deviance residuals, which is maximum
+/// likelihood in Whittle's approximation. BIC selects the number of coefficients. Every model is stable. The intervals follow from the Fisher
+/// information. For the cross-validation, a model of the first half of each group predicts the second half, one row ahead.
 ///
 /// Errors: fit/too_short, fit/not_finite, fit/time, fit/uneven, fit/at_rest, fit/silent, fit/cancelled. [any thread]
 ///

@@ -34,7 +34,7 @@ public:
     std::vector<std::string> names() const;
     std::size_t position() const noexcept { return done; }
 
-    /// The edits of a step: the commands that carry it out, and for each of them the command that takes it back.
+    /// The edits of a step: the commands that carry it out, and for each of them the command that undoes it.
     std::span<const Command> commandsOf (std::size_t step) const { return steps[step].commands; }
     std::span<const Command> inversesOf (std::size_t step) const { return steps[step].inverses; }
 

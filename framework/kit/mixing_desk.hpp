@@ -24,8 +24,8 @@ struct DeskParams
     double ceiling = 0.0;
 };
 
-/// The channels of a mixing desk: what gain, mute, solo and priority do to each layer of an effect. For layer.mix, whose layers are
-/// doubles, and layer.mix_vectors, whose layers are vectors. The level of a vector is its length.
+/// The channels of a mixing desk: what gain, mute, solo and priority do to each layer of an effect. The layers of layer.mix are doubles,
+/// those of layer.mix_vectors are vectors. The level of a vector is its length.
 template <typename Layer>
 class MixingDesk
 {
@@ -48,7 +48,7 @@ public:
         ducked = math::pow (10.0, -params.duck_db / 20.0);
     }
 
-    /// Continues where another desk is. Call it after prepare().
+    /// Continues from the state of another desk. Call it after prepare().
     void adopt (const MixingDesk& old) noexcept
     {
         channels = old.channels;
@@ -56,11 +56,11 @@ public:
         started = old.started;
     }
 
-    /// The outputs of a node that mixes: `out`, `level` and `reduction`. If something is not finite, they are 0, and the desk starts again.
+    /// The outputs of a node that mixes: `out`, `level` and `reduction`. If something is not finite, they are 0, and the desk is reset.
     template <typename Outputs>
     Outputs mix (const InputList<Layer>& in, const DeskParams& params) noexcept
     {
-        Outputs out { .level = { 0.0, in.size() } };   // the only result that is returned, so that its list is not copied
+        Outputs out { .level = { 0.0, in.size() } };   // every path returns this object, so that its list is not copied
         if (! mixed (in, params, out))
         {
             forget();
@@ -73,7 +73,7 @@ private:
     struct Channel
     {
         double open = 1.0;    // the ramp of mute and solo
-        double level = 0.0;   // the level behind it
+        double level = 0.0;   // the level after this ramp
         double duck = 1.0;
     };
 
@@ -86,7 +86,7 @@ private:
     /// The sum, limited to the ceiling. `loud` is its magnitude.
     static double limited (double sum, double ceiling, double) noexcept { return std::copysign (ceiling, sum); }
 
-    /// Keeps the direction. The margin is for the roundings, which could make the vector longer than the ceiling.
+    /// Keeps the direction. The margin allows for rounding errors, which could make the vector longer than the ceiling.
     static Vec3 limited (const Vec3& sum, double ceiling, double loud) noexcept { return (sum / loud) * (ceiling * (1.0 - margin (0.0))); }
 
     bool isOpen (const DeskParams& params, int i) const noexcept { return ! (params.mute[i] > 0.5) && (! any_solo || params.solo[i] > 0.5); }
@@ -109,7 +109,7 @@ private:
         started = false;
     }
 
-    /// A falling peak. It ends at 0 rather than in subnormal numbers.
+    /// A decaying peak. It becomes 0 before it becomes subnormal.
     static double fall (double level, double factor) noexcept { return level > 1e-300 ? level * factor : 0.0; }
 
     static constexpr double audible = 0.01;   // share of `loudest` above which a channel sounds
@@ -165,7 +165,7 @@ bool MixingDesk<Layer>::mixed (const InputList<Layer>& in, const DeskParams& par
     if (params.ceiling > 0.0 && loud > params.ceiling)
     {
         out.out = limited (sum, params.ceiling, loud);
-        out.reduction = 20.0 / std::numbers::ln10 * (math::log (loud) - math::log (params.ceiling));   // their quotient may be infinite
+        out.reduction = 20.0 / std::numbers::ln10 * (math::log (loud) - math::log (params.ceiling));   // the quotient of the two may overflow
     }
     return true;
 }

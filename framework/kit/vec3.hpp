@@ -64,7 +64,7 @@ inline double finiteOrZero (double v) noexcept { return isFinite (v) ? v : 0.0; 
 inline Vec3 finiteOrZero (const Vec3& v) noexcept { return isFinite (v) ? v : Vec3::Zero(); }
 
 /// The length of a vector, even of the largest and smallest ones. Scaling it first, as Eigen's stableNorm does, costs several
-/// times as much, and is needed only where a square would leave the range of doubles. NaN if a component is: stableNorm may lose it.
+/// times as much, and is needed only where a square would leave the range of doubles. NaN if a component is NaN; stableNorm may lose a NaN.
 inline double length (const Vec3& v) noexcept
 {
     const double square = v.squaredNorm();

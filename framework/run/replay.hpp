@@ -38,7 +38,7 @@ public:
 
     /// Ids: those of RunLogReader and compile(), log/empty, log/too_long, log/graph, log/asset_missing, log/asset_changed.
     static Result<std::unique_ptr<Replay>> open (const std::string& log, Options);
-    static Result<std::unique_ptr<Replay>> open (RunLogReader, Options);   ///< a log that is open already; nothing of it has been read yet
+    static Result<std::unique_ptr<Replay>> open (RunLogReader, Options);   ///< from an open log; no tick of it has been read yet
 
     Run& run() noexcept { return *running; }
     double rate() const noexcept { return log.head().rate_hz; }   ///< Hz

@@ -69,7 +69,7 @@ void writeTest (const CaptureOptions& options, const Stretch& stretch)
     orFail (writeRunTest (options.log, options.test, stretch, options.records, TACTUS_VERSION));
     std::cout << "wrote " << printableName (options.test) << ": a test of " << stretch.ticks() << " ticks and " << stretch.names.size() << " values each";
     if (stretch.from > 0)
-        std::cout << "; it plays the run from its start, because the state of the nodes is known there, and compares from "
+        std::cout << "; it replays the run from its start, because the state of the nodes is known only there, and compares from "
                   << shortNumber (static_cast<double> (stretch.from) / stretch.rate_hz) << " s on";
     std::cout << "\n";
 }
@@ -80,7 +80,7 @@ void run (const CaptureOptions& options)
     std::erase (outputs, "");
     if (outputs.empty()) throw UsageError ("--clip, --gesture or --test is required");
     if (! options.clip.empty() && options.records.empty()) throw UsageError ("--clip", "--record PORT says what the clip plays");
-    if (options.until_s != 0.0 && options.until_s <= options.from_s) throw UsageError ("--until", "the stretch must end after it begins");
+    if (options.until_s != 0.0 && options.until_s <= options.from_s) throw UsageError ("--until", "the end of the stretch must be after its start");
     refuseOverwriting (outputs, { options.log });
 
     FileAssets assets;
@@ -103,7 +103,7 @@ void run (const CaptureOptions& options)
 void addCapture (const Command& app)
 {
     const auto options = std::make_shared<CaptureOptions>();
-    const auto command = app.add ("capture", "Make a clip, a gesture or a test of a stretch of a logged run");
+    const auto command = app.add ("capture", "Make a clip, a gesture or a test from a stretch of a logged run");
     command.addOption ("log", options->log, "The log that `tactus play --log` wrote").required();
     command.addOption ("--from", options->from_s, "Start of the stretch in s; default: the start of the run").check (finiteWithin (0.0, 1e9));
     command.addOption ("--until", options->until_s, "End of the stretch in s; default: the end of the run").check (finiteWithin (1e-9, 1e9));
@@ -113,10 +113,10 @@ void addCapture (const Command& app)
     command.addOption ("--clip", options->clip, "Write the ports as a clip; the extension selects the format: .json, .haptic, .ahap, .hjif, .wav or .csv");
     command.addOption ("--gesture", options->gesture, "Write the movement of a hand as a .csv, which --device ROLE=trace:FILE.csv plays");
     command.addOption ("--role", options->role, "The role that moved the hand; default: the first one");
-    command.addOption ("--test", options->test, "Write a test, which `tactus test` plays: the run, and the values that are expected, bit for bit");
+    command.addOption ("--test", options->test, "Write a test for `tactus test`: the run, and the expected values of the ports, bit for bit");
     addLimits (command);
     addPlugins (command);
-    command.footer ("A test always begins at the start of the run, because the state of the nodes is known there. The page docs/replay.md says more.\n\n"
+    command.footer ("A test always replays the run from its start, because the state of the nodes is known only there. See docs/replay.md.\n\n"
                     "Examples:\n"
                     "  tactus play graphs/dry_wood.json --log wood.jsonl\n"
                     "  tactus capture wood.jsonl --from 1 --until 1.5 --record drag.force.x --clip scrape.haptic\n"

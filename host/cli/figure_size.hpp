@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// How large a figure is on paper, and how fine.
+/// The size of a figure on paper, and its resolution.
 struct FigureSize
 {
     int width = 1600, height = 0;   ///< in pixels; a height of 0 depends on the number of panels

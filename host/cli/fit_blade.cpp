@@ -8,8 +8,8 @@ void addFitBlade (const Command& fit)
 {
     const auto blade =
         addFitKind (fit, FitKind::blade, "Fit cut.blade to a recorded cut",
-                    "Finds the stiffness before the sample bursts, the force at which it bursts, and the toughness from the force of cutting. If the\n"
-                    "recording ends before the burst, the two forces are only bounded from below, and the verdict is poor.\n\n"
+                    "Finds the stiffness before the sample bursts, the force at which it bursts, and the toughness from the cutting force. If the\n"
+                    "recording ends before the burst, it gives only lower bounds for the two forces, and the verdict is poor.\n\n"
                     "Example:\n"
                     "  tactus fit blade potato.csv --width \"20 mm\" -o potato.json --plot potato.png");
     blade.addAmount ("--width", "m", "20 mm", "Length of the edge inside the sample; default 20 mm, a guess",

@@ -37,7 +37,7 @@ void readChoices (FitCommandOptions& options, const FitKindInfo& info)
     {
         const auto [role, text] = roleAndText ("--unit", given, info);
         const auto column = std::ranges::find (info.columns, role, &FitColumn::role);
-        if (column->unit.empty()) throw UsageError ("--unit", role + " may have any unit; leave it out");
+        if (column->unit.empty()) throw UsageError ("--unit", role + " may have any unit; leave out this option");
         options.settings.columns.units[role] = readAmount ("--unit", text, column->unit.c_str(), ("1 " + column->unit).c_str());
     }
 }
@@ -110,9 +110,9 @@ FitCommand addFitKind (const Command& fit, FitKind kind, const std::string& abou
     }
     made.command.addOption ("recording", options->recording, "CSV file with the columns " + columns + ", in order of time").required();
     made.command.addOption ("-o,--out", options->preset, "The preset to write: a graph file").required();
-    made.command.addOption ("--plot", options->plot, "Draw recording and fit over each other into this PNG, SVG or PDF file");
+    made.command.addOption ("--plot", options->plot, "Plot the recording and the fit into this PNG, SVG or PDF file");
     made.command.addFlag ("--json", options->json, "Print JSON, for use by programs");
-    made.command.addOption ("--column", options->columns, "Which column is which, such as --column \"force=Fx\"; roles: " + roles).oneValueEach();
+    made.command.addOption ("--column", options->columns, "The name of the column for a role, such as --column \"force=Fx\"; roles: " + roles).oneValueEach();
     made.command
         .addOption ("--unit", options->units,
                     "What 1 in a column means, such as --unit \"force=1 mN\"; default: as in the name of the column (x_um, \"Force [mN]\"), or SI")

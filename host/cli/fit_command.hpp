@@ -12,7 +12,7 @@
 namespace tactus::host
 {
 
-/// What all commands `tactus fit KIND` take.
+/// The options that all commands `tactus fit KIND` share.
 struct FitCommandOptions
 {
     std::string recording, preset, plot;
@@ -35,7 +35,7 @@ struct FitCommand
 /// Adds a command with the recording, --out, --plot, --json, --column and --unit, which fits and reports.
 FitCommand addFitKind (const Command& fit, FitKind, const std::string& about, const std::string& footer);
 
-// One file each.
+// Each is in a separate file.
 void addFitFriction (const Command& fit);
 void addFitModes (const Command& fit);
 void addFitTexture (const Command& fit);

@@ -8,8 +8,8 @@ void addFitCurve (const Command& fit)
 {
     const auto curve =
         addFitKind (fit, FitKind::curve, "Fit a curve of deform.surface to a recorded indentation",
-                    "The curve never falls and never pulls. It lies halfway between the way in and the way out, so a node that plays it gives\n"
-                    "back what it takes; the energy that the recording lost is printed. Record slowly, and only along the normal.\n\n"
+                    "The curve never falls and never pulls. It lies halfway between the way in and the way out, so a node that plays it loses no\n"
+                    "energy; the command prints the energy that the recording lost. Record slowly, and only along the normal.\n\n"
                     "Examples:\n"
                     "  tactus fit curve liver.csv -o liver.json --plot liver.png\n"
                     "  tactus fit curve switch.csv --depth x_um --depth-unit \"1 um\" --force force_gf --force-unit \"9.80665 mN\" -o switch.json");

@@ -8,8 +8,8 @@ void addFitFriction (const Command& fit)
 {
     const auto friction =
         addFitKind (fit, FitKind::friction, "Fit friction.elasto_plastic to strokes back and forth",
-                    "Finds mu, d_max (how far the contact gives before it slides), the adhesion function and the stiffness. Record at least three\n"
-                    "slow strokes back and forth, several times longer than the contact gives.\n\n"
+                    "Finds mu, d_max (how far the contact stretches before it slides), the adhesion function and the stiffness. Record at least three\n"
+                    "slow strokes back and forth, each several times longer than d_max.\n\n"
                     "Examples:\n"
                     "  tactus fit friction strokes.csv -o wood.json --plot wood.png\n"
                     "  tactus fit friction strokes.txt --column \"position=Position [mm]\" --load \"2 N\" -o wood.json");

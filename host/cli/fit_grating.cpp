@@ -8,8 +8,8 @@ void addFitGrating (const Command& fit)
 {
     const auto grating =
         addFitKind (fit, FitKind::grating, "Fit texture.grating to a scanned profile of ridges",
-                    "Finds the period and the amplitude of each harmonic. The preset has one texture.grating per harmonic, with the force that a tool\n"
-                    "without friction feels: load times slope.\n\n"
+                    "Finds the period and the amplitude of each harmonic. The preset has one texture.grating per harmonic, and renders the force on a tool\n"
+                    "without friction: load times slope.\n\n"
                     "Example:\n"
                     "  tactus fit grating scan.csv --load \"0.5 N\" -o ridges.json --plot ridges.png");
     grating.addAmount ("--load", "N", "0.5 N", "Normal force of the tool in the preset; default 1 N",

@@ -8,8 +8,8 @@ void addFitModes (const Command& fit)
 {
     const auto modes =
         addFitKind (fit, FitKind::modes, "Fit the modes of vibration.modal to a ring",
-                    "Finds frequency, decay and amplitude of each tone, and how many there are. Two tones that are closer than their widths count as\n"
-                    "one. Amplitudes are in the unit of the recording; with --mass and --speed, the preset has newtons.\n\n"
+                    "Finds the number of tones, and the frequency, decay and amplitude of each. Two tones that are closer than their bandwidths count as\n"
+                    "one. Amplitudes are in the unit of the recording; with --mass and --speed, those in the preset are in N.\n\n"
                     "Examples:\n"
                     "  tactus fit modes tap.csv -o bell.json --plot bell.png\n"
                     "  tactus fit modes tap.csv --from \"12 ms\" --to \"200 ms\" --mass \"20 g\" --speed \"0.3 m/s\" -o bell.json");

@@ -13,7 +13,7 @@ void addFitShock (const Command& fit)
                                    "  tactus fit shock tap_on_steel.csv -o tap_on_steel.json\n"
                                    "  tactus fit shock loop.csv --mass \"30 g\" -o rubber.json --plot rubber.png");
     shock.addAmount ("--mass", "kg", "50 g",
-                     "The mass that was thrown back; required if the recording has no times. Default: impulse divided by change of speed",
+                     "The mass that rebounded; required if the recording has no times. Default: impulse divided by change of speed",
                      [] (FitSettings& s, double kg) { s.mass = kg; });
 }
 

@@ -8,8 +8,8 @@ void addFitTexture (const Command& fit)
 {
     const auto texture =
         addFitKind (fit, FitKind::texture, "Fit the models of texture.noise to vibrations of a dragged tool",
-                    "Groups the rows by speed and force, and fits an autoregressive model to each group. White noise of the sensor is fitted, too, and\n"
-                    "left out of the texture.\n\n"
+                    "Groups the rows by speed and force, and fits an autoregressive model to each group. White sensor noise is fitted, too, but is\n"
+                    "not part of the texture.\n\n"
                     "Examples:\n"
                     "  tactus fit texture cloth.csv -o cloth.json --plot cloth.png\n"
                     "  tactus fit texture cloth.csv --speed \"0.1 m/s\" --force \"1 N\" --mass \"15 g\" -o cloth.json");

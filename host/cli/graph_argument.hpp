@@ -6,8 +6,8 @@
 namespace tactus::host
 {
 
-/// The graph file that an argument names: a path, or the name of a preset, as in graphFile(). Ends the command if it is a bare name that
-/// neither a file nor a preset has. The error names the preset that was probably meant. Id: file/unreadable.
+/// The graph file that an argument names: a path, or the name of a preset, as in graphFile(). Ends the command if it is a bare name, and
+/// neither a file nor a preset has this name. The error suggests the preset with the most similar name. Id: file/unreadable.
 std::string graphArgument (const std::string& given);
 
 }   // namespace tactus::host

@@ -21,8 +21,8 @@ constexpr auto examples =
     "  tactus validate graphs/*.json                  all problems in all files\n"
     "  tactus check graphs/dry_wood.json              can its devices render the graph?\n"
     "  tactus render graphs/dry_wood.json --out wood.csv --plot wood.png\n"
-    "  tactus spectrogram dry_wood -o wood.png        its frequencies over time\n"
-    "  tactus sweep dry_wood --speed 0.02..0.3 -o wood.png   its frequencies over the speed of a stroke\n"
+    "  tactus spectrogram dry_wood -o wood.png        its frequencies against time\n"
+    "  tactus sweep dry_wood --speed 0.02..0.3 -o wood.png   its frequencies against the speed of a stroke\n"
     "  tactus play graphs/dry_wood.json --duration 4  in real time\n"
     "  tactus set roughness=0.7                       while it plays\n"
     "  tactus hit ring.hit=0.4                        while it plays\n"
@@ -35,7 +35,7 @@ constexpr auto examples =
     "  tactus export graphs/dry_wood.json -o dry_wood   C++ code for other programs\n"
     "  tactus convert effect.haptic effect.ahap         a haptic clip in another format\n"
     "  tactus render --replay run.jsonl               repeat a run logged by `play --log run.jsonl`\n"
-    "  tactus capture run.jsonl --test run_test.jsonl   a clip, gesture or test from a logged run\n"
+    "  tactus capture run.jsonl --test run_test.jsonl   make a clip, gesture or test from a logged run\n"
     "  tactus test run_test.jsonl                       does it still give the same bits?\n"
     "\n`tactus COMMAND --help` shows the options and more examples.";
 }   // namespace

@@ -29,7 +29,7 @@ struct RunOptions
     enum class Files
     {
         chosen,
-        fixed   ///< the command decides what is recorded, and where to
+        fixed   ///< the command decides what is recorded, and into which file
     };
     void addTo (const Command&, Files = Files::chosen);
 };

@@ -40,7 +40,7 @@ void printDifferences (const RunTestResult& result)
         std::cout << "  the run ended at tick " << *result.ended << " (" << secondsAt (*result.ended, result.rate_hz) << "), before the test did\n";
 }
 
-/// Plays one test. Returns true if all bits are the same.
+/// Replays one test. Returns true if all bits are the same.
 bool passes (const std::string& file, const RunTestOptions& options)
 {
     const auto result = playRunTest (file, options);
@@ -82,12 +82,12 @@ void run (const TestOptions& options)
 void addTest (const Command& app)
 {
     const auto options = std::make_shared<TestOptions>();
-    const auto command = app.add ("test", "Play tests of runs again, and report the first tick and port whose bits differ");
+    const auto command = app.add ("test", "Replay tests of runs, and report each port whose bits differ, with its first tick");
     command.addOption ("files", options->files, "Tests that `tactus capture --test` wrote").required();
-    command.addOption ("--graph", options->graph, "Test this graph instead of the one in the test: does an edit change what is felt?");
+    command.addOption ("--graph", options->graph, "Test this graph instead of the one in the test, to see whether an edit changes the bits");
     addLimits (command);
     addPlugins (command);
-    command.footer ("Exit status 1 if a test fails. The page docs/replay.md says more.\n\n"
+    command.footer ("The exit status is 1 if a test fails. See docs/replay.md.\n\n"
                     "Examples:\n"
                     "  tactus test wood_test.jsonl\n"
                     "  tactus test tests/*.jsonl\n"

@@ -50,15 +50,15 @@ void drawSpectrogram (SpectrogramOptions& options)
 void addSpectrogram (const Command& app)
 {
     const auto options = std::make_shared<SpectrogramOptions>();
-    const auto command = app.add ("spectrogram", "Show which frequencies a port has over time: renders the graph, and draws a map");
+    const auto command = app.add ("spectrogram", "Render a graph, and plot the frequencies of a port against time as a map");
     options->addTo (command, RunOptions::Files::fixed);
     options->picture.addTo (command);
     command
         .addOption ("--window", options->window_s,
-                    "Length of the signal behind each column of the map in s; a longer one resolves closer frequencies; default: 0.1")
+                    "Length of the signal that each column of the map analyses, in s; a longer one separates closer frequencies; default: 0.1")
         .check (finiteWithin (1e-4, 100.0));
-    command.footer ("The colour is the amplitude in decibels: a sine of 1 N is 0 dB re 1 N. The components of a vector are added as the sides of a box.\n"
-                    "A table has a row for each time, and a column for each frequency.\n\n"
+    command.footer ("The colour is the amplitude in decibels: a sine of 1 N is 0 dB re 1 N. The amplitude of a vector is the root of the\n"
+                    "sum of the squares of its components' amplitudes. A table has a row for each time, and a column for each frequency.\n\n"
                     "Examples:\n"
                     "  tactus spectrogram dry_wood -o wood.png\n"
                     "  tactus spectrogram dry_wood --device stylus=gesture:sweep --port drag.force --up-to 500 -o wood.pdf\n"

@@ -17,7 +17,7 @@ void SpectrumOptions::addTo (const Command& command)
     command.addOption ("-o,--out", file, std::string ("The file to write: ") + figure_kinds + " for a figure, .csv for a table").required();
     command.addOption ("--port", port, "The port to analyse, such as drag.force or drag.force.x; default: the input of the first motor");
     command.addOption ("--up-to", up_to_hz, "The highest frequency to show in Hz; default: 1000, the highest that skin feels").check (finiteWithin (1.0, 1e6));
-    command.addOption ("--decibels", decibels, "How far the colours reach below the loudest frequency, in dB; default: 60").check (finiteWithin (1.0, 300.0));
+    command.addOption ("--decibels", decibels, "Range of the colours below the strongest frequency, in dB; default: 60").check (finiteWithin (1.0, 300.0));
     addSize (command);
 }
 

@@ -32,11 +32,11 @@ struct SpectrumOptions : FigureSize
     /// Writes the map as a figure with one panel. The command ends if that fails.
     void write (const std::string& title, const Quantity& x, const Quantity& y, HeatMap) const;
 
-    /// Writes a table: a row for each place along x, a column for each place along y. Their names have units.
+    /// Writes a table: a row for each value of x, and a column for each value of y. The names in the header contain the units.
     void writeTable (const std::string& x, const std::vector<double>& rows, const std::vector<std::string>& columns,
                      const std::vector<std::vector<double>>& values) const;
 
-    /// Writes a spectrogram, as a figure or as a table. `x`: what its columns are over, such as time in s.
+    /// Writes a spectrogram, as a figure or as a table. `x`: the quantity on the horizontal axis, such as time in s.
     void write (const std::string& title, const Quantity& x, const Spectrogram&, const std::string& unit) const;
 };
 

@@ -13,11 +13,11 @@ struct Stroke
 {
     double speed = 0.1, length = 0.06, depth = 1e-3;   ///< m/s, m, m
 
-    /// Moves this long before the stroke begins, in s, so that transients of the first contact are over.
+    /// How long the tool moves before the stroke begins, in s, so that transients of the first contact are over.
     static constexpr double lead_in_s = 0.2;
 };
 
-/// A hand that makes a stroke, whatever the force.
+/// A hand that makes a stroke and does not yield to forces.
 class StrokeDevice final : public Device
 {
 public:

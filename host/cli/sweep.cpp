@@ -60,7 +60,7 @@ Extent readSpeeds (const std::string& text)
     return range;
 }
 
-/// A graph, and what strokes over it give.
+/// Runs strokes over a graph, and keeps the samples of a port.
 class Strokes
 {
 public:
@@ -121,10 +121,10 @@ private:
     bool is_reported = false;
 };
 
-/// What the strongest lines have in common: the period of a pattern on the surface, in m; 0 if they do not follow the speed.
+/// The period of the pattern on the surface, in m, from the strongest lines; 0 if these are not in proportion to the speed.
 double periodOf (const Spectrogram& s, double length)
 {
-    constexpr double fewest_periods = 5.0;   // on the stroke; less is the shape of the surface
+    constexpr double fewest_periods = 5.0;   // on the stroke; fewer periods are the shape of the surface
     std::vector<double> per_metre;
     for (std::size_t i = 0; i < s.at.size(); ++i)
         if (const double hz = ridgeOf (s, i, fewest_periods * s.at[i] / length); hz > 0.0) per_metre.push_back (hz / s.at[i]);
@@ -155,7 +155,7 @@ void drawSpectra (const SweepOptions& options, const std::string& name, double l
                   << " to " << shortNumber (speeds.back() / period) << " Hz\n";
 }
 
-/// Force, or what the port has, over place and speed.
+/// Draws the force, or the quantity of the port, against position and speed.
 void drawPlaces (const SweepOptions& options, const std::string& name, double length, const std::vector<double>& speeds,
                  const std::vector<PortSamples>& strokes)
 {
@@ -223,25 +223,25 @@ void sweepSpeeds (SweepOptions& options)
 void addSweep (const Command& app)
 {
     const auto options = std::make_shared<SweepOptions>();
-    const auto command = app.add ("sweep", "Show what a stroke feels like over its speed: strokes at constant speeds, and their frequencies as a map");
+    const auto command = app.add ("sweep", "Make strokes at constant speeds, and plot their frequencies against the speed as a map");
     command.addOption (
                "graph", [options] (const std::string& given) { options->graph = graphArgument (given); },
                "A graph file, such as graphs/dry_wood.json, or the name of a preset, such as dry_wood")
         .required();
     command.addOption ("--speed", options->speeds, "The slowest and the fastest stroke in m/s, such as 0.02..0.3").required();
     options->picture.addTo (command);
-    command.addOption ("--steps", options->steps, "How many speeds are stroked; default: 48").check (within (2, 1000));
+    command.addOption ("--steps", options->steps, "Number of strokes, each at another speed; default: 48").check (within (2, 1000));
     command.addOption ("--length", options->length, "Length of each stroke, along x around the origin; default: 60 mm");
     command.addOption ("--depth", options->depth, "How deep the tool is below z = 0; default: 1 mm");
     command.addOption ("--role", options->role, "The role that makes the strokes; the others are at rest at the origin; default: the first one");
-    command.addFlag ("--map", options->as_map, "Show the force over place and speed instead of the frequencies; of a vector, its first component");
+    command.addFlag ("--map", options->as_map, "Plot the force against position and speed instead of the frequencies; for a vector, its first component");
     command.addOption ("--rate", options->rate_hz, "Ticks per second; default: the graph's rate").check (finiteWithin (1.0, 1e6));
     command.addOption ("--set", options->sets, "Set a parameter, NODE.PARAM=VALUE, or a control, CONTROL=0…1; may be given more than once").oneValueEach();
     addLimits (command);
     addPlugins (command);
-    command.footer ("A pattern on the surface with a period p gives a line: its frequency is the speed divided by p. A resonance stays at its frequency.\n"
-                    "The tool moves at the same speed whatever the force. It moves for 0.2 s before a stroke begins.\n"
-                    "A table has a row for each speed, and a column for each frequency or place.\n\n"
+    command.footer ("A pattern on the surface with a period p gives a line: its frequency is the speed divided by p. A resonance keeps its frequency.\n"
+                    "Forces do not change the speed of the tool. The tool moves for 0.2 s before a stroke begins.\n"
+                    "A table has a row for each speed, and a column for each frequency or position.\n\n"
                     "Examples:\n"
                     "  tactus sweep dry_wood --speed 0.02..0.3 -o wood.png\n"
                     "  tactus sweep dry_wood --speed 0.02..0.3 --port grain.force --up-to 400 -o grain.pdf\n"

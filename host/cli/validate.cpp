@@ -74,7 +74,7 @@ bool check (const std::string& file)
     return true;
 }
 
-/// As check(), for a file or the name of a preset. An argument that names neither does not end the command.
+/// Like check(), for a file or the name of a preset. If the argument names neither, the command continues.
 bool checkArgument (const std::string& argument)
 try
 {

@@ -29,7 +29,7 @@ bool has (const Table& table, FitKind kind, const std::string& role)
     return found != columns.end() && findColumn (table, *found);
 }
 
-/// How often a course turns back by more than a fifth of its range.
+/// Counts how many times a signal turns back by more than a fifth of its range.
 int turns (const std::vector<double>& v)
 {
     const auto [low, high] = std::ranges::minmax (v);

@@ -117,7 +117,7 @@ void setSources (graph::Graph& graph, std::initializer_list<std::pair<const char
 
 constexpr const char* board_guess = "guess: what the simulated device can render";
 
-/// A number as a person would write it: six digits are more than any fit is worth.
+/// Rounds a number to six digits, which is more than the accuracy of any fit.
 double tidy (double v) { return std::stod (shortNumber (v, 6)); }
 }   // namespace
 
@@ -131,8 +131,8 @@ graph::Graph frictionPreset (const FrictionFit& fit, const std::string& source)
                { "adhesion", names[static_cast<std::size_t> (fit.adhesion)] },
                { "reference_load", tidy (fit.reference_load) } };
     if (fit.adhesion == BristleAdhesion::dupont) params["break_away"] = tidy (fit.break_away);
-    graph.about = "Friction fitted to a recording: it slides at " + shortNumber (fit.mu) + " times the load, and gives " + shortNumber (1e3 * fit.d_max)
-                  + " mm before it slides at " + shortNumber (fit.reference_load) + " N.";
+    graph.about = "Friction fitted to a recording: it slides at " + shortNumber (fit.mu) + " times the load. The contact stretches "
+                  + shortNumber (1e3 * fit.d_max) + " mm before it slides at a load of " + shortNumber (fit.reference_load) + " N.";
     setSources (graph, { { "drag.mu", source }, { "drag.d_max", source }, { "board.stiffness", board_guess } });
     return graph;
 }
@@ -172,7 +172,7 @@ graph::Graph texturePreset (const TextureFit& fit, double mass, const std::strin
     }
     nodeIn (graph, "grain").settings["models"] = models;
     graph.about = "A texture fitted to recorded vibrations, at " + std::to_string (fit.models.size())
-                  + (fit.models.size() == 1 ? " speed and force." : " speeds and forces.");
+                  + (fit.models.size() == 1 ? " speed and force." : " combinations of speed and force.");
     setSources (graph, { { "grain.models", source + "; force is acceleration times " + shortNumber (1e3 * mass) + " g, " + mass_source },
                          { "drag.mu", "guess: not fitted" },
                          { "board.stiffness", board_guess } });
@@ -224,7 +224,7 @@ graph::Graph bladePreset (const BladeFit& fit, const std::string& source)
     node.settings["law"] = tidied (fit.law);
     if (fit.cracked_law) node.settings["cracked_law"] = tidied (fit.cracked_law);
     graph.about =
-        "A cut fitted to a recording: it bursts at " + shortNumber (fit.rupture_force) + " N and parts at " + shortNumber (fit.toughness * fit.width) + " N.";
+        "A fitted cut: the sample bursts at " + shortNumber (fit.rupture_force) + " N and is cut at " + shortNumber (fit.toughness * fit.width) + " N.";
     if (! fit.bursts)
         graph.about = "The start of a recorded cut. The recording ended before the sample burst, so the forces of bursting and cutting are guesses.";
     setSources (graph, { { "blade.law", source },

@@ -125,7 +125,7 @@ Result<FittedGraph> curve (const Columns& c, const std::string& file, const FitS
     auto fit = fitCurve ({ .depth = fromTouch (c.at ("depth"), s.touch), .force = c.at ("force") }, s.points);
     if (! fit) return fit.error();
     const EvenBody body { .along = fit->law, .mu = s.mu, .ratio = s.ratio };
-    std::string about = "An even body with the curve of a recorded indentation.";
+    std::string about = "A uniform body with the curve of a recorded indentation.";
     if (! fit->out.empty()) about += " The recording lost " + shortNumber (1e3 * fit->area) + " mJ per push; this body loses energy only by friction.";
     FittedGraph made { .kind = FitKind::curve, .preset = surfacePreset (body, {}, about, sourceOf (FitKind::curve, file, fit->report)), .nodes = { "body" } };
     if (fit->out.empty())

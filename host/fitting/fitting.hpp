@@ -38,18 +38,18 @@ struct FitKindInfo
 const std::vector<FitKindInfo>& fitKinds();
 const FitKindInfo& infoOf (FitKind);
 
-/// The kind that the columns suggest, and for depth and force the course of the numbers. Empty if none fits.
+/// The kind that the columns suggest. For depth and force, it also depends on the values. Empty if no kind fits.
 std::optional<FitKind> guessKind (const Table&);
 
-/// What a recording does not contain. A value of 0 is not given.
+/// Values that the recording does not contain. A value of 0 means that the user gave none; then the default in the comment is used.
 struct FitSettings
 {
     ColumnChoice columns {};
-    double load = 0.0;                      ///< N; friction, grating: 1
-    double mass = 0.0;                      ///< kg; shock: from the times; modes and texture: 10 g
+    double load = 0.0;                      ///< N; friction, grating: default 1
+    double mass = 0.0;                      ///< kg; shock: by default from the times; texture: default 10 g; modes
     double speed = 0.0;                     ///< m/s; modes: of the blow; texture: of the stroke
     double force = 0.0;                     ///< N; texture: normal to the surface
-    double width = 0.0;                     ///< m; blade: 20 mm
+    double width = 0.0;                     ///< m; blade: default 20 mm
     double touch = 0.0;                     ///< m; blade, curve: depth at which the tool touches
     std::optional<double> from {}, to {};   ///< s; modes
     int most = 0;                           ///< modes, coefficients or harmonics

@@ -134,7 +134,7 @@ Result<std::vector<double>> columnOf (const Table& table, const std::string& fil
             columns += (columns.empty() ? "" : ", ") + column;
         return Message::error ("fit/column", file,
                                "there is no column " + quote (chosen != choice.names.end() ? chosen->second : wanted.role) + "; there are " + columns,
-                               "name the column of the " + wanted.about + " " + wanted.role + ", or say which one it is: --column " + wanted.role + "=NAME");
+                               "name the column " + quote (wanted.role) + " (" + wanted.about + "), or say which one it is: --column " + wanted.role + "=NAME");
     }
 
     const auto& name = table.columns[*found];

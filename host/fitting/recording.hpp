@@ -12,17 +12,17 @@
 namespace tactus::host
 {
 
-/// What a fit needs of a recording: one quantity.
+/// A quantity that a fit needs from a recording.
 struct FitColumn
 {
     std::string role;   ///< "force"
     std::string unit;   ///< SI; empty: any
     bool required = true;
-    std::vector<std::string> names;   ///< of columns that are taken if the user names none; lower case, without a unit
+    std::vector<std::string> names;   ///< column names to look for if the user names none; lower case, without a unit
     std::string about;
 };
 
-/// How a user names columns and their units, by role.
+/// The columns, and their units, that the user has chosen for each role.
 struct ColumnChoice
 {
     std::map<std::string, std::string> names {};

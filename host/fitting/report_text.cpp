@@ -33,7 +33,7 @@ Prefix prefixFor (double value, const std::string& unit)
     return {};
 }
 
-/// A number with so many decimals that the interval has two digits.
+/// A number with enough decimals to show the width of the interval with two digits.
 std::string fixedText (double v, double wide)
 {
     if (! std::isfinite (v)) return "unknown";

@@ -10,7 +10,7 @@
 namespace tactus::host
 {
 
-/// A body with one curve along its normal, the same everywhere.
+/// A uniform body: its curve along the normal is the same everywhere.
 struct EvenBody
 {
     Law along;             ///< force against depth

@@ -20,7 +20,7 @@ std::string encoded (const juce::Image& image)
 std::uint32_t number (int v) { return static_cast<std::uint32_t> (v); }
 }   // namespace
 
-/// The smallest rectangle outside of which the frame equals the one before; a single pixel if they are equal.
+/// The smallest rectangle that contains all changes from the previous frame; a single pixel if there are none.
 juce::Rectangle<int> AnimatedPng::changed (const juce::Image& frame) const
 {
     if (! before.isValid()) return frame.getBounds();
@@ -52,7 +52,7 @@ bool AnimatedPng::add (const juce::Image& given, std::uint16_t milliseconds)
     if (chunks.empty() || chunks.front().type != "IHDR") return false;
     if (count == 0) header = chunks.front().bytes();
 
-    constexpr char keep = 0, replace = 0;   // what a frame leaves for the next one, and how it is put over the one before
+    constexpr char keep = 0, replace = 0;   // the next frame starts from this one, and this one replaces the pixels of its rectangle
     const auto place = bigEndian (number (part.getWidth())) + bigEndian (number (part.getHeight())) + bigEndian (number (part.getX()))
                        + bigEndian (number (part.getY()));
     body += PngChunk { "fcTL", bigEndian (sequence++) + place + bigEndian (milliseconds, 2) + bigEndian (1000, 2) + keep + replace }.bytes();

@@ -9,17 +9,17 @@
 namespace tactus::host
 {
 
-/// An animated PNG, frame by frame (APNG specification 1.0, Mozilla): every browser and most viewers play it, and others show its first
+/// Writes an animated PNG, frame by frame (APNG specification 1.0, Mozilla). Every browser and most viewers play it; others show its first
 /// frame. Each frame holds only the rectangle that has changed. [any thread]
 class AnimatedPng
 {
 public:
-    /// Adds a frame for this long. All frames must be opaque, and have the size of the first one. False if the frame cannot be encoded.
+    /// Adds a frame that is shown for this time. All frames must be opaque, and have the size of the first one. False if it cannot be encoded.
     bool add (const juce::Image& frame, std::uint16_t milliseconds);
 
     std::uint32_t frames() const noexcept { return count; }
 
-    /// The file as a whole. It plays again and again, or only once.
+    /// The complete file. It plays in a loop, or only once.
     std::string file (bool repeats = true) const;
 
 private:

@@ -75,7 +75,8 @@ Result<SavedClip> saveRows (const Clip& clip, const fs::path& path)
     if (auto written = file->commit(); ! written) return written.error();
     SavedClip saved { {}, readers::compareClips (clip, clipOf (grid).clip, false), false };
     for (const auto& [key, value] : clip.notes)
-        saved.losses.push_back (Message::warning ("clip/not_carried", "notes/" + key, "the note is left out: a table holds numbers", "keep the original file"));
+        saved.losses.push_back (
+            Message::warning ("clip/not_carried", "notes/" + key, "the note is left out: a table holds only numbers", "keep the original file"));
     return saved;
 }
 }   // namespace

@@ -15,17 +15,17 @@ namespace tactus::host
 /// The extension of a file in lower case, such as ".haptic".
 std::string extensionOf (const std::filesystem::path&);
 
-/// True if the extension is one of a clip and of nothing else: .haptic, .ahap, .hjif or .wav. A .json may be a clip or a graph.
+/// True if only clips have this extension: .haptic, .ahap, .hjif or .wav. A .json may be a clip or a graph.
 bool isClipExtension (const std::filesystem::path&);
 
-/// True if the file is a clip: by its extension, or because it is a .json that reads as one.
+/// True if the file is a clip: its extension says so, or it is a .json that can be read as a clip.
 bool isClipFile (const std::filesystem::path&);
 
 /// Reads a clip of any format: .haptic, .ahap, .hjif, .json, .wav or .csv. Ids: those of readClip, readWav, readTable and clipOfTable,
 /// file/unreadable, clip/unknown_kind. [main thread]
 Result<readers::ClipFile> loadClip (const std::filesystem::path&);
 
-/// What was written, and what it lost.
+/// The result of saving a clip: what was lost.
 struct SavedClip
 {
     Messages losses;                                       ///< what the format cannot hold

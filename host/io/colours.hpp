@@ -23,8 +23,8 @@ Colour colourFor (std::string_view quantity) noexcept;
 /// of the palette, repeating.
 Colour colourFor (std::string_view quantity, std::size_t nth) noexcept;
 
-/// The colour of a part from 0 to 1 of a scale, from dark blue over green to bright yellow. Its lightness rises evenly, so that it is read
-/// in grey and by colour-blind eyes, too (the points of matplotlib's viridis, by Smith and van der Walt).
+/// The colour at a level from 0 to 1 of a scale that runs from dark blue through green to bright yellow. The lightness increases evenly, so
+/// the scale can also be read in greyscale and by colour-blind people (the points of matplotlib's viridis, by Smith and van der Walt).
 Colour colourOfLevel (double part) noexcept;
 
 /// The colour, darkened if it is too faint on white paper. In the palette, this applies only to yellow.

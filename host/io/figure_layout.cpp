@@ -160,7 +160,7 @@ float FigureLayout::naturalPlotHeight() const noexcept
     return style.px (panels.size() < 4 ? 200 : 150);
 }
 
-/// The ticks of the bars of colours, and the room for these bars.
+/// The ticks of the colour bars, and the room for these bars.
 void FigureLayout::arrangeBars()
 {
     bar_room = 0.0f;

@@ -91,7 +91,7 @@ private:
 
     const Figure& figure;
     float left = 0.0f, right = 0.0f;   // edges of the plots
-    float bar_room = 0.0f;             // to the right of the plots, for bars of colours
+    float bar_room = 0.0f;             // to the right of the plots, for colour bars
 };
 
 }   // namespace tactus::host

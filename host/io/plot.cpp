@@ -346,7 +346,8 @@ Result<> check (const Figure& figure, const std::filesystem::path& path)
     for (const auto& axes : figure.panels)
     {
         if (axes.map && axes.map->values.size() != axes.map->columns * axes.map->rows)
-            return Message::error ("plot/ragged_map", path.string(), "a map needs one value for each column and row", "give as many values");
+            return Message::error ("plot/ragged_map", path.string(), "the map does not have columns times rows values",
+                                   "give one value for each column and row");
         for (const auto& [label, x, y, colour, style] : axes.series)
             if (x.size() != y.size())
                 return Message::error ("plot/ragged_series", path.string(),

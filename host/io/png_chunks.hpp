@@ -24,7 +24,7 @@ struct PngChunk
 /// The chunks of a PNG. Stops before a chunk that is cut off or has a wrong checksum.
 std::vector<PngChunk> chunksOf (std::string_view png);
 
-/// A number of PNG, most significant byte first.
+/// A number as PNG stores it, most significant byte first.
 std::string bigEndian (std::uint32_t value, int bytes = 4);
 std::uint32_t readBigEndian (std::string_view bytes);
 

@@ -15,11 +15,11 @@ struct HeatMap;   // plot.hpp
 /// A signal: the samples of each of its components, such as x, y and z of a force.
 using Components = std::vector<std::vector<double>>;
 
-/// How strong each frequency of a signal is, in columns: over time, or over the speed of a stroke. The amplitudes of the components of a
-/// vector are added as the sides of a box, so the result does not depend on the directions of the axes.
+/// The amplitude of each frequency of a signal. The columns are times, or speeds of a stroke. The amplitude of a vector is the root of the sum
+/// of the squares of its components' amplitudes, so the result does not depend on the directions of the axes.
 struct Spectrogram
 {
-    std::vector<double> at {};                     ///< the places of the columns, evenly spaced: s, or m/s
+    std::vector<double> at {};                     ///< the time (s) or speed (m/s) of each column, evenly spaced
     double step_hz = 1.0;                          ///< between two lines
     std::vector<std::vector<double>> columns {};   ///< amplitudes at 0, step_hz, … Hz
 };
@@ -27,8 +27,8 @@ struct Spectrogram
 /// The amplitudes of some samples at 0, step, … Hz, up to a frequency or half the rate. `length`: as for spectrumOf.
 std::vector<double> amplitudesOf (std::span<const std::span<const double>> components, double rate_hz, std::size_t length, double up_to_hz);
 
-/// A spectrogram over time: windows of `window_s`, which overlap as far as `most_columns` columns allow. Empty if the signal is shorter
-/// than a window.
+/// A spectrogram over time, with windows of `window_s`. They overlap as much as the limit of `most_columns` columns allows. Empty if the signal
+/// is shorter than a window.
 Spectrogram spectrogramOf (const Components&, double rate_hz, double window_s, double up_to_hz, std::size_t most_columns = 800);
 
 /// The frequency of the strongest line of a column, at or above a frequency; 0 if the column is silent.

@@ -8,8 +8,8 @@
 namespace tactus::host
 {
 
-/// The components of a stretch as a clip: a wave on the channel of each. A clip counts from -1 to 1: a note says by which value
-/// everything is divided, if a value is larger.
+/// Converts a stretch to a clip: each component becomes a wave on its own channel. The values of a clip are from -1 to 1. If a value is
+/// outside, all values are divided by the same number, and a message in the list states this number.
 Clip clipOfStretch (const Stretch&, Messages& notes);
 
 /// Writes the movement of a stretch as a CSV, which the drivers `trace` and `sim` play. Ids: take/no_movement and those of TableWriter.

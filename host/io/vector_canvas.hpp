@@ -9,8 +9,8 @@
 namespace tactus::host
 {
 
-/// Collects what juce::Graphics draws, as outlines, and writes it as SVG or PDF. Handles solid colours, paths, rectangles and rectangular
-/// clips, and images, which is what figures need; text in fonts is not drawn. (Lettering draws text as outlines.)
+/// Collects what juce::Graphics draws, as outlines, and writes it as SVG or PDF. Handles what figures need: solid colours, paths,
+/// rectangles, rectangular clips and images. It does not draw text in fonts. (Lettering draws text as outlines.)
 class VectorCanvas : public juce::LowLevelGraphicsContext
 {
 public:

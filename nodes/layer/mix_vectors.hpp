@@ -9,7 +9,7 @@
 namespace tactus::nodes
 {
 
-/// A mixing desk for layers that are forces in three axes: friction, a texture, and what pushes from below, each in its own direction.
+/// A mixing desk for layers that are forces in three axes, such as friction, a texture and the push of a surface, each in its own direction.
 ///
 /// On each tick, in this order:
 ///
@@ -22,7 +22,7 @@ namespace tactus::nodes
 ///     sum        s = sum of d_i m_i x_i
 ///     ceiling    out = s, shortened to the length `ceiling` if it is longer; reduction = 20 log10 (|s| / |out|), dB
 ///
-/// |v| is the length of a vector. All factors are numbers, so each layer keeps its direction, and so does the sum under the ceiling.
+/// |v| is the length of a vector. All factors are numbers, so each layer keeps its direction. The ceiling keeps the direction of the sum.
 /// A channel sounds if its level is above 1 % of the loudest recent level (a peak that decays with time constant 2 s).
 ///
 /// Source: definition; the order is the same as in layer.mix and in an audio mixing desk.
@@ -33,8 +33,8 @@ namespace tactus::nodes
 ///    channel.
 ///  - Equal priorities, the default, do not duck each other. A higher number has priority.
 ///  - A channel that is open, not ducked, and below the ceiling passes unchanged, bit for bit.
-///  - The ceiling has no memory: it cannot overshoot or pump. It is a limit on the length, so a strong layer in one direction also takes
-///    from the others. If reduction is not 0, turn the gains down.
+///  - The ceiling has no memory: it cannot overshoot or pump. It limits the length, so a strong layer in one direction also weakens the
+///    others. If reduction is not 0, turn the gains down.
 ///  - Ducking depends on time. A spring that is ducked while it is pressed but not while it is released generates energy.
 ///  - The first tick starts without ramps, and so does the tick after a fault. One component that is not finite silences all channels.
 ///  - `names` are the labels of the channels for people and hosts, separated by commas: "friction, weave, shock".

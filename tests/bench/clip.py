@@ -4,7 +4,7 @@
 
     clip.py PROGRAM     PROGRAM is build/release/bin/clip_cost
 
-- loading a clip of 3 minutes takes a time in proportion to its events: an event of 10 000 costs as much as one of 1000;
+- loading a clip of 3 minutes takes time in proportion to the number of its events: an event costs as much in a clip of 10 000 as in one of 1000;
 - at rest, a tick of signal.clip costs at most twice a tick of signal.constant.
 """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""docs/spectra.md: the frequencies of a run over time."""
+"""docs/spectra.md: the frequencies of a run against time."""
 
 from style import axis, data, figure, heat, name
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""docs/spectra.md: the frequencies of a stroke over its speed."""
+"""docs/spectra.md: the frequencies of a stroke against its speed."""
 
 import numpy as np
 

@@ -8,7 +8,7 @@
 
 using namespace tactus;
 
-TEST_CASE ("figure: over the speed of a stroke, ridges draw a line, and a resonance stays", "[figures]")
+TEST_CASE ("figure: against stroke speed, the frequency of ridges is a line through the origin, and that of a resonance is constant", "[figures]")
 {
     constexpr double per_metre = 1250.0, length = 0.06, resonance = 300.0;   // as in the graph
     const auto run = test::analyseFigure ("sweep", "sweep", { "--speed", "0.02..0.4", "--steps", "96", "--up-to", "600" });

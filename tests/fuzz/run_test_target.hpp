@@ -13,7 +13,7 @@ namespace tactus::fuzz
 {
 
 /// Reads the text as a test of a run: its head and the expected values. Either both are complete, or reading reports an error with its
-/// location. Aborts otherwise. What follows is a log, which run_log_target.hpp reads.
+/// location. Aborts otherwise. The rest of the file is a log, which run_log_target.hpp reads.
 inline void tryRunTest (std::string_view text)
 {
     std::istringstream in { std::string (text) };

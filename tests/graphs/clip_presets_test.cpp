@@ -31,7 +31,7 @@ graph::Graph withGain (graph::Graph g, const char* node, double gain)
     return g;
 }
 
-/// The largest stiffness and damping that the graph asks of its device.
+/// The largest stiffness and damping that the graph needs from its device.
 std::pair<double, double> slopesOf (const graph::Graph& g)
 {
     host::FileAssets assets;
@@ -47,7 +47,7 @@ std::pair<double, double> slopesOf (const graph::Graph& g)
 }
 }   // namespace
 
-TEST_CASE ("a clip that plays in time, faded in by the contact, counts neither as stiffness nor as damping", "[graphs][check]")
+TEST_CASE ("a clip that plays over time and that the contact fades in counts neither as stiffness nor as damping", "[graphs][check]")
 {
     const auto g = loadGraph (clip_presets / "heartbeat.json").graph;
     const auto with = slopesOf (withGain (g, "beat", 1.0)), without = slopesOf (withGain (g, "beat", 0.0));

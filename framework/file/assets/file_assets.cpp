@@ -140,7 +140,7 @@ Assets::Loaded<Grid> FileAssets::table (const std::string& path)
     return load (tables, path, [&] { return fromBytes<Grid> (path, parse); });
 }
 
-/// A recording as a clip of waves. Each sample is a row of a table.
+/// Converts a recording to a clip of waves, as a table with a row for each sample.
 Result<Grid> FileAssets::readWave (const std::string& path)
 {
     auto signal = readSignal (path);
@@ -149,15 +149,15 @@ Result<Grid> FileAssets::readWave (const std::string& path)
     const double numbers = static_cast<double> (clip_columns * signal->channels.size() * signal->channels.front().size());
     if (numbers > budgets().numbers)
     {
-        auto over = overBudget ("table/too_large", &Budgets::numbers, "the recording as a clip", numbers, "cut it, or convert it with `tactus convert`");
+        auto over = overBudget ("table/too_large", &Budgets::numbers, "the recording as a clip", numbers, "shorten it, or convert it with `tactus convert`");
         over.where = path;
         return over;
     }
     Messages notes;
     const auto clip = clipOfSignal (*signal, notes);
     if (! notes.empty())
-        return Message::error ("clip/range", path, notes.front().text.starts_with ("the values") ? "it has samples beyond -1 to 1" : notes.front().text,
-                               "convert it with `tactus convert`, which says what changes");
+        return Message::error ("clip/range", path, notes.front().text.starts_with ("the values") ? "it has samples outside -1 to 1" : notes.front().text,
+                               "convert it with `tactus convert`, which reports what changes");
     return gridOf (clip);
 }
 

@@ -32,7 +32,7 @@ Clip clipOfSignal (const Signal& signal, Messages& notes)
         if (clip.tracks.size() >= at (most_clip_tracks))
         {
             notes.push_back (Message::warning ("clip/not_carried", "channels", "those after the first " + std::to_string (most_clip_tracks) + " are left out",
-                                               "convert them from a file of their own"));
+                                               "convert them from a separate file"));
             break;
         }
         auto& track = clip.tracks.emplace_back (ClipTrack { .channel = static_cast<int> (clip.tracks.size()) + 1, .is_wave = true });

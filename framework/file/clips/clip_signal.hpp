@@ -10,11 +10,11 @@
 namespace tactus::readers
 {
 
-/// A recording as a clip: a wave on each channel, with the rate as a note. Values beyond -1 to 1 are scaled to it, all channels by the same
-/// factor. Warnings: clip/changed, clip/not_carried. [main thread]
+/// Converts a recording to a clip: a wave on each channel, and a note with the rate. If a value is outside -1 to 1, all channels are divided by
+/// the same factor. Warnings: clip/changed, clip/not_carried. [main thread]
 Clip clipOfSignal (const Signal&, Messages& notes);
 
-/// Scales waves to -1 to 1, all by the same factor. `what` is the place for the warning clip/changed.
+/// Divides all waves by the same factor if a value is outside -1 to 1. `what` is the location in the warning clip/changed.
 void scaleWaves (Clip&, const std::string& what, Messages& notes);
 
 }   // namespace tactus::readers

@@ -26,7 +26,7 @@ Messages checkAssets (const Json& snapshot, const std::filesystem::path& folder)
 /// The same snapshot with its paths relative to another folder.
 Json movedSnapshot (Json snapshot, const std::filesystem::path& from_folder, const std::filesystem::path& to_folder);
 
-/// A hash of the texts of the graph and of the files that it includes. It does not depend on where they are.
+/// A hash of the texts of the graph and of the files that it includes. It does not depend on the folders of these files.
 std::string snapshotHash (const Json& snapshot);
 
 }   // namespace tactus

@@ -58,7 +58,7 @@ class RunLogReader
 public:
     static Result<RunLogReader> open (const std::string& path);
 
-    /// `name` appears in error messages, and lines count from `lines_before`: the stream may begin behind other lines.
+    /// `name` appears in error messages. `lines_before` is the number of lines of the file before the stream; line numbers in messages include them.
     static Result<RunLogReader> open (std::unique_ptr<std::istream>, std::string name, int lines_before = 0);
 
     const RunHead& head() const noexcept { return begin; }

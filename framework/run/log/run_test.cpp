@@ -38,7 +38,7 @@ Result<std::unique_ptr<std::ifstream>> opened (const std::string& path)
     return in;
 }
 
-/// A line of at most the size of a file; empty at the end, or if the line has no end.
+/// Reads a line, which may be as long as a file may be. Empty at the end of the file, or if the line has no end.
 std::optional<std::string> wholeLine (std::istream& in)
 {
     const double longest = budgets().file;
@@ -51,7 +51,7 @@ std::optional<std::string> wholeLine (std::istream& in)
     return std::nullopt;
 }
 
-/// The tick of a line of a log, which is its first member. Lines that begin in another way are parsed as a whole.
+/// The tick of a line of a log. It is usually the first member; other lines are parsed as a whole.
 std::optional<std::uint64_t> tickOf (const std::string& line)
 {
     constexpr std::string_view begin = "{\"tick\":";
@@ -124,7 +124,7 @@ bool readTexts (const Json& from, std::vector<std::string>& to)
     return true;
 }
 
-/// Reads the members of the first line. False if one is missing or has a wrong kind.
+/// Reads the members of the first line. False if one is missing or has the wrong type.
 bool takeHead (const Json& root, RunTestHead& head)
 {
     const auto member = [&] (const char* key) { return root.value (key, Json()); };
@@ -156,7 +156,7 @@ Result<> checkNames (const RunTestHead& head, const std::vector<Tap>& taps, cons
     for (const auto& port : head.ports)
         if (std::ranges::count (taps, port, &Tap::name) == 0)
             return Message::error ("test/ports", name, "the graph has no port " + port + ", which the test compares", "test a graph that has it");
-    return Message::error ("test/ports", name, "the graph has other ports than the test compares", "write the test again with `tactus capture`");
+    return Message::error ("test/ports", name, "the ports of the graph are not those that the test compares", "write the test again with `tactus capture`");
 }
 }   // namespace
 
@@ -206,7 +206,7 @@ Result<RunTestHead> readRunTestHead (std::istream& in, const std::string& name)
     if (version.get<std::uint64_t>() > run_test_version)
         return wrongTest ("test/newer_version", name, 1, "the test was written by a newer Tactus", "use that version");
     RunTestHead head;
-    if (! takeHead (read.root, head)) return wrongTest ("test/value", name, 1, "a member of the first line is missing or has a wrong kind");
+    if (! takeHead (read.root, head)) return wrongTest ("test/value", name, 1, "a member of the first line is missing or has the wrong type");
     return head;
 }
 
@@ -223,7 +223,7 @@ Result<std::vector<double>> readExpected (std::istream& in, const RunTestHead& h
     for (std::uint64_t k = 0; k < head.until - head.from; ++k)
     {
         const auto line = wholeLine (in);
-        if (! line) return wrongTest ("test/cut_off", name, k + 2, "the file breaks off");
+        if (! line) return wrongTest ("test/cut_off", name, k + 2, "the file is cut off");
         const auto read = readJson (*line);
         if (hasErrors (read.messages) || ! read.root.is_array() || read.root.size() != head.ports.size())
             return wrongTest ("test/value", name, k + 2, "this is not a list of " + std::to_string (head.ports.size()) + " values");
@@ -239,7 +239,7 @@ Result<std::vector<double>> readExpected (std::istream& in, const RunTestHead& h
 
 namespace
 {
-/// Checks that the log begins with the graph that the test names. Reads a part of the log, and goes back.
+/// Checks that the log begins with the graph that the test names. Reads a part of the log, and seeks back.
 Result<> checkGraph (std::istream& in, const RunTestHead& head, const std::string& name)
 {
     const auto begin = in.tellg();
@@ -250,7 +250,7 @@ Result<> checkGraph (std::istream& in, const RunTestHead& head, const std::strin
     const auto read = first ? readJson (*first) : JsonText {};
     const auto graph = read.root.is_object() ? read.root.value ("graph", Json()) : Json();
     if (graph.is_object() && snapshotHash (graph) == head.graph) return {};
-    return Message::error ("test/graph_changed", name, "its graph is not the one that the expected values come from",
+    return Message::error ("test/graph_changed", name, "its graph is not the one that gave the expected values",
                            "use the file unchanged, or give --graph to test another graph");
 }
 

@@ -26,8 +26,8 @@ struct RunTestHead
     std::uint64_t from = 0, until = 0;     ///< ticks that are compared
 };
 
-/// Writes a test: the log of a run up to the end of a stretch, with the values that are expected in the stretch. `records` are the
-/// ports of the stretch. Files that nodes use are found relative to the test. Ids: file/unreadable, output/unwritable, and those of
+/// Writes a test: the expected values in a stretch of a run, and the log of the run up to the end of the stretch. `records` are the
+/// ports of the stretch. Paths of files that nodes use are relative to the test. Ids: file/unreadable, output/unwritable, and those of
 /// RunLogReader. [main thread]
 Result<> writeRunTest (const std::string& log, const std::filesystem::path& test, const Stretch&, const std::vector<std::string>& records,
                        const std::string& program);
@@ -35,7 +35,7 @@ Result<> writeRunTest (const std::string& log, const std::filesystem::path& test
 /// Reads the first line. Ids: test/not_a_test, test/newer_version, test/unknown_version, test/value.
 Result<RunTestHead> readRunTestHead (std::istream&, const std::string& name);
 
-/// Reads the expected values, tick after tick. Ids: test/value, test/too_large, test/cut_off.
+/// Reads the expected values, tick by tick. Ids: test/value, test/too_large, test/cut_off.
 Result<std::vector<double>> readExpected (std::istream&, const RunTestHead&, const std::string& name);
 
 /// A component whose values differ from the expected ones.
@@ -68,7 +68,7 @@ struct RunTestOptions
     std::string program {};
 };
 
-/// Plays the run of a test again and compares the bits. NaNs are equal. Ids: those of Replay, readRunTestHead and readExpected,
+/// Replays the run of a test and compares the bits. All NaNs count as equal. Ids: those of Replay, readRunTestHead and readExpected,
 /// test/graph_changed, test/ports. [main thread]
 Result<RunTestResult> playRunTest (const std::string& test, const RunTestOptions&);
 

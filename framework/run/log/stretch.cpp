@@ -15,7 +15,7 @@ namespace tactus
 
 namespace
 {
-/// The tick at a time. A time between two ticks is the later one.
+/// The tick at a time. A time between two ticks gives the later tick.
 std::uint64_t tickAt (double s, double rate_hz)
 {
     const double ticks = std::ceil (s * rate_hz - 1e-6);
@@ -67,7 +67,7 @@ Result<> StretchReader::begin (const Options& options)
 {
     if (! (options.until_s > options.from_s))
         return Message::error ("take/empty", log, "the stretch from " + numberText (options.from_s) + " s to " + numberText (options.until_s) + " s is empty",
-                               "let it end after its start");
+                               "choose an end after the start");
     kept.rate_hz = replay->rate();
     kept.from = tickAt (options.from_s, kept.rate_hz);
     kept.until = std::isfinite (options.until_s) ? tickAt (options.until_s, kept.rate_hz) : std::numeric_limits<std::uint64_t>::max();

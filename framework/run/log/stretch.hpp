@@ -20,15 +20,15 @@ struct Stretch
     std::vector<std::string> names {};     ///< of the components, such as "motor.force.x"
     Quantity quantity = Quantity::any;     ///< of the first component
     std::string unit {};                   ///< SI symbol of the first component; "" if unknown
-    std::vector<double> values {};         ///< tick after tick, each with all components
+    std::vector<double> values {};         ///< tick by tick, with all components of each
     std::vector<std::string> columns {};   ///< of the movement, as readTrace reads them; empty if no role was asked for
-    std::vector<double> movement {};       ///< tick after tick, each with all columns; times begin at 0
+    std::vector<double> movement {};       ///< tick by tick, with all columns of each; times begin at 0
 
     std::size_t ticks() const noexcept { return static_cast<std::size_t> (until - from); }
     double value (std::size_t tick, std::size_t component) const noexcept { return values[tick * names.size() + component]; }
 };
 
-/// Repeats a logged run, and keeps what a stretch of it holds. The ticks before the stretch are played too, because the state of the nodes
+/// Replays a logged run, and keeps the values of a stretch. The ticks before the stretch are replayed, too, because the state of the nodes
 /// is known only at the start of the run. It works in slices, so that a window stays responsive. [main thread]
 class StretchReader
 {
@@ -55,7 +55,7 @@ public:
     std::string firstRole() const;   ///< of the graph; empty if it has none
     Messages takeWarnings() { return replay->takeWarnings(); }
 
-    /// What was kept, once advance() has returned false. Ids: take/empty.
+    /// The stretch, once advance() has returned false. Ids: take/empty.
     Result<Stretch> take();
 
 private:

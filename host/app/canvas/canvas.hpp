@@ -38,7 +38,8 @@ struct NodeRequest
 ///
 /// Dragging on empty canvas selects. The middle or right button pans; a right-click opens the menu. The wheel zooms at the
 /// pointer; a trackpad pans. Dragging from a port draws a wire: ports that the wire fits are highlighted, the others show why
-/// it does not fit. A clip file dropped on a clip node becomes its file; elsewhere, it becomes a new node. Keyboard commands: commands.hpp.
+/// it does not fit. A clip file dropped on a clip node replaces the file of this node; on
+/// empty canvas, it becomes a new node. Keyboard commands: commands.hpp.
 class Canvas final : public juce::Component, public juce::TooltipClient, public juce::FileDragAndDropTarget, private Document::Listener
 {
 public:
@@ -68,10 +69,10 @@ public:
     /// Goes to a patch, then selects a node or wire in it and scrolls to it. No effect if the patch cannot be reached from the root.
     void show (const std::string& patch, graph::Id);
 
-    /// The full path of a port in the current patch: "grain/wave.value"; of the chosen instances: "finger[2]/drag.force".
+    /// The full path of a port in the current patch: "grain/wave.value"; with the numbers of the chosen instances: "finger[2]/drag.force".
     std::string address (const std::string& port) const;
 
-    /// Which of several instances of the current subgraph is shown live.
+    /// The instance of the current subgraph whose values are shown.
     struct Instance
     {
         int number = 0, count = 1;
@@ -81,7 +82,7 @@ public:
     std::optional<Instance> instance() const;   ///< empty if the subgraph has no `count`
     void chooseInstance (int number);
 
-    std::function<void()> onEditParams;   ///< called when the keyboard should go to the parameters of what is selected
+    std::function<void()> onEditParams;   ///< called to give the keyboard focus to the parameters of the selected node
     void editParams()
     {
         if (onEditParams) onEditParams();
@@ -151,7 +152,7 @@ public:
 
     std::function<void (std::vector<std::string> ports)> onProbe;   ///< receives the full paths of the ports
 
-    std::function<void (const std::filesystem::path&)> onFileDropped;   ///< receives a file that is no clip
+    std::function<void (const std::filesystem::path&)> onFileDropped;   ///< receives a file that is not a clip
     std::function<void (const std::filesystem::path&)> onSaveClip;      ///< receives the clip of a node, to be saved in another format
 
     std::function<void (const juce::String&)> onNotice;   ///< receives the reason why an edit was not made
@@ -225,8 +226,8 @@ private:
     std::unique_ptr<juce::TextEditor> editor;
     std::function<void (const juce::String&)> on_edited;
     std::optional<juce::Point<int>> file_over;   // where a file is being dragged over the canvas
-    std::optional<View> framed;                  // the view as it was fitted to the patch: at the first layout with enough room, and on request
-    juce::Rectangle<float> laid_out;             // of the last layout: while the user has not moved the view, it stays fitted, else its centre stays
+    std::optional<View> framed;                  // the view when it was last fitted to the patch: at the first layout with enough room, or on request
+    juce::Rectangle<float> laid_out;             // of the last layout; the view stays fitted until the user moves it, then keeps its centre
     bool with_map = true;
 };
 

@@ -16,15 +16,15 @@ namespace tactus::host
 struct WrittenFilm
 {
     std::vector<std::filesystem::path> files {};
-    Messages notes {};   ///< such as that no video was written because ffmpeg is not installed
+    Messages notes {};   ///< for example, that no video was written because ffmpeg is not installed
 };
 
-/// Writes a film next to one another: NAME.png, an animated PNG with 25 pictures per second; NAME.wav, the force on the tool as a sound for
-/// loudspeakers (Listening); NAME.csv, with columns t, x, y, z (m) and force.x, force.y, force.z (N); and NAME.webm, a video with the
-/// sound, if `ffmpeg` is installed. Each file appears as a whole or not at all. `progress` gets the part that is done, and returns
-/// false to end the writing; then nothing is written.
+/// Writes the files of a film into one folder: NAME.png, an animated PNG with 25 pictures per second; NAME.wav, the force on the tool as a
+/// sound for loudspeakers (Listening); NAME.csv, with columns t, x, y, z (m) and force.x, force.y, force.z (N); and NAME.webm, a video with
+/// the sound, if `ffmpeg` is installed. Each file is written completely or not at all. `progress` receives the fraction that is done. If it
+/// returns false, the writing stops, and no file is written.
 ///
-/// Error ids: film/empty, film/stopped, film/picture, output/unwritable. [any thread, but the picture belongs to it meanwhile]
+/// Error ids: film/empty, film/stopped, film/picture, output/unwritable. [any thread; no other thread may use the picture during the call]
 Result<WrittenFilm> writeFilm (const Film&, FilmPicture&, const std::filesystem::path& named, const std::function<bool (double)>& progress,
                                const std::string& ffmpeg = "ffmpeg");
 

@@ -15,12 +15,12 @@ class FilmJob
 {
 public:
     FilmJob (Film, const Theme&, juce::Rectangle<int> view, int width, std::filesystem::path);
-    ~FilmJob();   ///< ends the work, and waits for that
+    ~FilmJob();   ///< stops the work, and waits until it has ended
 
-    double progress() const noexcept { return done.load (std::memory_order_relaxed); }   ///< the part that is done, 0…1
+    double progress() const noexcept { return done.load (std::memory_order_relaxed); }   ///< the fraction that is done, 0…1
     void stop() noexcept { is_stopped.store (true, std::memory_order_relaxed); }
 
-    /// The result, once it is there.
+    /// The result, once the work is done.
     const std::optional<Result<WrittenFilm>>& result();
 
 private:

@@ -8,7 +8,7 @@
 namespace tactus::host
 {
 
-/// Draws the pictures of a film. Made and destroyed on the main thread; draws on any one thread.
+/// Draws the pictures of a film. Created and destroyed on the main thread; draws on any thread, but on one at a time.
 class FilmPicture
 {
 public:
@@ -27,7 +27,7 @@ private:
     scene::Raster raster;
 };
 
-/// The state that a film shows at a time, in s since its beginning; null if it has none.
+/// The state that a film shows at a time, in s from its start; null if it has none.
 const FilmState* stateAt (const Film&, double seconds);
 
 }   // namespace tactus::host

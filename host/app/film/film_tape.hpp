@@ -20,7 +20,7 @@ struct FilmTick
     Vec3 position = Vec3::Zero(), force = Vec3::Zero();   ///< m, N
 };
 
-/// What a picture of the scene shows, and from where.
+/// What a picture of the scene shows, and the position of the camera.
 struct FilmState
 {
     std::uint64_t tick = 0;
@@ -39,8 +39,8 @@ struct Film
     double seconds() const noexcept { return ticks.empty() ? 0.0 : static_cast<double> (ticks.back().tick + 1 - ticks.front().tick) / rate_hz; }
 };
 
-/// Keeps the last seconds of a run: its ticks, and the states of the scene, which are small. Unwatched, it costs a run one test per
-/// tick. [main thread]
+/// Keeps the last seconds of a run: its ticks, and the states of the scene, which are small. While it is not
+/// watched, it costs a run one test per tick. [main thread]
 class FilmTape
 {
 public:

@@ -10,23 +10,23 @@
 namespace tactus::host
 {
 
-/// A fit that runs on a thread. [main thread]
+/// A fit that runs on its own thread. [main thread]
 class FitJob
 {
 public:
     FitJob() = default;
     ~FitJob() { cancel(); }
 
-    /// Starts a fit, and ends the one before.
+    /// Cancels the previous fit, and starts a new one.
     void start (FitKind, std::shared_ptr<const Table>, std::string file, FitSettings);
 
-    /// Asks the thread to end, without waiting for it. Its result is dropped.
+    /// Asks the thread to end, without waiting for it. The result is discarded.
     void cancel();
 
     bool isRunning() const noexcept { return work != nullptr; }
     double share() const noexcept { return work ? work->course.share.load() : 0.0; }   ///< 0 to 1
 
-    /// The result, once: nothing while the fit runs, or if it was taken already.
+    /// Takes the result. Empty while the fit runs, and after the result was taken.
     std::optional<Result<FittedGraph>> take();
 
 private:

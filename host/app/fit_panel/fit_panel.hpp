@@ -12,8 +12,8 @@
 namespace tactus::host
 {
 
-/// A recording and a model fitted to it, over the window: what was recorded, recording and fit over each other, parameters with intervals, and
-/// the verdict. Nothing changes until the user accepts the fit. [main thread]
+/// A panel over the window that shows a recording and a model fitted to it: the kind of recording, a plot of both, the parameters with intervals,
+/// and the verdict. Nothing changes until the user accepts the fit. [main thread]
 class FitPanel final : public juce::Component
 {
 public:
@@ -21,13 +21,13 @@ public:
 
     /// Opens the panel and fits the kind that the columns suggest. A file that cannot be read is reported in the panel.
     void open (const std::filesystem::path&);
-    void close();   ///< and ends a fit that runs; nothing has changed
+    void close();   ///< closes the panel, and cancels a running fit; changes nothing
     bool isOpen() const { return isVisible(); }
 
     void attend();   ///< call many times a second
 
-    void choose (FitKind);                  ///< as in the list
-    void setAmount (const juce::String&);   ///< as typed into the field, such as "2 N"
+    void choose (FitKind);                  ///< chooses a kind, as the list does
+    void setAmount (const juce::String&);   ///< sets the amount, as if the user typed it: "2 N"
     bool isFitting() const { return job.isRunning(); }
     const std::optional<FittedGraph>& fitted() const noexcept { return result; }
     juce::String problem() const { return failure; }   ///< why there is no fit; empty if there is one

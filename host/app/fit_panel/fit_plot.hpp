@@ -8,7 +8,7 @@
 namespace tactus::host
 {
 
-/// The recording and the fit over each other.
+/// Plots the recording and the fit in the same axes.
 class FitPlot final : public juce::Component
 {
 public:

@@ -8,7 +8,7 @@
 namespace tactus::host
 {
 
-/// The verdict, the parameters with their intervals, and the residuals. As high as its content for a width.
+/// The verdict, the parameters with their intervals, and the residuals. Its height depends on its content and its width.
 class FitTable final : public juce::Component
 {
 public:

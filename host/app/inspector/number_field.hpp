@@ -33,7 +33,7 @@ public:
     std::function<void (std::optional<Json>, bool continues)> onChange;
     std::function<void (const juce::String&)> onRefused;
 
-    /// Reads typed text in place of the usual reading. The result is in the unit of the field.
+    /// Replaces the function that reads typed text. Its result is in the unit of the field.
     std::function<Result<double> (const std::string&)> read;
 
     void setBold (bool);               ///< marks a value that is not the default
@@ -82,7 +82,7 @@ private:
 /// The unit symbol to show. Empty for a pure number and for a generic port.
 juce::String unitText (const UnitRule&);
 
-/// What a screen reader calls a number: its readable name, and for a symbol its id or description.
+/// The name of a number for screen readers: its readable name; if this is a symbol, its id or description.
 juce::String spokenName (const PortSheet&);
 
 /// A tooltip for a number: description, allowed range and usual range.

@@ -23,7 +23,7 @@ public:
     ToolButton (const juce::String& caption, Kind k, const juce::String& tooltip = {}) : juce::Button (caption), kind (k)
     {
         setTooltip (tooltip);
-        if (caption.length() < 2) setTitle (tooltip.upToFirstOccurrenceOf (":", false, false));   // a sign says nothing to a screen reader
+        if (caption.length() < 2) setTitle (tooltip.upToFirstOccurrenceOf (":", false, false));   // a screen reader cannot read a symbol
         setMouseClickGrabsKeyboardFocus (false);                                                  // the canvas keeps the keyboard focus
         setMouseCursor (juce::MouseCursor::PointingHandCursor);
     }

@@ -9,8 +9,8 @@
 namespace tactus::host
 {
 
-/// A gain fader. Dragging with Shift moves it in fine steps, a double click sets 0 dB, and Alt-click the default. The wheel and the arrow keys
-/// nudge it.
+/// A gain fader. Dragging with Shift moves it in fine steps, a double click sets 0 dB, and an Alt-click restores the default. The
+/// wheel and the arrow keys change it in small steps.
 class Fader final : public juce::Component, public juce::SettableTooltipClient
 {
 public:

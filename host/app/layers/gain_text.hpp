@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// Gains as people read and type them.
+/// Converts gains to and from text that people read and type.
 
 #include <tactus/node/catalogue.hpp>
 #include <tactus/text/result.hpp>
@@ -22,7 +22,7 @@ double gainOf (double decibels);
 /// The datasheet row of a gain in dB, for a NumberField.
 const PortSheet& decibelSheet();
 
-/// The level of a layer at a gain of 1, which tells what gain makes it "0.3 N".
+/// The level of a layer at a gain of 1. From it follows the gain for a level such as "0.3 N".
 struct UnityLevel
 {
     double peak = 0.0;   ///< 0 if there is no signal

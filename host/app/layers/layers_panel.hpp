@@ -8,7 +8,7 @@
 namespace tactus::host
 {
 
-/// A layer mixer of the graph as a mixing desk: a strip for each layer, and the master strip. A clip file that is dropped on it becomes a
+/// A layer mixer of the graph as a mixing desk: a strip for each layer, and the master strip. A clip file dropped on it becomes a
 /// layer.
 class LayersPanel final : public juce::Component, public juce::FileDragAndDropTarget, private Document::Listener
 {

@@ -58,15 +58,15 @@ struct AddedLayer
     graph::Id node = 0;    ///< the new node; 0 for an empty layer
 };
 
-/// A texture is felt only in contact: it is multiplied by the gain of a contact window, if the patch has one, or the depth for a new one.
-/// A mixer of vectors gets the force of a texture with its direction, and numbers along z.
-/// Fills the layer of a mixer that has only one, and that one without a wire. Ids: mixer/gone, mixer/full, mixer/type.
+/// A texture is felt only in contact: it is multiplied by the gain of a contact window. The patch must have such a window, or a depth for a new
+/// one. A mixer of vectors gets the force of a texture with its direction, and numbers along z.
+/// If the mixer has only one layer and nothing is wired to it, this layer is filled. Ids: mixer/gone, mixer/full, mixer/type.
 Result<AddedLayer> addLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, const std::string& type = {});
 
-/// A layer that plays a clip over and over, as a vibration: `file` is as written in the graph. Ids: as addLayer.
+/// Adds a layer that plays a clip in a loop, as a vibration. `file` is the path as the graph contains it. Ids: as addLayer.
 Result<AddedLayer> addClipLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, const std::string& file);
 
-/// What the desk adds with one click.
+/// The kinds of layers that the desk adds with one click.
 struct LayerKind
 {
     std::string name, type, about;
@@ -74,7 +74,7 @@ struct LayerKind
 
 const std::vector<LayerKind>& layerKinds();
 
-/// The types that can be a layer: textures and vibrations with a force output; for a mixer of vectors, friction, too.
+/// The types that can be a layer: textures and vibrations with a force output; for a mixer of vectors, also friction.
 std::vector<const NodeType*> layerTypes (const Catalogue&, bool vectors = false);
 
 /// True if a layer is multiplied by the gain of a contact window.
@@ -90,7 +90,7 @@ Result<graph::Command> removeLayer (const graph::Graph&, const MixerPlace&, cons
 graph::Command moveLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, int layer, int to);
 
 /// The result of addMixer(). The mixer is inserted between forces and the input where they are summed: a mixer of vectors if one of them
-/// is a vector. Before a device without forces, it has one empty layer.
+/// is a vector. If nothing drives the device yet, the mixer has one empty layer.
 struct AddedMixer
 {
     graph::Command command;

@@ -28,19 +28,19 @@ std::set<std::string> downstreamOf (const graph::Patch&, const std::string& node
 std::optional<graph::Endpoint> sourceFor (const PortSheet& input, const graph::Graph&, const graph::Patch&, const std::set<std::string>& excluded,
                                           const Catalogue&);
 
-/// Names as the setting `names` keeps them.
+/// Names in the form in which the setting `names` stores them.
 std::string joined (std::vector<std::string> names);
 
-/// The names of the layers with another one at the end. The position of a name is the number of commas before it, so no name is empty.
+/// The names of the layers with one more at the end. The position of a name is the number of commas before it, so no name is empty.
 std::string namesWith (const graph::Node& mixer, int layers, const std::string& last);
 
 Message mixerIsGone();
 
-/// If the source of a wire is a product with the gain of a contact window: the node that multiplies. Else null.
+/// The node that multiplies the source of a wire by the gain of a contact window; null if there is none.
 const graph::Node* gateOf (const graph::Patch&, const graph::Wire&);
 
-/// Multiplies a source by the gain of the contact, 0 while the tool does not touch: of a window that the patch has, or of a new one behind
-/// the depth of a surface. Returns the product, or the source itself if the patch has neither.
+/// Multiplies a source by the gain of a contact window, which is 0 while the tool does not touch. Uses a window of the patch, or adds one that
+/// reads the depth of a surface. Returns the product, or the source itself if the patch has neither.
 graph::Endpoint gated (graph::Endpoint source, bool is_vector, const graph::Graph&, const MixerPlace&, const std::set<std::string>& excluded, const Catalogue&,
                        graph::Batch&);
 

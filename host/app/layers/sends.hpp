@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// Sends: layers of a mixer that another device of the graph plays, too. The sends to an output go through a bus, which is a mixer before
+/// Sends: layers of a mixer that another device of the graph also plays. The sends to an output go through a bus, which is a mixer before
 /// that output with a layer for each send. So a send is made of ordinary nodes and wires, and its gain is the gain of a layer.
 
 #include "mixer.hpp"
@@ -13,7 +13,7 @@ namespace tactus::host
 struct SendTarget
 {
     std::string sink;   ///< the node, such as a device.signal_out
-    std::string name;   ///< its role, or the node if it has none
+    std::string name;   ///< its role, or the node if it has no role
 };
 
 /// The outputs in the patch of a mixer that the mixer does not drive.
@@ -36,7 +36,7 @@ Result<graph::Command> addSend (const graph::Graph&, const MixerPlace&, const Ca
 /// Adds a vibration motor as a new role, and sends the layer to it. Ids: those of addSend().
 Result<graph::Command> addSendToNewMotor (const graph::Graph&, const MixerPlace&, const Catalogue&, int layer);
 
-/// Removes a send, and its bus with the last one. Ids: those of removeLayer().
+/// Removes a send. Removing the last send of a bus also removes the bus. Ids: those of removeLayer().
 Result<graph::Command> removeSend (const graph::Graph&, const Send&, const Catalogue&);
 
 }   // namespace tactus::host

@@ -52,9 +52,9 @@ public:
     // What the user does.
     void setGain (std::optional<Json>, bool goes_on);
     void setValue (const std::string& param, std::optional<Json>, bool goes_on);
-    void typeGain (const juce::String&);   ///< as typed into the field of the gain: "-6 dB", "0.3 N"
+    void typeGain (const juce::String&);   ///< sets the gain, as if the user typed it: "-6 dB", "0.3 N"
     void setGate (bool on);
-    void sendTo (const std::string& sink);   ///< sends the layer to an output, or no longer; "" adds a vibration motor
+    void sendTo (const std::string& sink);   ///< turns the send to an output on or off; "" adds a vibration motor
     void setSendGain (double decibels, bool goes_on);
     void rename (const juce::String&);
     void remove();

@@ -6,7 +6,7 @@
 namespace tactus::host
 {
 
-/// A key as the window writes it everywhere, such as Ctrl+S or Shift+Esc, from the way that juce::KeyPress describes it.
+/// Converts the description of a key by juce::KeyPress to the form that all texts of the window use, such as Ctrl+S or Shift+Esc.
 juce::String keyText (const juce::String& described);
 
 }   // namespace tactus::host

@@ -15,7 +15,7 @@ public:
     Look();
 
     /// A Look for pictures that another thread draws while the window is drawn. It shares no typeface and no cached text with others:
-    /// JUCE tells fonts apart by name and size, so these are wider by a thousandth. Made and destroyed on the main thread.
+    /// JUCE tells fonts apart by name and size, so its fonts are a thousandth wider. Created and destroyed on the main thread.
     static std::unique_ptr<Look> apart (const Theme&);
 
     const Theme& theme() const noexcept { return *current; }

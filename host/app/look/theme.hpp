@@ -17,7 +17,7 @@ struct Theme
     juce::Colour panel, raised;           ///< panel: panels and node bodies; raised: fields and buttons on them
     juce::Colour hairline, text, dim;     ///< dim: labels, units, secondary text
     juce::Colour accent, warning, stop;   ///< accent: selected or live; warning: out of the usual range; stop: faults and the stop button
-    std::array<juce::Colour, 3> axes;     ///< x, y and z: hues that colour-blind eyes can tell apart
+    std::array<juce::Colour, 3> axes;     ///< x, y and z: hues that colour-blind people can tell apart
     bool is_dark = true;
 
     /// The colour of a quantity for ports, wires and traces.

@@ -11,7 +11,7 @@ namespace tactus::host
 
 inline constexpr auto clip_type = "signal.clip";
 
-/// Lets a signal.clip play a file over and over, from the first tick on. `file` is as written in the graph.
+/// Makes a signal.clip play a file in a loop, from the first tick on. `file` is the path as the graph contains it.
 void playClip (graph::Node&, const std::string& file);
 
 /// A graph that plays a clip on a simulated device: its value pushes along z, with 1 N at amplitude 1.

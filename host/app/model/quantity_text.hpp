@@ -27,13 +27,13 @@ struct QuantityText
     std::string toText() const;
 };
 
-/// The same value with the prefix that reads best, 100 um for 0.0001 m, if it has no unit yet and that of the port takes prefixes.
+/// The same value with the most readable prefix, such as 100 um for 0.0001 m, if it has no unit yet and the unit of the port takes prefixes.
 QuantityText withBestPrefix (QuantityText, const PortSheet&);
 
 /// A unit as people read it: "µm" for the "um" of files, and "N·s/m" for "N*s/m".
 std::string unitShown (const std::string& unit);
 
-/// A value in SI units as people read it: "100 µm", "2.5 N", and without a unit for "1" and "".
+/// A value in SI units as people read it: "100 µm", "2.5 N". For the units "1" and "", only the number.
 std::string shownQuantity (double si, std::string_view symbol);
 
 /// Rounds to significant digits.

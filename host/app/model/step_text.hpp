@@ -10,7 +10,7 @@
 namespace tactus::host
 {
 
-/// The names of the steps of a history, oldest first. A step that only changes one value says which and how:
+/// The names of the steps of a history, oldest first. If a step changes only one value, its name contains the old and the new value:
 /// "wall: Stiffness 400 -> 550 N/m".
 std::vector<std::string> stepNames (const graph::History&, const Catalogue&);
 

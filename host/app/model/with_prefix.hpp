@@ -7,14 +7,14 @@
 namespace tactus::host
 {
 
-/// An SI prefix as files have it: "u" for micro.
+/// An SI prefix as files write it: "u" for micro.
 struct SiPrefix
 {
     std::string_view text;
     double factor = 1.0;
 };
 
-/// The prefix with which a value reads best. None for 0, and for units that take none.
+/// The most readable prefix for a value. None for 0, and for units that take no prefix.
 SiPrefix prefixFor (double value, std::string_view unit) noexcept;
 
 /// Formats a value with an SI prefix: "3.1 mJ".

@@ -15,17 +15,17 @@ namespace tactus::host
 struct DeviceTrial
 {
     static constexpr double length_s = 0.3;
-    static constexpr double share = 0.1;               ///< the largest part of a limit of the guard that the pulse reaches
-    static constexpr double most_force_N = 0.5;        ///< of devices with high limits
-    static constexpr double unguarded_signal = 0.05;   ///< of full scale, without a limit on signals
+    static constexpr double share = 0.1;               ///< the pulse reaches at most this fraction of a limit of the guard
+    static constexpr double most_force_N = 0.5;        ///< the largest force, for devices with high limits
+    static constexpr double unguarded_signal = 0.05;   ///< fraction of full scale, if there is no limit on signals
 
     graph::Graph graph;
     bool is_force = true;   ///< false: a vibration
 
-    /// Empty if the graph pushes or shakes nothing with this role.
+    /// Empty if the graph drives no force and no vibration of this role.
     static std::optional<DeviceTrial> of (const graph::Graph&, const RoleNeeds&);
 
-    /// How strong the pulse is, from the limits of the guard. Without a limit on forces there is no pulse: 0.
+    /// The strength of the pulse, from the limits of the guard. If there is no limit on forces, it is 0: no pulse.
     double level (std::optional<double> max_force_N, std::optional<double> max_signal) const noexcept;
 };
 

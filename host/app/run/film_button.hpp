@@ -8,8 +8,8 @@
 namespace tactus::host
 {
 
-/// Saves what the scene has shown as a film: an animated picture, a sound and a table of the force. A click opens a menu: the last seconds,
-/// or from now until the next click. While a film is saved, the button shows how far that is, and a click ends it. [main thread]
+/// Saves what the scene showed as a film: an animated picture, a sound and a table of the force. A click opens a menu: save the last seconds,
+/// or film from now until the next click. While a film is saved, the button shows the progress, and a click cancels the saving. [main thread]
 class FilmButton final : public juce::Component
 {
 public:
@@ -25,7 +25,7 @@ public:
 
     std::function<void (const juce::String&)> onHint;   ///< receives what was saved, or why nothing was
 
-    // What the menu does.
+    // The commands of the menu.
     void saveLast();                                  ///< asks for a name, and saves the last seconds
     void begin();                                     ///< films from now on
     void end();                                       ///< asks for a name, and saves what was filmed
@@ -50,7 +50,7 @@ private:
     SceneView& space;
     LabelButton button { "Film", "Saves the scene as a film: pictures, sound and force" };
     double length_s = 10.0;
-    std::optional<std::uint64_t> first_tick;   // while it films
+    std::optional<std::uint64_t> first_tick;   // of the film that is being recorded
     double filming_rate = 1.0;
     std::unique_ptr<FilmJob> job;
     std::unique_ptr<juce::FileChooser> chooser;

@@ -28,8 +28,8 @@ public:
     void endPreview();   ///< runs the document again if it ran before
     bool isPreviewing() const noexcept { return preview_run != nullptr; }
 
-    /// Plays a short, gentle pulse on the device of a role, in place of the document, which then runs again. Only while the document runs:
-    /// somebody who has stopped the forces does not expect one. Ids: device_trial/stopped, device_trial/no_motor.
+    /// Pauses the document, plays a short, gentle pulse on the device of a role, and runs the document again. Works only while the document
+    /// runs: a user who has stopped the forces does not expect a pulse. Ids: device_trial/stopped, device_trial/no_motor.
     Result<> tryDevice (const std::string& role);
     bool isTrying() const noexcept { return trial.has_value(); }
 
@@ -47,7 +47,7 @@ private:
     std::unique_ptr<LiveRun> preview_run;
     bool resumes = false;   // runs the document again after the preview
 
-    /// A device that is being tried, in the preview.
+    /// The device that is being tested. The test runs as a preview.
     struct Trial
     {
         DeviceTrial of;

@@ -23,10 +23,10 @@ public:
     struct Corner
     {
         float x, y;
-        float nearness;   ///< 1 / depth, in 1/m; not above 0: behind the near plane of the camera
+        float nearness;   ///< 1 / depth, in 1/m; 0 or less: behind the near plane of the camera
         std::array<float, N> values;
 
-        // Of a corner that corner() makes, so that triangles can be cut at the near plane, in m. x and y of a corner behind this plane are
+        // In m. Set only in corners that corner() makes; needed to cut triangles at the near plane. x and y of a corner behind this plane are
         // computed as if its depth were `near`.
         float depth = 0.0f, near = 0.0f;
     };
@@ -48,7 +48,7 @@ public:
     /// Makes the picture empty. `fineness` is the number of samples per pixel in each direction.
     void begin (int width, int height, int fineness);
 
-    /// Fills a triangle, as far as it is in front of the camera. `shade (values)` returns the colour of a sample: 0xffRRGGBB.
+    /// Fills the part of a triangle that is in front of the camera. `shade (values)` returns the colour of a sample: 0xffRRGGBB.
     template <std::size_t N, typename Shade>
     void triangle (const Corner<N>&, const Corner<N>&, const Corner<N>&, Sides, Shade&&);
 
@@ -128,7 +128,7 @@ void Raster::triangle (const Corner<N>& a, const Corner<N>& b, const Corner<N>& 
     {
         const auto &from = *all[i], &to = *all[(i + 1) % 3];
         const bool begins = from.nearness > 0.0f, ends = to.nearness > 0.0f;
-        if (! begins && ! (from.near > 0.0f)) return note (Fate::outside);   // where it is behind the plane is not known
+        if (! begins && ! (from.near > 0.0f)) return note (Fate::outside);   // its position behind the plane is not known
         if (begins) kept[count++] = from;
         if (begins != ends) kept[count++] = begins ? cut (from, to) : cut (to, from);
     }
@@ -143,7 +143,7 @@ Raster::Corner<N> Raster::cut (const Corner<N>& front, const Corner<N>& behind) 
 {
     const float near = behind.near, depth = 1.0f / front.nearness, share = std::clamp ((depth - near) / (depth - behind.depth), 0.0f, 1.0f);
     const auto between = [share] (float v, float w) { return v + share * (w - v); };
-    const auto place = [&] (float v, float w, int size) {   // in space, the distance from the middle is in proportion to the depth
+    const auto place = [&] (float v, float w, int size) {   // in space, the distance from the middle of the picture grows in proportion to the depth
         const float middle = 0.5f * static_cast<float> (size);
         return middle + between ((v - middle) * depth, (w - middle) * near) / near;
     };

@@ -65,7 +65,7 @@ struct ScopeSpec
     std::vector<Cursor> cursors;            ///< at most two
     bool is_frozen = false;
 
-    /// Shows one more trace; a spectrogram shows it instead of the one before.
+    /// Adds a trace. A spectrogram replaces its trace, because it shows only one.
     void addPort (const std::string& port)
     {
         if (kind == ScopeKind::spectrogram) ports.clear();

@@ -31,8 +31,8 @@ public:
         }
     };
 
-    /// Adds the columns that the traces, which are components of one port, have and the picture has not. Another view, or another
-    /// run, starts a new picture.
+    /// Adds the columns that are not yet in the picture. The traces are the components of one port. A change of the view or of the run
+    /// starts a new picture.
     void update (const TraceList&, const View&);
     void clear() { *this = {}; }
 
@@ -40,7 +40,7 @@ public:
     void draw (juce::Graphics&, juce::Rectangle<float>) const;
 
     const Extent& decibels() const noexcept { return scale; }     ///< of the darkest and the brightest colour; empty: no columns yet
-    std::uint64_t columns() const noexcept { return computed; }   ///< that were computed since the picture began
+    std::uint64_t columns() const noexcept { return computed; }   ///< number of columns computed since the picture began
     bool isBehind() const noexcept { return is_behind; }          ///< there are more columns to compute
     double loudestHz() const noexcept { return loudest_hz; }      ///< in the latest column; 0: silent
     double loudestDb() const noexcept { return loudest_db; }

@@ -7,7 +7,7 @@
 namespace tactus::host
 {
 
-/// Shows which frequencies a signal has, as it runs: time to the right, frequency upwards, amplitude as colour.
+/// Shows the frequencies of a signal while the graph runs: time to the right, frequency upwards, amplitude as colour.
 class SpectrogramPlot final : public ScopePlot
 {
 public:

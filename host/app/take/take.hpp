@@ -13,8 +13,8 @@
 namespace tactus::host
 {
 
-/// A recording of everything that enters a run of the window, from its first tick to its end, and what it holds. It is played again
-/// without devices, a little on each call of attend(), so the window stays responsive. [main thread]
+/// Records everything that enters a run of the window, from its first tick to its end, and reads stretches from the recording. To read, it
+/// replays the recording without devices, a part on each call of attend(), so the window stays responsive. [main thread]
 class Take
 {
 public:
@@ -22,7 +22,7 @@ public:
     {
         empty,
         recording,
-        reading,   ///< the recording is being played again
+        reading,   ///< the recording is being replayed
         ready
     };
 
@@ -40,7 +40,7 @@ public:
     State state() const noexcept { return now; }
     double seconds() const noexcept;   ///< the length so far, or of the complete recording
 
-    /// Plays the recording again and hands over a stretch, or the reason why that failed. Replaces any earlier request.
+    /// Replays the recording, and passes on a stretch, or the reason why this failed. Replaces any earlier request.
     void read (StretchReader::Options, std::function<void (Result<Stretch>)>);
 
     void attend();   ///< call many times a second

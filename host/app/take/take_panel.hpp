@@ -11,7 +11,7 @@
 namespace tactus::host
 {
 
-/// Records a run, shows one of its ports, and makes a clip, a gesture or a test of a stretch of it.
+/// Records a run, shows one of its ports, and makes a clip, a gesture or a test from a stretch of it.
 class TakePanel final : public juce::Component, private Document::Listener
 {
 public:
@@ -27,14 +27,14 @@ public:
     const std::string& port() const noexcept { return shown_port; }
     void toggleRecording();
 
-    // What the buttons do. They ask for a file.
+    // The commands of the buttons. They ask for a file.
     void makeClip();
     void makeGesture();
     void makeTest();
 
-    /// Asks for a file to write; `name` is proposed.
+    /// Asks for a file to write; `name` is the suggested name.
     std::function<void (const std::string& name, std::function<void (const std::filesystem::path&)>)> onChoose;
-    std::function<void (const Clip&, Messages, const std::filesystem::path&)> onClip;   ///< writes a clip, and says what it lost
+    std::function<void (const Clip&, Messages, const std::filesystem::path&)> onClip;   ///< writes a clip, and reports what was lost
     std::function<void (const juce::String& title, const juce::String& text)> onSaid;   ///< shows a result or a problem
     std::function<void (const juce::String&)> onHint;
 

@@ -16,7 +16,7 @@ class TakePlot final : public juce::Component
 public:
     TakePlot();
 
-    void show (Stretch);   ///< of the whole recording; without ticks, shows the text
+    void show (Stretch);   ///< shows the whole recording; if it has no ticks, shows the text
     void setText (const juce::String&);
 
     void mark (double from_s, double until_s);
@@ -25,7 +25,7 @@ public:
     double length() const noexcept { return shown.rate_hz > 0.0 ? static_cast<double> (shown.ticks()) / shown.rate_hz : 0.0; }
 
     std::function<void()> onMark;
-    std::function<void (const juce::String&)> onHint;   ///< receives what the mouse can do here, or ""
+    std::function<void (const juce::String&)> onHint;   ///< receives a description of what the mouse can do here, or ""
 
     void paint (juce::Graphics&) override;
     void resized() override { columnsOf(); }

@@ -37,7 +37,7 @@ public:
 
     void create();
     void open();                                ///< asks the user for the file
-    void open (const std::filesystem::path&);   ///< a graph, or a clip, for which a graph is made that plays it
+    void open (const std::filesystem::path&);   ///< opens a graph, or makes a graph that plays a clip
     void openCopy (const std::filesystem::path& preset, bool by_pointer);
     void openGraph (graph::Graph, const std::string& step);   ///< opens a graph that has no file
     void save (std::function<void()> then = {});
@@ -61,7 +61,7 @@ private:
     void documentChanged() override;
     bool autosave();
     void load (const std::filesystem::path&, Document::Source, bool by_pointer);
-    void loadClipGraph (const std::filesystem::path&, bool by_pointer);   ///< a graph that plays a clip file
+    void loadClipGraph (const std::filesystem::path&, bool by_pointer);   ///< opens a graph that plays a clip file
     void show (graph::Graph, Document::Source, const std::string& step, bool runs, bool by_pointer);
     void refuse (const std::filesystem::path&, const Messages&);   ///< a dialog that says why the file cannot be opened
     void saveElsewhere (const juce::String& why, const std::function<void()>& then);

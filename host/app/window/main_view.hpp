@@ -100,7 +100,7 @@ public:
     void resized() override;
     bool keyPressed (const juce::KeyPress&) override;
 
-    /// A graph or clip that is dropped where no panel takes it is opened. Of a table, the window asks what to fit to it.
+    /// Opens a graph or clip that is dropped where no panel takes it. For a table, opens the panel that fits a model to it.
     bool isInterestedInFileDrag (const juce::StringArray&) override;
     void filesDropped (const juce::StringArray&, int x, int y) override;
 

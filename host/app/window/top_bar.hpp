@@ -26,7 +26,7 @@ public:
     explicit TopBar (Document&);
     ~TopBar() override;
 
-    /// Which of several instances of the shown subgraph is the one whose values are shown.
+    /// The instance of the current subgraph whose values are shown.
     struct Instance
     {
         int number = 0, count = 1;

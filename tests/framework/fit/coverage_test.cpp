@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Recordings are made from known parameters with 20 dB of noise, 300 for each kind, with fixed seeds.
+// Recordings are made from known parameters, 300 for each kind, with fixed seeds. The noise is 20 dB below the signal.
 
 #include "draws.hpp"
 
@@ -70,7 +70,7 @@ TEST_CASE ("fit of friction: intervals contain the truth, and mu, d_max and stif
         tally.add ("d_max", fit->report.at ("d_max"), s.truth.d_max);
         tally.add ("stiffness", fit->report.at ("stiffness"), s.truth.stiffness());
     }
-    CHECK (right >= 0.9 * draws);   // 500 rows under noise do not always tell the adhesion functions apart
+    CHECK (right >= 0.9 * draws);   // in 500 noisy rows, the adhesion functions are not always distinguishable
     tally.check ("mu", 0.02, draws);
     tally.check ("d_max", 0.02, draws);
     tally.check ("stiffness", 0.02, draws);
@@ -164,7 +164,7 @@ TEST_CASE ("fit of a grating: intervals contain the truth, and period and larges
     tally.check ("amplitude 2", 0.03, draws);
 }
 
-TEST_CASE ("fit of a texture: intervals contain the truth under the noise of a sensor", "[fit]")
+TEST_CASE ("fit of a texture: intervals contain the truth in spite of sensor noise", "[fit]")
 {
     Draws tally;
     for (int seed = 1; seed <= draws; ++seed)
@@ -380,7 +380,7 @@ TEST_CASE ("fit of a curve: intervals contain the truth, and work and force are 
     tally.check ("force", 0.03, draws);
 }
 
-TEST_CASE ("fits: errors that depend on one another widen the intervals", "[fit]")
+TEST_CASE ("fits: correlated errors widen the intervals", "[fit]")
 {
     Draws tally;
     for (int seed = 1; seed <= draws; ++seed)

@@ -41,8 +41,8 @@ public:
         t.squares += off * off;
     }
 
-    /// Of 300 draws, 95 +- 4 % of the intervals contain the truth; of fewer, chance lets this vary more. The values are within `error` of
-    /// the truth, root mean square; fewer draws may be off by three standard deviations of that mean more.
+    /// Of 300 draws, 95 +- 4 % of the intervals must contain the truth. The root mean square error of the values must be at most `error`. With
+    /// fewer draws, chance has a larger effect: the first limit is wider, and the second one is higher by three standard deviations.
     void check (const std::string& name, double error, int draws)
     {
         const auto& t = tallies[name];

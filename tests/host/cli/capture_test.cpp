@@ -62,7 +62,7 @@ std::string lineOf (const std::string& file, int number)
 }
 }   // namespace
 
-TEST_CASE ("capture: a test of a run passes, wherever it is, and fails when a value differs", "[cli][capture]")
+TEST_CASE ("capture: a test of a run passes in any folder, and fails if a value differs", "[cli][capture]")
 {
     const Scratch scratch;
     const auto log = loggedBoard (scratch);
@@ -146,7 +146,7 @@ TEST_CASE ("capture: a test of a graph with files finds them from its own folder
     CHECK (says (changed.err, "log/asset_changed"));
 }
 
-TEST_CASE ("capture: what is wrong is refused", "[cli][capture]")
+TEST_CASE ("capture: wrong options and files are refused", "[cli][capture]")
 {
     const Scratch scratch;
     const auto log = loggedBoard (scratch, "dry_wood", "0.2"), out = scratch.path ("o.jsonl"), clip = scratch.path ("o.json");

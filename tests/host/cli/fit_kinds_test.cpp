@@ -35,7 +35,7 @@ std::string table (const std::string& header, int rows, const std::function<void
     return text.str();
 }
 
-/// Strokes of 1 mm on a contact that gives 0.1 mm and slides at 0.8 N under 2 N.
+/// Strokes of 1 mm on a contact that stretches 0.1 mm and then slides at 0.8 N, at a load of 2 N.
 std::string strokes (const std::string& header = "position,force,load")
 {
     Random random { 3 };
@@ -149,7 +149,7 @@ TEST_CASE ("fit: each kind finds its parameters, and its preset is valid and can
     }
 }
 
-TEST_CASE ("fit: the preset of friction drags as the recording did", "[cli][fit]")
+TEST_CASE ("fit: the preset of friction gives the same forces as the recording", "[cli][fit]")
 {
     const Scratch scratch;
     const auto csv = scratch.write ("strokes.csv", strokes()), preset = scratch.path ("wood.json");
@@ -187,7 +187,7 @@ TEST_CASE ("fit: columns have units in their names, may be separated in other wa
            == Approx (1e-3 * plain).epsilon (1e-6));
 }
 
-TEST_CASE ("fit: a recording that says too little is fitted with a poor verdict that says what is lacking", "[cli][fit]")
+TEST_CASE ("fit: a recording with too little information gets a poor verdict that says what is lacking", "[cli][fit]")
 {
     const Scratch scratch;
     auto text = cut();

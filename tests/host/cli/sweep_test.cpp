@@ -51,7 +51,7 @@ std::size_t highestIn (const Table& table, std::size_t row, std::size_t from)
 double hzOf (const std::string& column) { return std::stod (column); }
 }   // namespace
 
-TEST_CASE ("the ridge of a sweep over a grating is at the speed divided by its period", "[cli][sweep]")
+TEST_CASE ("in a sweep over a grating, the strongest frequency is the speed divided by the period", "[cli][sweep]")
 {
     const Scratch scratch;
     std::mt19937 random (7);
@@ -80,7 +80,7 @@ TEST_CASE ("the ridge of a sweep over a grating is at the speed divided by its p
     }
 }
 
-TEST_CASE ("a sweep names the period of the pattern that it finds\\, and none where there is none", "[cli][sweep]")
+TEST_CASE ("a sweep prints the period of the pattern that it finds\\, and nothing if there is no pattern", "[cli][sweep]")
 {
     const Scratch scratch;
     const auto graph = scratch.write ("g.json", gratingGraph (500.0));
@@ -95,7 +95,7 @@ TEST_CASE ("a sweep names the period of the pattern that it finds\\, and none wh
     CHECK (silent.out.empty());
 }
 
-TEST_CASE ("a sweep shows the force over place and speed", "[cli][sweep]")
+TEST_CASE ("a sweep shows the force against position and speed", "[cli][sweep]")
 {
     const Scratch scratch;
     const auto graph = scratch.write ("g.json", gratingGraph (100.0)), out = scratch.path ("m.csv");

@@ -12,7 +12,7 @@ using namespace tactus::host;
 using tactus::test::isSame;
 using tactus::test::PlayedPng;
 
-TEST_CASE ("an animated PNG plays the frames that it was made of, for as long as it should", "[host][io][film]")
+TEST_CASE ("an animated PNG plays the frames that were added, each for its time", "[host][io][film]")
 {
     rc::check ("frames that differ in random rectangles", [] {
         const int width = *rc::gen::inRange (1, 60), height = *rc::gen::inRange (1, 40), count = *rc::gen::inRange (1, 6);

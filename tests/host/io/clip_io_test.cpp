@@ -48,7 +48,7 @@ std::vector<fs::path> clipsOfOthers()
 }
 }   // namespace
 
-TEST_CASE ("every clip of others, saved in any format, comes back within 1 %, or the loss report says by how much it differs", "[clips][data]")
+TEST_CASE ("every clip from other programs, saved in any format, reads back within 1 %, or the loss report says by how much it differs", "[clips][data]")
 {
     const TemporaryFolder folder;
     for (const auto& path : clipsOfOthers())
@@ -72,7 +72,7 @@ TEST_CASE ("every clip of others, saved in any format, comes back within 1 %, or
     }
 }
 
-TEST_CASE ("a recording is the clip of a node: each sample a point, each channel a wave", "[clips]")
+TEST_CASE ("a clip node plays a recording: each sample becomes a point, and each channel a wave", "[clips]")
 {
     const TemporaryFolder folder;
     std::vector<double> tone, noise;

@@ -251,7 +251,7 @@ TEST_CASE ("plot: a map shows the colour of each value at its place\\, and the s
     const auto image = draw ({ .panels = { panel } });
     const auto dark = pixelsOf (image, colourOfLevel (0.0)), bright = pixelsOf (image, colourOfLevel (1.0)), third = pixelsOf (image, colourOfLevel (0.25));
     CHECK (dark > 100'000);
-    CHECK (bright == Approx (dark).epsilon (0.05));   // the bar of colours has some of each, too
+    CHECK (bright == Approx (dark).epsilon (0.05));   // the colour bar also contains some of each
     CHECK (third == Approx (dark).epsilon (0.05));
     const auto find = [&] (Colour colour) {
         double x = 0.0, y = 0.0;

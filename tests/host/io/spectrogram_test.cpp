@@ -25,7 +25,7 @@ std::vector<double> toneOf (double amplitude, double hz, std::size_t n)
 
 TEST_CASE ("spectrogram: each column shows the frequency that the signal has at its time", "[host][io][spectrum]")
 {
-    rc::check ("two tones after one another", [] {
+    rc::check ("two tones, one after the other", [] {
         const double first = *rc::gen::inRange (50, 950), second = *rc::gen::inRange (50, 950);
         auto signal = toneOf (1.0, first, 4000);
         const auto later = toneOf (0.3, second, 4000);
@@ -63,7 +63,7 @@ TEST_CASE ("spectrogram: the strength of a vector does not depend on the directi
     });
 }
 
-TEST_CASE ("spectrogram: lines end at the highest frequency\\, and a signal shorter than a window gives no columns", "[host][io][spectrum]")
+TEST_CASE ("spectrogram: columns end at the highest frequency\\, and a signal shorter than a window gives no columns", "[host][io][spectrum]")
 {
     const auto s = spectrogramOf ({ toneOf (1.0, 100.0, 4000) }, sample_rate, 0.1, 500.0);
     REQUIRE_FALSE (s.columns.empty());

@@ -89,7 +89,7 @@ TEST_CASE ("layer vectors: by default the layers are added, each with its own ga
     CHECK (out.reduction == 0.0);
 }
 
-TEST_CASE ("layer vectors: layers along one axis are mixed as layer.mix mixes numbers, but for the last bits under the ceiling", "[nodes][layer]")
+TEST_CASE ("layer vectors: layers along one axis are mixed as layer.mix mixes numbers, except for the last bits at the ceiling", "[nodes][layer]")
 {
     rc::prop ("any axis, params and layers", [] {
         const int axis = *rc::gen::inRange (0, 3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A test of a run passes on the same graph, and finds any bit that differs.
+// A test of a run passes with the same graph, and finds every bit that differs.
 #include "support/corpus.hpp"
 #include "support/temporary_folder.hpp"
 

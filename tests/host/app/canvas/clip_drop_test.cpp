@@ -60,19 +60,19 @@ TEST_CASE ("a clip dropped on the canvas becomes a node that plays it, in one st
     CHECK (rig.text() == before);
 }
 
-TEST_CASE ("a clip dropped on a clip node becomes its file, and on another node nothing changes", "[app][canvas][clips]")
+TEST_CASE ("a clip dropped on a clip node replaces its file, and a clip dropped on another node changes nothing", "[app][canvas][clips]")
 {
     CanvasRig rig { CanvasRig::preset ("zip") };
     dropOn (*rig.canvas, heart, rig.title ("teeth"));
     CHECK (clipIn (rig.graph())->settings.at ("clip") == Json ("assets/heartbeat.haptic"));
-    CHECK (clipIn (rig.graph())->params.at ("drive") == Json ("position"));   // the rest stays
+    CHECK (clipIn (rig.graph())->params.at ("drive") == Json ("position"));   // the other parameters stay
     const auto before = rig.text();
     dropOn (*rig.canvas, heart, rig.title ("motor"));
     CHECK (rig.text() == before);
     CHECK (rig.hint.contains ("plays no clips"));
 }
 
-TEST_CASE ("a dropped graph is handed on, and other files are not taken", "[app][canvas][clips]")
+TEST_CASE ("the canvas passes on a dropped graph, and refuses other files", "[app][canvas][clips]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     fs::path opened;

@@ -29,7 +29,7 @@ namespace
 constexpr double film_rate = 2000.0;
 const juce::Rectangle<int> seen_area { 0, 0, 320, 200 };
 
-/// The window's look, for what draws text.
+/// Sets the window's look, which everything that draws text needs.
 struct Dressing
 {
     juce::ScopedJuceInitialiser_GUI juce_runs;
@@ -71,7 +71,7 @@ std::string bytesOf (const fs::path& file)
 }
 }   // namespace
 
-TEST_CASE ("a film has a picture every 40 ms\\, in the size that was asked for", "[app][film]")
+TEST_CASE ("a film has a picture every 40 ms\\, in the requested size", "[app][film]")
 {
     const Dressing dressing;
     const TemporaryFolder folder;
@@ -94,7 +94,7 @@ TEST_CASE ("a film has a picture every 40 ms\\, in the size that was asked for",
     CHECK (written->files.size() == 3);
 }
 
-TEST_CASE ("the sound of a film is what --listen writes of its force, and its table has every tick", "[app][film]")
+TEST_CASE ("the sound of a film is what --listen writes for the same force, and its table has every tick", "[app][film]")
 {
     const Dressing dressing;
     const TemporaryFolder folder;
@@ -201,7 +201,7 @@ TEST_CASE ("a tape keeps the last seconds, and forgets an earlier run", "[app][f
     CHECK (tape.last (100.0).states.empty());
 }
 
-TEST_CASE ("the button saves what the scene has shown of a run, next to the run", "[app][film]")
+TEST_CASE ("the button saves what the scene showed, while the run continues", "[app][film]")
 {
     const Dressing dressing;
     const TemporaryFolder folder;
@@ -245,7 +245,7 @@ TEST_CASE ("the button saves what the scene has shown of a run, next to the run"
     film.save (std::move (filmed), folder / "film.png");
     CHECK (film.isSaving());
     REQUIRE (until ([&] { return ! film.isSaving(); }));
-    CHECK (playback.run().status()->ticks > before);   // it ran meanwhile
+    CHECK (playback.run().status()->ticks > before);   // it kept running
     INFO (hint);
     CHECK (hint.contains ("Saved"));
     const auto table = readTable (folder / "film.csv");

@@ -54,7 +54,7 @@ struct FitRig
     }
 };
 
-/// Strokes on a contact that gives 0.1 mm and slides at 0.8 N.
+/// Strokes on a contact that stretches 0.1 mm and then slides at 0.8 N.
 std::string strokedRows (bool with_load)
 {
     Random random { 3 };
@@ -128,7 +128,7 @@ TEST_CASE ("fit panel: Cancel and Esc change nothing, also while a fit runs", "[
     CHECK (rig.view.document().history().position() == before);
 }
 
-TEST_CASE ("fit panel: another kind or amount fits again, and what is wrong is said in the panel", "[app][fit]")
+TEST_CASE ("fit panel: another kind or amount starts a new fit, and the panel shows what is wrong", "[app][fit]")
 {
     FitRig rig;
     rig.view.fitRecordingIn (rig.write ("strokes.csv", strokedRows (false)));
@@ -151,7 +151,7 @@ TEST_CASE ("fit panel: another kind or amount fits again, and what is wrong is s
     CHECK (rig.panel().problem().contains ("no column"));
 }
 
-TEST_CASE ("fit panel: a file that is no recording, or whose columns say nothing, is reported in the panel", "[app][fit]")
+TEST_CASE ("fit panel: the panel reports a file that is not a recording, or whose columns suggest no kind", "[app][fit]")
 {
     FitRig rig;
     rig.view.fitRecordingIn (rig.write ("text.csv", "this is\nno table\n"));

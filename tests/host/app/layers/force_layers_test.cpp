@@ -117,7 +117,7 @@ TEST_CASE ("every type that can be a layer of vectors can be added to every pres
         }
 }
 
-TEST_CASE ("a recorded texture gets the speed of the tool, also in a graph that does not measure it", "[layers]")
+TEST_CASE ("a recorded texture gets the speed of the tool, even if the graph did not measure it before", "[layers]")
 {
     MixedForces wood ("dry_wood.json");
     CHECK (wood.add ("texture.noise").empty());
@@ -139,7 +139,7 @@ TEST_CASE ("a clip becomes a layer that each tap plays, and asks for its file", 
     }
 }
 
-TEST_CASE ("the gate of a layer closes and opens, and leaves nothing behind", "[layers]")
+TEST_CASE ("the contact gate of a layer can be added and removed, and leaves nothing behind", "[layers]")
 {
     for (const bool vectors : { true, false })
     {
@@ -157,7 +157,7 @@ TEST_CASE ("the gate of a layer closes and opens, and leaves nothing behind", "[
     }
 }
 
-TEST_CASE ("without a surface there is nothing that can gate a layer", "[layers]")
+TEST_CASE ("without a surface, a layer cannot have a contact gate", "[layers]")
 {
     tactus::test::Sketch sketch;
     sketch.node ("tone", "signal.lfo").node ("desk", "layer.mix").wire ("tone.out -> desk.in[0]");

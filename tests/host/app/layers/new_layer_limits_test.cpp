@@ -19,7 +19,7 @@ LimitList limitsNow (const graph::Graph& g)
 }
 }   // namespace
 
-TEST_CASE ("a new layer breaks no limit at the level that it starts with", "[layers][limits]")
+TEST_CASE ("a new layer breaks no limit at its initial level", "[layers][limits]")
 {
     for (const char* preset : { "dry_wood.json", "soft_pad.json", "aluminium_bar.json" })
     {

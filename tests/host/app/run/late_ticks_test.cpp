@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the window costs a run: nothing that could make a tick late.
+// The window does nothing that could make a tick of the run late.
 #include "host/app/scene/preset_bodies.hpp"
 
 #include <host/app/run/hand_panel.hpp>
@@ -19,7 +19,7 @@ using namespace tactus::host;
 
 namespace
 {
-/// What the window listens to in a run, and a film.
+/// Everything that the window reads from a run, and a film.
 struct Watchers final : RunListener
 {
     Traces traces;
@@ -112,7 +112,7 @@ TEST_CASE ("with the scene and the scopes on the screen, ticks are late no more 
         constexpr auto half = std::chrono::milliseconds (300), picture = std::chrono::milliseconds (33);
         juce::Image image (juce::Image::ARGB, 1100, 400, true);
 
-        // Halves of one run, in turn: the window shows everything, or nothing. What else the computer does disturbs both.
+        // Parts of one run, in turn: the window shows everything, or nothing. Other work of the computer disturbs both in the same way.
         std::vector<double> with, without;
         for (int part = 0; part < 16; ++part)
         {

@@ -172,7 +172,7 @@ std::optional<Vec3> meets (const Camera& camera, const Corners& t, double x, dou
 }
 }   // namespace
 
-TEST_CASE ("a triangle that reaches behind the camera is drawn as far as it is in front of it", "[app][scene]")
+TEST_CASE ("of a triangle that reaches behind the camera, the part in front of the camera is drawn", "[app][scene]")
 {
     rc::check ("as rays from the eye meet it", [] {
         Camera camera;

@@ -59,7 +59,7 @@ int brightestRow (const juce::Image& image, int x)
 TEST_CASE ("scopes: a spectrogram shows a tone in the row of its frequency, the latest at the right", "[app][scopes][spectrogram]")
 {
     const juce::ScopedJuceInitialiser_GUI juce;
-    rc::check ("two tones after one another", [] {
+    rc::check ("two tones, one after the other", [] {
         const double first = *rc::gen::inRange (50, 950), second = *rc::gen::inRange (50, 950);
         const auto trace = toneTrace();
         extend (*trace, first, 1.0);
@@ -94,7 +94,7 @@ TEST_CASE ("scopes: a spectrogram computes each column once, and a few at a time
     CHECK_FALSE (picture.isBehind());
 }
 
-TEST_CASE ("scopes: a spectrogram that scrolls equals one that is made at once", "[app][scopes][spectrogram]")
+TEST_CASE ("scopes: a spectrogram that was built while scrolling equals one that is built in one step", "[app][scopes][spectrogram]")
 {
     const juce::ScopedJuceInitialiser_GUI juce;
     const auto trace = toneTrace();

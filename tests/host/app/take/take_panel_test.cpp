@@ -128,7 +128,7 @@ TEST_CASE ("a marked stretch of a take becomes a clip, a gesture and a test", "[
     CHECK (played->ticks == 800);
 }
 
-TEST_CASE ("an edit while a take is recorded is part of it", "[take]")
+TEST_CASE ("a take contains the edits that are made while it is recorded", "[take]")
 {
     TakeRig rig;
     rig.panel->toggleRecording();
@@ -146,7 +146,7 @@ TEST_CASE ("an edit while a take is recorded is part of it", "[take]")
     CHECK (played->isSame());
 }
 
-TEST_CASE ("a graph that does not run gives no take, and the buttons stay off", "[take]")
+TEST_CASE ("a graph that does not run gives no take, and the buttons stay disabled", "[take]")
 {
     TakeRig rig;
     rig.document.open ({}, {}, "empty");

@@ -394,7 +394,7 @@ TEST_CASE ("a program that must close suddenly autosaves unsaved changes, and no
     CHECK (fs::is_empty (e.folder / "sessions"));
 }
 
-TEST_CASE ("an opened clip becomes a graph without a file that plays it, and a damaged one is refused")
+TEST_CASE ("an opened clip becomes an unsaved graph that plays the clip, and a damaged clip is refused")
 {
     Rig d;
     const fs::path heart = TACTUS_SOURCE_DIR "/graphs/assets/heartbeat.haptic", zip = TACTUS_SOURCE_DIR "/graphs/assets/zip.json";
