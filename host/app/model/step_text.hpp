@@ -10,7 +10,10 @@
 namespace tactus::host
 {
 
-/// The names of the steps of a history, oldest first. A step that only changes one value says which and how:
+/// What a command does, as graph::nameOf, in the language of the user. The names of batches are in English in the history, and translated here.
+std::string stepName (const graph::Command&);
+
+/// The names of the steps of a history in the language of the user, oldest first. A step that only changes one value says which and how:
 /// "wall: Stiffness 400 -> 550 N/m".
 std::vector<std::string> stepNames (const graph::History&, const Catalogue&);
 
