@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/app/storage/language.hpp>
 #include <host/app/window/main_view.hpp>
 #include <host/app/window/places.hpp>
 #include <host/osc/osc_options.hpp>
@@ -57,6 +58,7 @@ public:
         if (! readArguments (how)) return quit();
         std::fputs (textOf (usePlugins (plugin_folders)).c_str(), stderr);
         how.live = liveBuilds (catalogue());
+        useTranslation (translationFor (languageSetIn (how.home), how.home));
         window = std::make_unique<Window> (*look, how);
         watchForStop();
         startTimerHz (10);
@@ -68,6 +70,7 @@ public:
         window.reset();
         juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
         look.reset();
+        useTranslation ({});
     }
 
     void systemRequestedQuit() override

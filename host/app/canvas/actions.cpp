@@ -5,6 +5,7 @@
 #include <host/app/model/param_value.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/model/wire_rules.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/run/device/make_device.hpp>
 
@@ -79,7 +80,7 @@ std::vector<graph::Wire> healed (const graph::Patch& patch, const Scene& scene, 
 
 graph::Command placeNodes (const graph::Graph& g, const std::string& patch, const std::vector<std::pair<graph::Id, juce::Point<float>>>& places)
 {
-    graph::Batch batch { places.size() == 1 ? "move node" : "move nodes", {} };
+    graph::Batch batch { places.size() == 1 ? NEEDS_TRANS ("move node") : NEEDS_TRANS ("move nodes"), {} };
     for (const auto& [id, at] : places)
     {
         const auto& nodes = patchOf (g, patch).nodes;
@@ -96,7 +97,7 @@ graph::Command placeNodes (const graph::Graph& g, const std::string& patch, cons
 graph::Command removeSelected (const graph::Graph& g, const std::string& name, const Scene& scene, const Selection& ids)
 {
     const auto& patch = patchOf (g, name);
-    graph::Batch batch { "delete", {} };
+    graph::Batch batch { NEEDS_TRANS ("delete"), {} };
     const auto names = namesOf (patch, ids);
     const auto goes = [&] (const std::string& node) { return std::ranges::count (names, graph::firstNameOf (node)) > 0; };
 
@@ -119,7 +120,7 @@ graph::Command toggleBypass (const graph::Graph& g, const std::string& name, con
     bool any_runs = false;
     for (const auto& n : patchOf (g, name).nodes)
         any_runs = any_runs || (ids.contains (n.id) && ! n.bypass);
-    graph::Batch batch { any_runs ? "bypass" : "end bypass", {} };
+    graph::Batch batch { any_runs ? NEEDS_TRANS ("bypass") : NEEDS_TRANS ("end bypass"), {} };
     for (const auto& n : patchOf (g, name).nodes)
         if (ids.contains (n.id) && n.bypass != any_runs)
             batch.commands.push_back (graph::SetNodeKey { name, n.name, "bypass", any_runs ? std::optional<Json> (true) : std::nullopt });
@@ -148,7 +149,7 @@ graph::Command addNode (const graph::Graph& g, const std::string& patch, const s
     if (! type.starts_with ("device.")) return graph::AddNode { patch, std::move (node) };
     // A device node needs a device role. If the graph has none, also adds one: a simulated stylus, moved by a
     // simulated hand that strokes.
-    graph::Batch all { "add node", {} };
+    graph::Batch all { NEEDS_TRANS ("add node"), {} };
     if (g.devices.empty()) all.commands.push_back (graph::SetDevice { "stylus", defaultDevice() });
     node.role = g.devices.empty() ? "stylus" : g.devices.front().first;
     all.commands.push_back (graph::AddNode { patch, std::move (node) });
@@ -161,7 +162,7 @@ graph::Command connect (const graph::Graph& g, const std::string& patch, const P
     wire.from = endpoint (from.node.name, from.port, from.component);
     wire.to = endpoint (to.node.name, to.port, to.component);
     const bool several = to.port.role == Role::input && addsUp (to.node.quantityOf (to.port));
-    graph::Batch batch { "connect", {} };
+    graph::Batch batch { NEEDS_TRANS ("connect"), {} };
     for (const auto& w : patchOf (g, patch).wires)
         if (overlap (w.to, wire.to) && (! several || w.from == wire.from)) batch.commands.push_back (graph::RemoveWire { patch, w.id });
     batch.commands.push_back (graph::AddWire { patch, wire });
@@ -172,7 +173,7 @@ std::optional<graph::Command> duplicate (const graph::Graph& g, const std::strin
 {
     constexpr float beside = 32.0f;
     const auto& patch = patchOf (g, name);
-    graph::Batch all { "duplicate", {} };
+    graph::Batch all { NEEDS_TRANS ("duplicate"), {} };
     Selection copies;
     auto pasted = paste (g, name, copyText (g, name, ids), { beside, beside }, copies);
     if (pasted && ! copies.empty())
@@ -203,7 +204,7 @@ std::optional<graph::Command> duplicate (const graph::Graph& g, const std::strin
             notes.push_back (notes[i]);
             notes.back().area += juce::Point<float> (beside, beside);
         }
-    if (notes.size() > count) all.commands.push_back (setNotes (g, name, notes, "duplicate"));
+    if (notes.size() > count) all.commands.push_back (setNotes (g, name, notes, NEEDS_TRANS ("duplicate")));
     if (made.empty()) return std::nullopt;
     return all;
 }
@@ -230,7 +231,8 @@ std::optional<graph::Command> insertInto (const graph::Graph& g, const std::stri
             second.from = endpoint (node->name, out);
             second.to = wire->to;
             second.add = wire->add;
-            return graph::Batch { "insert", { graph::ChangeWire { patch, wire_id, std::move (first) }, graph::AddWire { patch, std::move (second) } } };
+            return graph::Batch { NEEDS_TRANS ("insert"),
+                                  { graph::ChangeWire { patch, wire_id, std::move (first) }, graph::AddWire { patch, std::move (second) } } };
         }
     return std::nullopt;
 }
@@ -245,14 +247,14 @@ graph::Command toggleExposed (const graph::Graph& g, const std::string& subgraph
     if (shown != ports.end())
     {
         ports.erase (shown);
-        return graph::Batch { "hide port", { graph::ChangeExpose { subgraph, std::move (to) } } };
+        return graph::Batch { NEEDS_TRANS ("hide port"), { graph::ChangeExpose { subgraph, std::move (to) } } };
     }
     std::set<std::string> taken;
     for (const auto* all : { &to.inputs, &to.params, &to.outputs })
         for (const auto& [name, where] : *all)
             taken.insert (name);
     ports.emplace_back (freeName ({}, taken, end.port), end);
-    return graph::Batch { "expose port", { graph::ChangeExpose { subgraph, std::move (to) } } };
+    return graph::Batch { NEEDS_TRANS ("expose port"), { graph::ChangeExpose { subgraph, std::move (to) } } };
 }
 
 }   // namespace tactus::host

@@ -8,6 +8,7 @@
 #include <host/app/look/text.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/model/wire_rules.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/graph/instances.hpp>
 
 #include <algorithm>
@@ -66,7 +67,7 @@ void updateBreadcrumbs (Canvas::Breadcrumbs& path, const graph::Graph& g)
 Canvas::Canvas (Document& d, const Catalogue& c) : document (d), catalogue (c)
 {
     setWantsKeyboardFocus (true);
-    setTitle ("Canvas");
+    setTitle (TRANS ("Canvas"));
     document.add (*this);
     rebuild();
 }
@@ -287,7 +288,7 @@ void Canvas::paint (juce::Graphics& g)
     {
         g.setColour (look.theme().dim);
         g.setFont (look.font (14.0f));
-        g.drawText ("Press Space or double-click to add a node.", getLocalBounds(), juce::Justification::centred, true);
+        g.drawText (TRANS ("Press Space or double-click to add a node."), getLocalBounds(), juce::Justification::centred, true);
     }
     paintScene (g, *shown, window, look, highlights);
     if (with_map) Minimap (*shown, window, getLocalBounds()).paint (g, look.theme());

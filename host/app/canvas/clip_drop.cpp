@@ -4,6 +4,7 @@
 
 #include <host/app/model/clip_graph.hpp>
 #include <host/app/model/file_path.hpp>
+#include <host/app/text/filled.hpp>
 #include <host/io/clip_io.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -32,11 +33,11 @@ void Canvas::fileDragMove (const juce::StringArray& files, int x, int y)
     const auto* node = shown->nodeAt (window.toCanvas (juce::Point<int> (x, y).toFloat()));
     const auto name = juce::String (printableName (droppedFile (files).filename().string()));
     if (node == nullptr)
-        hint ("Drop " + name + " to add a node that plays it.");
+        hint (filled (TRANS ("Drop %1 to add a node that plays it."), name));
     else if (node->type == clip_type)
-        hint ("Drop " + name + " to let " + juce::String (node->name) + " play it.");
+        hint (filled (TRANS ("Drop %1 to let %2 play it."), name, node->name));
     else
-        hint (juce::String (node->name) + " plays no clips. Drop " + name + " on empty canvas, or on a clip node.");
+        hint (filled (TRANS ("%1 plays no clips. Drop %2 on empty canvas, or on a clip node."), node->name, name));
     repaint();
 }
 
@@ -61,7 +62,7 @@ void Canvas::dropClip (const fs::path& file, juce::Point<float> pixel)
     const auto written = pathFrom (file, document.graph().folder);
     const auto* node = shown->nodeAt (at);
     if (node != nullptr && node->type != clip_type)
-        return notice (juce::String (node->name) + " plays no clips. Drop the file on empty canvas, or on a clip node.");
+        return notice (filled (TRANS ("%1 plays no clips. Drop the file on empty canvas, or on a clip node."), node->name));
     if (node != nullptr)
     {
         const auto name = node->name;
@@ -73,7 +74,7 @@ void Canvas::dropClip (const fs::path& file, juce::Point<float> pixel)
     if (auto* one = std::get_if<graph::AddNode> (&add.edit)) playClip (one->node, written);
     if (! perform (std::move (add))) return;
     select ({ made });
-    notice ("Added a node that plays " + juce::String (printableName (file.filename().string())) + " over and over. Wire its value to a motor to feel it.");
+    notice (filled (TRANS ("Added a node that plays %1 over and over. Wire its value to a motor to feel it."), printableName (file.filename().string())));
 }
 
 void Canvas::paintFileOver (juce::Graphics& g) const
@@ -95,7 +96,7 @@ void Canvas::saveClipOfSelection()
     if (node == nullptr) return;
     const auto written = node->settings.find ("clip");
     if (written == node->settings.end() || ! written->is_string() || written->asString().empty())
-        return notice (juce::String (node->name) + " has no clip yet. Drop a clip file on it first.");
+        return notice (filled (TRANS ("%1 has no clip yet. Drop a clip file on it first."), node->name));
     onSaveClip (fs::path (resolved (written->asString(), document.graph().folder)));
 }
 

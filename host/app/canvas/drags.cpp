@@ -5,6 +5,7 @@
 #include <host/app/model/drag_number.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/model/wire_rules.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/run/turn.hpp>
 
@@ -90,7 +91,7 @@ public:
         if (! e.mods.isAltDown()) by = (by / Box::grid).roundToInt().toFloat() * Box::grid;
         if (by == moved) return;
         moved = by;
-        graph::Batch all { "move", {} };
+        graph::Batch all { NEEDS_TRANS ("move"), {} };
         auto places = starts;
         for (auto& [id, at] : places)
             at += by;
@@ -104,7 +105,7 @@ public:
                 now[i].area += by;
                 with_notes = true;
             }
-        if (with_notes) all.commands.push_back (setNotes (document.graph(), canvas.patch(), now, "move"));
+        if (with_notes) all.commands.push_back (setNotes (document.graph(), canvas.patch(), now, NEEDS_TRANS ("move")));
         canvas.perform (std::move (all), begun ? graph::Step::joined : graph::Step::own);
         begun = true;
     }
@@ -149,7 +150,7 @@ public:
         auto now = notes;
         now[note].area.setSize (std::max (least, notes[note].area.getWidth() + by.x), std::max (least, notes[note].area.getHeight() + by.y));
         const auto step = begun ? graph::Step::joined : graph::Step::own;
-        canvas.perform (setNotes (canvas.edited().graph(), canvas.patch(), now, "resize note"), step);
+        canvas.perform (setNotes (canvas.edited().graph(), canvas.patch(), now, NEEDS_TRANS ("resize note")), step);
         begun = true;
     }
 
@@ -245,7 +246,7 @@ public:
         else
         {
             problem.clear();
-            canvas.hint ("Drop on a highlighted port, or on the canvas to add a node");
+            canvas.hint (TRANS ("Drop on a highlighted port, or on the canvas to add a node"));
         }
         canvas.repaint();
     }
@@ -258,13 +259,13 @@ public:
         if (! over)
         {
             if (e.getDistanceFromDragStart() <= least_drag_px || canvas.scene().nodeAt (at) != nullptr) return;
-            if (wire_id != 0) return unplug ("disconnect");
+            if (wire_id != 0) return unplug (NEEDS_TRANS ("disconnect"));
             canvas.requestNode ({ at, start });
             return;
         }
         if (! check (*over.node, *over.socket->port)) return;
         const PortId other { over.node->id, over.socket->port->role, over.socket->port->id };
-        if (wire_id != 0) unplug ("re-plug wire");   // rebuilds the scene
+        if (wire_id != 0) unplug (NEEDS_TRANS ("re-plug wire"));   // rebuilds the scene
         const auto a = canvas.scene().findPort (start), b = canvas.scene().findPort (other);
         if (a && b) start.role == Role::output ? canvas.join (a, b) : canvas.join (b, a);
     }
@@ -289,7 +290,7 @@ private:
     Result<> check (const SceneNode& n, const FacePort& p) const
     {
         const auto from = canvas.scene().findPort (start);
-        if (! from) return Message::error ("wire/refused", {}, "the port no longer exists");
+        if (! from) return Message::error ("wire/refused", {}, TRANS ("the port no longer exists").toStdString());
         const WireEnd there { &p, n.quantityOf (p) };
         return start.role == Role::output ? checkWireByComponent (from.end(), there) : checkWireByComponent (there, from.end());
     }

@@ -9,7 +9,9 @@
 #include <host/app/model/param_now.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/model/quantity_text.hpp>
+#include <host/app/model/step_text.hpp>
 #include <host/app/model/wire_rules.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/graph/text.hpp>
 #include <tactus/run/turn.hpp>
@@ -46,7 +48,7 @@ bool Canvas::perform (graph::Command command, graph::Step step)
 {
     auto stored = storePositions();
     if (! stored) return document.perform (std::move (command), step);
-    graph::Batch all { graph::nameOf (command), {} };
+    graph::Batch all { stepName (command), {} };
     all.commands.push_back (std::move (*stored));
     all.commands.push_back (std::move (command));
     return document.perform (std::move (all), step);
@@ -62,13 +64,13 @@ graph::Graph Canvas::placedGraph() const
 void Canvas::removeSelection()
 {
     if (highlights.selected.empty()) return;
-    graph::Batch all { "delete", {} };
+    graph::Batch all { NEEDS_TRANS ("delete"), {} };
     if (std::ranges::any_of (highlights.selected, isNote))
     {
         std::vector<Note> left;
         for (std::size_t i = 0; i < shown->notes().size(); ++i)
             if (! highlights.selected.contains (noteId (i))) left.push_back (shown->notes()[i]);
-        all.commands.push_back (setNotes (document.graph(), patch(), left, "delete"));
+        all.commands.push_back (setNotes (document.graph(), patch(), left, NEEDS_TRANS ("delete")));
     }
     all.commands.push_back (removeSelected (document.graph(), patch(), *shown, highlights.selected));
     perform (std::move (all));
@@ -98,7 +100,7 @@ void Canvas::pasteText()
     Selection made;
     auto command = paste (document.graph(), patch(), text, offset, made);
     if (! command)
-        notice ("Nothing to paste: " + juce::String (command.error().text));
+        notice (filled (TRANS ("Nothing to paste: %1"), command.error().text));
     else if (! made.empty() && perform (*std::move (command)))
         select (made);
 }
@@ -136,7 +138,7 @@ void Canvas::alignSelection (Alignment how)
     for (std::size_t i = 0; i < nodes.size(); ++i)
         places.emplace_back (nodes[i]->id, boxes[i].getPosition());
     auto command = placeNodes (document.graph(), patch(), places);
-    std::get<graph::Batch> (command.edit).name = "align";
+    std::get<graph::Batch> (command.edit).name = NEEDS_TRANS ("align");
     perform (std::move (command));
 }
 
@@ -153,14 +155,14 @@ void Canvas::arrangeAll()
     for (std::size_t i = 0; i < places.size(); ++i)
         to.emplace_back (shown->nodes()[i].id, places[i]);
     auto command = placeNodes (document.graph(), patch(), to);
-    std::get<graph::Batch> (command.edit).name = "arrange";
+    std::get<graph::Batch> (command.edit).name = NEEDS_TRANS ("arrange");
     perform (std::move (command));
     frameAll();
 }
 
 void Canvas::nudgeSelection (juce::Point<float> by)
 {
-    graph::Batch all { "move", {} };
+    graph::Batch all { NEEDS_TRANS ("move"), {} };
     std::vector<std::pair<graph::Id, juce::Point<float>>> places;
     for (const auto* n : selectedNodes())
         places.emplace_back (n->id, n->at + by);
@@ -170,14 +172,14 @@ void Canvas::nudgeSelection (juce::Point<float> by)
         auto notes = shown->notes();
         for (std::size_t i = 0; i < notes.size(); ++i)
             if (highlights.selected.contains (noteId (i))) notes[i].area += by;
-        all.commands.push_back (setNotes (document.graph(), patch(), notes, "move"));
+        all.commands.push_back (setNotes (document.graph(), patch(), notes, NEEDS_TRANS ("move")));
     }
     perform (std::move (all));
 }
 
 void Canvas::delaySelection (int ticks)
 {
-    graph::Batch all { ticks > 0 ? "increase delay" : "decrease delay", {} };
+    graph::Batch all { ticks > 0 ? NEEDS_TRANS ("increase delay") : NEEDS_TRANS ("decrease delay"), {} };
     for (const auto& w : patchShown().wires)
         if (highlights.selected.contains (w.id) && w.delay + ticks >= 0)
         {
@@ -193,7 +195,7 @@ void Canvas::toggleWires()
     bool any_on = false;
     for (const auto& w : patchShown().wires)
         any_on = any_on || (highlights.selected.contains (w.id) && w.enabled.value_or (true));
-    graph::Batch all { any_on ? "switch wires off" : "switch wires on", {} };
+    graph::Batch all { any_on ? NEEDS_TRANS ("switch wires off") : NEEDS_TRANS ("switch wires on"), {} };
     for (const auto& w : patchShown().wires)
         if (highlights.selected.contains (w.id) && w.enabled.value_or (true) == any_on)
         {
@@ -218,7 +220,7 @@ void Canvas::addNote()
         const auto area = around.expanded (margin).withTop (around.getY() - margin - Box::header_height);
         notes.push_back ({ area, {}, std::string (note_colours[notes.size() % std::size (note_colours)]) });
     }
-    perform (setNotes (document.graph(), patch(), notes, "add note"));
+    perform (setNotes (document.graph(), patch(), notes, NEEDS_TRANS ("add note")));
     select ({ noteId (notes.size() - 1) });
     editNote (notes.size() - 1);
 }
@@ -232,7 +234,7 @@ void Canvas::recolourNotes()
             const auto* next = notes[i].isRegion() ? std::ranges::find (note_colours, notes[i].colour) + 1 : std::begin (note_colours);
             notes[i].colour = next == std::end (note_colours) ? std::string() : std::string (*next);
         }
-    perform (setNotes (document.graph(), patch(), notes, "colour region"));
+    perform (setNotes (document.graph(), patch(), notes, NEEDS_TRANS ("colour region")));
 }
 
 void Canvas::editNote (std::size_t i)
@@ -244,7 +246,7 @@ void Canvas::editNote (std::size_t i)
         auto notes = shown->notes();
         if (i >= notes.size()) return;
         notes[i].text = text.toStdString();
-        perform (setNotes (document.graph(), patch(), notes, "edit note"));
+        perform (setNotes (document.graph(), patch(), notes, NEEDS_TRANS ("edit note")));
     });
 }
 
@@ -327,7 +329,7 @@ void Canvas::wireFromSelection()
                     entries.push_back ({ from.name + '.' + out.id + " -> " + n.name + '.' + in.id, {}, in.about });
                     wires.push_back ({ { from.id, Role::output, out.id }, { n.id, in.role, in.id } });
                 }
-    onChoose ("Connect " + juce::String (from.name) + " to...", entries, [this, wires, entries] (const std::string& chosen) {
+    onChoose (filled (TRANS ("Connect %1 to..."), from.name), entries, [this, wires, entries] (const std::string& chosen) {
         const auto entry = std::ranges::find (entries, chosen, &PaletteEntry::type);
         if (entry == entries.end()) return;
         const auto& [out, in] = wires[static_cast<std::size_t> (entry - entries.begin())];
@@ -349,7 +351,7 @@ void Canvas::exposeFromSelection()
             entries.push_back ({ node.name + '.' + p.id, {}, p.about });
             ports.push_back ({ node.id, role, p.id });
         }
-    onChoose ("Expose or hide port", entries, [this, entries, ports] (const std::string& chosen) {
+    onChoose (TRANS ("Expose or hide port"), entries, [this, entries, ports] (const std::string& chosen) {
         const auto entry = std::ranges::find (entries, chosen, &PaletteEntry::type);
         if (entry == entries.end() || entered.empty()) return;
         const auto found = shown->findPort (ports[static_cast<std::size_t> (entry - entries.begin())]);
@@ -409,9 +411,11 @@ void Canvas::join (const ScenePort& from, const ScenePort& to)
     constexpr std::array axes { ".x", ".y", ".z" };
     std::vector<PaletteEntry> entries;
     for (const auto* axis : axes)
-        entries.push_back ({ vector.node->name + '.' + vector.port->id + axis, {}, of_output ? "Send this component" : "Feed this component" });
+        entries.push_back ({ vector.node->name + '.' + vector.port->id + axis,
+                             {},
+                             (of_output ? TRANS ("Send this component") : TRANS ("Feed this component")).toStdString() });
     const PortId out { from.node->id, Role::output, from.port->id }, in { to.node->id, to.port->role, to.port->id };
-    onChoose ("Which component?", entries, [this, out, in, entries, of_output] (const std::string& chosen) {
+    onChoose (TRANS ("Which component?"), entries, [this, out, in, entries, of_output] (const std::string& chosen) {
         const auto component = static_cast<int> (std::ranges::find (entries, chosen, &PaletteEntry::type) - entries.begin());
         const auto a = shown->findPort (out), b = shown->findPort (in);
         if (component >= 3 || ! a || ! b) return;

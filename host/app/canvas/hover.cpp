@@ -4,6 +4,7 @@
 
 #include <host/app/look/text.hpp>
 #include <host/app/model/readable.hpp>
+#include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
@@ -25,7 +26,7 @@ Canvas::Hover Canvas::hoverAt (juce::Point<float> at) const
     {
         const auto* socket = node->paramAt (at);
         if (socket != nullptr && ! socket->port->isChoice())
-            return { node->id, fromUtf8 (nameOf (*socket->port) + ": " + socket->port->about) + ". Drag up or down; hold Shift for fine steps",
+            return { node->id, filled (TRANS ("%1: %2. Drag up or down; hold Shift for fine steps"), nameOf (*socket->port), socket->port->about),
                      juce::MouseCursor::UpDownResizeCursor };
         if (node->face->type == nullptr) return { node->id, node->type };
         return { node->id, std::string (node->face->type->info.name) + ": " + std::string (node->face->type->info.summary) };
@@ -34,7 +35,7 @@ Canvas::Hover Canvas::hoverAt (juce::Point<float> at) const
     const auto note = shown->noteAt (at);
     if (! note) return {};
     const auto shape = shown->isCorner (*note, at) ? juce::MouseCursor::BottomRightCornerResizeCursor : juce::MouseCursor::NormalCursor;
-    return { 0, "Note: drag to move, drag the corner to resize, double-click to edit", shape };
+    return { 0, TRANS ("Note: drag to move, drag the corner to resize, double-click to edit"), shape };
 }
 
 void Canvas::mouseMove (const juce::MouseEvent& e)

@@ -5,6 +5,7 @@
 #include <host/app/look/family.hpp>
 #include <host/app/look/glyph.hpp>
 #include <host/app/look/text.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <algorithm>
 #include <array>
@@ -172,7 +173,7 @@ void paintNote (juce::Graphics& g, const Note& note, const Look& look, bool sele
         g.setFont (look.font (13.0f, true));
         g.setColour (theme.text);
         const auto title = note.area.withHeight (Box::header_height).reduced (12.0f, 0.0f);
-        g.drawText (note.text.empty() ? "Region" : text, title, juce::Justification::centredLeft, true);
+        g.drawText (note.text.empty() ? TRANS ("Region") : text, title, juce::Justification::centredLeft, true);
     }
     else
     {
@@ -181,7 +182,7 @@ void paintNote (juce::Graphics& g, const Note& note, const Look& look, bool sele
         g.setFont (look.font (13.0f));
         g.setColour (note.text.empty() ? theme.dim : theme.text);
         const auto area = note.area.reduced (10.0f, 4.0f).toNearestInt();
-        g.drawFittedText (note.text.empty() ? "Double-click to edit this note." : text, area, juce::Justification::topLeft, 100, 1.0f);
+        g.drawFittedText (note.text.empty() ? TRANS ("Double-click to edit this note.") : text, area, juce::Justification::topLeft, 100, 1.0f);
     }
     g.setColour (colour.withAlpha (0.6f));
     for (const float d : { 5.0f, 9.0f })

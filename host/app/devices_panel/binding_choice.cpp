@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "binding_choice.hpp"
 
+#include <host/app/text/filled.hpp>
 #include <host/audio/audio_settings.hpp>
 #include <host/hid/physics.hpp>
 #include <host/sessions/numbers_device.hpp>
@@ -30,7 +31,9 @@ Json simulationOf (const hid::Profile& profile, const Json* before)
 
 std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles)
 {
-    std::vector<BindingChoice> all { { "as in the graph", Json() }, { "simulated tool", defaultDevice() }, { sound_card, { { "driver", "audio" } } } };
+    std::vector<BindingChoice> all { { TRANS ("as in the graph").toStdString(), Json() },
+                                     { TRANS ("simulated tool").toStdString(), defaultDevice() },
+                                     { juce::translate (sound_card).toStdString(), { { "driver", "audio" } } } };
     for (const auto& d : connected)
     {
         const auto fitting = hid::matching (profiles.profiles, d);
@@ -39,13 +42,15 @@ std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<cons
         const auto alike = std::ranges::count_if (connected, [&] (const auto& other) { return hid::fit (*fitting.front(), other) > 0; });
         const bool needs_serial = alike > 1 && ! d.serial.empty();
         if (needs_serial) description["serial"] = d.serial;
-        BindingChoice choice { fitting.front()->name + (needs_serial ? ", serial " + d.serial : ""), std::move (description) };
+        const auto& name = fitting.front()->name;
+        BindingChoice choice { needs_serial ? filled (TRANS ("%1, serial %2"), name, d.serial).toStdString() : name, std::move (description) };
         if (std::ranges::count (all, choice) == 0) all.push_back (std::move (choice));
     }
     for (const auto& p : profiles.profiles)
-        if (hid::isNumbersOnly (*p)) all.push_back ({ "simulated " + p->name, deviceOfBinding (simulationOf (*p, nullptr)), p->id });
+        if (hid::isNumbersOnly (*p))
+            all.push_back ({ filled (TRANS ("simulated %1"), p->name).toStdString(), deviceOfBinding (simulationOf (*p, nullptr)), p->id });
     for (const auto& g : gestures())
-        all.push_back ({ "gesture " + std::string (g.id), { { "driver", "gesture" }, { "path", g.id } } });
+        all.push_back ({ filled (TRANS ("gesture %1"), g.id).toStdString(), { { "driver", "gesture" }, { "path", g.id } } });
     if (bound_now != nullptr)
     {
         const auto now = deviceOfBinding (*bound_now);

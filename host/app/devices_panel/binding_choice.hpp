@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <host/app/text/filled.hpp>
 #include <host/hid/profile_reader.hpp>
 #include <host/hid_link/transport.hpp>
 #include <tactus/text/json.hpp>
@@ -12,7 +13,7 @@
 namespace tactus::host
 {
 
-inline constexpr const char* sound_card = "sound card";   // as shown to people
+inline constexpr const char* sound_card = NEEDS_TRANS ("sound card");   // the label, in English
 
 /// A device that a role can be bound to.
 struct BindingChoice

@@ -5,6 +5,7 @@
 #include <host/app/inspector/fields.hpp>
 #include <host/app/look/text.hpp>
 #include <host/app/model/message_text.hpp>
+#include <host/app/text/filled.hpp>
 #include <host/audio/audio_settings.hpp>
 
 #include <algorithm>
@@ -16,53 +17,53 @@ namespace
 {
 constexpr int card_width = 280, widest_card = 480, refreshes_apart = 6;   // every sixth refresh updates the panel: five times a second
 
-/// Clocks other than a role: the value in the session, and the label.
-constexpr std::pair<const char*, const char*> clocks[] { { "", "automatic" }, { "timer", "timer" }, { "audio", sound_card } };
+/// Clocks other than a role: the value in the session, and the label in English.
+constexpr std::pair<const char*, const char*> clocks[] { { "", NEEDS_TRANS ("automatic") }, { "timer", NEEDS_TRANS ("timer") }, { "audio", sound_card } };
 
 std::string labelOf (const std::string& clock)
 {
     const auto known = std::ranges::find (clocks, clock, [] (const auto& c) { return std::string_view (c.first); });
-    return known != std::end (clocks) ? known->second : clock;
+    return known != std::end (clocks) ? juce::translate (known->second).toStdString() : clock;
 }
 
 std::string clockLabelled (const std::string& label)
 {
-    const auto known = std::ranges::find (clocks, label, [] (const auto& c) { return std::string_view (c.second); });
+    const auto known = std::ranges::find (clocks, label, [] (const auto& c) { return juce::translate (c.second).toStdString(); });
     return known != std::end (clocks) ? known->first : label;
 }
 
-/// A setting of a binding: its JSON pointer, label and tooltip.
+/// A setting of a binding: its JSON pointer, and its label and tooltip in English.
 struct Part
 {
     const char *pointer, *label, *about;
 };
 constexpr Part parts[] {
-    { "/workspace/scale", "scale", "Size of the device's workspace in the graph: at 2 the hand moves half as far, and walls feel twice as stiff" },
-    { "/workspace/offset", "offset", "Position of the device's origin in the graph, such as [0, 0, \"1 cm\"]" },
-    { "/guard/max_force", "max force", "Force limit, such as 3 N. Cannot exceed the limit in the device's profile" },
-    { "/guard/max_speed", "max speed",
-      "Speed limit of the tool in the hand, such as 1 m/s. If the tool exceeds it, the guard withholds the force until you rearm" },
-    { "/guard/ramp", "ramp", "Time from no force to full force, such as 0.5 s" },
+    { "/workspace/scale", NEEDS_TRANS ("scale"),
+      NEEDS_TRANS ("Size of the device's workspace in the graph: at 2 the hand moves half as far, and walls feel twice as stiff") },
+    { "/workspace/offset", NEEDS_TRANS ("offset"), NEEDS_TRANS ("Position of the device's origin in the graph, such as [0, 0, \"1 cm\"]") },
+    { "/guard/max_force", NEEDS_TRANS ("max force"), NEEDS_TRANS ("Force limit, such as 3 N. Cannot exceed the limit in the device's profile") },
+    { "/guard/max_speed", NEEDS_TRANS ("max speed"),
+      NEEDS_TRANS ("Speed limit of the tool in the hand, such as 1 m/s. If the tool exceeds it, the guard withholds the force until you rearm") },
+    { "/guard/ramp", NEEDS_TRANS ("ramp"), NEEDS_TRANS ("Time from no force to full force, such as 0.5 s") },
 };
 
 constexpr Part parts_of_sound[] {
-    { "/outputs", "outputs",
-      "Card channels for the signal outputs 1, 2 ... of the role, and the value at full scale, such as 3@4 N, 4@4 N. "
-      "Default: the outputs that the graph uses" },
-    { "/inputs", "inputs", "The same for the signal inputs, such as 1@20 m/s2" },
-    { "/guard/max_signal", "max signal", "Limit of each output, in that output's unit" },
-    { "/guard/ramp", "ramp", "Time from silence to full signal, such as 0.5 s" },
+    { "/outputs", NEEDS_TRANS ("outputs"),
+      NEEDS_TRANS ("Card channels for the signal outputs 1, 2 ... of the role, and the value at full scale, such as 3@4 N, 4@4 N. "
+                   "Default: the outputs that the graph uses") },
+    { "/inputs", NEEDS_TRANS ("inputs"), NEEDS_TRANS ("The same for the signal inputs, such as 1@20 m/s2") },
+    { "/guard/max_signal", NEEDS_TRANS ("max signal"), NEEDS_TRANS ("Limit of each output, in that output's unit") },
+    { "/guard/ramp", NEEDS_TRANS ("ramp"), NEEDS_TRANS ("Time from silence to full signal, such as 0.5 s") },
 };
 constexpr Part lists_of_card[] {
-    { "/type", "audio system", "The audio system, such as JACK (PipeWire, too) or ALSA" },
-    { "/output", "output", "The card for the outputs" },
-    { "/input", "input", "The card for the inputs" },
+    { "/type", NEEDS_TRANS ("audio system"), NEEDS_TRANS ("The audio system, such as JACK (PipeWire, too) or ALSA") },
+    { "/output", NEEDS_TRANS ("output"), NEEDS_TRANS ("The card for the outputs") },
+    { "/input", NEEDS_TRANS ("input"), NEEDS_TRANS ("The card for the inputs") },
 };
-constexpr auto any_card = "automatic";
 constexpr Part parts_of_card[] {
-    { "/rate_hz", "sample rate", "Sample rate in Hz. Default: the card's own rate" },
-    { "/block", "block size", "Block size in frames. Small blocks risk gaps; large ones add delay" },
-    { "/reserve", "reserve", "How late a tick or block may be without causing a gap, such as 10 ms. Adds to the delay" },
+    { "/rate_hz", NEEDS_TRANS ("sample rate"), NEEDS_TRANS ("Sample rate in Hz. Default: the card's own rate") },
+    { "/block", NEEDS_TRANS ("block size"), NEEDS_TRANS ("Block size in frames. Small blocks risk gaps; large ones add delay") },
+    { "/reserve", NEEDS_TRANS ("reserve"), NEEDS_TRANS ("How late a tick or block may be without causing a gap, such as 10 ms. Adds to the delay") },
 };
 
 std::span<const Part> partsOf (const std::string& driver)
@@ -70,6 +71,8 @@ std::span<const Part> partsOf (const std::string& driver)
     if (driver == "audio") return parts_of_sound;
     return parts;
 }
+
+std::string anyCard() { return TRANS ("automatic").toStdString(); }
 
 juce::String written (const Json& v) { return fromUtf8 (v.is_string() ? v.get<std::string>() : v.dump()); }
 
@@ -224,19 +227,19 @@ void DevicesPanel::rebuild()
 std::unique_ptr<Column> DevicesPanel::clockCard()
 {
     auto card = std::make_unique<Column>();
-    card->add ("Clock", TextBlock::Kind::title);
+    card->add (TRANS ("Clock"), TextBlock::Kind::title);
     std::vector<std::string> choices;
     for (const auto& [clock, label] : clocks)
-        choices.emplace_back (label);
+        choices.push_back (juce::translate (label).toStdString());
     choices.insert (choices.end(), shape.roles.begin(), shape.roles.end());
     const auto chosen = [this] { return labelOf (setup.session().session.clock()); };
     if (std::ranges::count (choices, chosen()) == 0) choices.push_back (chosen());
     card->add (choiceRow (
-        "source", choices, chosen,
+        TRANS ("source"), choices, chosen,
         [this] (const std::string& to) { edit ([&] (DeviceSession& s) { s.setClock (clockLabelled (to)); }); },
-        "What ticks the run: the reports of a role's device, the blocks of the sound card, or a timer at the rate of the graph"));
+        TRANS ("What ticks the run: the reports of a role's device, the blocks of the sound card, or a timer at the rate of the graph")));
     card->add (remark ([this] { return clockRemark(); }));
-    card->add ("Saved in " + fromUtf8 (setup.session().file.string()) + ", not in the graph.", TextBlock::Kind::small);
+    card->add (filled (TRANS ("Saved in %1, not in the graph."), setup.session().file.string()), TextBlock::Kind::small);
     return card;
 }
 
@@ -249,25 +252,26 @@ std::unique_ptr<Column> DevicesPanel::roleCard (std::size_t i)
     for (const auto& c : shape.choices[i])
         labels.push_back (c.label);
     card->add (choiceRow (
-        "device", labels, [this, role] {
+        TRANS ("device"), labels, [this, role] {
         const auto* choice = choiceNow (role);
         return choice != nullptr ? choice->label : std::string(); },
         [this, role] (const std::string& to) { bind (role, to); },
-        "The device for this role, in every graph"));
+        TRANS ("The device for this role, in every graph")));
     card->add (remark ([this, role] { return fitRemark (role); }));
     card->add (remark ([this, role] { return statusRemark (role); }));
     card->add (buttonRow (
-        "Test " + fromUtf8 (role), [this, role] { tryDevice (role); },
-        "Plays one gentle pulse of 0.3 s on this device, at most a tenth of the limit of its guard. The graph must be running; it pauses during the test."));
+        filled (TRANS ("Test %1"), role), [this, role] { tryDevice (role); },
+        TRANS ("Plays one gentle pulse of 0.3 s on this device, at most a tenth of the limit of its guard. The graph must be running; it pauses during the "
+               "test.")));
     if (shape.drivers[i].empty()) return card;
     for (const auto& part : partsOf (shape.drivers[i]))
         card->add (textRow (
-            part.label, [this, role, at = JsonPointer (part.pointer), is_list = isListOfChannels (part.pointer)] {
+            juce::translate (part.label), [this, role, at = JsonPointer (part.pointer), is_list = isListOfChannels (part.pointer)] {
             const auto* now = bindingOf (role);
             if (now == nullptr || ! now->contains (at)) return juce::String();
             return is_list ? fromUtf8 (textOfChannels (now->at (at))) : written (now->at (at)); },
             [this, role, pointer = std::string (part.pointer)] (const juce::String& text) { setPart (role, pointer, text); },
-            part.about));
+            juce::translate (part.about)));
     return card;
 }
 
@@ -326,26 +330,26 @@ void DevicesPanel::setRoute (std::size_t i, const juce::String& text)
 std::unique_ptr<Column> DevicesPanel::soundCard()
 {
     auto card = std::make_unique<Column>();
-    card->add ("Sound card", TextBlock::Kind::title);
+    card->add (TRANS ("Sound card"), TextBlock::Kind::title);
     for (std::size_t i = 0; i <= shape.routes; ++i)
         card->add (textRow (
-            i < shape.routes || i == 0 ? "route" : "add route", [this, i] {
+            i < shape.routes || i == 0 ? TRANS ("route") : TRANS ("add route"), [this, i] {
             const auto all = routes();
             return i < all.size() ? fromUtf8 (textOfRoute (all[i])) : juce::String(); },
             [this, i] (const juce::String& text) { setRoute (i, text); },
-            "PORT=CHANNEL@FULLSCALE, such as mix.out=3@4 N: a port of the graph, a channel of the card, and the value at full scale"));
+            TRANS ("PORT=CHANNEL@FULLSCALE, such as mix.out=3@4 N: a port of the graph, a channel of the card, and the value at full scale")));
     card->add (remark ([this] { return soundRemark(); }));
     for (const auto& list : lists_of_card)
         card->add (cardRow (list.pointer, list.label, list.about));
     card->add (buttonRow (
-        "Look for sound cards", [this] { listSoundCards(); }, "Lists the sound cards again, such as one that you have just plugged in"));
+        TRANS ("Look for sound cards"), [this] { listSoundCards(); }, TRANS ("Lists the sound cards again, such as one that you have just plugged in")));
     for (const auto& part : parts_of_card)
         card->add (textRow (
-            part.label, [this, at = JsonPointer (part.pointer)] {
+            juce::translate (part.label), [this, at = JsonPointer (part.pointer)] {
             const auto* now = setup.session().session.audio();
             return now != nullptr && now->contains (at) ? written (now->at (at)) : juce::String(); },
             [this, pointer = std::string (part.pointer)] (const juce::String& text) { setCard (pointer, text); },
-            part.about));
+            juce::translate (part.about)));
     return card;
 }
 
@@ -355,9 +359,9 @@ std::unique_ptr<Block> DevicesPanel::cardRow (const char* pointer, const char* l
     const std::string at (pointer);
     const auto now = [this, at = JsonPointer (pointer)] {
         const auto* sound = setup.session().session.audio();
-        return sound != nullptr && sound->contains (at) ? written (sound->at (at)).toStdString() : std::string (any_card);
+        return sound != nullptr && sound->contains (at) ? written (sound->at (at)).toStdString() : anyCard();
     };
-    std::vector<std::string> choices { any_card };
+    std::vector<std::string> choices { anyCard() };
     const auto offer = [&] (const std::string& choice) {
         if (std::ranges::count (choices, choice) == 0) choices.push_back (choice);
     };
@@ -365,7 +369,8 @@ std::unique_ptr<Block> DevicesPanel::cardRow (const char* pointer, const char* l
         if (at == "/type" || ! (at == "/output" ? c.outputs : c.inputs).empty() || ! c.trouble.empty()) offer (at == "/type" ? c.type : c.name);
     offer (now());   // a card that is not plugged in, or a part of a name
     return choiceRow (
-        label, choices, now, [this, at] (const std::string& to) { setCard (at, to == any_card ? juce::String() : fromUtf8 (to)); }, about);
+        juce::translate (label), choices, now, [this, at] (const std::string& to) { setCard (at, to == anyCard() ? juce::String() : fromUtf8 (to)); },
+        juce::translate (about));
 }
 
 void DevicesPanel::listSoundCards()
@@ -380,7 +385,7 @@ void DevicesPanel::tryDevice (const std::string& role)
     if (! onTry) return;
     const auto tried = onTry (role);
     if (! onHint) return;
-    onHint (tried ? "Testing " + fromUtf8 (role) + ": a gentle pulse, at most a tenth of the limit of its guard." : fromUtf8 (messageText (tried.error())));
+    onHint (tried ? filled (TRANS ("Testing %1: a gentle pulse, at most a tenth of the limit of its guard."), role) : fromUtf8 (messageText (tried.error())));
 }
 
 void DevicesPanel::paint (juce::Graphics& g) { g.fillAll (lookOf (*this).theme().panel); }

@@ -4,6 +4,7 @@
 #include "sound_text.hpp"
 
 #include <host/app/look/text.hpp>
+#include <host/app/text/filled.hpp>
 #include <host/audio/audio_rig.hpp>
 #include <host/hid/physics.hpp>
 #include <host/sessions/numbers_device.hpp>
@@ -18,25 +19,25 @@ Remark DevicesPanel::fitRemark (const std::string& role) const
 {
     const auto* fit = fitOf (role);
     if (fit == nullptr) return {};
-    Remark r { fromUtf8 ("Needs " + describe (fit->needs) + "."), false };
-    const auto addProblem = [&] (const std::string& what) {
-        r.text << "\n"
-               << fromUtf8 (what);
+    Remark r { filled (TRANS ("Needs %1."), describe (fit->needs)), false };
+    const auto addLine = [&] (const juce::String& what) { r.text << "\n" + what; };
+    const auto addProblem = [&] (const juce::String& what) {
+        addLine (what);
         r.is_problem = true;
     };
     for (const auto& m : fit->messages)
-        addProblem (m.text);
-    if (! fit->lacking.empty()) addProblem ("The device does not fit:");
+        addProblem (fromUtf8 (m.text));
+    if (! fit->lacking.empty()) addProblem (TRANS ("The device does not fit:"));
     for (const auto& l : fit->lacking)
-        addProblem (l);
+        addProblem (fromUtf8 (l));
     if (const auto* choice = choiceNow (role); choice != nullptr && ! choice->numbers.empty())
         if (const auto profile = hid::profileNamed (setup.profiles(), choice->numbers))
         {
-            r.text << fromUtf8 ("\nOnly simulated: Tactus has no driver for " + profile->name + ", but knows its numbers.");
-            if (const auto guesses = guessesOf (hid::numbersOf (*profile)); ! guesses.empty()) r.text << fromUtf8 ("\nGuessed: " + guesses + ".");
+            addLine (filled (TRANS ("Only simulated: Tactus has no driver for %1, but knows its numbers."), profile->name));
+            if (const auto guesses = guessesOf (hid::numbersOf (*profile)); ! guesses.empty()) addLine (filled (TRANS ("Guessed: %1."), guesses));
         }
-    if (fit->from == RoleFit::From::graph) r.text << fromUtf8 ("\nThe device described in the graph is used: " + nameOf (fit->description) + ".");
-    if (fit->from == RoleFit::From::none) r.text << "\nNo device is set. A simulated tool at rest is used.";
+    if (fit->from == RoleFit::From::graph) addLine (filled (TRANS ("The device described in the graph is used: %1."), nameOf (fit->description)));
+    if (fit->from == RoleFit::From::none) addLine (TRANS ("No device is set. A simulated tool at rest is used."));
     return r;
 }
 
@@ -52,13 +53,14 @@ Remark DevicesPanel::statusRemark (const std::string& role) const
         r.is_problem = ! health->connected;
     }
     else if (fit != nullptr && fit->connected && ! run.isRunning())
-        r = *fit->connected ? Remark { "Connected.", false } : Remark { "Not connected. A run waits for the device and applies no force until then.", true };
+        r = *fit->connected ? Remark { TRANS ("Connected."), false }
+                            : Remark { TRANS ("Not connected. A run waits for the device and applies no force until then."), true };
     const auto status = run.status();
     if (! status || ! run.isRunning()) return r;
     for (const auto& now : status->shown())
         if (now.name == role && now.stop != Guard::Stop::none)
         {
-            r.text << (r.text.isEmpty() ? "" : "\n") << "Stopped by its guard: " << fromUtf8 (describe (now.latestEvent())) << ".";
+            r.text << (r.text.isEmpty() ? "" : "\n") << filled (TRANS ("Stopped by its guard: %1."), describe (now.latestEvent()));
             r.is_problem = true;
         }
     return r;
@@ -67,33 +69,34 @@ Remark DevicesPanel::statusRemark (const std::string& role) const
 Remark DevicesPanel::clockRemark() const
 {
     const auto status = run.status();
-    if (! status || ! run.isRunning()) return { "Not running.", false };
+    if (! status || ! run.isRunning()) return { TRANS ("Not running."), false };
     const auto wanted = setup.session().session.clock();
     const auto& role = run.clockRole();
     const bool by_card = wanted == "audio" && run.audioStatus();
     if (status->clock_replaced && (by_card || ! role.empty()))
     {
-        const auto why = by_card ? juce::String ("The sound card has stalled") : fromUtf8 (role) + " is disconnected";
-        return { why + ": a timer ticks instead, and all forces are held at zero.", true };
+        const auto by_timer = by_card ? TRANS ("The sound card has stalled: a timer ticks instead, and all forces are held at zero.")
+                                      : TRANS ("%1 is disconnected: a timer ticks instead, and all forces are held at zero.");
+        return { filled (by_timer, role), true };
     }
-    const auto rate = ", at " + juce::String (run.rate()) + " Hz";
-    if (by_card) return { "Ticked by the sound card" + rate + ".", false };
-    if (! role.empty()) return { "Ticked by " + fromUtf8 (role) + rate + ".", false };
-    if (wanted.empty() || wanted == "timer") return { "Ticked by a timer" + rate + ".", false };
-    const auto why = fitOf (wanted) == nullptr ? "this graph has no role " + fromUtf8 (wanted)
-                                               : "the device of " + fromUtf8 (wanted) + " cannot tick the run at the moment";
-    return { "Ticked by a timer" + rate + ": " + why + ".", false };
+    const juce::String rate (run.rate());
+    if (by_card) return { filled (TRANS ("Ticked by the sound card, at %1 Hz."), rate), false };
+    if (! role.empty()) return { filled (TRANS ("Ticked by %1, at %2 Hz."), role, rate), false };
+    if (wanted.empty() || wanted == "timer") return { filled (TRANS ("Ticked by a timer, at %1 Hz."), rate), false };
+    const auto why = fitOf (wanted) == nullptr ? TRANS ("Ticked by a timer, at %1 Hz: this graph has no role %2.")
+                                               : TRANS ("Ticked by a timer, at %1 Hz: the device of %2 cannot tick the run at the moment.");
+    return { filled (why, rate, wanted), false };
 }
 
 Remark DevicesPanel::soundRemark() const
 {
     const auto now = run.isRunning() ? run.audioStatus() : std::nullopt;
-    if (! now) return { routes().empty() ? "No routes. Add one, such as mix.out=1@4 N." : "Not running.", false };
-    if (now->card.type.empty()) return { now->trouble.empty() ? "No sound card." : fromUtf8 (now->trouble), true };
+    if (! now) return { routes().empty() ? TRANS ("No routes. Add one, such as mix.out=1@4 N.") : TRANS ("Not running."), false };
+    if (now->card.type.empty()) return { now->trouble.empty() ? TRANS ("No sound card.") : fromUtf8 (now->trouble), true };
     const auto sound = fromUtf8 (audio::statusOf (*now)).trim();
     if (! now->is_open) return { sound + (now->trouble.empty() ? juce::String() : ": " + fromUtf8 (now->trouble)), true };
     const auto& card = now->card;
-    const auto format = juce::String (card.rate_hz) + " Hz, blocks of " + juce::String (card.block);
+    const auto format = filled (TRANS ("%1 Hz, blocks of %2"), juce::String (card.rate_hz), card.block);
     return { fromUtf8 (card.type + ": " + card.name + ", ") + format + "\n" + sound, now->clipped > 0 };
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "film_files.hpp"
 
+#include <host/app/text/filled.hpp>
 #include <host/audio/listening.hpp>
 #include <host/io/animated_png.hpp>
 #include <host/platform/background_program.hpp>
@@ -18,7 +19,10 @@ namespace
 {
 namespace fs = std::filesystem;
 
-Message stoppedFilm() { return Message::error ("film/stopped", "", "the film was not saved, because it was stopped", "save it again"); }
+Message stoppedFilm()
+{
+    return Message::error ("film/stopped", "", TRANS ("the film was not saved, because it was stopped").toStdString(), TRANS ("save it again").toStdString());
+}
 
 Result<std::string> picturesOf (const Film& film, FilmPicture& picture, const std::function<bool (double)>& progress)
 {
@@ -30,7 +34,8 @@ Result<std::string> picturesOf (const Film& film, FilmPicture& picture, const st
         if (! progress (share * i / count)) return stoppedFilm();
         const auto* state = stateAt (film, i * film_picture_ms / 1000.0);
         if (! animation.add (picture.draw (*state), film_picture_ms))
-            return Message::error ("film/picture", "", "a picture could not be encoded", "make the scene larger, and save the film again");
+            return Message::error ("film/picture", "", TRANS ("a picture could not be encoded").toStdString(),
+                                   TRANS ("make the scene larger, and save the film again").toStdString());
     }
     return animation.file();
 }
@@ -79,7 +84,8 @@ Result<> writeSound (const fs::path& path, const Film& film, Messages& notes)
     Messages said;
     if (auto written = listening.write (said); ! written) return written;
     for (auto& m : said)
-        notes.push_back (Message::warning ("film/silent", m.where, "the sound is silent: no force on the tool moves faster than 20 Hz", "stroke a texture"));
+        notes.push_back (Message::warning ("film/silent", m.where, TRANS ("the sound is silent: no force on the tool moves faster than 20 Hz").toStdString(),
+                                           TRANS ("stroke a texture").toStdString()));
     return {};
 }
 
@@ -91,15 +97,15 @@ void writeVideo (const fs::path& named, const std::string& ffmpeg, const std::fu
     const std::vector<std::string> command { ffmpeg, "-nostdin", "-loglevel", "error", "-y", "-f", "apng", "-ignore_loop", "1", "-i", with (".png").string(),
                                              "-i", with (".wav").string(), "-c:v", "libvpx-vp9", "-pix_fmt", "yuv420p", "-crf", "24", "-b:v", "0", "-c:a",
                                              "libopus", half_made.string() };
-    const auto noVideo = [&] (const char* why, const char* remedy) {
-        written.notes.push_back (Message::warning ("film/no_video", video.string(), why, remedy));
+    const auto noVideo = [&] (const juce::String& why, const juce::String& remedy) {
+        written.notes.push_back (Message::warning ("film/no_video", video.string(), why.toStdString(), remedy.toStdString()));
     };
     auto program = BackgroundProgram::start (command, says);
     std::error_code ignored;
     if (! program)
     {
         fs::remove (says, ignored);
-        return noVideo ("no video was written, because ffmpeg is not installed", "install ffmpeg");
+        return noVideo (TRANS ("no video was written, because ffmpeg is not installed"), TRANS ("install ffmpeg"));
     }
     auto status = program->status();
     for (; ! status && progress (0.95); status = program->status())
@@ -110,7 +116,7 @@ void writeVideo (const fs::path& named, const std::string& ffmpeg, const std::fu
     if (status == 0 && ! failed)
         written.files.push_back (video);
     else
-        noVideo ("no video was written: ffmpeg failed or was stopped", "make the video from the .png and the .wav");
+        noVideo (TRANS ("no video was written: ffmpeg failed or was stopped"), TRANS ("make the video from the .png and the .wav"));
     for (const auto& file : { half_made, says })
         fs::remove (file, ignored);
 }
@@ -120,7 +126,8 @@ Result<WrittenFilm> writeFilm (const Film& film, FilmPicture& picture, const fs:
                                const std::string& ffmpeg)
 {
     if (film.ticks.empty() || film.states.empty())
-        return Message::error ("film/empty", named.string(), "there is nothing to save yet", "start the graph, and move the tool");
+        return Message::error ("film/empty", named.string(), TRANS ("there is nothing to save yet").toStdString(),
+                               TRANS ("start the graph, and move the tool").toStdString());
     const auto with = [&named] (const char* extension) { return fs::path (named).replace_extension (extension); };
     const auto pictures = picturesOf (film, picture, progress);
     if (! pictures) return pictures.error();

@@ -4,6 +4,7 @@
 #include <host/app/look/focus.hpp>
 #include <host/app/look/text.hpp>
 #include <host/app/model/message_text.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/units.hpp>
 
@@ -29,13 +30,13 @@ std::optional<Amount> amountOf (FitKind kind)
     {
     case FitKind::friction:
     case FitKind::grating:
-        return Amount { "Normal force", "N", "1 N", &FitSettings::load };
+        return Amount { NEEDS_TRANS ("Normal force"), "N", "1 N", &FitSettings::load };
     case FitKind::texture:
-        return Amount { "Mass of the tip", "kg", "10 g", &FitSettings::mass };
+        return Amount { NEEDS_TRANS ("Mass of the tip"), "kg", "10 g", &FitSettings::mass };
     case FitKind::blade:
-        return Amount { "Width of the cut", "m", "20 mm", &FitSettings::width };
+        return Amount { NEEDS_TRANS ("Width of the cut"), "m", "20 mm", &FitSettings::width };
     case FitKind::shock:
-        return Amount { "Mass", "kg", "", &FitSettings::mass };
+        return Amount { NEEDS_TRANS ("Mass"), "kg", "", &FitSettings::mass };
     case FitKind::modes:
     case FitKind::curve:
         break;
@@ -56,11 +57,11 @@ FitPanel::FitPanel()
 {
     setVisible (false);
     setWantsKeyboardFocus (true);
-    setTitle ("Fit a recording");
-    kinds.setTitle ("What was recorded");
+    setTitle (TRANS ("Fit a recording"));
+    kinds.setTitle (TRANS ("What was recorded"));
     for (const auto& info : fitKinds())
         kinds.addItem (fromUtf8 (info.name) + " - " + fromUtf8 (info.about), static_cast<int> (info.kind) + 1);
-    kinds.setTextWhenNothingSelected ("Choose what was recorded");
+    kinds.setTextWhenNothingSelected (TRANS ("Choose what was recorded"));
     kinds.onChange = [this] {
         if (kinds.getSelectedId() > 0) choose (static_cast<FitKind> (kinds.getSelectedId() - 1));
     };
@@ -69,8 +70,8 @@ FitPanel::FitPanel()
     amount.setSelectAllWhenFocused (true);
     amount_label.setJustificationType (juce::Justification::centredRight);
     as_graph.setFirst (true);
-    as_graph.setTooltip ("Open a new graph in which the fit can be felt; the open graph is saved first if you like");
-    into_graph.setTooltip ("Add only the fitted nodes to the open graph, without wires");
+    as_graph.setTooltip (TRANS ("Open a new graph in which the fit can be felt; the open graph is saved first if you like"));
+    into_graph.setTooltip (TRANS ("Add only the fitted nodes to the open graph, without wires"));
     as_graph.onClick = [this] { acceptAsGraph(); };
     into_graph.onClick = [this] { acceptIntoGraph(); };
     cancel.onClick = [this] { close(); };
@@ -97,7 +98,7 @@ void FitPanel::open (const std::filesystem::path& path)
     if (table)
     {
         const auto guessed = guessKind (*table);
-        guessed ? choose (*guessed) : fail ("The columns do not say what was recorded. Choose it in the list.");
+        guessed ? choose (*guessed) : fail (TRANS ("The columns do not say what was recorded. Choose it in the list."));
     }
     takeFocus (*this);
 }
@@ -116,9 +117,9 @@ void FitPanel::choose (FitKind kind)
     kinds.setSelectedId (static_cast<int> (kind) + 1, juce::dontSendNotification);
     const auto wanted = amountOf (kind);
     amount.setText (wanted ? wanted->usual : "", false);
-    amount_label.setText (wanted ? wanted->label : "", juce::dontSendNotification);
-    amount.setTitle (wanted ? wanted->label : "");
-    amount.setTextToShowWhenEmpty ("from the times", themeOf (*this).dim);
+    amount_label.setText (wanted ? juce::translate (wanted->label) : juce::String(), juce::dontSendNotification);
+    amount.setTitle (wanted ? juce::translate (wanted->label) : juce::String());
+    amount.setTextToShowWhenEmpty (TRANS ("from the times"), themeOf (*this).dim);
     fit();
 }
 
@@ -149,8 +150,8 @@ void FitPanel::fit()
         const auto typed = parseMeasure (amount.getText().trim().toStdString()), unit = parseMeasure (std::string ("1 ") + wanted->unit);
         const bool fits = typed && (typed->dimension == unit->dimension || typed->dimension == Dimension {});
         if (! fits || ! (typed->value > 0.0) || ! std::isfinite (typed->value))
-            return fail (juce::String (wanted->label) + ": " + amount.getText().quoted() + " does not fit. Type a number above 0 with its unit, such as 1.5 "
-                         + wanted->unit + ".");
+            return fail (filled (TRANS ("%1: %2 does not fit. Type a number above 0 with its unit, such as 1.5 %3."), juce::translate (wanted->label),
+                                 amount.getText().quoted(), wanted->unit));
         settings.*(wanted->member) = typed->value;
     }
     job.start (*chosen, table, file.string(), settings);
@@ -189,7 +190,7 @@ void FitPanel::showResult()
     const bool asks = chosen && amountOf (*chosen) && table && ! isRecorded (*chosen, *table);
     amount.setVisible (asks);
     amount_label.setVisible (asks);
-    setDescription (failure.isNotEmpty() ? failure : juce::String (job.isRunning() ? "Fitting" : ""));
+    setDescription (failure.isNotEmpty() ? failure : job.isRunning() ? TRANS ("Fitting") : juce::String());
     resized();
     repaint();
 }
@@ -257,12 +258,12 @@ void FitPanel::paint (juce::Graphics& g)
     g.setColour (theme.text);
     g.setFont (look.font (16.0f, true));
     const auto heading = box.reduced (fit_margin, 20).removeFromTop (24);
-    g.drawText ("Fit " + fromUtf8 (printableName (file.filename().string())), heading, juce::Justification::centredLeft, true);
+    g.drawText (filled (TRANS ("Fit %1"), printableName (file.filename().string())), heading, juce::Justification::centredLeft, true);
     if (table)
     {
         g.setColour (theme.dim);
         g.setFont (look.font (12.0f));
-        g.drawText (juce::String (static_cast<juce::int64> (table->rows())) + " rows", heading, juce::Justification::centredRight, false);
+        g.drawText (filled (TRANS ("%1 rows"), table->rows()), heading, juce::Justification::centredRight, false);
     }
     if (result) return;
 
@@ -277,7 +278,7 @@ void FitPanel::paint (juce::Graphics& g)
     auto line = place.withSizeKeepingCentre (280, 40);
     g.setColour (theme.dim);
     g.setFont (look.font (13.0f));
-    g.drawText ("Fitting ...", line.removeFromTop (20), juce::Justification::centred, false);
+    g.drawText (TRANS ("Fitting ..."), line.removeFromTop (20), juce::Justification::centred, false);
     const auto bar = line.removeFromTop (8).toFloat();
     g.setColour (theme.raised);
     g.fillRoundedRectangle (bar, 4.0f);

@@ -6,6 +6,7 @@
 #include "fit_table.hpp"
 
 #include <host/app/look/plain_button.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <functional>
 
@@ -61,7 +62,7 @@ private:
     FitPlot plot;
     FitTable values;
     juce::Viewport scroll;
-    PlainButton as_graph { "Open as new graph" }, into_graph { "Add to this graph" }, cancel { "Cancel" };
+    PlainButton as_graph { TRANS ("Open as new graph") }, into_graph { TRANS ("Add to this graph") }, cancel { TRANS ("Cancel") };
     juce::Rectangle<int> box;
 };
 

@@ -3,6 +3,7 @@
 
 #include <host/app/look/look.hpp>
 #include <host/app/look/text.hpp>
+#include <host/app/text/filled.hpp>
 #include <host/io/axis.hpp>
 
 #include <algorithm>
@@ -122,7 +123,7 @@ void paintLegend (juce::Graphics& g, juce::Rectangle<int> area, const FitPicture
 FitPlot::FitPlot()
 {
     setInterceptsMouseClicks (false, false);
-    setTitle ("Recording and fit");
+    setTitle (TRANS ("Recording and fit"));
 }
 
 void FitPlot::show (FitPicture p)

@@ -3,6 +3,7 @@
 
 #include <host/app/look/look.hpp>
 #include <host/app/look/text.hpp>
+#include <host/app/text/filled.hpp>
 #include <host/fitting/fitting.hpp>
 #include <tactus/text/number_text.hpp>
 
@@ -21,7 +22,7 @@ std::pair<juce::String, juce::String> valueAndInterval (const FitValue& v)
     const auto text = fromUtf8 (textOf (v)).replace (" u", juce::String::fromUTF8 (" \xc2\xb5"));
     const int at = text.indexOf ("  [");
     auto interval = text.substring (at + 3).upToLastOccurrenceOf ("]", false, false).replace (", ", juce::String::fromUTF8 (" \xe2\x80\xa6 "));
-    if (! std::isfinite (v.low) && ! std::isfinite (v.high)) interval = "unknown";
+    if (! std::isfinite (v.low) && ! std::isfinite (v.high)) interval = TRANS ("unknown");
     return { text.substring (0, at), interval };
 }
 }   // namespace
@@ -35,9 +36,9 @@ void FitTable::show (FitReport r)
     {
         const auto [value, interval] = valueAndInterval (v);
         rows.push_back ({ fromUtf8 (v.name), value, interval, v.is_main });
-        read.add (rows.back().name + " " + value + ", 95 % interval " + interval);
+        read.add (filled (TRANS ("%1 %2, 95 % interval %3"), rows.back().name, value, interval));
     }
-    setDescription ((report.is_good ? "Good fit. " : "Poor fit. ") + read.joinIntoString ("; "));
+    setDescription ((report.is_good ? TRANS ("Good fit") : TRANS ("Poor fit")) + ". " + read.joinIntoString ("; "));
     repaint();
 }
 
@@ -48,8 +49,9 @@ juce::TextLayout FitTable::remarks (int width) const
     for (const auto& lack : report.lacking)
         text << fromUtf8 (lack).substring (0, 1).toUpperCase() << fromUtf8 (lack).substring (1) << (lack.ends_with ('.') ? "" : ".") << "\n";
     const auto unit = report.residual_unit.empty() ? juce::String() : " " + fromUtf8 (report.residual_unit);
-    text << "Unexplained: " << fromUtf8 (roundedText (100.0 * report.residual / report.size, 2)) << " % (" << fromUtf8 (roundedText (report.residual, 3))
-         << unit << " rms); " << fromUtf8 (roundedText (report.left_out_residual, 3)) << unit << " on a part that was left out.\n";
+    text << filled (TRANS ("Unexplained: %1 % (%2 rms); %3 on a part that was left out."), roundedText (100.0 * report.residual / report.size, 2),
+                    fromUtf8 (roundedText (report.residual, 3)) + unit, fromUtf8 (roundedText (report.left_out_residual, 3)) + unit)
+         << "\n";
     for (const auto& note : report.notes)
         text << fromUtf8 (note).substring (0, 1).toUpperCase() << fromUtf8 (note).substring (1) << ".\n";
     return wrapText (text.trimEnd(), look.font (12.0f), look.theme().dim, static_cast<float> (width));
@@ -73,7 +75,7 @@ void FitTable::paint (juce::Graphics& g)
     g.fillEllipse (verdict.removeFromLeft (10).withSizeKeepingCentre (10, 10).toFloat());
     g.setFont (look.font (14.0f, true));
     g.setColour (theme.text);
-    g.drawText (report.is_good ? "Good fit" : "Poor fit", verdict.withTrimmedLeft (8), juce::Justification::centredLeft, false);
+    g.drawText (report.is_good ? TRANS ("Good fit") : TRANS ("Poor fit"), verdict.withTrimmedLeft (8), juce::Justification::centredLeft, false);
 
     const int width = area.getWidth(), name_width = width * 38 / 100, value_width = width * 27 / 100;
     const auto cells = [&] (juce::Rectangle<int> line, const juce::String& name, const juce::String& value, const juce::String& interval) {
@@ -83,7 +85,7 @@ void FitTable::paint (juce::Graphics& g)
     };
     g.setFont (look.font (12.0f));
     g.setColour (theme.dim);
-    cells (area.removeFromTop (header_height), "Parameter", "Value", "95 % interval");
+    cells (area.removeFromTop (header_height), TRANS ("Parameter"), TRANS ("Value"), TRANS ("95 % interval"));
     for (const auto& row : rows)
     {
         g.setColour (theme.hairline);

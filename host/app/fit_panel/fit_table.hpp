@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <host/app/text/filled.hpp>
+
 #include <tactus/fit/fit_report.hpp>
 
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -12,7 +14,7 @@ namespace tactus::host
 class FitTable final : public juce::Component
 {
 public:
-    FitTable() { setTitle ("Fitted parameters"); }
+    FitTable() { setTitle (TRANS ("Fitted parameters")); }
 
     void show (FitReport);
     int heightFor (int width) const;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "history_panel.hpp"
 
+#include <host/app/text/filled.hpp>
+
 namespace tactus::host
 {
 
 HistoryPanel::HistoryPanel (Document& d) : document (d)
 {
-    setTitle ("History");
-    list.setTitle ("History");
+    setTitle (TRANS ("History"));
+    list.setTitle (TRANS ("History"));
     list.setRowHeight (28);
     list.setColour (juce::ListBox::backgroundColourId, juce::Colours::transparentBlack);
     list.getViewport()->setScrollBarThickness (8);
@@ -34,7 +36,7 @@ void HistoryPanel::goToRow (int row)
 
 juce::String HistoryPanel::nameOfRow (int row) const
 {
-    if (row <= 0 || row > static_cast<int> (names.size())) return "initial state";
+    if (row <= 0 || row > static_cast<int> (names.size())) return TRANS ("initial state");
     return juce::String (names[static_cast<std::size_t> (row) - 1]);
 }
 
@@ -49,7 +51,7 @@ void HistoryPanel::paint (juce::Graphics& g)
     if (! names.empty()) return;
     g.setColour (look.theme().dim);
     g.setFont (look.font (13.0f));
-    const auto* hint = "Your edits are listed here. Click a step to undo or redo up to it; Ctrl+Z and Ctrl+Y go one step at a time.";
+    const auto hint = TRANS ("Your edits are listed here. Click a step to undo or redo up to it; Ctrl+Z and Ctrl+Y go one step at a time.");
     g.drawFittedText (hint, getLocalBounds().reduced (16).withTrimmedTop (32), juce::Justification::topLeft, 8);
 }
 

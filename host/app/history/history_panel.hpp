@@ -25,6 +25,7 @@ private:
     void paintListBoxItem (int row, juce::Graphics&, int w, int h, bool selected) override;
     void listBoxItemClicked (int row, const juce::MouseEvent&) override { goToRow (row); }
     juce::String getTooltipForRow (int row) override;
+    juce::String getNameForRow (int row) override { return nameOfRow (row); }
     juce::String nameOfRow (int row) const;
 
     Document& document;

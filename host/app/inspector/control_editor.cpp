@@ -4,6 +4,7 @@
 #include "table_row.hpp"
 #include "tool_button.hpp"
 #include <host/app/model/controlled_param.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <tactus/graph/text.hpp>
 
@@ -37,7 +38,7 @@ public:
     {
         name.setEditable (false, true, false);
         name.setBorderSize ({ 0, 0, 0, 0 });
-        name.setTooltip ("Double-click to rename");
+        name.setTooltip (TRANS ("Double-click to rename"));
         name.onTextChange = [this] { change (document, id, [text = name.getText().toStdString()] (auto& c) { c.name = text; }); };
         fader.setSliderStyle (juce::Slider::LinearBar);
         fader.setRange (0.0, 1.0);
@@ -64,7 +65,7 @@ public:
         const auto* c = find (document, id);
         if (c == nullptr) return;
         fader.setTitle (c->name.empty() ? c->id : c->name);
-        name.setTitle ("Name of the control");
+        name.setTitle (TRANS ("Name of the control"));
         if (! name.isBeingEdited()) name.setText (c->name.empty() ? c->id : c->name, juce::dontSendNotification);
         fader.setValue (c->value, juce::dontSendNotification);
     }
@@ -82,7 +83,8 @@ private:
     std::string id;
     juce::Label name;
     juce::Slider fader;
-    ToolButton cross { juce::String::fromUTF8 ("\xc3\x97"), ToolButton::Kind::plain, "Delete this control. Its parameters go back to their stored values." };
+    ToolButton cross { juce::String::fromUTF8 ("\xc3\x97"), ToolButton::Kind::plain,
+                       TRANS ("Delete this control. Its parameters go back to their stored values.") };
     bool continues = false;
 };
 
@@ -109,11 +111,11 @@ protected:
         add (std::make_unique<Header> (document, id));
         const auto* c = find (document, id);
         if (c == nullptr) return;
-        if (c->to.empty()) add ("No targets yet. Right-click a parameter to add one.", TextBlock::Kind::small);
+        if (c->to.empty()) add (TRANS ("No targets yet. Right-click a parameter to add one."), TextBlock::Kind::small);
         for (std::size_t i = 0; i < c->to.size(); ++i)
         {
             const auto path = c->to[i].path;
-            add (juce::String (path) + ", range", TextBlock::Kind::small);
+            add (filled (TRANS ("%1, range"), path), TextBlock::Kind::small);
             const auto end = [this, i] (Json graph::Control::Target::*which) {
                 return Binding { [this, i, which] {
                                     const auto* now = find (document, id);

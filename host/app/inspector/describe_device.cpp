@@ -3,6 +3,7 @@
 
 #include <host/app/look/text.hpp>
 #include <host/app/model/device_profiles.hpp>
+#include <host/app/text/filled.hpp>
 #include <host/audio/audio_settings.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/sessions/role_fits.hpp>
@@ -33,8 +34,8 @@ void addLeaves (const Json& v, const std::string& path, std::vector<std::string>
 Remark describeRole (const Document& d, const std::string& role)
 {
     const auto description = descriptionOf (d, role);
-    if (description.is_null()) return { "This role has no description. Its device is simulated, without a hand. Add a description below.", false };
-    Remark r { "A physical device, identified by its profile.", false };
+    if (description.is_null()) return { TRANS ("This role has no description. Its device is simulated, without a hand. Add a description below."), false };
+    Remark r { TRANS ("A physical device, identified by its profile."), false };
     const auto append = [&] (const Messages& messages) {
         for (const auto& m : messages)
         {
@@ -44,7 +45,7 @@ Remark describeRole (const Document& d, const std::string& role)
     };
     if (hid::isHid (description) || audio::isAudio (description))
     {
-        if (audio::isAudio (description)) r.text = "Channels of the sound card.";
+        if (audio::isAudio (description)) r.text = TRANS ("Channels of the sound card.");
         append (checkDescription (description, d.graph().folder, deviceProfiles()));
         return r;
     }
@@ -54,8 +55,8 @@ Remark describeRole (const Document& d, const std::string& role)
     return r;
 }
 
-const char* const driver_help = "sim: a simulated tool in a hand; trace: a recording; gesture: a motion computed from a formula; "
-                                "hid: a connected device with a profile (docs/devices.md); audio: channels of a sound card (docs/audio.md)";
+const char* const driver_help = NEEDS_TRANS ("sim: a simulated tool in a hand; trace: a recording; gesture: a motion computed from a formula; "
+                                             "hid: a connected device with a profile (docs/devices.md); audio: channels of a sound card (docs/audio.md)");
 
 /// Adds the row for one value of a device description.
 void addValue (Document& document, const std::string& role, const std::string& path, Column& column)
@@ -76,11 +77,11 @@ void addValue (Document& document, const std::string& role, const std::string& p
         column.add (choiceRow (
             label, { "sim", "trace", "gesture", "hid", "audio" }, [get] { return get().toStdString(); },
             [set] (const std::string& t) { set (Json (t)); },
-            driver_help));
+            juce::translate (driver_help)));
     else
         column.add (textRow (
             label, get, [set] (const juce::String& t) { set (parseText (t)); },
-            "A number, with or without a unit. Takes effect when the device restarts."));
+            TRANS ("A number, with or without a unit. Takes effect when the device restarts.")));
 }
 }   // namespace
 
@@ -88,7 +89,7 @@ void describeDevice (const Inspected& at, const graph::Node& node, Column& colum
 {
     auto& document = at.document;
     const auto role = node.role;
-    column.add ("Device", TextBlock::Kind::heading);
+    column.add (TRANS ("Device"), TextBlock::Kind::heading);
     std::vector<std::string> roles;
     for (const auto& [name, description] : document.graph().devices)
         roles.push_back (name);
@@ -98,7 +99,7 @@ void describeDevice (const Inspected& at, const graph::Node& node, Column& colum
         return n == nullptr ? std::string() : n->role;
     };
     const auto setRole = [at, name = node.name] (const std::string& to) { at.document.perform (graph::SetNodeKey { at.patch, name, "role", Json (to) }); };
-    column.add (choiceRow ("role", roles, getRole, setRole, "The device this node belongs to"));
+    column.add (choiceRow (TRANS ("role"), roles, getRole, setRole, TRANS ("The device this node belongs to")));
     if (role.empty()) return;
     column.add (remark ([&document, role] { return describeRole (document, role); }));
 
@@ -106,7 +107,7 @@ void describeDevice (const Inspected& at, const graph::Node& node, Column& colum
     if (now.is_null())
     {
         const auto describe = [&document, role] { document.perform (graph::SetDevice { role, defaultDevice() }); };
-        column.add (buttonRow ("Add description", describe, "Adds a simulated tool, moved by a hand that strokes"));
+        column.add (buttonRow (TRANS ("Add description"), describe, TRANS ("Adds a simulated tool, moved by a hand that strokes")));
         return;
     }
     std::vector<std::string> paths;
@@ -114,14 +115,14 @@ void describeDevice (const Inspected& at, const graph::Node& node, Column& colum
     for (const auto& path : paths)
         addValue (document, role, path, column);
     column.add (textRow (
-        "description", [&document, role] { return editText (descriptionOf (document, role)); },
+        TRANS ("description"), [&document, role] { return editText (descriptionOf (document, role)); },
         [&document, role, refused = at.refused] (const juce::String& t) {
         auto value = parseText (t);
         if (value.is_object())
             document.perform (graph::SetDevice { role, std::move (value) });
         else
-            refused ("A description must be an object: {\"driver\": \"sim\", \"mass\": \"50 g\"}"); },
-        "The whole description as JSON. Other keys can be added here.", 5));
+            refused (TRANS ("A description must be an object: {\"driver\": \"sim\", \"mass\": \"50 g\"}")); },
+        TRANS ("The whole description as JSON. Other keys can be added here."), 5));
 }
 
 }   // namespace tactus::host

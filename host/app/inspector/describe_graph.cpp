@@ -3,6 +3,7 @@
 
 #include <host/app/look/text.hpp>
 #include <host/app/model/controlled_param.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/graph/text.hpp>
 
 #include <cmath>
@@ -44,18 +45,18 @@ private:
 void describeSubgraph (const Inspected& at, Column& column)
 {
     column.add (fromUtf8 (at.patch), TextBlock::Kind::title);
-    column.add ("A subgraph. Its exposed ports can be wired and set from outside.", TextBlock::Kind::text);
+    column.add (TRANS ("A subgraph. Its exposed ports can be wired and set from outside."), TextBlock::Kind::text);
     const auto* patch = at.in();
     if (patch == nullptr) return;
-    const auto list = [&] (const char* title, const std::vector<std::pair<std::string, graph::Endpoint>>& shown) {
+    const auto list = [&] (const juce::String& title, const std::vector<std::pair<std::string, graph::Endpoint>>& shown) {
         if (shown.empty()) return;
         column.add (title, TextBlock::Kind::heading);
         for (const auto& [name, end] : shown)
             column.add (fromUtf8 (name + " = " + graph::toText (end)), TextBlock::Kind::small);
     };
-    list ("Inputs", patch->expose.inputs);
-    list ("Parameters", patch->expose.params);
-    list ("Outputs", patch->expose.outputs);
+    list (TRANS ("Inputs"), patch->expose.inputs);
+    list (TRANS ("Parameters"), patch->expose.params);
+    list (TRANS ("Outputs"), patch->expose.outputs);
 }
 }   // namespace
 
@@ -66,21 +67,22 @@ void describeGraph (const Inspected& at, Column& column)
     if (! at.patch.empty()) return describeSubgraph (at, column);
     auto& document = at.document;
     const auto& graph = document.graph();
-    column.add (graph.name.empty() ? juce::String ("Untitled graph") : fromUtf8 (graph.name), TextBlock::Kind::title);
+    column.add (graph.name.empty() ? TRANS ("Untitled graph") : fromUtf8 (graph.name), TextBlock::Kind::title);
 
     const auto header = [&document] (auto set) {
         graph::SetHeader h;
         set (h);
         document.perform (std::move (h));
     };
-    const auto row = [&] (const char* label, std::string graph::Graph::*member, std::optional<std::string> graph::SetHeader::*to, const char* help, int lines) {
+    const auto row = [&] (const juce::String& label, std::string graph::Graph::*member, std::optional<std::string> graph::SetHeader::*to,
+                          const juce::String& help, int lines) {
         column.add (textRow (
             label, [&document, member] { return fromUtf8 (document.graph().*member); },
             [header, to] (const juce::String& t) { header ([&] (auto& h) { h.*to = t.trim().toStdString(); }); },
             help, lines));
     };
-    row ("name", &graph::Graph::name, &graph::SetHeader::name, "The name of the graph", 1);
-    row ("about", &graph::Graph::about, &graph::SetHeader::about, "What the graph feels like", 6);
+    row (TRANS ("name"), &graph::Graph::name, &graph::SetHeader::name, TRANS ("The name of the graph"), 1);
+    row (TRANS ("about"), &graph::Graph::about, &graph::SetHeader::about, TRANS ("What the graph feels like"), 6);
     const auto tags = [&document] {
         juce::StringArray all;
         for (const auto& t : document.graph().tags)
@@ -93,25 +95,26 @@ void describeGraph (const Inspected& at, Column& column)
             if (tag.trim().isNotEmpty()) all.push_back (tag.trim().toStdString());
         header ([&] (auto& h) { h.tags = all; });
     };
-    column.add (textRow ("tags", tags, setTags, "Search keywords, separated by commas", 2));
+    column.add (textRow (TRANS ("tags"), tags, setTags, TRANS ("Search keywords, separated by commas"), 2));
     static constexpr double usual_rate_hz = 4000.0;
     const Limits limits { .hard = { 1, 1e6 }, .usual = { 1000, 16000 } };
-    const auto rate = sheetOfNumber ("rate_hz", unit::hertz, "the tick rate; takes effect at the next start", limits, usual_rate_hz);
+    const auto rate = sheetOfNumber ("rate_hz", unit::hertz, lasting (TRANS ("the tick rate; takes effect at the next start")), limits, usual_rate_hz);
     const Binding rate_binding { [&document] { return Json (document.graph().rate_hz); },
                                  [&document, rate] (std::optional<Json> v, bool continues) {
                                      graph::SetHeader h;
                                      h.rate_hz = std::round (siOf (v.value_or (Json (usual_rate_hz)), rate, usual_rate_hz));
                                      document.perform (std::move (h), continues ? graph::Step::joined : graph::Step::own);
                                  } };
-    column.add (numberRow ("rate", rate, rate_binding, at.refused));
+    column.add (numberRow (TRANS ("rate"), rate, rate_binding, at.refused));
 
-    column.add ("Controls", TextBlock::Kind::heading);
-    if (graph.controls.empty()) column.add ("A control moves several parameters at once. Add one here, or right-click a parameter.", TextBlock::Kind::small);
+    column.add (TRANS ("Controls"), TextBlock::Kind::heading);
+    if (graph.controls.empty())
+        column.add (TRANS ("A control moves several parameters at once. Add one here, or right-click a parameter."), TextBlock::Kind::small);
     for (const auto& c : graph.controls)
         column.add (controlEditor (document, at.catalogue, c.id, at.refused));
     column.add (buttonRow (
-        "+ control", [&document] { document.perform (newControl (document.graph())); },
-        "Add a control"));
+        TRANS ("+ control"), [&document] { document.perform (newControl (document.graph())); },
+        TRANS ("Add a control")));
 }
 
 }   // namespace tactus::host

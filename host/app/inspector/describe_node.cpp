@@ -6,6 +6,7 @@
 #include <host/app/look/text.hpp>
 #include <host/app/model/node_doc.hpp>
 #include <host/app/model/readable.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/graph/text.hpp>
 
 #include <cmath>
@@ -45,30 +46,31 @@ Remark problemsOf (const Inspected& at, const std::string& name)
     return r;
 }
 
-void listPorts (const std::vector<FacePort>& ports, const char* title, Column& column)
+void listPorts (const std::vector<FacePort>& ports, const juce::String& title, Column& column)
 {
     if (ports.empty()) return;
     column.add (title, TextBlock::Kind::heading);
     for (const auto& p : ports)
     {
-        const auto unit = p.unit.kind == UnitRule::Kind::fixed ? std::string (p.unit.unit.symbol) : std::string ("any unit");
-        column.add (fromUtf8 (readableName (p) + (unit == "1" ? "" : ", " + unit) + (p.width == 3 ? ", vector" : "")), TextBlock::Kind::text);
+        const auto unit = p.unit.kind == UnitRule::Kind::fixed ? std::string (p.unit.unit.symbol) : TRANS ("any unit").toStdString();
+        column.add (fromUtf8 (readableName (p) + (unit == "1" ? "" : ", " + unit)) + (p.width == 3 ? ", " + TRANS ("vector") : juce::String()),
+                    TextBlock::Kind::text);
         column.add (fromUtf8 (p.about), TextBlock::Kind::small);
     }
 }
 
 void describeSubgraphNode (const Inspected& at, const graph::Node& node, Column& column)
 {
-    column.add ("Instances and rate", TextBlock::Kind::heading);
-    const auto addInteger = [&] (const char* key, const char* about) {
-        const auto sheet = sheetOfNumber (key, unit::count, about, { .hard = { 1, 1e6 }, .usual = { 1, 16 } }, 1.0);
+    column.add (TRANS ("Instances and rate"), TextBlock::Kind::heading);
+    const auto addInteger = [&] (const char* key, const juce::String& about) {
+        const auto sheet = sheetOfNumber (key, unit::count, lasting (about), { .hard = { 1, 1e6 }, .usual = { 1, 16 } }, 1.0);
         column.add (numberRow (key, sheet, bindingOf<graph::SetNodeKey> (at, node.name, key, &graph::Node::extra).asInteger(), at.refused));
     };
-    addInteger ("count", "number of instances, numbered from 0");
-    addInteger ("every", "the node runs on every n-th tick");
-    addInteger ("times", "the node runs n times per tick; allowed only without feedback to the hand");
+    addInteger ("count", TRANS ("number of instances, numbered from 0"));
+    addInteger ("every", TRANS ("the node runs on every n-th tick"));
+    addInteger ("times", TRANS ("the node runs n times per tick; allowed only without feedback to the hand"));
 
-    column.add ("Overrides", TextBlock::Kind::heading);
+    column.add (TRANS ("Overrides"), TextBlock::Kind::heading);
     const auto set = [&document = at.document, patch = at.patch, name = node.name] (const std::string& path, const juce::String& t) {
         auto value = t.trim().isEmpty() ? std::nullopt : std::optional (parseText (t));
         document.perform (graph::SetOverride { patch, name, path, std::move (value) });
@@ -79,14 +81,14 @@ void describeSubgraphNode (const Inspected& at, const graph::Node& node, Column&
             const auto* n = at.node (name);
             return n == nullptr || ! n->overrides.contains (path) ? juce::String() : editText (n->overrides.at (path)); },
             [set, path = path] (const juce::String& t) { set (path, t); },
-            "For this node only. Leave empty to use the subgraph's value."));
+            TRANS ("For this node only. Leave empty to use the subgraph's value.")));
     column.add (textRow (
-        "add override", [] { return juce::String(); },
+        TRANS ("add override"), [] { return juce::String(); },
         [set, refused = at.refused] (const juce::String& t) {
         if (t.trim().isEmpty()) return;
-        if (! t.contains ("=")) return refused ("Write a parameter and a value: drag.mu = 0.4, or [3]/drag.mu = 0.4 for one instance");
+        if (! t.contains ("=")) return refused (TRANS ("Write a parameter and a value: drag.mu = 0.4, or [3]/drag.mu = 0.4 for one instance"));
         set (t.upToFirstOccurrenceOf ("=", false, false).trim().toStdString(), t.fromFirstOccurrenceOf ("=", false, false)); },
-        "Overrides a parameter inside the subgraph, for this node only: drag.mu = 0.4, or [3]/drag.mu = 0.4 for one instance"));
+        TRANS ("Overrides a parameter inside the subgraph, for this node only: drag.mu = 0.4, or [3]/drag.mu = 0.4 for one instance")));
 }
 }   // namespace
 
@@ -117,31 +119,31 @@ void describeNode (const Inspected& at, const graph::Node& node, bool help, cons
     column.add (nodeHeader (at, node, help, toggleHelp));
     if (face.type != nullptr) column.add (fromUtf8 (face.type->info.summary), TextBlock::Kind::text);
     if (face.kind == Face::Kind::placeholder)
-        column.add ("Unknown node type. The node keeps its parameters and wires; its outputs are 0.", TextBlock::Kind::text);
-    if (face.kind == Face::Kind::subgraph) column.add ("A subgraph. Double-click it on the canvas to enter.", TextBlock::Kind::text);
+        column.add (TRANS ("Unknown node type. The node keeps its parameters and wires; its outputs are 0."), TextBlock::Kind::text);
+    if (face.kind == Face::Kind::subgraph) column.add (TRANS ("A subgraph. Double-click it on the canvas to enter."), TextBlock::Kind::text);
     column.add (remark ([at, name = node.name] { return problemsOf (at, name); }));
     if (help)
     {
-        listPorts (face.inputs, "Inputs", column);
-        listPorts (face.params, "Parameters", column);
-        listPorts (face.outputs, "Outputs", column);
+        listPorts (face.inputs, TRANS ("Inputs"), column);
+        listPorts (face.params, TRANS ("Parameters"), column);
+        listPorts (face.outputs, TRANS ("Outputs"), column);
     }
 
-    if (! face.params.empty()) column.add (help ? "Parameter values" : "Parameters", TextBlock::Kind::heading);
+    if (! face.params.empty()) column.add (help ? TRANS ("Parameter values") : TRANS ("Parameters"), TextBlock::Kind::heading);
     for (const auto& p : face.params)
         if (p.sheet != nullptr) column.add (paramRow (at.document, at.patch, node.name, p, at.refused));
     if (face.kind == Face::Kind::subgraph) describeSubgraphNode (at, node, column);
     if (node.type.starts_with ("device.")) describeDevice (at, node, column);
     if (face.type == nullptr) return;
-    if (! face.type->settings.empty()) column.add ("Settings", TextBlock::Kind::heading);
+    if (! face.type->settings.empty()) column.add (TRANS ("Settings"), TextBlock::Kind::heading);
     for (const auto& s : face.type->settings)
         column.add (settingEditor (s, bindingOf<graph::SetSetting> (at, node.name, std::string (s.id), &graph::Node::settings), at.editors));
     if (const auto law = lawOf (node.type); ! law.empty())
     {
-        column.add ("Law", TextBlock::Kind::heading);
+        column.add (TRANS ("Law"), TextBlock::Kind::heading);
         column.add (std::make_unique<FormulaBlock> (law));
     }
-    column.add ("Source", TextBlock::Kind::heading);
+    column.add (TRANS ("Source"), TextBlock::Kind::heading);
     column.add (fromUtf8 (face.type->info.source), TextBlock::Kind::small);
 }
 

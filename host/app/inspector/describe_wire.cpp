@@ -2,6 +2,7 @@
 #include "describe.hpp"
 
 #include <host/app/model/wire_rules.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/graph/text.hpp>
 
@@ -30,7 +31,8 @@ void change (const Inspected& at, graph::Id id, const std::function<void (graph:
     at.document.perform (graph::ChangeWire { at.patch, id, std::move (to) }, continues ? graph::Step::joined : graph::Step::own);
 }
 
-constexpr std::string_view open = "any unit";   // a port that takes its unit from what is wired to it
+/// The unit of a port that takes its unit from what is wired to it.
+std::string anyUnit() { return TRANS ("any unit").toStdString(); }
 
 /// The unit at one end of a wire, such as "N, vector". Empty if unknown.
 std::string unitAt (const Inspected& at, const graph::Endpoint& e, bool start)
@@ -41,11 +43,11 @@ std::string unitAt (const Inspected& at, const graph::Endpoint& e, bool start)
     const auto face = faceOf (at.document.graph(), *in, *node, at.catalogue);
     const auto* port = start ? face.startOf (e) : face.endOf (e);
     if (port == nullptr) return {};
-    const auto unit = port->unit.kind == UnitRule::Kind::fixed ? std::string (port->unit.unit.symbol) : std::string (open);
-    return unit + (port->width == 3 && e.component < 0 ? ", vector" : "");
+    const auto unit = port->unit.kind == UnitRule::Kind::fixed ? std::string (port->unit.unit.symbol) : anyUnit();
+    return unit + (port->width == 3 && e.component < 0 ? ", " + TRANS ("vector").toStdString() : "");
 }
 
-void addEnd (const Inspected& at, graph::Id id, const char* label, graph::Endpoint graph::Wire::*which, const char* help, Column& column)
+void addEnd (const Inspected& at, graph::Id id, const juce::String& label, graph::Endpoint graph::Wire::*which, const juce::String& help, Column& column)
 {
     const auto get = [at, id, which] {
         const auto* w = find (at, id);
@@ -72,44 +74,46 @@ void addDelay (const Inspected& at, graph::Id id, Column& column)
                                   continues);
                           } };
     const Limits limits { .hard = { 0, static_cast<double> (graph::longest_delay) }, .usual = { 0, 16 } };
-    column.add (numberRow ("delay", sheetOfNumber ("delay", unit::count, "delay in ticks; 1 breaks a loop", limits, 0.0), delay, at.refused));
+    column.add (
+        numberRow (TRANS ("delay"), sheetOfNumber ("delay", unit::count, lasting (TRANS ("delay in ticks; 1 breaks a loop")), limits, 0.0), delay, at.refused));
 }
 }   // namespace
 
 void describeWire (const Inspected& at, graph::Id id, Column& column)
 {
-    column.add ("Wire", TextBlock::Kind::title);
-    addEnd (at, id, "from", &graph::Wire::from, "Source: node.output", column);
-    addEnd (at, id, "to", &graph::Wire::to, "Destination: node.input or node.param", column);
+    column.add (TRANS ("Wire"), TextBlock::Kind::title);
+    addEnd (at, id, TRANS ("from"), &graph::Wire::from, TRANS ("Source: node.output"), column);
+    addEnd (at, id, TRANS ("to"), &graph::Wire::to, TRANS ("Destination: node.input or node.param"), column);
     column.add (remark ([at, id] {
         const auto* w = find (at, id);
         if (w == nullptr) return Remark {};
+        const auto open = anyUnit();
         const auto from = unitAt (at, w->from, true), to = unitAt (at, w->to, false);
-        if (from != to && ! to.starts_with (open) && ! from.starts_with (open)) return Remark { juce::String ("leads from " + from + " to " + to), false };
-        return Remark { juce::String ("carries " + (from.starts_with (open) ? to : from)), false };
+        if (from != to && ! to.starts_with (open) && ! from.starts_with (open)) return Remark { filled (TRANS ("leads from %1 to %2"), from, to), false };
+        return Remark { filled (TRANS ("carries %1"), from.starts_with (open) ? to : from), false };
     }));
     addDelay (at, id, column);
     column.add (textRow (
-        "gain", [at, id] {
+        TRANS ("gain"), [at, id] {
         const auto* w = find (at, id);
         return w == nullptr ? juce::String() : editText (w->gain); },
         [at, id] (const juce::String& t) {
         const auto value = t.trim().isEmpty() ? Json() : parseText (t);
         change (at, id, [&] (auto& w)
                 { w.gain = value; }); },
-        "A factor, with or without a unit, such as \"1e-4 m/N\". Empty means 1."));
+        TRANS ("A factor, with or without a unit, such as \"1e-4 m/N\". Empty means 1.")));
     column.add (switchRow (
-        "enabled", [at, id] {
+        TRANS ("enabled"), [at, id] {
         const auto* w = find (at, id);
         return w != nullptr && w->enabled.value_or (true); },
         [at, id] (bool on) { change (at, id, [&] (auto& w) { w.enabled = on ? std::nullopt : std::optional (false); }); },
-        "A disabled wire carries nothing"));
+        TRANS ("A disabled wire carries nothing")));
     column.add (switchRow (
-        "adds", [at, id] {
+        TRANS ("adds"), [at, id] {
         const auto* w = find (at, id);
         return w != nullptr && w->add; },
         [at, id] (bool on) { change (at, id, [&] (auto& w) { w.add = on; }); },
-        "For a parameter: adds to the stored value instead of replacing it"));
+        TRANS ("For a parameter: adds to the stored value instead of replacing it")));
 }
 
 }   // namespace tactus::host

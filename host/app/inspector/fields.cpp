@@ -3,6 +3,7 @@
 #include "tool_button.hpp"
 
 #include <host/app/look/text.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -179,14 +180,14 @@ public:
     void refresh (const graph::Node*) override
     {
         button.setToggleState (get(), juce::dontSendNotification);
-        button.setButtonText (button.getToggleState() ? "on" : "off");
+        button.setButtonText (button.getToggleState() ? TRANS ("on") : TRANS ("off"));
     }
 
     void place (juce::Rectangle<int> area) override { button.setBounds (area.removeFromLeft (56)); }
 
 private:
     std::function<bool()> get;
-    ToolButton button { "off", ToolButton::Kind::toggle };
+    ToolButton button { TRANS ("off"), ToolButton::Kind::toggle };
 };
 
 class NumberRow final : public SetRow

@@ -4,6 +4,7 @@
 #include "tool_button.hpp"
 
 #include <host/app/look/text.hpp>
+#include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
@@ -135,7 +136,7 @@ private:
         const auto folder = context.folder();
         const auto start = folder.empty() ? juce::File() : juce::File::getCurrentWorkingDirectory().getChildFile (folder);
         // false: no dialog of the desktop, which would keep Esc from this program, see MainView::askForFile
-        chooser = std::make_unique<juce::FileChooser> ("Choose a file", start, patternsOf (kind), false);
+        chooser = std::make_unique<juce::FileChooser> (TRANS ("Choose a file"), start, patternsOf (kind), false);
         const auto chosen = [safe = juce::Component::SafePointer (this)] (const juce::FileChooser& c) {
             if (safe != nullptr && c.getResult() != juce::File()) safe->setFile (c.getResult().getFullPathName());
         };
@@ -147,7 +148,7 @@ private:
     Binding binding;
     EditorContext context;
     TextField field;
-    ToolButton browse { juce::String::fromUTF8 ("Browse\xe2\x80\xa6"), ToolButton::Kind::framed, "Choose a file, or drop one here" };
+    ToolButton browse { TRANS ("Browse..."), ToolButton::Kind::framed, TRANS ("Choose a file, or drop one here") };
     std::unique_ptr<juce::FileChooser> chooser;
     FileText info;
     std::pair<std::string, std::filesystem::file_time_type> read_as_of;

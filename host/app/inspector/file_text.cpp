@@ -2,6 +2,7 @@
 #include "file_text.hpp"
 
 #include <host/app/model/quantity_text.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>
@@ -17,8 +18,8 @@ std::string shortText (double v) { return numberText (rounded (v)); }
 FileText describe (const Signal& s)
 {
     const auto n = s.channels.empty() ? std::size_t {} : s.channels.front().size();
-    return { std::to_string (s.channels.size()) + (s.channels.size() == 1 ? " channel, " : " channels, ")
-             + shortText (static_cast<double> (n) / s.rate_hz) + " s at " + numberText (s.rate_hz) + " Hz" };
+    const auto text = s.channels.size() == 1 ? TRANS ("%1 channel, %2 s at %3 Hz") : TRANS ("%1 channels, %2 s at %3 Hz");
+    return { filled (text, s.channels.size(), shortText (static_cast<double> (n) / s.rate_hz), numberText (s.rate_hz)).toStdString() };
 }
 
 FileText describe (const Mesh& m)
@@ -31,8 +32,8 @@ FileText describe (const Mesh& m)
     }
     const Vec3 size = high - low;
     const std::string times = " \xc3\x97 ";
-    return { std::to_string (m.points.size()) + " vertices, " + std::to_string (m.triangles.size()) + " triangles, "
-             + shortText (size.x()) + times + shortText (size.y()) + times + shortText (size.z()) + " units" };
+    const auto extent = shortText (size.x()) + times + shortText (size.y()) + times + shortText (size.z());
+    return { filled (TRANS ("%1 vertices, %2 triangles, %3 units"), m.points.size(), m.triangles.size(), extent).toStdString() };
 }
 
 template <typename T, typename F>
@@ -45,7 +46,7 @@ FileText read (const Assets::Loaded<T>& loaded, F&& f)
 
 FileText describeFile (const std::string& written, SettingSheet::Kind kind, const std::string& folder, Assets& assets)
 {
-    if (written.empty()) return { "No file. Drop one here, or browse." };
+    if (written.empty()) return { TRANS ("No file. Drop one here, or browse.").toStdString() };
     const auto path = resolved (written, folder);
     switch (kind)
     {
@@ -53,10 +54,13 @@ FileText describeFile (const std::string& written, SettingSheet::Kind kind, cons
         return read (assets.signal (path), [] (const auto& s) { return describe (*s); });
     case SettingSheet::Kind::image:
         return read (assets.image (path),
-                     [] (const auto& g) { return FileText { std::to_string (g->columns) + " \xc3\x97 " + std::to_string (g->rows) + " pixels", false, g }; });
+                     [] (const auto& g) {
+                         const auto extent = std::to_string (g->columns) + " \xc3\x97 " + std::to_string (g->rows);
+                         return FileText { filled (TRANS ("%1 pixels"), extent).toStdString(), false, g };
+                     });
     case SettingSheet::Kind::table:
         return read (assets.table (path),
-                     [] (const auto& g) { return FileText { std::to_string (g->rows) + " rows of " + std::to_string (g->columns) + " numbers" }; });
+                     [] (const auto& g) { return FileText { filled (TRANS ("%1 rows of %2 numbers"), g->rows, g->columns).toStdString() }; });
     default:
         return read (assets.mesh (path), [] (const auto& m) { return describe (*m); });
     }

@@ -3,6 +3,7 @@
 #include "tool_button.hpp"
 
 #include <host/app/look/glyph.hpp>
+#include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
@@ -16,8 +17,8 @@ public:
     {
         auto& document = at.document;
         name.setFont (lookOf (*this).font (15.0f, true));
-        name.setTitle ("Name of the node");
-        name.setTooltip ("Node name: letters, digits and _");
+        name.setTitle (TRANS ("Name of the node"));
+        name.setTooltip (TRANS ("Node name: letters, digits and _"));
         name.onApply = [&document, patch = at.patch, before = node.name, this] (const juce::String& to) {
             if (! document.perform (graph::RenameNode { patch, before, to.trim().toStdString() })) name.show (before);
         };
@@ -68,8 +69,8 @@ public:
 private:
     std::string type;
     TextField name;
-    ToolButton bypass { "bypass", ToolButton::Kind::toggle, "Pass the input through unchanged" };
-    ToolButton help { "?", ToolButton::Kind::toggle, "Describe all ports" };
+    ToolButton bypass { TRANS ("bypass"), ToolButton::Kind::toggle, TRANS ("Pass the input through unchanged") };
+    ToolButton help { "?", ToolButton::Kind::toggle, TRANS ("Describe all ports") };
 };
 }   // namespace
 

@@ -3,6 +3,7 @@
 #include "number_field.hpp"
 
 #include <host/app/look/focus.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <algorithm>
 
@@ -11,7 +12,7 @@ namespace tactus::host
 
 Inspector::Inspector (Document& d, const Catalogue& c) : document (d), catalogue (c)
 {
-    setTitle ("Inspector");
+    setTitle (TRANS ("Inspector"));
     setFocusContainerType (FocusContainerType::keyboardFocusContainer);
     scroll.setScrollBarsShown (true, false);
     scroll.setScrollBarThickness (8);
@@ -79,8 +80,8 @@ std::unique_ptr<Column> Inspector::makeColumn (const Inspected& at, const Select
         describeGraph (at, *made);
     else
     {
-        made->add (juce::String (s.nodes.size()) + " nodes, " + juce::String (s.wires.size()) + " wires", TextBlock::Kind::title);
-        made->add ("Drag to move, B to bypass, G to group into a subgraph, Delete to delete.", TextBlock::Kind::small);
+        made->add (filled (TRANS ("%1 nodes, %2 wires"), s.nodes.size(), s.wires.size()), TextBlock::Kind::title);
+        made->add (TRANS ("Drag to move, B to bypass, G to group into a subgraph, Delete to delete."), TextBlock::Kind::small);
     }
     made->onHeight = [this] { resized(); };
     return made;

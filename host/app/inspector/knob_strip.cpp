@@ -2,6 +2,7 @@
 #include "knob_strip.hpp"
 
 #include <host/app/look/text.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +43,7 @@ public:
         if (c == all.end()) return;
         name = fromUtf8 (c->name.empty() ? c->id : c->name);
         setTitle (name);
-        setTooltip (name + ": drag up or down, Ctrl+drag for fine steps; double-click for the middle");
+        setTooltip (filled (TRANS ("%1: drag up or down, Ctrl+drag for fine steps; double-click for the middle"), name));
         setValue (c->value, juce::dontSendNotification);
         repaint();
     }
@@ -114,7 +115,7 @@ private:
     bool continues = false;
 };
 
-KnobStrip::KnobStrip (Document& d) : document (d) { setTitle ("Controls"); }
+KnobStrip::KnobStrip (Document& d) : document (d) { setTitle (TRANS ("Controls")); }
 
 KnobStrip::~KnobStrip() = default;
 

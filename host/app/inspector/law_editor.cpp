@@ -4,6 +4,8 @@
 #include "setting_editor.hpp"
 #include "table_row.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <tactus/plan/settings.hpp>
 
 namespace tactus::host
@@ -52,7 +54,7 @@ void addPoints (Binding lists, const SettingSheet& sheet, const EditorContext& c
         all[1].push_back (y);
         lists.set (std::move (all), false);
     };
-    column.add (buttonRow ("+ point", append, "Append a point"));
+    column.add (buttonRow (TRANS ("+ point"), append, TRANS ("Append a point")));
 }
 
 /// A plot of a curve or law setting. `without` is shown if there is nothing to plot.
@@ -74,7 +76,8 @@ std::unique_ptr<Block> plot (const SettingSheet& sheet, const Binding& binding, 
     });
 }
 
-const char* const law_help = "none: no law; power: k e^n; exponential: a (exp (b e) - 1); table: linear between points; dissipation: a times the stiffness law";
+const char* const law_help =
+    NEEDS_TRANS ("none: no law; power: k e^n; exponential: a (exp (b e) - 1); table: linear between points; dissipation: a times the stiffness law");
 
 class LawEditor final : public Stack
 {
@@ -99,24 +102,25 @@ protected:
             auto law = lawOfKind (kind, now());
             binding.set (law.is_null() ? std::nullopt : std::optional (std::move (law)), false);
         };
-        add (choiceRow ("kind", lawKinds(), get, set, law_help));
+        add (choiceRow (TRANS ("kind"), lawKinds(), get, set, juce::translate (law_help)));
         const auto kind = get();
         const auto numbers = binding.member (kind);
-        const auto number = [&] (const char* label, Binding at, const UnitRule& unit, const char* about,
-                                 Limits limits) { add (numberRow (label, sheetOfNumber (label, unit, about, limits, 0.0), std::move (at), context.refused)); };
+        const auto number = [&] (const char* label, Binding at, const UnitRule& unit, const juce::String& about, Limits limits) {
+            add (numberRow (label, sheetOfNumber (label, unit, lasting (about), limits, 0.0), std::move (at), context.refused));
+        };
         if (kind == "power")
         {
-            number ("k", numbers.entry (0), UnitRule (UnitRule::Kind::open), "factor of k e^n", { .hard = { 0, inf } });
-            number ("n", numbers.entry (1), unit::count, "exponent of k e^n", { .hard = { 0, inf }, .usual = { 0.5, 4 } });
+            number ("k", numbers.entry (0), UnitRule (UnitRule::Kind::open), TRANS ("factor of k e^n"), { .hard = { 0, inf } });
+            number ("n", numbers.entry (1), unit::count, TRANS ("exponent of k e^n"), { .hard = { 0, inf }, .usual = { 0.5, 4 } });
         }
         if (kind == "exponential")
         {
-            number ("a", numbers.entry (0), sheet.unit, "factor of a (exp (b e) - 1)", { .hard = { 0, inf } });
-            number ("b", numbers.entry (1), UnitRule (UnitRule::Kind::open), "exponent of a (exp (b e) - 1)", { .hard = { 0, inf } });
+            number ("a", numbers.entry (0), sheet.unit, TRANS ("factor of a (exp (b e) - 1)"), { .hard = { 0, inf } });
+            number ("b", numbers.entry (1), UnitRule (UnitRule::Kind::open), TRANS ("exponent of a (exp (b e) - 1)"), { .hard = { 0, inf } });
         }
-        if (kind == "dissipation") number ("a", numbers, UnitRule (UnitRule::Kind::open), "factor of the stiffness law", { .hard = { 0, inf } });
+        if (kind == "dissipation") number ("a", numbers, UnitRule (UnitRule::Kind::open), TRANS ("factor of the stiffness law"), { .hard = { 0, inf } });
         if (kind == "table") addPoints (numbers, sheet, context, *this);
-        if (kind != "none") add (plot<Law> (sheet, binding, "A factor of the stiffness law; it has no curve of its own."));
+        if (kind != "none") add (plot<Law> (sheet, binding, TRANS ("A factor of the stiffness law; it has no curve of its own.").toStdString()));
     }
 
 private:
@@ -147,7 +151,7 @@ protected:
 
     void fill() override
     {
-        add (plot<Curve> (sheet, binding, "No points."));
+        add (plot<Curve> (sheet, binding, TRANS ("No points.").toStdString()));
         addPoints (binding, sheet, context, *this);
     }
 

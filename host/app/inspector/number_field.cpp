@@ -5,6 +5,7 @@
 #include <host/app/look/text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/model/readable.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <tactus/text/number_text.hpp>
 
@@ -312,24 +313,25 @@ juce::String spokenName (const PortSheet& sheet)
     const auto name = fromUtf8 (readable (sheet.id));
     if (name.length() > 1) return name;
     if (sheet.id.size() > 1) return fromUtf8 (sheet.id);
-    return "Parameter " + name + (sheet.about.empty() ? juce::String() : ", " + fromUtf8 (sheet.about));
+    return filled (TRANS ("Parameter %1"), name) + (sheet.about.empty() ? juce::String() : ", " + fromUtf8 (sheet.about));
 }
 
 juce::String tooltipOf (const PortSheet& sheet)
 {
     const auto symbol = unitText (sheet.unit).toStdString();
     const auto range = [&] (const Interval& i) {
-        if (std::isinf (i.min) && std::isinf (i.max)) return std::string();
-        if (std::isinf (i.max)) return "at least " + shownQuantity (i.min, symbol);
-        if (std::isinf (i.min)) return "at most " + shownQuantity (i.max, symbol);
-        return shownQuantity (i.min, symbol) + " to " + shownQuantity (i.max, symbol);
+        if (std::isinf (i.min) && std::isinf (i.max)) return juce::String();
+        if (std::isinf (i.max)) return filled (TRANS ("at least %1"), shownQuantity (i.min, symbol));
+        if (std::isinf (i.min)) return filled (TRANS ("at most %1"), shownQuantity (i.max, symbol));
+        return filled (TRANS ("%1 to %2"), shownQuantity (i.min, symbol), shownQuantity (i.max, symbol));
     };
-    auto text = std::string (sheet.about);
-    if (! text.empty()) text[0] = static_cast<char> (std::toupper (static_cast<unsigned char> (text[0])));
-    if (const auto hard = range (sheet.limits.hard); ! hard.empty()) text += "\nAllowed: " + hard;
-    if (const auto usual = range (sheet.limits.usual); ! usual.empty() && ! (sheet.limits.usual == sheet.limits.hard)) text += "\nUsual: " + usual;
-    if (sheet.limits.latch) text += "\nThe value is sampled when contact begins, or on a hit.";
-    return fromUtf8 (text);
+    auto text = fromUtf8 (sheet.about);
+    text = text.substring (0, 1).toUpperCase() + text.substring (1);
+    if (const auto hard = range (sheet.limits.hard); hard.isNotEmpty()) text << "\n" + filled (TRANS ("Allowed: %1"), hard);
+    if (const auto usual = range (sheet.limits.usual); usual.isNotEmpty() && ! (sheet.limits.usual == sheet.limits.hard))
+        text << "\n" + filled (TRANS ("Usual: %1"), usual);
+    if (sheet.limits.latch) text << "\n" + TRANS ("The value is sampled when contact begins, or on a hit.");
+    return text;
 }
 
 }   // namespace tactus::host

@@ -4,6 +4,7 @@
 #include "table_row.hpp"
 
 #include <host/app/model/readable.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <algorithm>
 
@@ -66,7 +67,7 @@ protected:
             all.set (std::move (more), false);
         };
         const auto one = juce::String (std::string (sheet.id)).trimCharactersAtEnd ("s");
-        add (buttonRow ("+ " + one, append, "Append a copy of the last row"));
+        add (buttonRow ("+ " + one, append, TRANS ("Append a copy of the last row")));
     }
 
 private:
@@ -106,7 +107,7 @@ private:
             f.x.push_back (number ("frequency"));
             f.y.push_back (number ("amplitude"));
         }
-        if (f.x.empty()) return Message::error ("plot/empty", {}, "No tones.");
+        if (f.x.empty()) return Message::error ("plot/empty", {}, TRANS ("No tones.").toStdString());
         return f;
     }
 

@@ -8,6 +8,7 @@
 #include <host/app/model/param_value.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/model/readable.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <algorithm>
 #include <array>
@@ -32,7 +33,7 @@ public:
         : SetRow (fromUtf8 (readableName (f))), document (d), patch (std::move (p)), node_name (std::move (n)), port (f), refused (r)
     {
         const auto id = std::string (port.sheet->id);
-        setTooltip (tooltipOf (*port.sheet) + (nameWithId (id) == readable (id) ? juce::String() : "\nIn files: " + juce::String (id)));
+        setTooltip (tooltipOf (*port.sheet) + (nameWithId (id) == readable (id) ? juce::String() : "\n" + filled (TRANS ("In files: %1"), id)));
         onReset = [this] { change (std::nullopt, false); };
         if (patch.empty() && port.width == 1 && ! port.isChoice())
             onWantsMenu = [this] (juce::PopupMenu& menu) { fillMenu (menu); };
@@ -64,7 +65,7 @@ public:
         auto now = paramNow (document.graph(), patch, *node, port);
         current = std::move (now.value);
         setIsSet (now.is_set);
-        setNote (now.control ? "set by " + juce::String (now.control->name) : juce::String(), themeOf (*this).accent);
+        setNote (now.control ? filled (TRANS ("set by %1"), now.control->name) : juce::String(), themeOf (*this).accent);
         if (port.isChoice())
         {
             const auto at = std::ranges::find (port.sheet->choices, current.is_string() ? current.get<std::string>() : std::string());
@@ -105,12 +106,12 @@ private:
     {
         if (const auto param = controlOf (document.graph(), node_name + '.' + port.id))
         {
-            menu.addItem ("Release from " + juce::String (param->name), [safe = juce::Component::SafePointer (this)] {
+            menu.addItem (filled (TRANS ("Release from %1"), param->name), [safe = juce::Component::SafePointer (this)] {
                 if (safe != nullptr) release (safe->document, safe->node_name, safe->port);
             });
             return;
         }
-        menu.addSectionHeader ("Assign to control");
+        menu.addSectionHeader (TRANS ("Assign to control"));
         const auto item = [&] (const juce::String& what, const std::string& id) {
             menu.addItem (what, [safe = juce::Component::SafePointer (this), id] {
                 if (safe != nullptr) controlBy (safe->document, safe->node_name, safe->port, id);
@@ -118,7 +119,7 @@ private:
         };
         for (const auto& c : document.graph().controls)
             item (c.name.empty() ? c.id : c.name, c.id);
-        item ("New control", {});
+        item (TRANS ("New control"), {});
     }
 
     Json componentOf (std::size_t i) const
@@ -173,7 +174,8 @@ void release (Document& document, const std::string& name, const FacePort& port)
     auto without = removeTarget (document.graph(), param->control, path);
     if (! without) return;
     const auto kept = withValue (*node, port, valueOf (*param, *port.sheet));
-    document.perform (graph::Batch { "release " + path, { std::move (*without), graph::SetParam { {}, name, baseOf (port.id), kept } } });
+    document.perform (
+        graph::Batch { filled (TRANS ("release %1"), path).toStdString(), { std::move (*without), graph::SetParam { {}, name, baseOf (port.id), kept } } });
 }
 
 }   // namespace tactus::host

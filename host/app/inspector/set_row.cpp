@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "set_row.hpp"
 
+#include <host/app/text/filled.hpp>
+
 namespace tactus::host
 {
 
 class SetRow::Arrow final : public juce::Button
 {
 public:
-    Arrow() : juce::Button ("Reset")
+    Arrow() : juce::Button (TRANS ("Reset"))
     {
-        setTooltip ("Reset to default");
+        setTooltip (TRANS ("Reset to default"));
         setMouseCursor (juce::MouseCursor::PointingHandCursor);
     }
 
@@ -50,7 +52,7 @@ SetRow::SetRow (juce::String l) : label_text (std::move (l)), arrow (std::make_u
     arrow->onClick = [this] {
         if (onReset) onReset();
     };
-    arrow->setTitle ("Reset " + label_text);
+    arrow->setTitle (filled (TRANS ("Reset %1"), label_text));
     addChildComponent (*arrow);
     addMouseListener (watch.get(), true);
 }

@@ -4,6 +4,7 @@
 
 #include <host/app/look/text.hpp>
 #include <host/app/model/readable.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <tactus/plan/settings.hpp>
 
@@ -28,7 +29,7 @@ public:
         field.setMultiLine (true);
         field.setReturnKeyStartsNewLine (false);
         field.setTooltip (std::string (s.about));
-        field.setTextToShowWhenEmpty ("JSON: " + std::string (name (s.kind)), themeOf (*this).dim);
+        field.setTextToShowWhenEmpty (filled ("JSON: %1", name (s.kind)), themeOf (*this).dim);
         field.onApply = [this] (const juce::String& text) {
             binding.set (text.trim().isEmpty() ? std::nullopt : std::optional (parseText (text)), false);
         };
@@ -136,7 +137,7 @@ public:
     SurfaceEditor (const SettingSheet&, Binding at, const EditorContext& c) : Stack (8), binding (std::move (at)), context (c)
     {
         law.kind = Kind::law;
-        law.describe ("law", unit::newton, "force against deflection", {});
+        law.describe ("law", unit::newton, lasting (TRANS ("force against deflection")), {});
         law.x_unit = unit::metre;
         law.initial = Law {};
     }
@@ -155,21 +156,21 @@ protected:
         const auto now = binding.get();
         if (now.is_object() && now.contains ("nodes"))
         {
-            const auto count = [&] (const char* key) { return std::to_string (now.contains (key) && now[key].is_array() ? now[key].size() : 0); };
-            const auto size = count ("nodes") + " nodes and " + count ("triangles") + " triangles, stored in the graph. Edit them as JSON.";
-            add (size, TextBlock::Kind::small);
+            const auto count = [&] (const char* key) { return now.contains (key) && now[key].is_array() ? now[key].size() : 0; };
+            const auto text = TRANS ("%1 nodes and %2 triangles, stored in the graph. Edit them as JSON.");
+            add (filled (text, count ("nodes"), count ("triangles")), TextBlock::Kind::small);
         }
         else
-            add (fileRow ("mesh", Kind::surface, binding.member ("mesh"), context, "OBJ, OFF, PLY or STL"));
-        const auto mu = sheetOfNumber ("mu", unit::gain, "lateral deflection of the contact over its depth", { .hard = { 0, inf }, .usual = { 0, 1 } }, 0.0);
+            add (fileRow (TRANS ("mesh"), Kind::surface, binding.member ("mesh"), context, TRANS ("OBJ, OFF, PLY or STL")));
+        const auto mu = sheetOfNumber ("mu", unit::gain, lasting (TRANS ("lateral deflection of the contact over its depth")),
+                                       { .hard = { 0, inf }, .usual = { 0, 1 } }, 0.0);
         if (! now.is_object() || ! now.contains ("mu") || ! now["mu"].is_array()) add (numberRow ("mu", mu, binding.member ("mu"), context.refused));
-        static constexpr std::array axes { "x, along", "y, across", "z, inward" };
+        const std::array axes { TRANS ("x, along"), TRANS ("y, across"), TRANS ("z, inward") };
         const auto n = tools (now);
         for (std::size_t tool = 0; tool < n; ++tool)
             for (std::size_t axis = 0; axis < 3; ++axis)
             {
-                const auto prefix = n > 1 ? "tool " + juce::String (static_cast<int> (tool)) + ", " : juce::String();
-                add (prefix + axes[axis], TextBlock::Kind::heading);
+                add (n > 1 ? filled (TRANS ("tool %1, %2"), tool, axes[axis]) : axes[axis], TextBlock::Kind::heading);
                 add (lawEditor (law, binding.member ("curves").entry (tool).entry (axis), context));
             }
     }
@@ -271,8 +272,8 @@ private:
     Assets* assets;
     std::unique_ptr<Block> body;
     JsonText text;
-    ToolButton as_text { "JSON", ToolButton::Kind::toggle, "Edit as JSON" };
-    ToolButton reset { "reset", ToolButton::Kind::plain, "Reset to default" };
+    ToolButton as_text { "JSON", ToolButton::Kind::toggle, TRANS ("Edit as JSON") };
+    ToolButton reset { TRANS ("reset"), ToolButton::Kind::plain, TRANS ("Reset to default") };
     juce::String problem;
     Json checked;
     bool is_set = false;

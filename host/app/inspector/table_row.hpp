@@ -4,6 +4,8 @@
 #include "fields.hpp"
 #include "tool_button.hpp"
 
+#include <host/app/text/filled.hpp>
+
 namespace tactus::host
 {
 
@@ -27,7 +29,7 @@ public:
 private:
     std::vector<Cell> cells;
     std::vector<std::unique_ptr<juce::Component>> fields;
-    ToolButton cross { juce::String::fromUTF8 ("\xc3\x97"), ToolButton::Kind::plain, "Remove this row" };
+    ToolButton cross { juce::String::fromUTF8 ("\xc3\x97"), ToolButton::Kind::plain, TRANS ("Remove this row") };
 };
 
 /// The header of a table: column names and units.

@@ -4,6 +4,7 @@
 
 #include <host/app/model/clip_graph.hpp>
 #include <host/app/model/fragment.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <algorithm>
 
@@ -81,9 +82,10 @@ std::string wireInputs (const NodeType& type, const std::string& name, const gra
         if (from)
             batch.commands.push_back (graph::AddWire { at.patch, mixing::wire (std::move (*from), mixing::endOf (name, input.id)) });
         else if (missing.empty() && ! (input.width == 3 && input.id == "normal"))   // without one, it is up
-            missing = "Wire something into " + name + '.' + std::string (input.id) + ": " + std::string (input.about);
+            missing = filled (TRANS ("Wire something into %1: %2"), name + '.' + std::string (input.id), input.about).toStdString();
     }
-    if (type.info.id == clip_type) missing = "Choose a clip for " + name + " in the inspector" + (missing.empty() ? "" : ". " + missing);
+    if (type.info.id == clip_type)
+        missing = filled (TRANS ("Choose a clip for %1 in the inspector"), name).toStdString() + (missing.empty() ? "" : ". " + missing);
     return missing;
 }
 }   // namespace
@@ -91,10 +93,10 @@ std::string wireInputs (const NodeType& type, const std::string& name, const gra
 const std::vector<LayerKind>& layerKinds()
 {
     static const std::vector<LayerKind> kinds {
-        { "Texture", "texture.grating", "Add ridges that you feel while you stroke, only in contact" },
-        { "Vibration", "vibration.modal", "Add a ring that each tap excites" },
-        { "Recorded", "texture.noise", "Add a recorded texture: the hiss of a real surface, only in contact" },
-        { "Clip", std::string (clip_type), "Add a haptic clip that each tap plays" },
+        { NEEDS_TRANS ("Texture"), "texture.grating", NEEDS_TRANS ("Add ridges that you feel while you stroke, only in contact") },
+        { NEEDS_TRANS ("Vibration"), "vibration.modal", NEEDS_TRANS ("Add a ring that each tap excites") },
+        { NEEDS_TRANS ("Recorded"), "texture.noise", NEEDS_TRANS ("Add a recorded texture: the hiss of a real surface, only in contact") },
+        { NEEDS_TRANS ("Clip"), std::string (clip_type), NEEDS_TRANS ("Add a haptic clip that each tap plays") },
     };
     return kinds;
 }
@@ -121,15 +123,16 @@ Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const 
     const int layers = layersOf (*mixer, catalogue);
     const bool fills = layers == 1 && ! type.empty() && wireInto (g, at, 0) == nullptr;   // the only layer is still empty
     if (layers >= list_capacity && ! fills)
-        return Message::error ("mixer/full", {}, "a mixer has at most " + std::to_string (list_capacity) + " layers", "add a second mixer");
+        return Message::error ("mixer/full", {}, filled (TRANS ("a mixer has at most %1 layers"), list_capacity).toStdString(),
+                               TRANS ("add a second mixer").toStdString());
 
     const int place = fills ? 0 : layers;
-    graph::Batch batch { "add a layer", {} };
+    graph::Batch batch { NEEDS_TRANS ("add a layer"), {} };
     if (! fills) batch.commands.push_back (graph::SetSetting { at.patch, at.node, "inputs", Json (layers + 1) });
     if (type.empty()) return AddedLayer { std::move (batch), {}, {} };
     const auto* sheet = catalogue.find (type);
     const auto output = sheet == nullptr ? std::nullopt : layerOutput (*sheet, at.vectors);
-    if (! output) return Message::error ("mixer/type", {}, type + " has no force output that fits, so it cannot be a layer");
+    if (! output) return Message::error ("mixer/type", {}, filled (TRANS ("%1 has no force output that fits, so it cannot be a layer"), type).toStdString());
 
     graph::Node node;
     node.name = freeName (*patch, {}, type.substr (type.find ('.') + 1));
@@ -138,7 +141,7 @@ Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const 
     if (! clip.empty()) playClip (node, clip);
     const auto name = node.name;
     const auto id = node.id;
-    batch.name = "add the layer " + name;
+    batch.name = filled (TRANS ("add the layer %1"), name).toStdString();
     batch.commands.push_back (graph::AddNode { at.patch, std::move (node) });
     const auto later = mixing::downstreamOf (*patch, at.node);
     auto missing = clip.empty() ? wireInputs (*sheet, name, g, at, later, catalogue, batch) : std::string();
@@ -173,25 +176,30 @@ Result<graph::Command> setGate (const graph::Graph& g, const MixerPlace& at, con
     const auto* patch = mixing::patchOf (g, at.patch);
     const auto* w = wireInto (g, at, layer);
     if (patch == nullptr || findMixer (g, at) == nullptr) return mixing::mixerIsGone();
-    if (w == nullptr) return Message::error ("mixer/empty", {}, "nothing is wired into this layer", "wire something into it first");
+    if (w == nullptr)
+        return Message::error ("mixer/empty", {}, TRANS ("nothing is wired into this layer").toStdString(),
+                               TRANS ("wire something into it first").toStdString());
     const auto* product = mixing::gateOf (*patch, *w);
-    if (on == (product != nullptr)) return graph::Command (graph::Batch { "gate a layer", {} });
+    if (on == (product != nullptr)) return graph::Command (graph::Batch { NEEDS_TRANS ("gate a layer"), {} });
 
-    graph::Batch batch { on ? "gate a layer by contact" : "open the gate of a layer", {} };
+    graph::Batch batch { on ? NEEDS_TRANS ("gate a layer by contact") : NEEDS_TRANS ("open the gate of a layer"), {} };
     auto changed = *w;
     if (on)
     {
         const bool is_vector = at.vectors && w->to.component < 0;
         changed.from = mixing::gated (w->from, is_vector, g, at, mixing::downstreamOf (*patch, at.node), catalogue, batch);
         if (changed.from == w->from)
-            return Message::error ("mixer/no_contact", {}, "nothing in this patch says how deep the tool presses", "add a surface, such as deform.plane");
+            return Message::error ("mixer/no_contact", {}, TRANS ("nothing in this patch says how deep the tool presses").toStdString(),
+                                   TRANS ("add a surface, such as deform.plane").toStdString());
     }
     else
     {
         const graph::Wire* source = nullptr;
         for (const auto& in : patch->wires)
             if (const auto* from = patch->find (in.from.node); in.to.node == product->name && (from == nullptr || from->type != "contact.window")) source = &in;
-        if (source == nullptr) return Message::error ("mixer/empty", {}, "only the gate is wired into this layer", "wire something into " + product->name);
+        if (source == nullptr)
+            return Message::error ("mixer/empty", {}, TRANS ("only the gate is wired into this layer").toStdString(),
+                                   filled (TRANS ("wire something into %1"), product->name).toStdString());
         changed.from = source->from;
     }
     batch.commands.push_back (graph::ChangeWire { at.patch, w->id, std::move (changed) });

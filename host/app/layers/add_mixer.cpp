@@ -3,6 +3,7 @@
 #include "mixer_parts.hpp"
 
 #include <host/app/model/fragment.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/graph/text.hpp>
 
@@ -62,9 +63,10 @@ Message noMotor (const graph::Graph& g)
     for (const auto& [subgraph, patch] : g.graphs)
         for (const auto& n : patch.nodes)
             if (n.type == "device.force")
-                return Message::error ("mixer/in_subgraph", {}, "the motor of this graph is inside the subgraph " + subgraph,
-                                       "enter the subgraph, and add a layer.mix before " + n.name);
-    return Message::error ("mixer/no_motor", {}, "this graph has no motor yet", "add a device.force node, which the mixer can then drive");
+                return Message::error ("mixer/in_subgraph", {}, filled (TRANS ("the motor of this graph is inside the subgraph %1"), subgraph).toStdString(),
+                                       filled (TRANS ("enter the subgraph, and add a layer.mix before %1"), n.name).toStdString());
+    return Message::error ("mixer/no_motor", {}, TRANS ("this graph has no motor yet").toStdString(),
+                           TRANS ("add a device.force node, which the mixer can then drive").toStdString());
 }
 /// What the mixer mixes: the largest stream into a motor. Vectors before scalars, because scalars reach the motor as a part of them.
 Stream streamOf (const graph::Patch& patch, const graph::Node*& motor, bool& vectors)
@@ -99,8 +101,8 @@ Result<AddedMixer> addMixer (const graph::Graph& g, const Catalogue&)
     if (motor == nullptr) return noMotor (g);
     const bool is_first = stream.wires.empty();
     if (is_first && ! vectors)
-        return Message::error ("mixer/no_forces", {}, "nothing is wired into " + motor->name + " yet",
-                               "wire something into it first; the mixer is then inserted into that wire");
+        return Message::error ("mixer/no_forces", {}, filled (TRANS ("nothing is wired into %1 yet"), motor->name).toStdString(),
+                               TRANS ("wire something into it first; the mixer is then inserted into that wire").toStdString());
 
     graph::Node mixer;
     mixer.name = freeName (g.root, {}, "desk");
@@ -111,7 +113,7 @@ Result<AddedMixer> addMixer (const graph::Graph& g, const Catalogue&)
         names.push_back (graph::firstNameOf (w->from.node));
     mixer.settings["inputs"] = std::max<std::size_t> (1, names.size());
     if (! names.empty()) mixer.settings["names"] = mixing::joined (names);
-    graph::Batch batch { "add a layer mixer", { graph::AddNode { {}, std::move (mixer) } } };
+    graph::Batch batch { NEEDS_TRANS ("add a layer mixer"), { graph::AddNode { {}, std::move (mixer) } } };
     for (std::size_t i = 0; i < stream.wires.size(); ++i)
     {
         auto to = *stream.wires[i];
@@ -119,9 +121,9 @@ Result<AddedMixer> addMixer (const graph::Graph& g, const Catalogue&)
         batch.commands.push_back (graph::ChangeWire { {}, stream.wires[i]->id, std::move (to) });
     }
     batch.commands.push_back (graph::AddWire { {}, mixing::wire (mixing::endOf (place.node, "out"), stream.to) });
-    auto description = is_first ? "Adds a mixer before " + motor->name + '.'
-                                : "Inserts a mixer between " + mixing::joined (names) + " and " + graph::toText (stream.to) + '.';
-    return AddedMixer { std::move (batch), std::move (description), place };
+    const auto description = is_first ? filled (TRANS ("Adds a mixer before %1."), motor->name)
+                                      : filled (TRANS ("Inserts a mixer between %1 and %2."), mixing::joined (names), graph::toText (stream.to));
+    return AddedMixer { std::move (batch), description.toStdString(), place };
 }
 
 }   // namespace tactus::host

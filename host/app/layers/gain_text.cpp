@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gain_text.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <tactus/text/quote.hpp>
 #include <tactus/text/units.hpp>
 
@@ -27,14 +29,15 @@ Result<double> levelToGain (const std::string& text, const UnityLevel& level)
 {
     const auto wanted = parseMeasure (text);
     if (! wanted || ! std::isfinite (wanted->value))
-        return Message::error ("gain/syntax", {}, "cannot read " + quote (text) + " as a gain", "write -6 dB, x0.5, 50 % or a level such as 0.3 N");
+        return Message::error ("gain/syntax", {}, filled (TRANS ("cannot read %1 as a gain"), quote (text)).toStdString(),
+                               TRANS ("write -6 dB, x0.5, 50 % or a level such as 0.3 N").toStdString());
     const auto unit = level.unit.empty() ? Result<Measure> (Message::error ("gain/unit", {}, {})) : parseMeasure ("1 " + level.unit);
     if (unit && wanted->dimension != unit->dimension)
-        return Message::error ("gain/unit", {}, quote (text) + " is no gain, and the level of this layer is in " + level.unit,
-                               "write -6 dB or a level in " + level.unit);
+        return Message::error ("gain/unit", {}, filled (TRANS ("%1 is no gain, and the level of this layer is in %2"), quote (text), level.unit).toStdString(),
+                               filled (TRANS ("write -6 dB or a level in %1"), level.unit).toStdString());
     if (! unit || ! (level.peak > 0.0))
-        return Message::error ("gain/no_level", {}, "the layer has been silent, so its level is not known",
-                               "let it sound first, or write a gain such as -6 dB");
+        return Message::error ("gain/no_level", {}, TRANS ("the layer has been silent, so its level is not known").toStdString(),
+                               TRANS ("let it sound first, or write a gain such as -6 dB").toStdString());
     return decibelsOf (wanted->value / level.peak);
 }
 }   // namespace
@@ -55,7 +58,7 @@ const PortSheet& decibelSheet()
         s.role = Role::param;
         s.id = "gain";
         s.unit = unit::decibel;
-        s.about = "gain; 0 dB leaves the layer as it is, -120 dB is off";
+        s.about = lasting (TRANS ("gain; 0 dB leaves the layer as it is, -120 dB is off"));
         s.limits = { .hard = { silent_db, 120.0 }, .usual = { -60.0, 6.0 } };
         return s;
     }();
@@ -72,7 +75,8 @@ Result<double> readGain (const std::string& text, const UnityLevel& level)
     const double number = std::strtod (digits.c_str(), &rest);
     const std::string unit = rest;
     if (rest == digits.c_str() || ! std::isfinite (number))
-        return Message::error ("gain/syntax", {}, "cannot read " + quote (text) + " as a gain", "write -6 dB, x0.5, 50 % or a level such as 0.3 N");
+        return Message::error ("gain/syntax", {}, filled (TRANS ("cannot read %1 as a gain"), quote (text)).toStdString(),
+                               TRANS ("write -6 dB, x0.5, 50 % or a level such as 0.3 N").toStdString());
     if (unit.empty() && is_factor) return decibelsOf (number);
     if (unit == "x" || unit == "\xc3\x97") return decibelsOf (number);
     if (unit == "%") return decibelsOf (0.01 * number);

@@ -3,6 +3,7 @@
 
 #include <host/app/model/file_path.hpp>
 #include <host/app/model/message_text.hpp>
+#include <host/app/text/filled.hpp>
 #include <host/io/clip_io.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -16,23 +17,24 @@ namespace
 constexpr int most_probes = 18;     // components; all panels share the 32 of the run. Layers beyond that have a meter, but no spectrum
 constexpr int spectrum_every = 3;   // every third refresh updates the spectra
 constexpr int introduction_height = 132, button_line = 28;
-const char* headingOf (std::string_view family)
+juce::String headingOf (std::string_view family)
 {
-    if (family == "texture") return "Textures";
-    return family == "friction" ? "Friction" : "Vibrations";
+    if (family == "texture") return TRANS ("Textures");
+    return family == "friction" ? TRANS ("Friction") : TRANS ("Vibrations");
 }
 
-constexpr auto introduction = "A layer mixer mixes forces, textures and vibrations. Each layer has gain, mute and solo, and layers of higher "
-                              "priority can duck the others. The layers appear here as strips with faders and meters in newtons.";
+constexpr auto introduction = NEEDS_TRANS ("A layer mixer mixes forces, textures and vibrations. Each layer has gain, mute and solo, and layers of higher "
+                                           "priority can duck the others. The layers appear here as strips with faders and meters in newtons.");
 }   // namespace
 
 LayersPanel::LayersPanel (Document& d, Traces& t, const Catalogue& c) : document (d), catalogue (c), traces (t)
 {
-    setTitle ("Layers");
+    setTitle (TRANS ("Layers"));
     for (const auto& kind : layerKinds())
     {
-        auto& b = *kinds.emplace_back (std::make_unique<ToolButton> ("+ " + juce::String (kind.name), ToolButton::Kind::framed, kind.about));
-        b.setTitle ("Add a layer: " + juce::String (kind.name));
+        const auto called = juce::translate (juce::String (kind.name));
+        auto& b = *kinds.emplace_back (std::make_unique<ToolButton> ("+ " + called, ToolButton::Kind::framed, juce::translate (juce::String (kind.about))));
+        b.setTitle (filled (TRANS ("Add a layer: %1"), called));
         b.onClick = [this, type = kind.type] { add (type); };
         addAndMakeVisible (b);
     }
@@ -79,7 +81,7 @@ void LayersPanel::rebuild()
     if (all.empty())
     {
         const auto added = addMixer (graph, catalogue);
-        preview = juce::String (added ? added->description : "Cannot add a mixer: " + messageText (added.error()) + ".");
+        preview = added ? juce::String (added->description) : filled (TRANS ("Cannot add a mixer: %1."), messageText (added.error()));
         first.setVisible (added.has_value());
         for (auto& b : kinds)
             b->setEnabled (added.has_value());
@@ -169,7 +171,7 @@ void LayersPanel::choose (std::size_t mixer)
 
 void LayersPanel::add (const std::string& type)
 {
-    graph::Batch batch { "add a layer", {} };
+    graph::Batch batch { NEEDS_TRANS ("add a layer"), {} };
     auto place = chosen;
     auto graph = document.graph();
     const auto refuse = [this] (const Message& why) {
@@ -208,7 +210,7 @@ void LayersPanel::addClip (const std::filesystem::path& file)
         if (onHint) onHint (text);
     };
     const auto& graph = document.graph();
-    graph::Batch batch { "add a clip as a layer", {} };
+    graph::Batch batch { NEEDS_TRANS ("add a clip as a layer"), {} };
     auto with_mixer = graph;
     auto place = chosen;
     if (all.empty())
@@ -225,7 +227,7 @@ void LayersPanel::addClip (const std::filesystem::path& file)
     if (! layer) return say (juce::String (messageText (layer.error())));
     batch.commands.push_back (std::move (layer->command));
     if (! document.perform (std::move (batch))) return;
-    say (juce::String (printableName (file.filename().string())) + " is a layer now. It plays over and over.");
+    say (filled (TRANS ("%1 is a layer now. It plays over and over."), printableName (file.filename().string())));
     scroll.setViewPosition (row.getWidth(), 0);
 }
 
@@ -238,7 +240,7 @@ bool LayersPanel::isInterestedInFileDrag (const juce::StringArray& files)
 void LayersPanel::fileDragEnter (const juce::StringArray&, int, int)
 {
     file_over = true;
-    if (onHint) onHint ("Drop the clip to add a layer that plays it.");
+    if (onHint) onHint (TRANS ("Drop the clip to add a layer that plays it."));
     repaint();
 }
 
@@ -254,14 +256,14 @@ void LayersPanel::filesDropped (const juce::StringArray& files, int, int)
     fileDragExit (files);
     const std::filesystem::path file { files[0].toStdString() };
     if (isClipFile (file)) return addClip (file);
-    if (onHint) onHint (juce::String (printableName (file.filename().string())) + " is not a clip.");
+    if (onHint) onHint (filled (TRANS ("%1 is not a clip."), printableName (file.filename().string())));
 }
 
 void LayersPanel::openMenu()
 {
     juce::PopupMenu menu;
     std::vector<std::string> types { "" };
-    menu.addItem (1, "Empty layer");
+    menu.addItem (1, TRANS ("Empty layer"));
     std::string family;
     for (const auto* t : layerTypes (catalogue, chosen.vectors))
     {
@@ -300,8 +302,8 @@ void LayersPanel::paint (juce::Graphics& g)
         auto area = getLocalBounds().reduced (24, 16);
         juce::AttributedString text;
         text.setWordWrap (juce::AttributedString::byWord);
-        text.append ("No layer mixer in this graph\n", look.font (14.0f, true), theme.text);
-        text.append (introduction, look.font (13.0f), theme.dim);
+        text.append (TRANS ("No layer mixer in this graph") + "\n", look.font (14.0f, true), theme.text);
+        text.append (juce::translate (introduction), look.font (13.0f), theme.dim);
         text.append ("\n\n" + preview, look.font (13.0f), theme.text);
         text.draw (g, area.withWidth (std::min (area.getWidth(), 560)).toFloat());
         return;
@@ -310,7 +312,8 @@ void LayersPanel::paint (juce::Graphics& g)
     g.drawVerticalLine (head_width - 1, 0.0f, static_cast<float> (getHeight()));
     g.setFont (look.font (12.0f));
     g.setColour (theme.dim);
-    g.drawText (all.size() > 1 ? "Mixers" : "Mixer", juce::Rectangle<int> (12, 4, head_width - 24, 24), juce::Justification::centredLeft, false);
+    g.drawText (all.size() > 1 ? TRANS ("Mixers") : TRANS ("Mixer"), juce::Rectangle<int> (12, 4, head_width - 24, 24), juce::Justification::centredLeft,
+                false);
 }
 
 void LayersPanel::paintOverChildren (juce::Graphics& g)

@@ -3,6 +3,8 @@
 
 #include "strip.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <filesystem>
 
 namespace tactus::host
@@ -63,8 +65,8 @@ private:
     MixerPlace chosen;
     std::vector<std::unique_ptr<ToolButton>> names;   // one button for each mixer
     std::vector<std::unique_ptr<ToolButton>> kinds;   // one button for each kind of layer
-    ToolButton more { "Other layer...", ToolButton::Kind::framed, "Add an empty layer, or one with another texture or vibration" };
-    ToolButton first { "Add a mixer before the motor", ToolButton::Kind::framed };
+    ToolButton more { TRANS ("Other layer..."), ToolButton::Kind::framed, TRANS ("Add an empty layer, or one with another texture or vibration") };
+    ToolButton first { TRANS ("Add a mixer before the motor"), ToolButton::Kind::framed };
     juce::String preview;   // what adding a mixer would do, or why it is not possible
     juce::Viewport scroll;
     juce::Component row;   // contains the strips

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "strip.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <algorithm>
 #include <utility>
 
@@ -18,8 +20,8 @@ MixStrip::MixStrip (std::shared_ptr<const MixerContext> c)
         field.onRefused = context->hint;
         addAndMakeVisible (field);
     };
-    duck.setTitle ("Ducking in dB");
-    ceiling.setTitle ("Ceiling of the mix");
+    duck.setTitle (TRANS ("Ducking in dB"));
+    ceiling.setTitle (TRANS ("Ceiling of the mix"));
     bind (duck, "duck_db");
     bind (ceiling, "ceiling");
     show();
@@ -66,18 +68,18 @@ void MixStrip::paint (juce::Graphics& g)
     auto area = getLocalBounds().reduced (12, 4).toFloat();
     g.setFont (look.font (13.0f, true));
     g.setColour (theme.text);
-    g.drawText ("Mix", area.removeFromTop (24.0f), juce::Justification::centredLeft, false);
+    g.drawText (TRANS ("Mix"), area.removeFromTop (24.0f), juce::Justification::centredLeft, false);
     const bool over = over_db > 0.05;
     paintMeter (g, meter_area.toFloat(), feed.meter, over ? theme.warning : inkOf (feed.quantity, theme), look, true);
     g.setFont (look.font (12.0f));
     g.setColour (theme.dim);
-    g.drawText ("ducking", duck_label, juce::Justification::centredLeft, false);
-    g.drawText ("ceiling", ceiling_label, juce::Justification::centredLeft, false);
+    g.drawText (TRANS ("ducking"), duck_label, juce::Justification::centredLeft, false);
+    g.drawText (TRANS ("ceiling"), ceiling_label, juce::Justification::centredLeft, false);
     auto lines = text_area;
     g.setColour (theme.text);
-    g.drawText ("peak " + peak, lines.removeFromTop (18), juce::Justification::centredLeft, false);
-    juce::String state = limits ? "below the ceiling" : "no ceiling";
-    if (limits && over) state = "over by " + juce::String (over_db, 1) + " dB";
+    g.drawText (filled (TRANS ("peak %1"), peak), lines.removeFromTop (18), juce::Justification::centredLeft, false);
+    auto state = limits ? TRANS ("below the ceiling") : TRANS ("no ceiling");
+    if (limits && over) state = filled (TRANS ("over by %1 dB"), juce::String (over_db, 1));
     g.setColour (over ? theme.warning : theme.dim);
     g.drawText (state, lines.removeFromTop (18), juce::Justification::centredLeft, false);
 }

@@ -2,6 +2,8 @@
 #include "mixer.hpp"
 #include "mixer_parts.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/graph/text.hpp>
 
@@ -106,7 +108,8 @@ Result<graph::Command> permuted (const graph::Graph& g, const MixerPlace& at, co
     for (const auto* shown : { &patch->expose.inputs, &patch->expose.params, &patch->expose.outputs })
         for (const auto& [port, e] : *shown)
             if (isRemoved (e))
-                return Message::error ("mixer/exposed", {}, "the subgraph exposes this layer as its port '" + port + "'", "hide that port first");
+                return Message::error ("mixer/exposed", {}, filled (TRANS ("the subgraph exposes this layer as its port '%1'"), port).toStdString(),
+                                       TRANS ("hide that port first").toStdString());
     sweep (*after);
     return graph::Command (graph::Batch { name, { graph::ReplaceGraph { after } } });
 }
@@ -197,7 +200,7 @@ graph::Command renameLayer (const graph::Node& node, const MixerPlace& at, int l
     names[static_cast<std::size_t> (layer)] = trimmed (name);
     std::optional<Json> setting;
     if (auto text = mixing::joined (names); ! text.empty()) setting = std::move (text);
-    return graph::Batch { "rename a layer", { graph::SetSetting { at.patch, at.node, "names", std::move (setting) } } };
+    return graph::Batch { NEEDS_TRANS ("rename a layer"), { graph::SetSetting { at.patch, at.node, "names", std::move (setting) } } };
 }
 
 Result<graph::Command> removeLayer (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer)
@@ -205,12 +208,14 @@ Result<graph::Command> removeLayer (const graph::Graph& g, const MixerPlace& at,
     const auto* mixer = findMixer (g, at);
     if (mixer == nullptr) return mixing::mixerIsGone();
     const int layers = layersOf (*mixer, catalogue);
-    if (layers < 2) return Message::error ("mixer/last_layer", {}, "a mixer needs at least one layer", "delete the mixer on the canvas");
+    if (layers < 2)
+        return Message::error ("mixer/last_layer", {}, TRANS ("a mixer needs at least one layer").toStdString(),
+                               TRANS ("delete the mixer on the canvas").toStdString());
     std::vector<int> to (static_cast<std::size_t> (layers));
     for (int i = 0; i < layers; ++i)
         to[static_cast<std::size_t> (i)] = i < layer ? i : i - 1;
     to[static_cast<std::size_t> (layer)] = -1;
-    return permuted (g, at, catalogue, to, layers - 1, "remove a layer");
+    return permuted (g, at, catalogue, to, layers - 1, NEEDS_TRANS ("remove a layer"));
 }
 
 graph::Command moveLayer (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer, int to)
@@ -222,7 +227,7 @@ graph::Command moveLayer (const graph::Graph& g, const MixerPlace& at, const Cat
     order.insert (order.begin() + to, layer);
     for (int i = 0; i < layers; ++i)
         places[static_cast<std::size_t> (order[static_cast<std::size_t> (i)])] = i;
-    return permuted (g, at, catalogue, places, layers, "move a layer").value();
+    return permuted (g, at, catalogue, places, layers, NEEDS_TRANS ("move a layer")).value();
 }
 
 }   // namespace tactus::host

@@ -69,7 +69,7 @@ Result<AddedLayer> addClipLayer (const graph::Graph&, const MixerPlace&, const C
 /// The kinds of layers that the desk adds with one click.
 struct LayerKind
 {
-    std::string name, type, about;
+    std::string name, type, about;   ///< name and about are in English
 };
 
 const std::vector<LayerKind>& layerKinds();

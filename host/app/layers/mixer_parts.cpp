@@ -2,6 +2,7 @@
 #include "mixer_parts.hpp"
 
 #include <host/app/model/fragment.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoints.hpp>
 
 #include <algorithm>
@@ -108,7 +109,7 @@ std::string namesWith (const graph::Node& mixer, int layers, const std::string& 
     return joined (std::move (names));
 }
 
-Message mixerIsGone() { return Message::error ("mixer/gone", {}, "the mixer no longer exists"); }
+Message mixerIsGone() { return Message::error ("mixer/gone", {}, TRANS ("the mixer no longer exists").toStdString()); }
 
 const graph::Node* gateOf (const graph::Patch& patch, const graph::Wire& w)
 {

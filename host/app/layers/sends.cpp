@@ -3,6 +3,7 @@
 #include "mixer_parts.hpp"
 
 #include <host/app/model/fragment.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <algorithm>
 
@@ -62,7 +63,9 @@ Result<graph::Command> sendInto (const graph::Graph& g, const MixerPlace& at, co
     const auto* mixer = findMixer (g, at);
     if (patch == nullptr || mixer == nullptr) return mixing::mixerIsGone();
     const auto* w = wireInto (g, at, layer);
-    if (w == nullptr) return Message::error ("mixer/empty", {}, "nothing is wired into this layer", "wire something into it first");
+    if (w == nullptr)
+        return Message::error ("mixer/empty", {}, TRANS ("nothing is wired into this layer").toStdString(),
+                               TRANS ("wire something into it first").toStdString());
     const bool is_vector = at.vectors && w->to.component < 0;
     auto label = layerNames (*mixer, layersOf (*mixer, catalogue))[static_cast<std::size_t> (layer)];
     if (label.empty()) label = w->from.node;
@@ -70,7 +73,7 @@ Result<graph::Command> sendInto (const graph::Graph& g, const MixerPlace& at, co
     if (const auto* bus = busBefore (*patch, sink.name, at))
     {
         const int layers = layersOf (*bus, catalogue);
-        if (layers >= list_capacity) return Message::error ("mixer/full", {}, "a bus has at most " + std::to_string (list_capacity) + " layers");
+        if (layers >= list_capacity) return Message::error ("mixer/full", {}, filled (TRANS ("a bus has at most %1 layers"), list_capacity).toStdString());
         batch.commands.push_back (graph::SetSetting { at.patch, bus->name, "inputs", Json (layers + 1) });
         batch.commands.push_back (graph::SetSetting { at.patch, bus->name, "names", Json (mixing::namesWith (*bus, layers + 1, label)) });
         wireSend (*w, is_vector, placeOf (*bus, at), layers, batch);
@@ -124,7 +127,7 @@ Result<graph::Command> addSend (const graph::Graph& g, const MixerPlace& at, con
     const auto* patch = mixing::patchOf (g, at.patch);
     const auto* to = patch == nullptr ? nullptr : patch->find (sink);
     if (to == nullptr || inputOf (*to).empty()) return mixing::mixerIsGone();
-    return sendInto (g, at, catalogue, layer, *to, { "send a layer to " + sink, {} });
+    return sendInto (g, at, catalogue, layer, *to, { filled (TRANS ("send a layer to %1"), sink).toStdString(), {} });
 }
 
 Result<graph::Command> addSendToNewMotor (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer)
@@ -135,7 +138,7 @@ Result<graph::Command> addSendToNewMotor (const graph::Graph& g, const MixerPlac
     motor.name = freeName (*patch, {}, "shaker");
     motor.type = "device.signal_out";
     motor.role = motor.name;
-    graph::Batch batch { "send a layer to " + motor.name, { graph::AddNode { at.patch, motor } } };
+    graph::Batch batch { filled (TRANS ("send a layer to %1"), motor.name).toStdString(), { graph::AddNode { at.patch, motor } } };
     auto simulated = Json::object();   // until the user binds a device to the role
     simulated["driver"] = "sim";
     simulated["signal_outputs"] = 1;
@@ -148,7 +151,7 @@ Result<graph::Command> removeSend (const graph::Graph& g, const Send& send, cons
     const auto* bus = findMixer (g, send.bus);
     if (bus == nullptr) return mixing::mixerIsGone();
     if (layersOf (*bus, catalogue) > 1) return removeLayer (g, send.bus, catalogue, send.layer);
-    return graph::Command (graph::Batch { "remove a send", { graph::RemoveNode { send.bus.patch, send.bus.node } } });
+    return graph::Command (graph::Batch { NEEDS_TRANS ("remove a send"), { graph::RemoveNode { send.bus.patch, send.bus.node } } });
 }
 
 }   // namespace tactus::host

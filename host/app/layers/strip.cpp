@@ -4,6 +4,7 @@
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/face.hpp>
 #include <host/app/model/message_text.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/graph/text.hpp>
 
@@ -40,7 +41,7 @@ LayerStrip::LayerStrip (std::shared_ptr<const MixerContext> c, int i)
     name.setBorderSize ({ 0, 4, 0, 4 });
     source.setJustification (juce::Justification::centredLeft);
     send.setJustification (juce::Justification::centredLeft);
-    name.setTooltip ("Double-click to rename, drag to move");
+    name.setTooltip (TRANS ("Double-click to rename, drag to move"));
     name.onTextChange = [this] { rename (name.getText()); };
     name.addMouseListener (this, false);
     source.onClick = [this] {
@@ -71,10 +72,10 @@ void LayerStrip::connectFields()
     send_gain.read = [] (const std::string& text) { return readGain (text, {}); };
     send_gain.onChange = [this] (const std::optional<Json>& db, bool goes_on) { setSendGain (db ? siOf (*db, decibelSheet()) : 0.0, goes_on); };
     priority.onChange = [this] (std::optional<Json> to, bool goes_on) { setValue ("priority", std::move (to), goes_on); };
-    priority.setCaption ("P");
+    priority.setCaption (TRANS ("P"));
     gain_field.onRefused = priority.onRefused = send_gain.onRefused = context->hint;
-    priority.setTooltip ("Priority. " + tooltipOf (mixerSheet (context->catalogue, "priority")));
-    send_gain.setTooltip ("Gain of the send, before the gain, mute and solo of this layer");
+    priority.setTooltip (TRANS ("Priority") + ". " + tooltipOf (mixerSheet (context->catalogue, "priority")));
+    send_gain.setTooltip (TRANS ("Gain of the send, before the gain, mute and solo of this layer"));
 }
 
 double LayerStrip::numberOf (const graph::Node& node, const std::string& param) const
@@ -92,7 +93,7 @@ void LayerStrip::show()
     const int layers = layersOf (*node, context->catalogue);
     if (layer >= layers) return;
     const auto written_name = layerNames (*node, layers)[static_cast<std::size_t> (layer)];
-    const auto label = written_name.empty() ? "Layer " + juce::String (layer + 1) : juce::String (written_name);
+    const auto label = written_name.empty() ? filled (TRANS ("Layer %1"), layer + 1) : juce::String (written_name);
     if (! name.isBeingEdited()) name.setText (label, juce::dontSendNotification);
     nameControls (label);
 
@@ -101,10 +102,10 @@ void LayerStrip::show()
     gain = held ? held->value : numberOf (*node, "gain");
     gain_field.show (Json (decibelsOf (gain)));
     fader.show (gain);
-    auto note = held ? "\nThe control " + held_by + " sets this gain. A change of the gain here moves the control." : juce::String();
-    if (gain < 0.0) note += "\nThe layer is inverted: its gain is negative.";
-    fader.setTooltip ("Gain. Drag to change, with Shift for fine steps; double-click for 0 dB; Alt+click for the default" + note);
-    gain_field.setTooltip ("Gain. Type -6 dB, x0.5, 50 %, off, or the level you want, such as 0.3 N" + note);
+    auto note = held ? "\n" + filled (TRANS ("The control %1 sets this gain. A change of the gain here moves the control."), held_by) : juce::String();
+    if (gain < 0.0) note << "\n" + TRANS ("The layer is inverted: its gain is negative.");
+    fader.setTooltip (TRANS ("Gain. Drag to change, with Shift for fine steps; double-click for 0 dB; Alt+click for the default") + note);
+    gain_field.setTooltip (TRANS ("Gain. Type -6 dB, x0.5, 50 %, off, or the level you want, such as 0.3 N") + note);
     gain_field.setBold (held || gain != 1.0);
     priority.show (layerValue (*node, context->catalogue, "priority", layer));
     showSwitches (*node);
@@ -131,17 +132,17 @@ void LayerStrip::showSource()
     const auto* from = w == nullptr || patch == nullptr ? nullptr : patch->find (graph::firstNameOf (w->from.node));
     wired = from != nullptr;
     fed_by = wired ? from->id : 0;
-    source.setButtonText (wired ? juce::String (graph::toText (w->from)) : "not wired");
+    source.setButtonText (wired ? juce::String (graph::toText (w->from)) : TRANS ("not wired"));
     gate.setEnabled (wired);
     send.setEnabled (wired);
     if (! wired)
     {
-        source.setTooltip ("Draw a wire into " + juce::String (context->place.node) + ".in[" + juce::String (layer) + "]");
+        source.setTooltip (filled (TRANS ("Draw a wire into %1"), juce::String (context->place.node) + ".in[" + juce::String (layer) + "]"));
         return;
     }
     static constexpr std::array axes { "x", "y", "z" };
-    const auto along = w->to.component < 0 ? juce::String() : juce::String (" along ") + axes[static_cast<std::size_t> (w->to.component)];
-    source.setTooltip ("Input: " + juce::String (graph::toText (w->from)) + along + "; click to select it");
+    const auto input = w->to.component < 0 ? TRANS ("Input: %1; click to select it") : TRANS ("Input: %1 along %2; click to select it");
+    source.setTooltip (filled (input, graph::toText (w->from), axes[static_cast<std::size_t> (std::max (0, w->to.component))]));
     const auto face = faceOf (graph, *patch, *from, context->catalogue);
     if (const auto* port = face.startOf (w->from); port != nullptr && port->quantity() != Quantity::any) feed.quantity = port->quantity();
 }
@@ -150,8 +151,8 @@ void LayerStrip::showSends()
 {
     sends = sendsOf (context->document.graph(), context->place, context->catalogue, layer);
     const auto more = sends.size() > 1 ? " +" + juce::String (sends.size() - 1) : juce::String();
-    send.setButtonText (sends.empty() ? juce::String ("Send...") : juce::String::fromUTF8 ("\xe2\x86\x92") + sends.front().to.name + more);
-    send.setTooltip ("Send this layer to another device, too");
+    send.setButtonText (sends.empty() ? TRANS ("Send...") : juce::String::fromUTF8 ("\xe2\x86\x92") + sends.front().to.name + more);
+    send.setTooltip (TRANS ("Send this layer to another device, too"));
     if (sends.empty() == send_gain.isVisible()) resized();
     if (sends.empty()) return;
     if (const auto* bus = findMixer (context->document.graph(), sends.front().bus))
@@ -160,17 +161,17 @@ void LayerStrip::showSends()
 
 void LayerStrip::nameControls (const juce::String& label)
 {
-    name.setTitle ("Name of the layer " + label);
-    source.setTitle ("Input of " + label);
-    close.setTitle ("Remove " + label);
-    mute.setTitle ("Mute " + label);
-    solo.setTitle ("Solo " + label);
-    gate.setTitle ("Feel " + label + " only in contact");
-    send.setTitle ("Send " + label + " to another device");
-    fader.setTitle ("Gain of " + label);
-    gain_field.setTitle ("Gain of " + label + " in dB");
-    send_gain.setTitle ("Gain of the send of " + label + " in dB");
-    priority.setTitle ("Priority of " + label);
+    name.setTitle (filled (TRANS ("Name of the layer %1"), label));
+    source.setTitle (filled (TRANS ("Input of %1"), label));
+    close.setTitle (filled (TRANS ("Remove %1"), label));
+    mute.setTitle (filled (TRANS ("Mute %1"), label));
+    solo.setTitle (filled (TRANS ("Solo %1"), label));
+    gate.setTitle (filled (TRANS ("Feel %1 only in contact"), label));
+    send.setTitle (filled (TRANS ("Send %1 to another device"), label));
+    fader.setTitle (filled (TRANS ("Gain of %1"), label));
+    gain_field.setTitle (filled (TRANS ("Gain of %1 in dB"), label));
+    send_gain.setTitle (filled (TRANS ("Gain of the send of %1 in dB"), label));
+    priority.setTitle (filled (TRANS ("Priority of %1"), label));
 }
 
 UnityLevel LayerStrip::unityLevel() const { return { gain == 0.0 ? 0.0 : feed.meter.peak() / std::abs (gain), feed.unit }; }
@@ -211,7 +212,7 @@ void LayerStrip::openSends()
     }
     if (! sinks.empty()) menu.addSeparator();
     sinks.emplace_back();
-    menu.addItem (static_cast<int> (sinks.size()), "A new vibration motor");
+    menu.addItem (static_cast<int> (sinks.size()), TRANS ("A new vibration motor"));
     menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (send), [safe = juce::Component::SafePointer (this), sinks] (int item) {
         if (safe != nullptr && item > 0) safe->sendTo (sinks[static_cast<std::size_t> (item - 1)]);
     });

@@ -10,6 +10,7 @@
 #include <host/app/inspector/number_field.hpp>
 #include <host/app/inspector/tool_button.hpp>
 #include <host/app/model/document.hpp>
+#include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
@@ -88,9 +89,10 @@ private:
     int layer;
     NameLabel name;
     ToolButton source { "", ToolButton::Kind::plain };
-    ToolButton close { juce::String::fromUTF8 ("\xc3\x97"), ToolButton::Kind::plain, "Remove this layer and its wires" };
-    ToolButton mute { "M", ToolButton::Kind::toggle, "Mute this layer" }, solo { "S", ToolButton::Kind::toggle, "Solo: mute all layers that are not soloed" };
-    ToolButton gate { "C", ToolButton::Kind::toggle, "Contact: this layer is felt only while the tool touches" };
+    ToolButton close { juce::String::fromUTF8 ("\xc3\x97"), ToolButton::Kind::plain, TRANS ("Remove this layer and its wires") };
+    ToolButton mute { TRANS ("M"), ToolButton::Kind::toggle, TRANS ("Mute this layer") },
+        solo { TRANS ("S"), ToolButton::Kind::toggle, TRANS ("Solo: mute all layers that are not soloed") };
+    ToolButton gate { TRANS ("C"), ToolButton::Kind::toggle, TRANS ("Contact: this layer is felt only while the tool touches") };
     ToolButton send { "", ToolButton::Kind::plain };
     Fader fader;
     NumberField gain_field { decibelSheet() }, priority, send_gain { decibelSheet() };

@@ -2,37 +2,40 @@
 #include "limit_light.hpp"
 
 #include <host/app/look/text.hpp>
+#include <host/app/text/filled.hpp>
+
+#include <algorithm>
 
 namespace tactus::host
 {
 
 namespace
 {
-std::string counted (std::size_t n, const char* what) { return std::to_string (n) + ' ' + what + (n == 1 ? "" : "s"); }
-
 juce::String labelOf (const LimitList& list)
 {
     const auto broken = list.broken(), near = list.limits.size() - broken;
-    if (broken > 0) return counted (broken, "limit") + " broken";
-    if (near > 0) return counted (near, "limit") + " near";
-    return list.unknown > 0 ? counted (list.unknown, "limit") + " unknown" : "limits hold";
+    if (broken > 0) return filled (broken == 1 ? TRANS ("%1 limit broken") : TRANS ("%1 limits broken"), broken);
+    if (near > 0) return filled (near == 1 ? TRANS ("%1 limit near") : TRANS ("%1 limits near"), near);
+    if (list.unknown == 0) return TRANS ("limits hold");
+    return filled (list.unknown == 1 ? TRANS ("%1 limit unknown") : TRANS ("%1 limits unknown"), list.unknown);
 }
 
 /// The first few limits in full, and how many more there are.
 juce::String tooltipOf (const LimitList& list)
 {
     constexpr std::size_t most = 3;
-    std::string text;
+    juce::String text;
     for (std::size_t i = 0; i < list.limits.size() && i < most; ++i)
     {
         const auto& l = list.limits[i];
-        text += l.text + ".\n" + (l.remedy.empty() ? "" : "Would help: " + l.remedy + ".\n") + '\n';
+        text << fromUtf8 (l.text) << ".\n" << (l.remedy.empty() ? juce::String() : filled (TRANS ("Would help: %1."), l.remedy) + "\n") << "\n";
     }
-    if (list.limits.size() > most) text += "And " + counted (list.limits.size() - most, "more limit") + ".\n\n";
-    if (list.limits.empty()) text += "No limit of the devices is broken, and none is near.\n\n";
-    text += counted (list.held, "other condition") + (list.held == 1 ? " holds" : " hold");
-    if (list.unknown > 0) text += "; " + std::to_string (list.unknown) + " cannot be judged, because numbers of the device are not known";
-    return fromUtf8 (text + ". Measured along the path of the hand that the graph describes. Click for the list.");
+    if (const auto more = list.limits.size() - std::min (most, list.limits.size()); more > 0)
+        text << filled (more == 1 ? TRANS ("And %1 more limit.") : TRANS ("And %1 more limits."), more) << "\n\n";
+    if (list.limits.empty()) text << TRANS ("No limit of the devices is broken, and none is near.") << "\n\n";
+    text << filled (list.held == 1 ? TRANS ("%1 other condition holds") : TRANS ("%1 other conditions hold"), list.held);
+    if (list.unknown > 0) text << "; " << filled (TRANS ("%1 cannot be judged, because numbers of the device are not known"), list.unknown);
+    return text + ". " + TRANS ("Measured along the path of the hand that the graph describes. Click for the list.");
 }
 }   // namespace
 

@@ -4,6 +4,7 @@
 #include "limit_list.hpp"
 
 #include <host/app/look/look.hpp>
+#include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
@@ -15,7 +16,7 @@ class LimitLight final : public juce::Button
 public:
     static constexpr int width = 136;
 
-    LimitLight() : Button ("limits")
+    LimitLight() : Button (TRANS ("limits"))
     {
         setVisible (false);
         setWantsKeyboardFocus (false);   // the keys stay with the canvas

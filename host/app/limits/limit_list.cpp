@@ -2,6 +2,7 @@
 #include "limit_list.hpp"
 
 #include <host/app/model/with_prefix.hpp>
+#include <host/app/text/filled.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/hid/physics.hpp>
 #include <host/hid_link/open_device.hpp>
@@ -39,7 +40,7 @@ DeviceNumbers inWorkspace (DeviceNumbers n, const Workspace& w)
 
 void describe (LimitRole& r, const Json& description, const std::filesystem::path& folder, const hid::LoadedProfiles& profiles)
 {
-    r.device = description.value ("driver", std::string()) == "sim" ? "simulated" : nameOf (description);
+    r.device = description.value ("driver", std::string()) == "sim" ? TRANS ("simulated").toStdString() : nameOf (description);
     if (const auto numbers = check::numbersOf (description, folder)) r.numbers = *numbers;
     if (! hid::isHid (description)) return;
     const auto name = description.find ("profile");
@@ -68,10 +69,11 @@ std::string number (double v, std::string_view unit)
 
 std::string textOf (const check::Condition& c, const std::string& device, bool is_broken)
 {
-    const auto who = (c.node.empty() ? "" : printableName (c.node) + " on ") + printableName (c.role) + " (" + printableName (device) + ")";
-    auto text = std::string (c.id) + " of " + who + ": " + number (c.value, c.unit) + ", limit " + number (c.limit, c.unit);
-    if (! is_broken) text += ", " + number (100.0 * (c.margin() - 1.0), "%") + " left";
-    return text + " (" + c.text + "; " + std::string (c.law) + ")";
+    auto who = printableName (c.role) + " (" + printableName (device) + ")";
+    if (! c.node.empty()) who = filled (TRANS ("%1 on %2"), printableName (c.node), who).toStdString();
+    auto text = filled (TRANS ("%1 of %2: %3, limit %4"), c.id, who, number (c.value, c.unit), number (c.limit, c.unit));
+    if (! is_broken) text << ", " + filled (TRANS ("%1 left"), number (100.0 * (c.margin() - 1.0), "%"));
+    return text.toStdString() + " (" + c.text + "; " + std::string (c.law) + ")";
 }
 
 /// The paths of the nodes that push the device of a role.
@@ -148,7 +150,7 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
         else
         {
             const auto device = std::ranges::find (devices, c.role, &check::RoleDevice::role);
-            auto text = textOf (c, device != devices.end() ? device->name : "unknown device", is_broken);
+            auto text = textOf (c, device != devices.end() ? device->name : TRANS ("unknown device").toStdString(), is_broken);
             list.limits.push_back ({ is_broken, std::string (c.id), nodesOf (c, demand, plan), std::move (text), c.remedy });
         }
     }
@@ -163,7 +165,7 @@ std::vector<LimitRole> limitRolesOf (const graph::Graph& g, const LoadedSession&
     std::vector<LimitRole> roles;
     for (const auto& role : rolesNamed (g))
     {
-        auto& r = roles.emplace_back (LimitRole { .role = role, .device = "simulated" });
+        auto& r = roles.emplace_back (LimitRole { .role = role, .device = TRANS ("simulated").toStdString() });
         if (const auto bound = bindingOf (session, role))
         {
             describe (r, bound->description, bound->folder, profiles);
@@ -188,7 +190,7 @@ Messages LimitList::messages (const graph::Graph& g) const
     for (const auto& l : limits)
     {
         const auto where = l.nodes.empty() ? std::string() : pointerOf (g, l.nodes.front());
-        const auto remedy = l.remedy.empty() ? std::string() : "would help: " + l.remedy;
+        const auto remedy = l.remedy.empty() ? std::string() : filled (TRANS ("would help: %1"), l.remedy).toStdString();
         all.push_back (l.is_broken ? Message::error ("limit/" + l.id, where, l.text, remedy) : Message::warning ("limit/" + l.id, where, l.text, remedy));
     }
     return all;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "clip_graph.hpp"
 
+#include <host/app/text/filled.hpp>
+
 namespace tactus::host
 {
 
@@ -38,7 +40,7 @@ graph::Graph graphOfClip (const std::filesystem::path& file)
 {
     graph::Graph g;
     g.name = file.stem().string();
-    g.about = "Plays the clip " + file.filename().string() + " over and over.";
+    g.about = filled (TRANS ("Plays the clip %1 over and over."), file.filename().string()).toStdString();
     g.rate_hz = 4000.0;
     g.folder = file.parent_path().string();
     const Json hand { { "stiffness", "600 N/m" }, { "damping", "6 N*s/m" }, { "path", "hold" } };

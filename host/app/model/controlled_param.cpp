@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "controlled_param.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <tactus/plan/values.hpp>
 
 #include <algorithm>
@@ -100,7 +102,7 @@ graph::Command newControl (const graph::Graph& g)
 {
     graph::Control c;
     c.id = freeId (g, "control");
-    c.name = "Control";
+    c.name = TRANS ("Control").toStdString();
     return graph::AddControl { std::move (c) };
 }
 

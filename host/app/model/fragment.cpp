@@ -2,6 +2,8 @@
 #include "fragment.hpp"
 #include "patch.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/endpoints.hpp>
 
@@ -80,7 +82,7 @@ Result<graph::Command> paste (const graph::Graph& g, const std::string& patch_na
     for (auto& m : read.messages)
         if (m.severity == Message::Severity::error) return std::move (m);
     const auto* patch = findPatch (g, patch_name);
-    graph::Batch batch { "paste", {} };
+    graph::Batch batch { NEEDS_TRANS ("paste"), {} };
     if (patch == nullptr) return graph::Command (std::move (batch));
 
     for (auto& [name, inside] : read.graph.graphs)

@@ -3,6 +3,8 @@
 #include "param_value.hpp"
 #include "quantity_text.hpp"
 
+#include <host/app/text/filled.hpp>
+
 namespace tactus::host
 {
 
@@ -42,8 +44,9 @@ std::optional<graph::Command> changeParam (const graph::Graph& g, const std::str
 std::string outOfRangeText (const graph::Graph& g, const graph::Node& node, const FacePort& port)
 {
     const auto control = controlOf (g, node.name + '.' + port.id);
-    return "the new value of " + port.id + " is outside the range of " + (control ? "the control " + control->name : "its control")
-           + "; widen that range, or right-click the parameter in the inspector to release it";
+    const auto of = control ? filled (TRANS ("the new value of %1 is outside the range of the control %2"), port.id, control->name)
+                            : filled (TRANS ("the new value of %1 is outside the range of its control"), port.id);
+    return of.toStdString() + "; " + TRANS ("widen that range, or right-click the parameter in the inspector to release it").toStdString();
 }
 
 }   // namespace tactus::host

@@ -2,6 +2,8 @@
 #include "quantity_text.hpp"
 #include "with_prefix.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <tactus/plan/values.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/units.hpp>
@@ -67,9 +69,11 @@ Result<QuantityText> readQuantity (const Json& value, const PortSheet& sheet)
     const auto& n = *read;
     const std::string id (sheet.id);
     if (n.dimension && sheet.unit.kind == UnitRule::Kind::fixed && *n.dimension != sheet.unit.unit.dimension)
-        return Message::error ("param/unit", {}, symbolOf (*n.dimension) + " does not fit " + id + ", which is in " + std::string (sheet.unit.unit.symbol));
+        return Message::error ("param/unit", {},
+                               filled (TRANS ("%1 does not fit %2, which is in %3"), symbolOf (*n.dimension), id, sheet.unit.unit.symbol).toStdString());
     if (plan::miscounts (n, sheet.unit)) return Message::error ("param/unit", {}, plan::miscount (value, sheet.unit));
-    if (! sheet.limits.hard.contains (n.value)) return Message::error ("param/out_of_range", {}, id + " must be " + plan::rangeText (sheet.limits.hard));
+    if (! sheet.limits.hard.contains (n.value))
+        return Message::error ("param/out_of_range", {}, filled (TRANS ("%1 must be %2"), id, plan::rangeText (sheet.limits.hard)).toStdString());
 
     QuantityText text { n.value, {}, 1.0 };
     if (value.is_string())

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wire_rules.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 namespace tactus::host
 {
@@ -32,10 +33,10 @@ bool addsUp (Quantity q) noexcept { return q == Quantity::force || q == Quantity
 
 Result<> checkWireByComponent (const WireEnd& from, const WireEnd& to)
 {
-    const auto refuse = [] (std::string why) { return Message::error ("wire/refused", {}, std::move (why)); };
-    if (from.port->role != Role::output) return refuse ("A wire starts at an output");
-    if (to.port->role == Role::output) return refuse ("A wire ends at an input or a parameter");
-    if (to.port->isChoice()) return refuse ("A list of choices cannot be wired");
+    const auto refuse = [] (const juce::String& why) { return Message::error ("wire/refused", {}, why.toStdString()); };
+    if (from.port->role != Role::output) return refuse (TRANS ("A wire starts at an output"));
+    if (to.port->role == Role::output) return refuse (TRANS ("A wire ends at an input or a parameter"));
+    if (to.port->isChoice()) return refuse (TRANS ("A list of choices cannot be wired"));
 
     const auto unitAt = [] (const WireEnd& e) -> std::optional<Unit> {
         if (e.port->unit.kind == UnitRule::Kind::fixed) return e.port->unit.unit;
@@ -45,9 +46,8 @@ Result<> checkWireByComponent (const WireEnd& from, const WireEnd& to)
     const auto a = unitAt (from), b = unitAt (to);
     if (a && b && a->dimension != b->dimension)
     {
-        auto why = described (*a) + " cannot drive " + described (*b);
-        why.front() = static_cast<char> (std::toupper (static_cast<unsigned char> (why.front())));
-        return refuse (std::move (why));
+        const auto why = filled (TRANS ("%1 cannot drive %2"), described (*a), described (*b));
+        return refuse (why.substring (0, 1).toUpperCase() + why.substring (1));
     }
     return {};
 }
@@ -56,7 +56,8 @@ Result<> checkWire (const WireEnd& from, const WireEnd& to)
 {
     auto checked = checkWireByComponent (from, to);
     if (! checked || from.port->width == to.port->width) return checked;
-    return Message::error ("wire/refused", {}, from.port->width == 3 ? "A vector cannot drive a number" : "A number cannot drive a vector");
+    return Message::error ("wire/refused", {},
+                           (from.port->width == 3 ? TRANS ("A vector cannot drive a number") : TRANS ("A number cannot drive a vector")).toStdString());
 }
 
 }   // namespace tactus::host

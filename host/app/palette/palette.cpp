@@ -3,17 +3,18 @@
 
 #include <host/app/look/focus.hpp>
 #include <host/app/look/glyph.hpp>
+#include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
 
 Palette::Palette()
 {
-    setTitle ("Palette");
+    setTitle (TRANS ("Palette"));
     query.setFont (lookOf (*this).font (14.0f));
     query.setIndents (10, 6);
-    query.setTitle ("Search");
-    list.setTitle ("Results");
+    query.setTitle (TRANS ("Search"));
+    list.setTitle (TRANS ("Results"));
     query.addListener (this);
     query.addKeyListener (this);
     list.setRowHeight (40);
@@ -30,7 +31,7 @@ void Palette::open (std::function<std::vector<PaletteEntry> (const std::string&)
     purpose = p;
     on_chosen = std::move (c);
     query.setText ({}, false);
-    query.setTextToShowWhenEmpty ("Search by name, unit or description", themeOf (*this).dim);
+    query.setTextToShowWhenEmpty (TRANS ("Search by name, unit or description"), themeOf (*this).dim);
     update();
     setVisible (true);
     toFront (false);
@@ -76,6 +77,13 @@ bool Palette::keyPressed (const juce::KeyPress& key, juce::Component*)
     return true;
 }
 
+juce::String Palette::getNameForRow (int row)
+{
+    if (row < 0 || row >= getNumRows()) return {};
+    const auto& entry = found[static_cast<std::size_t> (row)];
+    return juce::String (entry.isTitle() ? entry.name : entry.type);
+}
+
 bool Palette::isEntry (int row) const { return row >= 0 && row < static_cast<int> (found.size()) && ! found[static_cast<std::size_t> (row)].isTitle(); }
 
 void Palette::selectNear (int row, int step)
@@ -101,7 +109,7 @@ void Palette::paint (juce::Graphics& g)
     g.drawText (purpose, getLocalBounds().reduced (12, 8).removeFromTop (16), juce::Justification::centredLeft, true);
     if (! found.empty()) return;
     const auto area_below = getLocalBounds().withTrimmedTop (80).reduced (24);
-    g.drawFittedText ("No match. Try a family such as friction or vibration, or a unit such as N.", area_below, juce::Justification::centredTop, 2);
+    g.drawFittedText (TRANS ("No match. Try a family such as friction or vibration, or a unit such as N."), area_below, juce::Justification::centredTop, 2);
 }
 
 void Palette::resized()

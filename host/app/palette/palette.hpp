@@ -30,6 +30,7 @@ public:
 
 private:
     int getNumRows() override { return static_cast<int> (found.size()); }
+    juce::String getNameForRow (int) override;
     void paintListBoxItem (int row, juce::Graphics&, int w, int h, bool selected) override;
     void listBoxItemClicked (int row, const juce::MouseEvent&) override { choose (row); }
     void textEditorTextChanged (juce::TextEditor&) override { update(); }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "search.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <tactus/text/closest_match.hpp>
 
 #include <algorithm>
@@ -95,7 +97,7 @@ bool fitsSomewhere (const Face& face, const WireEnd& end)
 std::string summaryOf (const NodeType& type)
 {
     const std::string summary (type.info.summary);
-    return type.origin.empty() ? summary : summary + " Plugin " + std::filesystem::path (type.origin).stem().string() + ".";
+    return type.origin.empty() ? summary : summary + " " + filled (TRANS ("Plugin %1."), std::filesystem::path (type.origin).stem().string()).toStdString();
 }
 
 std::string familyOf (const std::string& type) { return type.substr (0, type.find_first_of (".:")); }
@@ -106,14 +108,14 @@ std::vector<PaletteEntry> grouped (const std::vector<PaletteEntry>& entries, con
     std::vector<PaletteEntry> all;
     for (const auto& type : recent)
         if (const auto at = std::ranges::find (entries, type, &PaletteEntry::type); at != entries.end()) all.push_back (*at);
-    if (! all.empty()) all.insert (all.begin(), PaletteEntry { {}, "Recent", {} });
+    if (! all.empty()) all.insert (all.begin(), PaletteEntry { {}, TRANS ("Recent").toStdString(), {} });
     std::string family;
     for (const auto& e : entries)
     {
         if (auto its_family = familyOf (e.type); its_family != family)
         {
             family = std::move (its_family);
-            auto title = family == "graph" ? "Subgraphs of this graph" : family;
+            auto title = family == "graph" ? TRANS ("Subgraphs of this graph").toStdString() : family;
             title.front() = static_cast<char> (std::toupper (static_cast<unsigned char> (title.front())));
             all.push_back ({ {}, title, {} });
         }
@@ -151,8 +153,8 @@ std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::
         consider ({ std::string (type.info.id), std::string (type.info.name), summaryOf (type) }, type.info.keywords);
     for (const auto& [id, patch] : g.graphs)
     {
-        const auto count = std::to_string (patch.nodes.size()) + (patch.nodes.size() == 1 ? " node." : " nodes.");
-        consider ({ "graph:" + id, id, "A subgraph of this graph with " + count }, {});
+        const auto count = patch.nodes.size() == 1 ? TRANS ("A subgraph of this graph with %1 node.") : TRANS ("A subgraph of this graph with %1 nodes.");
+        consider ({ "graph:" + id, id, filled (count, patch.nodes.size()).toStdString() }, {});
     }
 
     std::ranges::stable_sort (found, {}, [] (const auto& f) { return f.first; });

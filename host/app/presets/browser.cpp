@@ -2,6 +2,8 @@
 #include "browser.hpp"
 #include "fitted_text.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <algorithm>
 #include <utility>
 
@@ -25,12 +27,12 @@ juce::String joined (const std::vector<std::string>& tags)
 PresetBrowser::PresetBrowser (const Catalogue& c, Settings& s, PictureStore& p)
     : catalogue (c), settings (s), pictures (p), folder (presetFolder()), own_folder (ownFolder())
 {
-    setTitle ("Presets");
+    setTitle (TRANS ("Presets"));
     const auto& look = lookOf (*this);
     query.setFont (look.font (13.0f));
     query.setIndents (8, 4);
-    query.setTitle ("Search presets");
-    query.setTextToShowWhenEmpty ("Search presets", look.theme().dim);
+    query.setTitle (TRANS ("Search presets"));
+    query.setTextToShowWhenEmpty (TRANS ("Search presets"), look.theme().dim);
     query.onTextChange = [this] { update(); };
     query.onEscapeKey = [this] { search ({}); };
     query.onReturnKey = [this] {
@@ -39,7 +41,7 @@ PresetBrowser::PresetBrowser (const Catalogue& c, Settings& s, PictureStore& p)
     };
     chips.onChange = [this] { update(); };
     chips.onResize = [this] { resized(); };
-    list.setTitle ("Presets");
+    list.setTitle (TRANS ("Presets"));
     list.setRowHeight (row_height);
     list.setColour (juce::ListBox::backgroundColourId, juce::Colours::transparentBlack);
     list.getViewport()->setScrollBarThickness (8);
@@ -87,7 +89,7 @@ void PresetBrowser::update()
     found = matching (presets, text, chips.chosen());
     found_own = matching (own, text, chips.chosen());
     shown.clear();
-    const auto section = [this] (const char* heading, const std::vector<Preset>& all, bool is_own, auto&& isWanted) {
+    const auto section = [this] (const juce::String& heading, const std::vector<Preset>& all, bool is_own, auto&& isWanted) {
         bool has_heading = false;
         for (const auto& p : all)
         {
@@ -98,10 +100,10 @@ void PresetBrowser::update()
     };
     const auto isFavourite = [this] (const Preset& p) { return settings.isFavourite (p.file); };
     const auto isAny = [] (const Preset&) { return true; };
-    if (text.empty() && chips.chosen().empty()) section ("Recent", recent, true, isAny);
-    section ("Favourites", found, false, isFavourite);
-    section ("My graphs", found_own, true, isAny);
-    section ("Presets", found, false, [&] (const Preset& p) { return ! isFavourite (p); });
+    if (text.empty() && chips.chosen().empty()) section (TRANS ("Recent"), recent, true, isAny);
+    section (TRANS ("Favourites"), found, false, isFavourite);
+    section (TRANS ("My graphs"), found_own, true, isAny);
+    section (TRANS ("Presets"), found, false, [&] (const Preset& p) { return ! isFavourite (p); });
     if (std::ranges::count (shown, nullptr, &Row::preset) == 1) shown.erase (shown.begin());   // a single section needs no heading
 
     auto all = found;
@@ -123,6 +125,13 @@ void PresetBrowser::update()
 const PresetBrowser::Row* PresetBrowser::rowAt (int row) const
 {
     return row < 0 || row >= static_cast<int> (shown.size()) ? nullptr : &shown[static_cast<std::size_t> (row)];
+}
+
+juce::String PresetBrowser::getNameForRow (int row)
+{
+    const auto* r = rowAt (row);
+    if (r == nullptr) return {};
+    return r->preset != nullptr ? juce::String (r->preset->name) : juce::String (r->heading);
 }
 
 void PresetBrowser::openRow (int row)
@@ -222,15 +231,15 @@ void PresetBrowser::paint (juce::Graphics& g)
     {
         g.setColour (look.theme().dim);
         g.setFont (look.font (13.0f));
-        auto text = "No presets in " + juce::String (folder.string()) + ".";
-        if (folder.empty()) text = "No preset folder found. Set TACTUS_PRESETS to its path.";
-        if (! presets.empty()) text = "No match. Remove a word or a tag.";
+        auto text = filled (TRANS ("No presets in %1."), folder.string());
+        if (folder.empty()) text = TRANS ("No preset folder found. Set TACTUS_PRESETS to its path.");
+        if (! presets.empty()) text = TRANS ("No match. Remove a word or a tag.");
         g.drawFittedText (text, list.getBounds().reduced (8), juce::Justification::topLeft, 6);
     }
     g.setColour (look.theme().hairline);
     g.drawHorizontalLine (footer.getY(), static_cast<float> (footer.getX()), static_cast<float> (footer.getRight()));
     if (const auto* p = described()) return paintFooter (g, *p);
-    const auto* hint = "Point at a preset to read what it feels like. Click to open and run it, or hold its arrow to preview it.";
+    const auto hint = TRANS ("Point at a preset to read what it feels like. Click to open and run it, or hold its arrow to preview it.");
     drawFittedText (g, hint, look.font (12.0f), look.theme().dim, footer.withTrimmedTop (8));
 }
 
@@ -249,7 +258,7 @@ void PresetBrowser::paintFooter (juce::Graphics& g, const Preset& p)
     }
     const auto placeholders = placeholderText (p);
     const bool is_fine = p.problem.empty() && placeholders.empty();
-    auto text = is_fine ? p.about : placeholders + ". Their outputs are 0. " + p.about;
+    auto text = is_fine ? p.about : placeholders + ". " + TRANS ("Their outputs are 0.").toStdString() + " " + p.about;
     if (! p.problem.empty()) text = p.problem;
     drawFittedText (g, text, look.font (12.0f), is_fine ? look.theme().dim : look.theme().warning, area);
 }
@@ -305,7 +314,7 @@ void PresetBrowser::paintListBoxItem (int row, juce::Graphics& g, int w, int h, 
     const auto placeholders = placeholderText (p);
     const bool is_fine = p.problem.empty() && placeholders.empty();
     g.setColour (is_fine ? theme.dim : theme.warning);
-    const auto trouble = p.problem.empty() ? juce::String (placeholders) : juce::String ("cannot be read");
+    const auto trouble = p.problem.empty() ? juce::String (placeholders) : TRANS ("cannot be read");
     g.drawText (is_fine ? joined (p.tags) : trouble, area, juce::Justification::centredLeft, true);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "force_picture.hpp"
 
+#include <host/app/text/filled.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -21,7 +22,7 @@ namespace
 std::string firstError (const Messages& messages)
 {
     const auto error = std::ranges::find (messages, Message::Severity::error, &Message::severity);
-    return error == messages.end() ? "the graph cannot run" : error->text;
+    return error == messages.end() ? TRANS ("the graph cannot run").toStdString() : error->text;
 }
 
 constexpr std::size_t most_parts = 64;   // components that the picture of the material reads
@@ -83,7 +84,7 @@ ForcePicture pictureOf (const std::filesystem::path& file, const Catalogue& cata
     std::vector<std::string> roles;
     for (const auto& role : compiled.plan->roles())
         roles.push_back (role.name);
-    if (roles.empty()) return refuse ("no preview: the graph has no device node");
+    if (roles.empty()) return refuse (TRANS ("no preview: the graph has no device node").toStdString());
     std::vector<MadeDevice> devices;   // must outlive the engine
     for (const auto& role : roles)
     {
@@ -92,7 +93,7 @@ ForcePicture pictureOf (const std::filesystem::path& file, const Catalogue& cata
         if (! devices.back().device) return refuse (firstError (devices.back().messages));
         picture.seconds = std::max (picture.seconds, devices.back().device->duration());
     }
-    if (picture.seconds <= 0.0) return refuse ("no preview: the hand does not move by itself");
+    if (picture.seconds <= 0.0) return refuse (TRANS ("no preview: the hand does not move by itself").toStdString());
     picture.seconds = std::min (picture.seconds, ForcePicture::longest_s);
 
     Engine engine (std::move (compiled.plan));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture_store.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -87,8 +89,8 @@ void drawPicture (juce::Graphics& g, const Look& look, juce::Rectangle<float> ar
     g.setColour (theme.dim);
     if (picture == nullptr || ! picture->problem.empty() || picture->peak <= 0.0)
     {
-        juce::String text ("Computing...");
-        if (picture != nullptr) text = picture->problem.empty() ? juce::String ("No force in this preview.") : juce::String (picture->problem);
+        auto text = TRANS ("Computing...");
+        if (picture != nullptr) text = picture->problem.empty() ? TRANS ("No force in this preview.") : juce::String (picture->problem);
         g.drawFittedText (text, area.reduced (8.0f, 2.0f).toNearestInt(), juce::Justification::centredLeft, 2);
         return;
     }
@@ -96,7 +98,7 @@ void drawPicture (juce::Graphics& g, const Look& look, juce::Rectangle<float> ar
     auto peak = juce::String (picture->peak, picture->peak < 0.1 ? 3 : 2) + " " + picture->unit;
     auto plot = area.reduced (6.0f, 4.0f);
     const bool is_low = area.getHeight() < 44.0f;
-    if (! is_low) peak += " peak, " + juce::String (picture->seconds, 1) + " s";
+    if (! is_low) peak = filled (TRANS ("%1 peak, %2 s"), peak, juce::String (picture->seconds, 1));
     const auto place = is_low ? plot.removeFromRight (56.0f).withTrimmedLeft (8.0f) : plot.removeFromTop (16.0f);
     g.drawText (peak, place, is_low ? juce::Justification::centredRight : juce::Justification::centredLeft, true);
     juce::Path shape;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "preset_list.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <tactus/file/graph_file.hpp>
 
 #include <algorithm>
@@ -100,7 +102,7 @@ std::vector<std::pair<std::string, int>> tagsOf (const std::vector<Preset>& pres
 std::string placeholderText (const Preset& p)
 {
     if (p.placeholders.empty()) return {};
-    auto text = std::to_string (p.placeholders.size()) + (p.placeholders.size() == 1 ? " placeholder: " : " placeholders: ");
+    auto text = filled (p.placeholders.size() == 1 ? TRANS ("%1 placeholder") : TRANS ("%1 placeholders"), p.placeholders.size()).toStdString() + ": ";
     for (const auto& type : p.placeholders)
         text += (&type == &p.placeholders.front() ? "" : ", ") + type;
     return text;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tag_chips.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <algorithm>
 
 namespace tactus::host
@@ -8,8 +10,8 @@ namespace tactus::host
 
 namespace
 {
-const char* const more = "more";
-const char* const fewer = "fewer";
+juce::String more() { return TRANS ("more"); }
+juce::String fewer() { return TRANS ("fewer"); }
 }   // namespace
 
 void TagChips::show (std::vector<std::string> tags)
@@ -25,7 +27,7 @@ std::vector<TagChips::Chip> TagChips::layOut (int width, int rows) const
 {
     std::vector<Chip> chips;
     int x = 0, row = 0;
-    const int room_for_more = chipWidth (more) + gap;
+    const int room_for_more = chipWidth (more()) + gap;
     for (const auto& tag : all)
     {
         const int w = std::min (chipWidth (juce::String (tag)), width);
@@ -34,7 +36,7 @@ std::vector<TagChips::Chip> TagChips::layOut (int width, int rows) const
         {
             if (is_last_row)
             {
-                chips.push_back ({ {}, { x, row * (chip_height + gap), chipWidth (more), chip_height } });
+                chips.push_back ({ {}, { x, row * (chip_height + gap), chipWidth (more()), chip_height } });
                 return chips;
             }
             x = 0;
@@ -45,7 +47,7 @@ std::vector<TagChips::Chip> TagChips::layOut (int width, int rows) const
     }
     if (unfolded)
     {
-        const int w = chipWidth (fewer);
+        const int w = chipWidth (fewer());
         if (x + w > width)
         {
             x = 0;
@@ -81,7 +83,7 @@ void TagChips::paint (juce::Graphics& g)
         }
         const auto tag_colour = is_on ? theme.text : theme.dim;
         g.setColour (chip.tag.empty() ? theme.accent : tag_colour);
-        g.drawText (chip.tag.empty() ? juce::String (unfolded ? fewer : more) : juce::String (chip.tag), chip.place, juce::Justification::centred, false);
+        g.drawText (chip.tag.empty() ? (unfolded ? fewer() : more()) : juce::String (chip.tag), chip.place, juce::Justification::centred, false);
     }
 }
 

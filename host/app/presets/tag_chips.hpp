@@ -2,6 +2,7 @@
 #pragma once
 
 #include <host/app/look/look.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <functional>
 #include <set>
@@ -15,7 +16,7 @@ namespace tactus::host
 class TagChips final : public juce::Component
 {
 public:
-    TagChips() { setTitle ("Tags"); }
+    TagChips() { setTitle (TRANS ("Tags")); }
 
     void show (std::vector<std::string> tags);   ///< in this order, selected ones first
     const std::set<std::string>& chosen() const noexcept { return selected; }

@@ -3,6 +3,7 @@
 
 #include <host/app/canvas/actions.hpp>
 #include <host/app/model/patch.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/text/closest_match.hpp>
@@ -60,7 +61,7 @@ std::string likelyType (const std::string& unknown)
 }
 
 /// A node of this type beside the others: on their left if it is a hand, on their right if it is a motor.
-Fix add (const graph::Graph& g, const std::string& type, const char* label, bool on_the_left)
+Fix add (const graph::Graph& g, const std::string& type, const juce::String& label, bool on_the_left)
 {
     constexpr float distance = 240.0f;
     std::optional<juce::Point<float>> place;
@@ -69,7 +70,7 @@ Fix add (const graph::Graph& g, const std::string& type, const char* label, bool
             if (! place || (on_the_left ? at->x < place->x : at->x > place->x)) place = juce::Point<double> (at->x, at->y).toFloat();
     const auto beside = place ? *place + juce::Point<float> (on_the_left ? -distance : distance, 0.0f) : juce::Point<float>();
     graph::Id made = 0;
-    return { label, addNode (g, {}, type, beside, made) };
+    return { label.toStdString(), addNode (g, {}, type, beside, made) };
 }
 }   // namespace
 
@@ -105,27 +106,32 @@ std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
     {
         auto delayed = *wire;
         delayed.delay = std::max (1, wire->delay);
-        return Fix { "Delay wire by a tick", graph::Batch { "break loop", { graph::ChangeWire { culprit.patch, culprit.id, std::move (delayed) } } } };
+        return Fix { TRANS ("Delay wire by a tick").toStdString(),
+                     graph::Batch { NEEDS_TRANS ("break loop"), { graph::ChangeWire { culprit.patch, culprit.id, std::move (delayed) } } } };
     }
-    if (m.id == "graph/no_hand") return add (g, "device.position", "Add a hand", true);
-    if (m.id == "graph/no_motor") return add (g, "device.force", "Add a motor", false);
+    if (m.id == "graph/no_hand") return add (g, "device.position", TRANS ("Add a hand"), true);
+    if (m.id == "graph/no_motor") return add (g, "device.force", TRANS ("Add a motor"), false);
     if (m.severity != Message::Severity::error) return std::nullopt;
     const auto& [patch, id, node, param, role] = culprit;
-    if (wire != nullptr) return Fix { "Remove the wire", graph::Batch { "remove wire", { graph::RemoveWire { patch, id } } } };
-    if (! param.empty()) return Fix { "Reset " + param, graph::Batch { "reset " + param, { graph::SetParam { patch, node, param } } } };
+    if (wire != nullptr)
+        return Fix { TRANS ("Remove the wire").toStdString(), graph::Batch { NEEDS_TRANS ("remove wire"), { graph::RemoveWire { patch, id } } } };
+    if (! param.empty())
+        return Fix { filled (TRANS ("Reset %1"), param).toStdString(),
+                     graph::Batch { filled (TRANS ("reset %1"), param).toStdString(), { graph::SetParam { patch, node, param } } } };
     if (m.id == "node/no_role")
     {
         const bool has_device = ! g.devices.empty();
         const auto name = has_device ? g.devices.front().first : std::string ("stylus");
-        graph::Batch all { has_device ? "assign role" : "add stylus", {} };
+        graph::Batch all { has_device ? NEEDS_TRANS ("assign role") : NEEDS_TRANS ("add stylus"), {} };
         if (! has_device) all.commands.push_back (graph::SetDevice { name, defaultDevice() });
         all.commands.push_back (graph::SetNodeKey { patch, node, "role", Json (name) });
-        return Fix { (has_device ? "Assign to " : "Add a ") + name, std::move (all) };
+        return Fix { filled (has_device ? TRANS ("Assign to %1") : TRANS ("Add a %1"), name).toStdString(), std::move (all) };
     }
     if (node.empty() || m.id != "node/unknown_type") return std::nullopt;
     if (const auto type = likelyType (findPatch (g, patch)->find (node)->type); ! type.empty())
-        return Fix { "Change to " + type, graph::Batch { "change type", { graph::SetNodeKey { patch, node, "type", Json (type) } } } };
-    return Fix { "Remove the node", graph::Batch { "remove node", { graph::RemoveNode { patch, node } } } };
+        return Fix { filled (TRANS ("Change to %1"), type).toStdString(),
+                     graph::Batch { NEEDS_TRANS ("change type"), { graph::SetNodeKey { patch, node, "type", Json (type) } } } };
+    return Fix { TRANS ("Remove the node").toStdString(), graph::Batch { NEEDS_TRANS ("remove node"), { graph::RemoveNode { patch, node } } } };
 }
 
 }   // namespace tactus::host

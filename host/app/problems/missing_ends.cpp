@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "missing_ends.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -27,11 +29,11 @@ Messages missingEnds (const graph::Graph& g)
     Messages all;
     if (g.root.nodes.empty()) return all;
     if (! hasOne (g, readers))
-        all.push_back (Message::warning ("graph/no_hand", "", "the graph has no hand: no node reads the position of a tool",
-                                         "add device.position, and wire it to what the tool touches"));
+        all.push_back (Message::warning ("graph/no_hand", "", TRANS ("the graph has no hand: no node reads the position of a tool").toStdString(),
+                                         TRANS ("add device.position, and wire it to what the tool touches").toStdString()));
     if (! hasOne (g, drivers))
-        all.push_back (Message::warning ("graph/no_motor", "", "the graph has no motor: no node sends a force or a vibration to a device",
-                                         "add device.force, and wire the forces to it"));
+        all.push_back (Message::warning ("graph/no_motor", "", TRANS ("the graph has no motor: no node sends a force or a vibration to a device").toStdString(),
+                                         TRANS ("add device.force, and wire the forces to it").toStdString()));
     return all;
 }
 

@@ -2,6 +2,7 @@
 #include "problem_list.hpp"
 
 #include <host/app/look/text.hpp>
+#include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
@@ -69,8 +70,8 @@ private:
 
 ProblemList::ProblemList (Document& d) : document (d)
 {
-    setTitle ("Problems");
-    scroll.setTitle ("Problems");
+    setTitle (TRANS ("Problems"));
+    scroll.setTitle (TRANS ("Problems"));
     scroll.setViewedComponent (&column, false);
     scroll.setScrollBarsShown (true, false);
     scroll.setScrollBarThickness (8);
@@ -100,7 +101,7 @@ void ProblemList::paint (juce::Graphics& g)
     if (! rows.empty()) return;
     g.setFont (look.font (13.0f));
     g.setColour (look.theme().dim);
-    g.drawFittedText ("No problems. Errors, warnings and broken limits of the devices are listed here with their remedies.",
+    g.drawFittedText (TRANS ("No problems. Errors, warnings and broken limits of the devices are listed here with their remedies."),
                       getLocalBounds().reduced (24), juce::Justification::centred, 2);
 }
 

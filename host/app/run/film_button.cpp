@@ -2,20 +2,31 @@
 #include "film_button.hpp"
 
 #include <host/app/model/message_text.hpp>
+#include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
 
+namespace
+{
+juce::String savingText (int percent) { return filled (TRANS ("Saving %1 %"), percent); }
+juce::String stopText (int seconds) { return filled (TRANS ("Stop %1 s"), seconds); }
+}   // namespace
+
 FilmButton::FilmButton (Playback& p, SceneView& s) : playback (p), space (s)
 {
-    button.setTitle ("Film");
+    button.setTitle (TRANS ("Film"));
     button.onClick = [this] { click(); };
     addAndMakeVisible (button);
     setLength (length_s);
 }
 
 /// The same for every label, so that the buttons next to it stay in place.
-int FilmButton::wantedWidth() const { return static_cast<int> (std::ceil (lookOf (*this).font (12.0f).getStringWidthFloat (widest))) + 14; }
+int FilmButton::wantedWidth() const
+{
+    const auto width = [font = lookOf (*this).font (12.0f)] (const juce::String& text) { return font.getStringWidthFloat (text); };
+    return static_cast<int> (std::ceil (std::max (width (TRANS ("Film")), std::max (width (savingText (99)), width (stopText (119)))))) + 14;
+}
 
 void FilmButton::setLength (double seconds)
 {
@@ -35,17 +46,17 @@ void FilmButton::refresh()
     tape().keep (isFilming() ? FilmTape::longest_s : length_s);   // the tape of a preview is another one
     if (job)
     {
-        label ("Saving " + juce::String (juce::roundToInt (std::floor (99.0 * job->progress()))) + " %");
+        label (savingText (juce::roundToInt (std::floor (99.0 * job->progress()))));
         if (job->result()) finish();
     }
     else if (isFilming())
     {
         const double seconds = static_cast<double> (tape().end() - std::min (tape().end(), *first_tick)) / filming_rate;
-        label ("Stop " + juce::String (juce::roundToInt (std::floor (seconds))) + " s");
+        label (stopText (juce::roundToInt (std::floor (seconds))));
         if (seconds >= FilmTape::longest_s - 0.5 || tape().end() < *first_tick) end();   // the tape is full, or another run has begun
     }
     else
-        label ("Film");
+        label (TRANS ("Film"));
     button.setToggleState (isFilming() || job, juce::dontSendNotification);
 }
 
@@ -65,16 +76,16 @@ void FilmButton::openMenu()
         });
     };
     const bool has_something = tape().end() > 0;
-    add (menu, juce::String::fromUTF8 ("Save the last ") + juce::String (length_s, 0) + juce::String::fromUTF8 (" s\xe2\x80\xa6"), has_something, false,
+    add (menu, filled (TRANS ("Save the last %1 s..."), juce::String (length_s, 0)), has_something, false,
          [] (FilmButton& b) { b.saveLast(); });
-    add (menu, "Film from now on", playback.current().isRunning(), false, [] (FilmButton& b) { b.begin(); });
+    add (menu, TRANS ("Film from now on"), playback.current().isRunning(), false, [] (FilmButton& b) { b.begin(); });
     menu.addSeparator();
     for (const double seconds : { 5.0, 10.0, 20.0, 30.0, 60.0 })
         add (lengths, juce::String (seconds, 0) + " s", true, seconds == length_s, [seconds] (FilmButton& b) {
             b.setLength (seconds);
             if (b.onLength) b.onLength();
         });
-    menu.addSubMenu ("Length of the past", lengths);
+    menu.addSubMenu (TRANS ("Length of the past"), lengths);
     menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (this));
 }
 
@@ -98,14 +109,14 @@ void FilmButton::ask (Film film)
     if (job) return;
     if (film.ticks.empty() || film.states.empty())
     {
-        if (onHint) onHint ("There is no film to save yet: start the graph, and move the tool");
+        if (onHint) onHint (TRANS ("There is no film to save yet: start the graph, and move the tool"));
         return;
     }
     const auto folder = juce::File::getSpecialLocation (juce::File::userDocumentsDirectory).getChildFile ("Tactus");
     folder.createDirectory();
     const auto file = folder.getChildFile ("film" + juce::Time::getCurrentTime().formatted (" %Y-%m-%d %H-%M-%S") + ".png");
     constexpr bool of_the_desktop = false;   // such a dialog would keep Esc from this program, see MainView::askForFile
-    chooser = std::make_unique<juce::FileChooser> ("Save film", file, "*.png", of_the_desktop);
+    chooser = std::make_unique<juce::FileChooser> (TRANS ("Save film"), file, "*.png", of_the_desktop);
     using Choice = juce::FileBrowserComponent;
     auto kept = std::make_shared<Film> (std::move (film));
     chooser->launchAsync (Choice::saveMode | Choice::canSelectFiles | Choice::warnAboutOverwriting,
@@ -127,7 +138,7 @@ void FilmButton::finish()
     juce::String text;
     if (result)
     {
-        text = "Saved " + juce::String (result->files.front().string());
+        text = filled (TRANS ("Saved %1"), result->files.front().string());
         for (std::size_t i = 1; i < result->files.size(); ++i)
             text << ", " << juce::String (result->files[i].extension().string());
         for (const auto& note : result->notes)
@@ -136,7 +147,7 @@ void FilmButton::finish()
     else
         text = juce::String (messageText (result.error()));
     job.reset();
-    label ("Film");
+    label (TRANS ("Film"));
     if (onHint) onHint (text);
 }
 

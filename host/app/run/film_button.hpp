@@ -4,6 +4,7 @@
 #include "scene_view.hpp"
 
 #include <host/app/film/film_job.hpp>
+#include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
@@ -44,11 +45,10 @@ private:
     void finish();
 
     static constexpr int picture_width = 960;
-    static constexpr const char* widest = "Saving 99 %";
 
     Playback& playback;
     SceneView& space;
-    LabelButton button { "Film", "Saves the scene as a film: pictures, sound and force" };
+    LabelButton button { TRANS ("Film"), TRANS ("Saves the scene as a film: pictures, sound and force") };
     double length_s = 10.0;
     std::optional<std::uint64_t> first_tick;   // of the film that is being recorded
     double filming_rate = 1.0;

@@ -2,6 +2,7 @@
 #include "hand_panel.hpp"
 
 #include <host/app/model/message_text.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/run/device/gestures.hpp>
 
 namespace tactus::host
@@ -17,10 +18,10 @@ constexpr int bar_height = 32, margin = 8;
 class HandPanel::PlayButton final : public juce::Button
 {
 public:
-    PlayButton() : Button ("Play")
+    PlayButton() : Button (TRANS ("Play"))
     {
         setClickingTogglesState (true);
-        setTooltip ("Plays or pauses the gesture. While paused, the hand stays where it is.");
+        setTooltip (TRANS ("Plays or pauses the gesture. While paused, the hand stays where it is."));
     }
 
     void paintButton (juce::Graphics& g, bool over, bool) override
@@ -44,7 +45,7 @@ public:
 class HandPanel::SoundButton final : public juce::Button
 {
 public:
-    SoundButton() : Button ("Sound") { setTooltip ("Plays the force through the sound card."); }
+    SoundButton() : Button (TRANS ("Sound")) { setTooltip (TRANS ("Plays the force through the sound card.")); }
 
     void paintButton (juce::Graphics& g, bool over, bool) override
     {
@@ -68,27 +69,27 @@ public:
 
 HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (std::make_unique<PlayButton>()), listen (std::make_unique<SoundButton>())
 {
-    source.setTitle ("What moves the tool");
-    source.addItem ("Device of the graph", as_described);
-    source.addItem ("Mouse or pen", by_pointer);
+    source.setTitle (TRANS ("What moves the tool"));
+    source.addItem (TRANS ("Device of the graph"), as_described);
+    source.addItem (TRANS ("Mouse or pen"), by_pointer);
     source.addSeparator();
     int id = first_gesture;
     for (const auto& gesture : gestures())
-        source.addItem ("Gesture: " + juce::String (std::string (gesture.id)), id++);
+        source.addItem (filled (TRANS ("Gesture: %1"), gesture.id), id++);
     source.setSelectedId (as_described, juce::dontSendNotification);
-    source.setTooltip ("What moves the tool. The device of the graph is the one bound in the Devices panel, or else the one described in the graph. "
-                       "Drop a recording (CSV with t,x,y,z) here to play it.");
+    source.setTooltip (TRANS ("What moves the tool. The device of the graph is the one bound in the Devices panel, or else the one described in the graph. "
+                              "Drop a recording (CSV with t,x,y,z) here to play it."));
     source.onChange = [this] { choose(); };
 
     play->onClick = [this] {
         if (transport != nullptr) transport->play (play->getToggleState());
     };
-    position.setTitle ("Position in the gesture");
-    speed.setTitle ("Speed of the gesture");
+    position.setTitle (TRANS ("Position in the gesture"));
+    speed.setTitle (TRANS ("Speed of the gesture"));
     position.setSliderStyle (juce::Slider::LinearBar);
     position.setNumDecimalPlacesToDisplay (2);
     position.setTextValueSuffix (" s");
-    position.setTooltip ("Position in the gesture. Drag to seek.");
+    position.setTooltip (TRANS ("Position in the gesture. Drag to seek."));
     position.onValueChange = [this] {
         if (transport != nullptr) transport->seek (position.getValue());
     };
@@ -99,7 +100,7 @@ HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (st
     speed.setTextValueSuffix (" x");
     speed.setValue (1.0, juce::dontSendNotification);
     speed.setDoubleClickReturnValue (true, 1.0);
-    speed.setTooltip ("Playback speed. Double-click to reset to 1 x.");
+    speed.setTooltip (TRANS ("Playback speed. Double-click to reset to 1 x."));
     speed.onValueChange = [this] {
         if (transport != nullptr) transport->setSpeed (speed.getValue());
     };
@@ -107,7 +108,7 @@ HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (st
         if (sound.isOn())
             sound.stop();
         else if (const auto started = sound.start(); ! started && onHint)
-            onHint ("No sound: " + juce::String (messageText (started.error())));
+            onHint (filled (TRANS ("No sound: %1"), messageText (started.error())));
     };
     connectScene();
     addAndMakeVisible (surface);
@@ -201,7 +202,7 @@ void HandPanel::showSource (const LiveRun::Hand& hand)
         if (hand.kind == Kind::path && gestures()[i].id == hand.path) id = first_gesture + static_cast<int> (i);
     if (id == by_recording)
     {
-        const auto name = "Recording: " + juce::File (hand.path).getFileName();
+        const auto name = filled (TRANS ("Recording: %1"), juce::File (hand.path).getFileName());
         source.indexOfItemId (by_recording) < 0 ? source.addItem (name, by_recording) : source.changeItemText (by_recording, name);
     }
     if (source.getSelectedId() != id) source.setSelectedId (id, juce::dontSendNotification);
@@ -227,11 +228,12 @@ void HandPanel::showTransport (const LiveRun& run)
 
 juce::String HandPanel::noteFor (const LiveRun& run) const
 {
-    if (! run.isRunning()) return "Not running. Press START at the top right.";
-    if (run.hand().kind != LiveRun::Hand::Kind::pointer) return is_scene ? "Drag: turn. Shift+drag: move. Wheel: zoom." : "The tool follows its device.";
-    if (is_scene && ! showsBoth()) return "Drag the tool to press. Elsewhere: turn; Shift: move; wheel: zoom.";
-    const auto depth = juce::String (1000.0 * surface.depth(), 1) + " mm. ";
-    return surface.isHeld() ? "Held at a depth of " + depth + "H: release" : "Press and drag. The wheel sets the depth: " + depth + "H: hold";
+    if (! run.isRunning()) return TRANS ("Not running. Press START at the top right.");
+    if (run.hand().kind != LiveRun::Hand::Kind::pointer)
+        return is_scene ? TRANS ("Drag: turn. Shift+drag: move. Wheel: zoom.") : TRANS ("The tool follows its device.");
+    if (is_scene && ! showsBoth()) return TRANS ("Drag the tool to press. Elsewhere: turn; Shift: move; wheel: zoom.");
+    const auto text = surface.isHeld() ? TRANS ("Held at a depth of %1 mm. H: release") : TRANS ("Press and drag. The wheel sets the depth: %1 mm. H: hold");
+    return filled (text, juce::String (1000.0 * surface.depth(), 1));
 }
 
 bool HandPanel::isInterestedInFileDrag (const juce::StringArray& files) { return files.size() == 1 && files[0].endsWithIgnoreCase (".csv"); }
@@ -247,7 +249,7 @@ void HandPanel::paint (juce::Graphics& g)
     g.fillAll (look.theme().panel);
     g.setFont (look.font (13.0f, true));
     g.setColour (look.theme().text);
-    g.drawText ("Hand", getLocalBounds().removeFromTop (bar_height).withTrimmedLeft (16), juce::Justification::centredLeft, false);
+    g.drawText (TRANS ("Hand"), getLocalBounds().removeFromTop (bar_height).withTrimmedLeft (16), juce::Justification::centredLeft, false);
     if (transport != nullptr) return;
     g.setFont (look.font (12.0f));
     g.setColour (look.theme().dim);

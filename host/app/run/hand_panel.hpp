@@ -5,6 +5,8 @@
 #include "hand_view.hpp"
 #include "scene_view.hpp"
 
+#include <host/app/text/filled.hpp>
+
 namespace tactus::host
 {
 
@@ -56,8 +58,8 @@ private:
     Sound& sound;
     HandView surface { playback };
     SceneView space { playback };
-    LabelButton from_above { "2D", "The surface from above" }, in_space { "3D", "The scene in space" };
-    LabelButton larger { "Enlarge", "Shows the scene in place of the canvas" };
+    LabelButton from_above { TRANS ("2D"), TRANS ("The surface from above") }, in_space { TRANS ("3D"), TRANS ("The scene in space") };
+    LabelButton larger { TRANS ("Enlarge"), TRANS ("Shows the scene in place of the canvas") };
     FilmButton film_button { playback, space };
     bool is_scene = false, is_large = false, is_seen = true;
     juce::ComboBox source;

@@ -2,6 +2,7 @@
 #include "hand_view.hpp"
 
 #include <host/app/look/focus.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,7 @@ namespace tactus::host
 
 HandView::HandView (Playback& p) : playback (p)
 {
-    setTitle ("Surface");
+    setTitle (TRANS ("Surface"));
     setMouseCursor (juce::MouseCursor::CrosshairCursor);
     setWantsKeyboardFocus (true);
 }

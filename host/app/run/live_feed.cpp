@@ -5,6 +5,7 @@
 #include <host/app/model/patch.hpp>
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/problems/fixes.hpp>
+#include <host/app/text/filled.hpp>
 #include <host/io/axis.hpp>
 #include <tactus/graph/text.hpp>
 
@@ -191,7 +192,7 @@ void LiveFeed::showLimits (Live& live) const
             {
                 auto& light = live.limits[node->id];
                 light.is_broken = light.is_broken || l.is_broken;
-                const auto text = l.text + (l.remedy.empty() ? "." : ".\nWould help: " + l.remedy + ".");
+                const auto text = l.text + (l.remedy.empty() ? "." : ".\n" + filled (TRANS ("Would help: %1."), l.remedy).toStdString());
                 if (light.text.find (text) == std::string::npos) light.text += (light.text.empty() ? "" : "\n\n") + text;
             }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "live_nodes.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <cstdio>
 
 namespace tactus::host
@@ -46,7 +48,7 @@ std::string LiveNodes::latest() const
 {
     char took[32];
     std::snprintf (took, sizeof took, "%.1f", took_s);
-    return file.filename().string() + ": in use " + took + " s after it was saved";
+    return filled (TRANS ("%1: in use %2 s after it was saved"), file.filename().string(), took).toStdString();
 }
 
 }   // namespace tactus::host

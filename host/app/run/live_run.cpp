@@ -2,6 +2,7 @@
 #include "live_run.hpp"
 #include "device_setup.hpp"
 
+#include <host/app/text/filled.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/platform/failsafe.hpp>
 #include <host/platform/signals.hpp>
@@ -110,8 +111,8 @@ void LiveRun::beginSound()
     mutes_sound = rig->limitsFirst (Sound::channels);
     if (mutes_sound && sound != nullptr && sound->isOn())
         said.push_back (Message::warning ("audio/force_silent", "",
-                                          "the force is not played, because a role with a max_signal uses channel 1 or 2 of a sound card",
-                                          "to hear the force, move the role to other channels"));
+                                          TRANS ("the force is not played, because a role with a max_signal uses channel 1 or 2 of a sound card").toStdString(),
+                                          TRANS ("to hear the force, move the role to other channels").toStdString()));
 }
 
 void LiveRun::logNextTo (std::filesystem::path file, std::string program)

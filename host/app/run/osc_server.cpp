@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "osc_server.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <tactus/graph/param_edit.hpp>
 #include <tactus/text/message.hpp>
 
@@ -47,7 +49,7 @@ Result<> OscServer::turnControl (const std::string& id, double value)
 void OscServer::performEdits (RemoteControl::Clock::time_point now)
 {
     if (new_params.empty() && new_controls.empty()) return;
-    graph::Batch batch { "set by OSC", {} };
+    graph::Batch batch { NEEDS_TRANS ("set by OSC"), {} };
     for (const auto& [name, value] : new_params)
         if (auto edit = graph::paramEdit (document.graph(), name, value)) batch.commands.push_back (*std::move (edit));
     for (const auto& [id, value] : new_controls)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "playback.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <algorithm>
 
 namespace tactus::host
@@ -60,13 +62,14 @@ void Playback::endPreview()
 Result<> Playback::tryDevice (const std::string& role)
 {
     if (isPreviewing() || ! live_run.isRunning() || live_run.isStoppedForGood())
-        return Message::error ("device_trial/stopped", {}, "a test needs the forces to be on, and they are off", "press START first");
+        return Message::error ("device_trial/stopped", {}, TRANS ("a test needs the forces to be on, and they are off").toStdString(),
+                               TRANS ("press START first").toStdString());
     const auto& needs = live_run.needs();
     const auto of = std::ranges::find (needs, role, &RoleNeeds::role);
     auto made = of == needs.end() ? std::nullopt : DeviceTrial::of (live_run.edited(), *of);
     if (! made)
-        return Message::error ("device_trial/no_motor", {}, "the graph neither pushes nor shakes anything with " + role,
-                               "wire something into one of its outputs");
+        return Message::error ("device_trial/no_motor", {}, filled (TRANS ("the graph neither pushes nor shakes anything with %1"), role).toStdString(),
+                               TRANS ("wire something into one of its outputs").toStdString());
     auto graph = made->graph;
     runInstead (std::move (graph), true);
     trial = Trial { *std::move (made), juce::Time::getMillisecondCounterHiRes() };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "safety_strip.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -27,23 +29,23 @@ juce::String reason (const RunStatus& s, LiveRun& run)
     case RunStatus::End::overrun:
     {
         const auto costs = run.costs();
-        if (costs.empty()) return "stopped: a tick takes too long";
+        if (costs.empty()) return TRANS ("stopped: a tick takes too long");
         const auto percent = juce::roundToInt (100.0 * costs.front().share);
-        return "stopped: a tick takes too long; " + juce::String (costs.front().node) + " takes " + juce::String (percent) + " % of it";
+        return filled (TRANS ("stopped: a tick takes too long; %1 takes %2 % of it"), costs.front().node, percent);
     }
     case RunStatus::End::length:
-        return "finished";
+        return TRANS ("finished");
     case RunStatus::End::asked:
     case RunStatus::End::none:
         break;
     }
-    return "stopped";
+    return TRANS ("stopped");
 }
 
 juce::String runningText (const LiveRun& run)
 {
-    auto text = "running at " + juce::String (run.rate()) + " Hz";
-    if (! run.clockRole().empty()) text += ", ticked by " + juce::String (run.clockRole());
+    const auto running = run.clockRole().empty() ? TRANS ("running at %1 Hz") : TRANS ("running at %1 Hz, ticked by %2");
+    auto text = filled (running, juce::String (run.rate()), run.clockRole());
     if (const auto fusion = run.fusion(); ! fusion.empty()) text += ", " + juce::String (fusion);
     return text;
 }
@@ -51,10 +53,10 @@ juce::String runningText (const LiveRun& run)
 juce::String delayText (const LiveRun& run)
 {
     const auto d = run.delay();
-    if (! d) return "no path from hand to motor";
-    const auto delay = "delay " + juce::String (*d) + (*d == 1 ? " tick" : " ticks");
+    if (! d) return TRANS ("no path from hand to motor");
+    const auto delay = filled (*d == 1 ? TRANS ("delay %1 tick") : TRANS ("delay %1 ticks"), *d);
     const auto stiffness = run.stiffnessLeft();
-    return stiffness ? delay + ", walls stable up to " + stiffnessText (*stiffness) : delay;
+    return stiffness ? delay + ", " + filled (TRANS ("walls stable up to %1"), stiffnessText (*stiffness)) : delay;
 }
 }   // namespace
 
@@ -62,12 +64,13 @@ juce::String delayText (const LiveRun& run)
 class SafetyStrip::StopButton final : public juce::Button
 {
 public:
-    StopButton() : Button ("STOP") {}
+    StopButton (const juce::String& label, bool in_red) : Button (label), stops (in_red) {}
 
-    void show (const juce::String& label)
+    void show (const juce::String& label, bool in_red)
     {
         if (label == getButtonText()) return;
         setButtonText (label);
+        stops = in_red;
         shown_at = juce::Time::getCurrentTime();
     }
 
@@ -84,7 +87,6 @@ public:
     void paintButton (juce::Graphics& g, bool over, bool down) override
     {
         const auto& look = lookOf (*this);
-        const bool stops = getButtonText() == "STOP";
         const auto colour = stops ? look.theme().stop : look.theme().accent;
         const float lit = over ? 1.15f : 1.0f;
         g.setColour (colour.withMultipliedBrightness (down ? 0.8f : lit));
@@ -96,13 +98,14 @@ public:
 
 private:
     juce::Time shown_at;   // when the text last changed
+    bool stops;
     bool too_soon = false;
 };
 
-SafetyStrip::SafetyStrip (Playback& p) : playback (p), button (std::make_unique<StopButton>()), rearm (std::make_unique<StopButton>())
+SafetyStrip::SafetyStrip (Playback& p)
+    : playback (p), button (std::make_unique<StopButton> (TRANS ("STOP"), true)), rearm (std::make_unique<StopButton> (TRANS ("REARM"), false))
 {
-    rearm->setButtonText ("REARM");
-    rearm->setTooltip ("Lets the forces rise again, slowly. Press it only when it is safe.");
+    rearm->setTooltip (TRANS ("Lets the forces rise again, slowly. Press it only when it is safe."));
     rearm->onClick = [this] { playback.current().rearm(); };
     addChildComponent (*rearm);
     button->onClick = [this] {
@@ -111,7 +114,7 @@ SafetyStrip::SafetyStrip (Playback& p) : playback (p), button (std::make_unique<
         else if (! button->isTooSoon())   // the second click of a double click on STOP must not restart the run
             playback.restart();
     };
-    button->setTooltip ("Ramps all forces to zero. So does Esc, if nothing is open, or while a device runs. With Shift+Esc, the graph keeps running.");
+    button->setTooltip (TRANS ("Ramps all forces to zero. So does Esc, if nothing is open, or while a device runs. With Shift+Esc, the graph keeps running."));
     addAndMakeVisible (*button);
     addChildComponent (limits);
 }
@@ -123,7 +126,7 @@ void SafetyStrip::refresh()
     rearm->setEnabled (playback.current().canRearm());
     auto now = stateOf (playback.current());
     if (now == shown) return;
-    button->show (now.running ? "STOP" : "START");
+    button->show (now.running ? TRANS ("STOP") : TRANS ("START"), now.running);
     rearm->setVisible (now.stopped_for_good);
     shown = std::move (now);
     repaint();
@@ -139,32 +142,32 @@ SafetyStrip::Shown SafetyStrip::stateOf (LiveRun& run)
     if (! status)
     {
         now.alarmed = now.has_errors = has_errors;
-        now.state = has_errors ? "cannot run: see Problems" : "stopped";
+        now.state = has_errors ? TRANS ("cannot run: see Problems") : TRANS ("stopped");
         return now;
     }
     now.has_errors = has_errors;
     const bool halting = status->phase == RunStatus::Phase::halting;
     if (has_errors)
-        now.state = now.running && ! halting ? "edit has errors; still running the last valid version" : "cannot run: see Problems";
+        now.state = now.running && ! halting ? TRANS ("edit has errors; still running the last valid version") : TRANS ("cannot run: see Problems");
     else if (! now.running)
         now.state = reason (*status, run);
     else
-        now.state = halting ? juce::String ("stopping") : runningText (run);
+        now.state = halting ? TRANS ("stopping") : runningText (run);
     now.alarmed = status->end == RunStatus::End::overrun;
     now.warned = has_errors;
     showGuards (run, *status, now);
-    now.force = newtonText (status->force) + "  |  peak " + newtonText (status->peak);
-    now.misses = "late ticks: " + juce::String (static_cast<juce::int64> (status->misses));
+    now.force = newtonText (status->force) + "  |  " + filled (TRANS ("peak %1"), newtonText (status->peak));
+    now.misses = filled (TRANS ("late ticks: %1"), status->misses);
     now.delay = delayText (run);
     return now;
 }
 
 void SafetyStrip::showGuards (const LiveRun& run, const RunStatus& status, Shown& now)
 {
-    if (now.running) now.guard = "guard ready";
+    if (now.running) now.guard = TRANS ("guard ready");
     if (const auto most = run.mostForce(); most && status.peak >= *most * (1.0 - 1e-9))
     {
-        now.guard = "limited to " + newtonText (*most);
+        now.guard = filled (TRANS ("limited to %1"), newtonText (*most));
         now.warned = true;
     }
     for (const auto& role : status.shown())
@@ -175,7 +178,7 @@ void SafetyStrip::showGuards (const LiveRun& run, const RunStatus& status, Shown
         }
     if (now.running && status.clock_replaced)
     {
-        now.guard = "the clock " + juce::String (run.clockRole()) + " has stopped: forces are held at zero";
+        now.guard = filled (TRANS ("the clock %1 has stopped: forces are held at zero"), run.clockRole());
         now.alarmed = true;
     }
 }

@@ -3,6 +3,7 @@
 
 #include <host/app/look/focus.hpp>
 #include <host/app/scene/overlay.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <cmath>
 
@@ -24,7 +25,7 @@ bool isSame (const scene::Now& a, const scene::Now& b)
 
 SceneView::SceneView (Playback& p) : playback (p)
 {
-    setTitle ("Scene");
+    setTitle (TRANS ("Scene"));
     setWantsKeyboardFocus (true);
     follow_button.setClickingTogglesState (true);
     follow_button.onClick = [this] { changed(); };
@@ -189,7 +190,8 @@ void SceneView::paint (juce::Graphics& g)
     {
         g.setColour (look.theme().dim);
         g.setFont (look.font (13.0f));
-        g.drawFittedText ("Nodes with a surface appear here, such as a plane or a mesh.", getLocalBounds().reduced (24), juce::Justification::centred, 2);
+        g.drawFittedText (TRANS ("Nodes with a surface appear here, such as a plane or a mesh."), getLocalBounds().reduced (24), juce::Justification::centred,
+                          2);
         return;
     }
     overlay.drawGround (stage);

@@ -5,6 +5,7 @@
 
 #include <host/app/look/label_button.hpp>
 #include <host/app/scene/scene.hpp>
+#include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
@@ -63,7 +64,8 @@ private:
     scene::Now now;
     scene::Raster raster;
     juce::Image surfaces;
-    LabelButton follow_button { "Follow", "Keeps the tool in the middle (T)" }, frame_button { "Frame", "Shows the whole scene (F, or double-click)" };
+    LabelButton follow_button { TRANS ("Follow"), TRANS ("Keeps the tool in the middle (T)") },
+        frame_button { TRANS ("Frame"), TRANS ("Shows the whole scene (F, or double-click)") };
     std::uint64_t shown_version = 0;
     bool is_watched = false, is_dirty = true, is_framed = false, is_slow = false, is_coarse = false;
     int still_for = 0;   // calls to refresh() without news

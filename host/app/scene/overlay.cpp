@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "overlay.hpp"
 
+#include <host/app/text/filled.hpp>
+
 namespace tactus::host::scene
 {
 
@@ -146,7 +148,8 @@ void Overlay::drawMarks (const Scene& scene, const Now& now)
         graphics.setColour (theme.of (Quantity::length));
         graphics.strokePath (wall, juce::PathStrokeType (1.2f));
         const Vec3 tip = 0.5 * (crack.begin + crack.end) + crack.down;
-        label ("crack " + lengthText (crack.down.norm()), camera.pixel (tip).translated (10.0f, 10.0f), Side::right, theme.of (Quantity::length));
+        label (filled (TRANS ("crack %1"), lengthText (crack.down.norm())), camera.pixel (tip).translated (10.0f, 10.0f), Side::right,
+               theme.of (Quantity::length));
     }
     for (const auto& touch : touches)
     {
@@ -176,7 +179,7 @@ void Overlay::drawScale (const Scene& scene, const Now& now)
     backdrop (grid);
     graphics.setFont (look.font (11.0f));
     graphics.setColour (theme.text);
-    graphics.drawText ("Grid " + juce::String (juce::roundToInt (1000.0 * step)) + " mm", grid, juce::Justification::centred, false);
+    graphics.drawText (filled (TRANS ("Grid %1 mm"), juce::roundToInt (1000.0 * step)), grid, juce::Justification::centred, false);
     double depth = 0.0;
     for (const auto& t : scene.touches (now))
         depth = std::max (depth, t.depth);
@@ -197,7 +200,7 @@ void Overlay::drawScale (const Scene& scene, const Now& now)
         graphics.fillRect (juce::Rectangle<float> (2.0f, 12.0f).withCentre ({ x, bar.getCentreY() }));
     }
     graphics.setColour (is_touched ? theme.text : theme.dim);
-    drawNumber (graphics, is_touched ? lengthText (depth) + " deep" : juce::String ("no contact"), text);
+    drawNumber (graphics, is_touched ? filled (TRANS ("%1 deep"), lengthText (depth)) : TRANS ("no contact"), text);
 }
 
 juce::Point<float> Overlay::gizmoEnd (const Camera& camera, juce::Rectangle<float> area, int axis)

@@ -2,6 +2,7 @@
 #include "energy_meter.hpp"
 
 #include <host/app/model/with_prefix.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -122,13 +123,14 @@ std::string describe (const EnergyBalance& b)
         return gap == std::string::npos ? text : text.replace (gap, 1, "\u00a0");   // keeps the number and its unit on one line
     };
     const auto matters = [&] (double v, double share) { return v > share * b.moved && v > 1e-7; };
-    std::string text = b.isPassive() ? "passive" : "active: " + joule (-b.worst - b.stored_first) + " more came out than went in";
-    text += (b.isPassive() ? ": work of the hand " : "; work of the hand ") + joule (b.work);
-    text += ", " + joule (b.stored) + " stored, " + joule (b.dissipated) + " dissipated";
-    if (matters (b.held, 0.01)) text += "; holding the force between ticks created " + joule (b.held);
-    if (matters (b.elsewhere(), 0.02)) text += ", " + joule (b.elsewhere()) + " unaccounted for";
-    if (matters (-b.elsewhere(), 0.02)) text += "; the nodes report " + joule (-b.elsewhere()) + " too much, because the tool moves too far in each tick";
-    return text;
+    const auto kind = b.isPassive() ? TRANS ("passive: work of the hand %1, %2 stored, %3 dissipated")
+                                    : TRANS ("active: %4 more came out than went in; work of the hand %1, %2 stored, %3 dissipated");
+    auto text = filled (kind, joule (b.work), joule (b.stored), joule (b.dissipated), joule (-b.worst - b.stored_first));
+    if (matters (b.held, 0.01)) text << "; " << filled (TRANS ("holding the force between ticks created %1"), joule (b.held));
+    if (matters (b.elsewhere(), 0.02)) text << ", " << filled (TRANS ("%1 unaccounted for"), joule (b.elsewhere()));
+    if (matters (-b.elsewhere(), 0.02))
+        text << "; " << filled (TRANS ("the nodes report %1 too much, because the tool moves too far in each tick"), joule (-b.elsewhere()));
+    return text.toStdString();
 }
 
 }   // namespace tactus::host

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "energy_plot.hpp"
 
+#include <host/app/text/filled.hpp>
+
 namespace tactus::host
 {
 
@@ -89,23 +91,23 @@ void EnergyPlot::paintOver (juce::Graphics& g)
     g.drawMultiLineText (juce::String::fromUTF8 (describe (now).c_str()), 8, 16, getWidth() - 16);
     const auto legend = lane.area.withY (lane.area.getY() - legend_height).withHeight (legend_height);
     const auto stored_ink = theme().of (Quantity::length).withAlpha (0.55f), lost_ink = theme().of (Quantity::energy).withAlpha (0.45f);
-    paintLegend (g, legend, { { theme().text, "hand" }, { stored_ink, "stored" }, { lost_ink, "dissipated" } });
+    paintLegend (g, legend, { { theme().text, TRANS ("hand") }, { stored_ink, TRANS ("stored") }, { lost_ink, TRANS ("dissipated") } });
     if (now.gaps == 0) return;
     g.setFont (look.font (11.0f));
     g.setColour (theme().dim);
     const auto line = lane.area.reduced (8.0f, 4.0f).removeFromBottom (14.0f);
-    g.drawText (juce::String (now.gaps) + (now.gaps == 1 ? " missed tick" : " missed ticks"), line, juce::Justification::bottomLeft, true);
+    g.drawText (filled (now.gaps == 1 ? TRANS ("%1 missed tick") : TRANS ("%1 missed ticks"), now.gaps), line, juce::Justification::bottomLeft, true);
 }
 
 std::vector<ScopePlot::Action> EnergyPlot::actions()
 {
-    return { { "reset", "Restarts the energy balance from zero", [this] (juce::Component&) { meter.restart(); } } };
+    return { { TRANS ("reset"), TRANS ("Restarts the energy balance from zero"), [this] (juce::Component&) { meter.restart(); } } };
 }
 
 juce::String EnergyPlot::emptyText() const
 {
-    if (spec.x.empty() || spec.y.empty()) return "Energy needs a device.position node for the hand, and a device.force node for the force on it";
-    return not_run_yet;
+    if (spec.x.empty() || spec.y.empty()) return TRANS ("Energy needs a device.position node for the hand, and a device.force node for the force on it");
+    return juce::translate (not_run_yet);
 }
 
 }   // namespace tactus::host

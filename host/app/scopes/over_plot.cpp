@@ -2,6 +2,7 @@
 #include "over_plot.hpp"
 
 #include <host/app/model/with_prefix.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <cmath>
 
@@ -164,7 +165,9 @@ void OverPlot::paintOver (juce::Graphics& g)
     const auto& area = lanes.front().area;
     if (! has_state) return;
     const auto legend = area.withY (area.getY() - legend_height).withHeight (legend_height);
-    paintLegend (g, legend, { { colourOf (Part::stuck), "stuck" }, { colourOf (Part::sliding), "sliding" }, { colourOf (Part::open), "no contact" } });
+    paintLegend (
+        g, legend,
+        { { colourOf (Part::stuck), TRANS ("stuck") }, { colourOf (Part::sliding), TRANS ("sliding") }, { colourOf (Part::open), TRANS ("no contact") } });
 }
 
 void OverPlot::zoomX (double factor, const Lane& lane, float at)
@@ -177,19 +180,19 @@ void OverPlot::zoomX (double factor, const Lane& lane, float at)
 std::vector<ScopePlot::Action> OverPlot::actions()
 {
     static constexpr const char* names[] = { "x", "y", "z" };
-    const auto along = spec.component < 0 ? "along " + juce::String (names[component % 3]) + " (auto)" : "along " + juce::String (names[spec.component % 3]);
+    const auto along = spec.component < 0 ? filled (TRANS ("along %1 (auto)"), names[component % 3]) : filled (TRANS ("along %1"), names[spec.component % 3]);
     const auto next = [this] (juce::Component&) {
         spec.component = spec.component >= 2 ? -1 : spec.component + 1;
         spec.zoomed.clear();
         if (context.onChange) context.onChange();
     };
-    return { lengthAction ({ 0.2, 0.5, 1.0, 2.0, 5.0, 10.0 }, "Length of the tail"),
-             { along, "Component of vectors; auto shows the one that moves most", next } };
+    return { lengthAction ({ 0.2, 0.5, 1.0, 2.0, 5.0, 10.0 }, TRANS ("Length of the tail")),
+             { along, TRANS ("Component of vectors; auto shows the one that moves most"), next } };
 }
 
 juce::String OverPlot::emptyText() const
 {
-    return spec.x.empty() || spec.y.empty() ? "Choose the x and y axes above, such as position and force" : not_run_yet;
+    return spec.x.empty() || spec.y.empty() ? TRANS ("Choose the x and y axes above, such as position and force") : juce::translate (not_run_yet);
 }
 
 }   // namespace tactus::host

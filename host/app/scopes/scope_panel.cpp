@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scope_panel.hpp"
 
+#include <host/app/text/filled.hpp>
+
 namespace tactus::host
 {
 
 ScopePanel::ScopePanel (Document& d, Traces& t, const Catalogue& c) : document (d), catalogue (c), traces (t), client (t)
 {
-    setTitle ("Scopes");
+    setTitle (TRANS ("Scopes"));
     setWantsKeyboardFocus (true);
     for (const auto kind : { ScopeKind::time, ScopeKind::over, ScopeKind::spectrum, ScopeKind::spectrogram, ScopeKind::energy, ScopeKind::tool })
     {
         auto& b = *adders.emplace_back (std::make_unique<FlatButton> ("+ " + titleOf (kind)));
-        b.setTooltip ("Adds a scope");
+        b.setTooltip (TRANS ("Adds a scope"));
         b.onClick = [this, kind] {
             if (model.scopes.size() < most_scopes)
                 add (kind);
             else if (onHint)
-                onHint ("At most " + juce::String (most_scopes) + " scopes; close one first");
+                onHint (filled (TRANS ("At most %1 scopes; close one first"), most_scopes));
         };
         addAndMakeVisible (b);
     }
-    freeze_button.setTooltip ("Freezes all scopes, or lets them continue. The run is not affected. Key: X");
+    freeze_button.setTooltip (TRANS ("Freezes all scopes, or lets them continue. The run is not affected. Key: X"));
     freeze_button.onClick = [this] { freezeAll (! isFrozen()); };
     addAndMakeVisible (freeze_button);
     suggestion.onClick = [this] { probe (suggestion.getName().toStdString()); };
@@ -136,9 +138,9 @@ juce::String ScopePanel::warning() const
 {
     const auto& too_many = traces.leftOut();
     if (too_many.empty()) return {};
-    auto text = "At most " + juce::String (ProbeRing::most) + " components are recorded; not shown: " + juce::String (too_many.front());
-    if (too_many.size() > 1) text += " and " + juce::String (too_many.size() - 1) + " more";
-    return text + ". Close a scope or remove a port";
+    const auto text = too_many.size() == 1 ? TRANS ("At most %1 components are recorded; not shown: %2. Close a scope or remove a port")
+                                           : TRANS ("At most %1 components are recorded; not shown: %2 and %3 more. Close a scope or remove a port");
+    return filled (text, ProbeRing::most, too_many.front(), too_many.size() - 1);
 }
 
 void ScopePanel::refresh()
@@ -167,14 +169,14 @@ void ScopePanel::save (ScopeView& view, juce::Component& below)
             safe->report (write (*which, file.getFullPathName().toStdString()), file);
         });
     };
-    add ("Image (PNG)", ".png", [] (ScopeView& v, const std::filesystem::path& p) { return v.saveImage (p); });
-    add ("Data (CSV)", ".csv", [] (ScopeView& v, const std::filesystem::path& p) { return v.saveData (p); });
+    add (TRANS ("Image (PNG)"), ".png", [] (ScopeView& v, const std::filesystem::path& p) { return v.saveImage (p); });
+    add (TRANS ("Data (CSV)"), ".csv", [] (ScopeView& v, const std::filesystem::path& p) { return v.saveData (p); });
     menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (below));
 }
 
 void ScopePanel::report (const Result<>& written, const juce::File& file)
 {
-    if (onHint) onHint (written ? "Saved " + file.getFullPathName() : juce::String (describe (written.error())));
+    if (onHint) onHint (written ? filled (TRANS ("Saved %1"), file.getFullPathName()) : juce::String (describe (written.error())));
 }
 
 juce::Rectangle<int> ScopePanel::emptyArea() const { return getLocalBounds().withTrimmedTop (row_height); }
@@ -197,8 +199,8 @@ void ScopePanel::paint (juce::Graphics& g)
     if (! views.empty()) return;
     g.setFont (look.font (13.0f));
     g.setColour (theme.dim);
-    const auto* text = suggestion.isVisible() ? "No scopes. Select a wire and press P, add a scope above, or start with this port:"
-                                              : "No scopes. Add nodes to the graph, select a wire, and press P";
+    const auto text = suggestion.isVisible() ? TRANS ("No scopes. Select a wire and press P, add a scope above, or start with this port:")
+                                              : TRANS ("No scopes. Add nodes to the graph, select a wire, and press P");
     g.drawFittedText (text, emptyArea().reduced (24, 16).withTrimmedBottom (32), juce::Justification::centred, 2);
 }
 

@@ -4,6 +4,7 @@
 #include "scope_view.hpp"
 
 #include <host/app/model/document.hpp>
+#include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
@@ -63,7 +64,7 @@ private:
     ScopeModel model;
     std::vector<std::unique_ptr<ScopeView>> views;   // in the order of the model
     std::vector<std::unique_ptr<FlatButton>> adders;
-    FlatButton freeze_button { "Freeze all (X)" };
+    FlatButton freeze_button { TRANS ("Freeze all (X)") };
     FlatButton suggestion { "" };   // a port to start with, while there is no scope
     juce::String warned;
 };

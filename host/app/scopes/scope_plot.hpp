@@ -5,6 +5,7 @@
 #include "tool_picture.hpp"
 
 #include <host/app/look/look.hpp>
+#include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
@@ -63,7 +64,7 @@ public:
 
 protected:
     static constexpr float gutter = 44.0f, foot = 18.0f, legend_height = 16.0f;
-    static constexpr const char* not_run_yet = "The graph has not run yet";
+    static constexpr const char* not_run_yet = NEEDS_TRANS ("The graph has not run yet");
 
     virtual void paintLane (juce::Graphics&, const Lane&, std::size_t index) = 0;
     virtual void paintOver (juce::Graphics&) {}

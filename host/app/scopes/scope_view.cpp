@@ -9,6 +9,8 @@
 #include "tool_plot.hpp"
 #include "trace_file.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <tactus/file/atomic_file.hpp>
 
 namespace tactus::host
@@ -37,19 +39,19 @@ juce::String titleOf (ScopeKind k)
     switch (k)
     {
     case ScopeKind::time:
-        return "Time";
+        return TRANS ("Time");
     case ScopeKind::over:
-        return "Force against displacement";
+        return TRANS ("Force against displacement");
     case ScopeKind::spectrum:
-        return "Spectrum";
+        return TRANS ("Spectrum");
     case ScopeKind::spectrogram:
-        return "Spectrogram";
+        return TRANS ("Spectrogram");
     case ScopeKind::energy:
-        return "Energy";
+        return TRANS ("Energy");
     case ScopeKind::tool:
         break;
     }
-    return "Tool view";
+    return TRANS ("Tool view");
 }
 
 std::unique_ptr<ScopePlot> makePlot (ScopeSpec& s, ScopeContext& d)
@@ -75,9 +77,9 @@ std::unique_ptr<ScopePlot> makePlot (ScopeSpec& s, ScopeContext& d)
 ScopeView::ScopeView (ScopeSpec& s, ScopeContext& c, Signals from) : spec (s), context (c), live (std::move (from)), drawing (makePlot (s, c))
 {
     setTitle (titleOf (s.kind));
-    freeze_button = std::make_unique<FlatButton> ("Freeze this scope", twoBars());
-    save_button = std::make_unique<FlatButton> ("Save as image or data", downArrow());
-    close_button = std::make_unique<FlatButton> ("Close this scope", cross());
+    freeze_button = std::make_unique<FlatButton> (TRANS ("Freeze this scope"), twoBars());
+    save_button = std::make_unique<FlatButton> (TRANS ("Save as image or data"), downArrow());
+    close_button = std::make_unique<FlatButton> (TRANS ("Close this scope"), cross());
     freeze_button->onClick = [this] {
         freeze (! isFrozen());
         if (onFreeze) onFreeze();
@@ -145,7 +147,7 @@ std::string ScopeView::headerKey()
 void ScopeView::add (Chip c)
 {
     const bool is_gone = ! c.port.empty() && ! isThere (c.port, context.ports);
-    auto& chip = *chips.emplace_back (std::make_unique<FlatButton> (is_gone ? juce::String (c.port) + " no longer exists" : c.text));
+    auto& chip = *chips.emplace_back (std::make_unique<FlatButton> (is_gone ? filled (TRANS ("%1 no longer exists"), c.port) : c.text));
     chip.dot = c.dot;
     chip.is_wrong = is_gone;
     if (c.text.length() < 2) chip.setTitle (c.about);   // a sign says nothing to a screen reader
@@ -219,7 +221,7 @@ void ScopeView::addTraceChips()
             std::erase (spec.ports, port);
             changed();
         };
-        add ({ port, port, dot, remove, "Click the cross to remove this port", true });
+        add ({ port, port, dot, remove, TRANS ("Click the cross to remove this port"), true });
     }
     const auto addPort = [this] {
         choosePort (*drawing, context.ports, [safe = juce::Component::SafePointer (this)] (const std::string& port) {
@@ -229,7 +231,7 @@ void ScopeView::addTraceChips()
         });
     };
     const bool replaces = spec.kind == ScopeKind::spectrogram && ! spec.ports.empty();
-    add ({ .text = "+", .onClick = addPort, .about = replaces ? "Show another port" : "Add a port" });
+    add ({ .text = "+", .onClick = addPort, .about = replaces ? TRANS ("Show another port") : TRANS ("Add a port") });
 }
 
 void ScopeView::addAxisChips()
@@ -241,12 +243,13 @@ void ScopeView::addAxisChips()
     const auto chooseX = [this] { choosePortFor (&ScopeSpec::x); };
     if (is_energy)
     {
-        add ({ spec.y, spec.y, theme.of (Quantity::force), chooseY, "Force on the tool, for the work of the hand; click to change" });
-        add ({ spec.x, spec.x, theme.of (Quantity::length), chooseX, "Position of the tool; click to change" });
+        add ({ spec.y, spec.y, theme.of (Quantity::force), chooseY, TRANS ("Force on the tool, for the work of the hand; click to change") });
+        add ({ spec.x, spec.x, theme.of (Quantity::length), chooseX, TRANS ("Position of the tool; click to change") });
         return;
     }
-    add ({ spec.y.empty() ? "y: choose" : spec.y, spec.y, theme.of (Quantity::force), chooseY, "y axis; click to change" });
-    add ({ spec.x.empty() ? "x: choose" : "over " + spec.x, spec.x, theme.of (Quantity::length), chooseX, "x axis; click to change" });
+    add ({ spec.y.empty() ? TRANS ("y: choose") : juce::String (spec.y), spec.y, theme.of (Quantity::force), chooseY, TRANS ("y axis; click to change") });
+    add ({ spec.x.empty() ? TRANS ("x: choose") : filled (TRANS ("over %1"), spec.x), spec.x, theme.of (Quantity::length), chooseX,
+           TRANS ("x axis; click to change") });
 }
 
 void ScopeView::addNodeChip()
@@ -264,7 +267,7 @@ void ScopeView::addNodeChip()
         menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (*drawing));
     };
     const auto port = spec.node + ".deflection";
-    add ({ spec.node, port, themeOf (*this).of (Quantity::force), choose, "Friction node; click to change" });
+    add ({ spec.node, port, themeOf (*this).of (Quantity::force), choose, TRANS ("Friction node; click to change") });
 }
 
 void ScopeView::paint (juce::Graphics& g)
@@ -306,7 +309,8 @@ Result<> ScopeView::saveImage (const std::filesystem::path& path)
     const auto image = createComponentSnapshot (getLocalBounds(), true, 2.0f);
     juce::MemoryOutputStream bytes;
     if (! juce::PNGImageFormat().writeImageToStream (image, bytes))
-        return Message::error ("scope/picture", path.string(), "the image could not be created", "make the scope larger");
+        return Message::error ("scope/picture", path.string(), TRANS ("the image could not be created").toStdString(),
+                               TRANS ("make the scope larger").toStdString());
     auto file = AtomicFile::create (path);
     if (! file) return file.error();
     if (! file->stream().write (static_cast<const char*> (bytes.getData()), static_cast<std::streamsize> (bytes.getDataSize()))) return file->writeError();

@@ -2,6 +2,7 @@
 #include "spectrogram_plot.hpp"
 
 #include <host/app/model/with_prefix.hpp>
+#include <host/app/text/filled.hpp>
 #include <host/io/colours.hpp>
 
 #include <cmath>
@@ -9,7 +10,7 @@
 namespace tactus::host
 {
 
-SpectrogramPlot::SpectrogramPlot (ScopeSpec& s, ScopeContext& c) : ScopePlot (s, c) { setTitle ("Spectrogram"); }
+SpectrogramPlot::SpectrogramPlot (ScopeSpec& s, ScopeContext& c) : ScopePlot (s, c) { setTitle (TRANS ("Spectrogram")); }
 
 Extent SpectrogramPlot::frequencies (double rate_hz) const
 {
@@ -48,8 +49,9 @@ void SpectrogramPlot::describe (const std::string& si)
 {
     constexpr int refreshes = 30;   // about a second: faster speech could not be followed
     if (since_described++ % refreshes != 0) return;
-    const auto decibels = juce::String (scrolling.loudestDb(), 0) + " dB re 1 " + juce::String (si);
-    setDescription (scrolling.loudestHz() > 0.0 ? "loudest at " + juce::String (scrolling.loudestHz(), 0) + " Hz, " + decibels : juce::String ("silent"));
+    const auto loudest =
+        filled (TRANS ("loudest at %1 Hz, %2 dB re 1 %3"), juce::String (scrolling.loudestHz(), 0), juce::String (scrolling.loudestDb(), 0), si);
+    setDescription (scrolling.loudestHz() > 0.0 ? loudest : TRANS ("silent"));
 }
 
 ScopePlot::Action SpectrogramPlot::rangeAction()
@@ -65,17 +67,17 @@ ScopePlot::Action SpectrogramPlot::rangeAction()
             });
         };
         for (const double hz : { 200.0, 500.0, 1000.0, 2000.0, 5000.0 })
-            add ("up to " + juce::String (withPrefix (hz, "Hz", 1)), hz);
-        add ("up to half the rate", 0.0);
+            add (filled (TRANS ("up to %1"), withPrefix (hz, "Hz", 1)), hz);
+        add (TRANS ("up to half the rate"), 0.0);
         menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (below));
     };
-    const auto shown = spec.up_to_hz > 0.0 ? "to " + juce::String (withPrefix (spec.up_to_hz, "Hz", 1)) : juce::String ("to half the rate");
-    return { shown, "The highest frequency; Shift+wheel zooms, and a double click resets the zoom", open };
+    const auto shown = spec.up_to_hz > 0.0 ? filled (TRANS ("to %1"), withPrefix (spec.up_to_hz, "Hz", 1)) : TRANS ("to half the rate");
+    return { shown, TRANS ("The highest frequency; Shift+wheel zooms, and a double click resets the zoom"), open };
 }
 
 std::vector<ScopePlot::Action> SpectrogramPlot::actions()
 {
-    return { lengthAction ({ 1.0, 2.0, 5.0, 10.0 }, "How much of the past is shown; the wheel changes it too"), rangeAction() };
+    return { lengthAction ({ 1.0, 2.0, 5.0, 10.0 }, TRANS ("How much of the past is shown; the wheel changes it too")), rangeAction() };
 }
 
 void SpectrogramPlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t) { scrolling.draw (g, lane.area); }
@@ -104,13 +106,13 @@ void SpectrogramPlot::paintOver (juce::Graphics& g)
         g.drawText (juce::String::fromUTF8 (tick.text.c_str()), numbers.withY (inside), juce::Justification::centredRight, false);
     }
     g.setColour (theme().text);
-    const auto about = unit.empty() || unit == "1" ? juce::String ("dB") : "dB re 1 " + juce::String (unit);
+    const auto about = unit.empty() || unit == "1" ? juce::String ("dB") : filled (TRANS ("dB re 1 %1"), unit);
     g.drawText (about, juce::Rectangle<float> (bar.getX() - 30.0f, bar.getBottom() + 2.0f, bar_room + 30.0f, 14.0f), juce::Justification::centredRight, false);
 }
 
 juce::String SpectrogramPlot::emptyText() const
 {
-    return spec.ports.empty() ? "Select a wire and press P, or click + above, to see which frequencies it has" : not_run_yet;
+    return spec.ports.empty() ? TRANS ("Select a wire and press P, or click + above, to see which frequencies it has") : juce::translate (not_run_yet);
 }
 
 }   // namespace tactus::host

@@ -2,6 +2,7 @@
 #include "spectrum_plot.hpp"
 
 #include <host/app/model/with_prefix.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <cmath>
 
@@ -83,8 +84,8 @@ std::vector<ScopePlot::Action> SpectrumPlot::actions()
         refreshes = 0;
         if (context.onChange) context.onChange();
     };
-    return { lengthAction ({ 0.1, 0.2, 0.5, 1.0, 2.0, 4.0 }, "Length of the signal that is analysed; a longer one resolves closer frequencies"),
-             { spec.in_decibels ? "dB" : "linear", "Amplitudes in decibels relative to one unit, or linear", toggle } };
+    return { lengthAction ({ 0.1, 0.2, 0.5, 1.0, 2.0, 4.0 }, TRANS ("Length of the signal that is analysed; a longer one resolves closer frequencies")),
+             { spec.in_decibels ? juce::String ("dB") : TRANS ("linear"), TRANS ("Amplitudes in decibels relative to one unit, or linear"), toggle } };
 }
 
 juce::Path SpectrumPlot::pathOf (const Spectrum& spectrum, const Lane& lane) const
@@ -128,17 +129,18 @@ void SpectrumPlot::paintOver (juce::Graphics& g)
     if (spec.cursors.empty() && highest)
     {
         const auto corner = area.withTop (area.getBottom() - 48.0f).withWidth (std::min (132.0f, area.getWidth()));
-        paintReadout (g, { "peak " + text (highest->hz, "Hz"), text (highest->amplitude, units.front()) }, corner);
+        paintReadout (g, { filled (TRANS ("peak %1"), text (highest->hz, "Hz")), text (highest->amplitude, units.front()) }, corner);
     }
     if (missing == 0) return;
     g.setFont (lookOf (*this).font (11.0f));
     g.setColour (theme().warning);
-    g.drawText (juce::String (missing) + " missed ticks", area.reduced (8.0f, 4.0f).removeFromTop (14.0f), juce::Justification::topLeft, false);
+    g.drawText (filled (missing == 1 ? TRANS ("%1 missed tick") : TRANS ("%1 missed ticks"), missing), area.reduced (8.0f, 4.0f).removeFromTop (14.0f),
+                juce::Justification::topLeft, false);
 }
 
 juce::String SpectrumPlot::emptyText() const
 {
-    return spec.ports.empty() ? "Select a wire and press P, or click + above, to plot its spectrum" : not_run_yet;
+    return spec.ports.empty() ? TRANS ("Select a wire and press P, or click + above, to plot its spectrum") : juce::translate (not_run_yet);
 }
 
 }   // namespace tactus::host

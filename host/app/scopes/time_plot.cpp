@@ -2,6 +2,7 @@
 #include "time_plot.hpp"
 
 #include <host/app/model/with_prefix.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <cmath>
 
@@ -15,10 +16,10 @@ constexpr float grip = 8.0f;
 
 using Edge = ScopeTrigger::Edge;
 
-const char* textOf (Edge e)
+juce::String textOf (Edge e)
 {
-    if (e == Edge::off) return "trigger off";
-    return e == Edge::rising ? "trigger rising" : "trigger falling";
+    if (e == Edge::off) return TRANS ("trigger off");
+    return e == Edge::rising ? TRANS ("trigger rising") : TRANS ("trigger falling");
 }
 
 Edge nextOf (Edge e)
@@ -84,8 +85,8 @@ std::vector<ScopePlot::Action> TimePlot::actions()
         edge = nextOf (edge);
         if (context.onChange) context.onChange();
     };
-    return { lengthAction ({ 5e-3, 10e-3, 20e-3, 50e-3, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0 }, "Length of the window; the wheel changes it too"),
-             { textOf (spec.trigger.edge), "Trigger on an edge of the first trace; drag the marker to set the level", next } };
+    return { lengthAction ({ 5e-3, 10e-3, 20e-3, 50e-3, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0 }, TRANS ("Length of the window; the wheel changes it too")),
+             { textOf (spec.trigger.edge), TRANS ("Trigger on an edge of the first trace; drag the marker to set the level"), next } };
 }
 
 void TimePlot::mouseDown (const juce::MouseEvent& e)
@@ -141,12 +142,12 @@ void TimePlot::paintOver (juce::Graphics& g)
     if (seen.trigger) return;
     g.setFont (lookOf (*this).font (11.0f));
     g.setColour (theme().warning);
-    g.drawText ("waiting for trigger", lane.area.reduced (8.0f, 4.0f).removeFromBottom (14.0f), juce::Justification::bottomLeft, false);
+    g.drawText (TRANS ("waiting for trigger"), lane.area.reduced (8.0f, 4.0f).removeFromBottom (14.0f), juce::Justification::bottomLeft, false);
 }
 
 juce::String TimePlot::emptyText() const
 {
-    return spec.ports.empty() ? "Select a wire and press P, or click + above, to plot its signal over time" : not_run_yet;
+    return spec.ports.empty() ? TRANS ("Select a wire and press P, or click + above, to plot its signal over time") : juce::translate (not_run_yet);
 }
 
 }   // namespace tactus::host

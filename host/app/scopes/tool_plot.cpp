@@ -2,6 +2,7 @@
 #include "tool_plot.hpp"
 
 #include <host/app/model/with_prefix.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <cmath>
 
@@ -132,18 +133,18 @@ void ToolPlot::paintOver (juce::Graphics& g)
     auto area = getLocalBounds().toFloat().reduced (8.0f, 6.0f);
     auto line = area.removeFromTop (16.0f);
     g.setFont (look.font (12.0f, true));
-    const auto draw = [&] (const char* state, juce::Colour colour) {
+    const auto draw = [&] (const juce::String& state, juce::Colour colour) {
         g.setColour (colour);
         g.drawText (state, line, juce::Justification::centredLeft, true);
     };
     if (p.state < 0)
-        draw ("fault: an input is not a number", theme().stop);
+        draw (TRANS ("fault: an input is not a number"), theme().stop);
     else if (p.state == 0)
-        draw ("no contact", theme().dim);
+        draw (TRANS ("no contact"), theme().dim);
     else if (p.state == 1)
-        draw ("stuck: the anchor rests", theme().of (Quantity::length));
+        draw (TRANS ("stuck: the anchor rests"), theme().of (Quantity::length));
     else
-        draw ("sliding: the anchor is dragged", theme().of (Quantity::force));
+        draw (TRANS ("sliding: the anchor is dragged"), theme().of (Quantity::force));
 
     const auto text = [] (double v, const char* unit) { return juce::String::fromUTF8 (withPrefix (v, unit).c_str()); };
     if (p.touches())
@@ -159,7 +160,7 @@ void ToolPlot::paintOver (juce::Graphics& g)
 
 juce::String ToolPlot::emptyText() const
 {
-    return spec.node.empty() ? "No friction node. Add friction.elasto_plastic to see its anchor and bristle here" : not_run_yet;
+    return spec.node.empty() ? TRANS ("No friction node. Add friction.elasto_plastic to see its anchor and bristle here") : juce::translate (not_run_yet);
 }
 
 }   // namespace tactus::host

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trace_file.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <limits>
 
 namespace tactus::host
@@ -19,7 +21,9 @@ Result<> writeTraces (const std::filesystem::path& path, const TraceList& all)
         begin = std::min (begin, t->begin());
         end = std::max (end, t->end());
     }
-    if (traces.empty()) return Message::error ("scope/nothing", path.string(), "there is nothing to save yet", "run the graph first");
+    if (traces.empty())
+        return Message::error ("scope/nothing", path.string(), TRANS ("there is nothing to save yet").toStdString(),
+                               TRANS ("run the graph first").toStdString());
 
     auto writer = TableWriter::create (path, columns);
     if (! writer) return writer.error();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "recovery.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <tactus/file/graph_file.hpp>
 #include <tactus/file/text_file.hpp>
 
@@ -34,20 +36,20 @@ std::string textAt (const Json& object, const char* key)
     return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-std::string howLongAgo (double seconds)
+juce::String howLongAgo (double seconds)
 {
-    const auto count = [] (double n, const char* unit) { return std::to_string (static_cast<long long> (std::max (0.0, std::floor (n)))) + ' ' + unit; };
-    if (seconds < 120.0) return count (seconds, "s");
-    if (seconds < 7200.0) return count (seconds / 60.0, "min");
-    if (seconds < 172800.0) return count (seconds / 3600.0, "hours");
-    return count (seconds / 86400.0, "days");
+    const auto count = [] (double n, const juce::String& text) { return filled (text, static_cast<long long> (std::max (0.0, std::floor (n)))); };
+    if (seconds < 120.0) return count (seconds, TRANS ("%1 s ago"));
+    if (seconds < 7200.0) return count (seconds / 60.0, TRANS ("%1 min ago"));
+    if (seconds < 172800.0) return count (seconds / 3600.0, TRANS ("%1 hours ago"));
+    return count (seconds / 86400.0, TRANS ("%1 days ago"));
 }
 
 std::string nameOf (const AutosavedDocument& d)
 {
     const auto graph = readGraph (d.graph).graph;
     if (! graph.name.empty()) return graph.name;
-    return d.file.empty() ? "Untitled graph" : d.file.stem().string();
+    return d.file.empty() ? TRANS ("Untitled graph").toStdString() : d.file.stem().string();
 }
 }   // namespace
 
@@ -69,7 +71,7 @@ Result<AutosavedDocument> readAutosave (const std::string& text)
 {
     const auto json = Json::tryParse (text).value_or (Json());
     const bool is_whole = json.is_object() && textAt (json, "format") == "tactus-kept" && json.contains ("graph") && json["graph"].is_string();
-    if (! is_whole) return Message::error ("recovery/damaged", {}, "the file is damaged");
+    if (! is_whole) return Message::error ("recovery/damaged", {}, TRANS ("the file is damaged").toStdString());
     AutosavedDocument d { textAt (json, "file"), textAt (json, "preset"), json.value ("changed", Json (true)) == true, 0.0, json["graph"].get<std::string>() };
     if (const auto at = json.find ("at"); at != json.end() && at->is_number()) d.at_s = at->get<double>();
     return d;
@@ -109,7 +111,8 @@ RecoverySession::RecoverySession (const fs::path& home)
     lock = FileLock::take (lockIn (hidden));
     fs::rename (hidden, own, failed);
     if (failed) lock.reset();
-    if (! lock) wrong = "Autosave is off: cannot write to " + own.string() + ". Save often, or set TACTUS_HOME to a writable folder.";
+    if (! lock)
+        wrong = filled (TRANS ("Autosave is off: cannot write to %1. Save often, or set TACTUS_HOME to a writable folder."), own.string()).toStdString();
 }
 
 Result<> RecoverySession::autosave (const AutosavedDocument& d)
@@ -184,21 +187,23 @@ std::vector<CrashedSession> findCrashedSessions (const fs::path& home)
 RecoveryQuestion questionAbout (const CrashedSession& s, double now_s)
 {
     RecoveryQuestion q;
-    q.title = "Tactus closed unexpectedly";
+    q.title = TRANS ("Tactus closed unexpectedly").toStdString();
     if (! s.problem().empty())
     {
         q.can_recover = false;
-        q.text = "The autosaved graph cannot be read: " + s.problem() + ". ";
-        q.text += "Copy " + autosaveIn (s.folder()).string() + " if you want to inspect it.";
+        const auto text = TRANS ("The autosaved graph cannot be read: %1. Copy %2 if you want to inspect it.");
+        q.text = filled (text, s.problem(), autosaveIn (s.folder()).string()).toStdString();
         return q;
     }
     const auto name = "'" + nameOf (s.document()) + "'";
-    const auto ago = howLongAgo (now_s - s.document().at_s) + " ago";
-    q.text = s.document().changed ? name + " has unsaved changes, last autosaved " + ago + "." : name + " was open " + ago + ".";
+    const auto text = s.document().changed ? TRANS ("%1 has unsaved changes, last autosaved %2.") : TRANS ("%1 was open %2.");
+    q.text = filled (text, name, howLongAgo (now_s - s.document().at_s)).toStdString();
     q.safe_first = s.endedInTrial();
     if (q.safe_first)
-        q.text += " Tactus closed soon after the graph was started or changed, so running the graph may crash Tactus again. "
-                  "Look at the graph first; START runs it.";
+        q.text += " "
+                  + TRANS ("Tactus closed soon after the graph was started or changed, so running the graph may crash Tactus again. "
+                           "Look at the graph first; START runs it.")
+                        .toStdString();
     return q;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "settings.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <tactus/file/text_file.hpp>
 
 #include <algorithm>
@@ -82,10 +84,16 @@ ReadSettings readSettings (const std::string& text)
     auto json = Json::tryParse (text).value_or (Json());
     if (! json.is_object())
     {
-        read.problem = "not a JSON object";
+        read.problem = TRANS ("not a JSON object").toStdString();
         return read;
     }
     Reader reader (json);
+    const auto flag = [&] (const char* key, bool& into) {
+        reader.take (key, &Json::is_boolean, [&] (const Json& v) {
+            into = v.get<bool>();
+            return true;
+        });
+    };
     reader.take ("theme", &Json::is_string, [&] (const Json& v) {
         s.light = v == "light";
         return v == "light" || v == "dark";
@@ -96,24 +104,21 @@ ReadSettings readSettings (const std::string& text)
         if (fits) s.scale = scale;
         return fits;
     });
-    reader.take ("welcomed", &Json::is_boolean, [&] (const Json& v) {
-        s.welcomed = v.get<bool>();
-        return true;
+    reader.take ("language", &Json::is_string, [&] (const Json& v) {
+        const auto& language = v.asString();
+        const bool fits = language.empty() || isLanguage (language);
+        if (fits) s.language = language;
+        return fits;
     });
-    reader.take ("scene", &Json::is_boolean, [&] (const Json& v) {
-        s.scene = v.get<bool>();
-        return true;
-    });
+    flag ("welcomed", s.welcomed);
+    flag ("scene", s.scene);
     reader.take ("film_s", &Json::is_number, [&] (const Json& v) {
         const auto seconds = v.get<double>();
         const bool fits = seconds >= 1.0 && seconds <= 120.0;
         if (fits) s.film_s = seconds;
         return fits;
     });
-    reader.take ("fuse", &Json::is_boolean, [&] (const Json& v) {
-        s.fuse = v.get<bool>();
-        return true;
-    });
+    flag ("fuse", s.fuse);
     reader.take ("panels", &Json::is_object, [&] (const Json& v) {
         for (const auto& [name, size] : v.items())
         {
@@ -131,7 +136,7 @@ ReadSettings readSettings (const std::string& text)
         return true;
     });
     if (s.recent.size() > Settings::most_recent) s.recent.resize (Settings::most_recent);
-    if (! reader.wrong.empty()) read.problem = "invalid values for " + reader.wrong;
+    if (! reader.wrong.empty()) read.problem = filled (TRANS ("invalid values for %1"), reader.wrong).toStdString();
     s.others = std::move (json);
     return read;
 }
@@ -141,6 +146,7 @@ std::string writeSettings (const Settings& s)
     Json json {
         { "theme", s.light ? "light" : "dark" },
         { "scale", s.scale },
+        { "language", s.language },
         { "welcomed", s.welcomed },
         { "scene", s.scene },
         { "film_s", s.film_s },
@@ -167,12 +173,18 @@ ReadSettings loadSettings (const fs::path& home)
     aside += ".broken";
     std::error_code failed;
     fs::rename (fileIn (home), aside, failed);
-    read.problem = "The settings file is damaged (" + read.problem + "). Unreadable settings were reset to their defaults.";
-    if (! failed) read.problem += " The damaged file is now " + aside.string() + ".";
+    read.problem = filled (TRANS ("The settings file is damaged (%1). Unreadable settings were reset to their defaults."), read.problem).toStdString();
+    if (! failed) read.problem += " " + filled (TRANS ("The damaged file is now %1."), aside.string()).toStdString();
     return read;
 }
 
 Result<> saveSettings (const Settings& s, const fs::path& home) { return writeTextFile (fileIn (home), writeSettings (s)); }
+
+bool isLanguage (const std::string& code) noexcept
+{
+    const auto fits = [] (char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_'; };
+    return ! code.empty() && code.size() <= 16 && std::ranges::all_of (code, fits);
+}
 
 double automaticScale (int height) noexcept
 {

@@ -19,6 +19,7 @@ struct Settings
 
     bool light = false;
     double scale = 0.0;   ///< scale of the user interface; 0: automatic
+    std::string language;   ///< "de" for the translation in text/de.txt, "en" for English; empty: the language of the system
     bool welcomed = false;
     bool scene = false;                          ///< the hand is shown in space, not from above
     double film_s = 10.0;                        ///< how much of the past a film shows
@@ -49,6 +50,9 @@ ReadSettings loadSettings (const std::filesystem::path& home);
 
 /// Ids: those of writeTextFile. [main thread]
 Result<> saveSettings (const Settings&, const std::filesystem::path& home);
+
+/// True for what can be the name of a translation, such as "de" or "pt-BR".
+bool isLanguage (const std::string&) noexcept;
 
 /// The scale of the user interface on a display with this height in pixels, after the system's own scaling.
 double automaticScale (int height) noexcept;

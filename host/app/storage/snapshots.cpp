@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "snapshots.hpp"
 
+#include <host/app/text/filled.hpp>
+
 #include <algorithm>
 #include <functional>
 
@@ -76,13 +78,13 @@ graph::Command storeSnapshot (const graph::Graph& g, int number)
     auto& all = ui["snapshots"];
     if (! all.is_object()) all = Json::object();
     all[std::to_string (number)] = { { "nodes", valuesOf (g.root) }, { "graphs", std::move (subgraphs) }, { "controls", std::move (controls) } };
-    return graph::Batch { "store snapshot " + std::to_string (number), { graph::SetHeader { .ui = std::move (ui) } } };
+    return graph::Batch { filled (TRANS ("store snapshot %1"), number).toStdString(), { graph::SetHeader { .ui = std::move (ui) } } };
 }
 
 std::optional<graph::Command> recallSnapshot (const graph::Graph& g, int number)
 {
     const auto& then = snapshot (g, number);
-    graph::Batch batch { "snapshot " + std::to_string (number), {} };
+    graph::Batch batch { filled (TRANS ("snapshot %1"), number).toStdString(), {} };
     recall (g.root, {}, at (then, "nodes"), batch.commands);
     for (const auto& [name, patch] : g.graphs)
         recall (patch, name, at (at (then, "graphs"), name), batch.commands);

@@ -3,6 +3,7 @@
 
 #include <host/app/model/message_text.hpp>
 #include <host/app/scopes/scope_ports.hpp>
+#include <host/app/text/filled.hpp>
 #include <host/io/stretch_files.hpp>
 #include <tactus/run/log/run_test.hpp>
 #include <tactus/text/quote.hpp>
@@ -14,7 +15,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr auto how_to = "Press Record, move, and press Stop. Then mark a stretch of the curve, and make a clip, a gesture or a test of it.";
+constexpr auto how_to = NEEDS_TRANS ("Press Record, move, and press Stop. Then mark a stretch of the curve, and make a clip, a gesture or a test of it.");
 
 /// A time that was typed, in s; the old one if it is not a number.
 double secondsIn (const juce::String& text, double before)
@@ -26,25 +27,25 @@ double secondsIn (const juce::String& text, double before)
 
 TakePanel::TakePanel (Document& d, Playback& p, const Catalogue& c) : document (d), catalogue (c), recording (p)
 {
-    setTitle ("Take");
+    setTitle (TRANS ("Take"));
     record.setColour ([] (const Theme& t) { return t.stop; });
     record.onClick = [this] { toggleRecording(); };
     clip.onClick = [this] { makeClip(); };
     gesture.onClick = [this] { makeGesture(); };
     test.onClick = [this] { makeTest(); };
-    ports.setTitle ("Port to show");
-    ports.setTooltip ("The port that the curve shows, and that a clip plays");
+    ports.setTitle (TRANS ("Port to show"));
+    ports.setTooltip (TRANS ("The port that the curve shows, and that a clip plays"));
     ports.onChange = [this] {
         if (const int i = ports.getSelectedItemIndex(); i >= 0 && i < static_cast<int> (names.size())) showPort (names[static_cast<std::size_t> (i)]);
     };
-    from.setTitle ("Start of the stretch in s");
-    until.setTitle ("End of the stretch in s");
+    from.setTitle (TRANS ("Start of the stretch in s"));
+    until.setTitle (TRANS ("End of the stretch in s"));
     from.onApply = until.onApply = [this] (const juce::String&) { applyFields(); };
     curve.onMark = [this] { showMark(); };
     curve.onHint = [this] (const juce::String& text) {
         if (onHint) onHint (text);
     };
-    curve.setText (how_to);
+    curve.setText (juce::translate (how_to));
     recording.onRecorded = [this] { readPort(); };
     for (auto* child : std::initializer_list<juce::Component*> { &curve, &record, &ports, &from, &until, &clip, &gesture, &test })
         addAndMakeVisible (child);
@@ -109,7 +110,7 @@ StretchReader::Options TakePanel::marked() const { return { .from_s = curve.from
 
 void TakePanel::refuse (const Message& m)
 {
-    if (onSaid) onSaid ("This did not work", juce::String (messageText (m)) + ".");
+    if (onSaid) onSaid (TRANS ("This did not work"), juce::String (messageText (m)) + ".");
 }
 
 void TakePanel::makeClip()
@@ -134,8 +135,8 @@ void TakePanel::makeGesture()
         onChoose ("gesture.csv", [this, stretch = std::make_shared<Stretch> (std::move (*read))] (const std::filesystem::path& to) {
             if (const auto saved = saveMovement (*stretch, to); ! saved) return refuse (saved.error());
             if (onSaid)
-                onSaid ("Saved " + juce::String (printableName (to.filename().string())),
-                        "To let a simulated hand follow it, drop the file on the panel of the hand at the lower left.");
+                onSaid (filled (TRANS ("Saved %1"), printableName (to.filename().string())),
+                        TRANS ("To let a simulated hand follow it, drop the file on the panel of the hand at the lower left."));
         });
     });
 }
@@ -148,11 +149,12 @@ void TakePanel::makeTest()
         onChoose ("test.jsonl", [this, stretch = std::make_shared<Stretch> (std::move (*read))] (const std::filesystem::path& to) {
             if (const auto saved = writeRunTest (recording.log().string(), to, *stretch, {}, recording.program); ! saved) return refuse (saved.error());
             const auto name = juce::String (printableName (to.filename().string()));
-            juce::String text = "`tactus test " + name + "` plays the run again and compares " + juce::String (stretch->ticks()) + " ticks, bit for bit.";
+            auto text = filled (TRANS ("`tactus test %1` plays the run again and compares %2 ticks, bit for bit."), name, stretch->ticks());
             if (stretch->from > 0)
-                text << " The test begins at the start of the run, because the state of the nodes is known there; it compares from "
-                     << juce::String (curve.from(), 3) << " s on.";
-            if (onSaid) onSaid ("Saved " + name, text);
+                text << " "
+                     << filled (TRANS ("The test begins at the start of the run, because the state of the nodes is known there; it compares from %1 s on."),
+                                juce::String (curve.from(), 3));
+            if (onSaid) onSaid (filled (TRANS ("Saved %1"), name), text);
         });
     });
 }
@@ -174,11 +176,11 @@ juce::String TakePanel::statusText() const
     switch (recording.state())
     {
     case Take::State::recording:
-        return "Recording: " + juce::String (recording.seconds(), 1) + " s of at most " + juce::String (juce::roundToInt (Take::longest_s)) + " s";
+        return filled (TRANS ("Recording: %1 s of at most %2 s"), juce::String (recording.seconds(), 1), juce::roundToInt (Take::longest_s));
     case Take::State::reading:
-        return "Playing the recording again ...";
+        return TRANS ("Playing the recording again ...");
     case Take::State::ready:
-        return juce::String (curve.until() - curve.from(), 3) + " s marked";
+        return filled (TRANS ("%1 s marked"), juce::String (curve.until() - curve.from(), 3));
     default:
         return {};
     }
@@ -191,15 +193,15 @@ void TakePanel::refresh()
     const auto now = recording.state();
     const bool records = now == Take::State::recording, is_ready = now == Take::State::ready && curve.until() > curve.from();
     record.setToggleState (records, juce::dontSendNotification);
-    record.setButtonText (records ? "Stop" : "Record");
+    record.setButtonText (records ? TRANS ("Stop") : TRANS ("Record"));
     for (auto* b : { &clip, &test })
         b->setEnabled (is_ready);
     gesture.setEnabled (is_ready && ! recording.role().empty());
     for (auto* f : { &from, &until })
         f->setEnabled (curve.length() > 0.0);
     const bool has_curve = curve.length() > 0.0;
-    const auto waiting = records ? juce::String ("Recording. Move, and press Stop when you are done.") : juce::String (how_to);
-    if (! has_curve) curve.setText (now == Take::State::reading ? juce::String ("Playing the recording again ...") : waiting);
+    const auto waiting = records ? TRANS ("Recording. Move, and press Stop when you are done.") : juce::translate (how_to);
+    if (! has_curve) curve.setText (now == Take::State::reading ? TRANS ("Playing the recording again ...") : waiting);
     if (records || now != before) repaint();
 }
 
@@ -214,8 +216,8 @@ void TakePanel::paint (juce::Graphics& g)
     const auto label = [&] (const juce::String& text, const juce::Component& field) {
         g.drawText (text, field.getX() - 44, field.getY(), 40, field.getHeight(), juce::Justification::centredRight, false);
     };
-    label ("from", from);
-    label ("until", until);
+    label (TRANS ("from"), from);
+    label (TRANS ("until"), until);
     g.drawText ("s", until.getRight() + 4, until.getY(), 12, until.getHeight(), juce::Justification::centredLeft, false);
 }
 

@@ -6,6 +6,7 @@
 
 #include <host/app/inspector/fields.hpp>
 #include <host/app/inspector/tool_button.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/kit/clip.hpp>
 
 namespace tactus::host
@@ -55,13 +56,13 @@ private:
     const Catalogue& catalogue;
     Take recording;
     TakePlot curve;
-    ToolButton record { "Record", ToolButton::Kind::toggle, "Start the run again and record it, from its first tick on" };
-    ToolButton clip { "Make a clip...", ToolButton::Kind::framed, "Save the marked stretch of this port as a clip that signal.clip plays" };
-    ToolButton gesture { "Make a gesture...", ToolButton::Kind::framed,
-                         "Save the movement of the hand in the marked stretch as a path that a simulated hand follows" };
-    ToolButton test { "Make a test...", ToolButton::Kind::framed,
-                      "Save a test that plays this run again and compares the marked stretch, bit for bit. It begins at the start of the run, "
-                      "because the state of the nodes is known there." };
+    ToolButton record { TRANS ("Record"), ToolButton::Kind::toggle, TRANS ("Start the run again and record it, from its first tick on") };
+    ToolButton clip { TRANS ("Make a clip..."), ToolButton::Kind::framed, TRANS ("Save the marked stretch of this port as a clip that signal.clip plays") };
+    ToolButton gesture { TRANS ("Make a gesture..."), ToolButton::Kind::framed,
+                         TRANS ("Save the movement of the hand in the marked stretch as a path that a simulated hand follows") };
+    ToolButton test { TRANS ("Make a test..."), ToolButton::Kind::framed,
+                      TRANS ("Save a test that plays this run again and compares the marked stretch, bit for bit. It begins at the start of the run, "
+                             "because the state of the nodes is known there.") };
     juce::ComboBox ports;
     TextField from, until;
     std::vector<std::string> names;   // of the ports to choose from

@@ -3,6 +3,7 @@
 
 #include <host/app/look/component_colour.hpp>
 #include <host/app/model/with_prefix.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ constexpr double key_step = 0.01;   // s
 
 TakePlot::TakePlot()
 {
-    setTitle ("Recording; arrow keys move the stretch, with Shift its end");
+    setTitle (TRANS ("Recording; arrow keys move the stretch, with Shift its end"));
     setWantsKeyboardFocus (true);
 }
 
@@ -194,7 +195,7 @@ void TakePlot::mouseDoubleClick (const juce::MouseEvent&) { mark (0.0, length())
 void TakePlot::mouseMove (const juce::MouseEvent& e)
 {
     const bool on_edge = shown.ticks() > 0 && edgeAt (e.position.x) != Edge::none;
-    if (onHint && shown.ticks() > 0) onHint ("Drag to mark a stretch, or to move its edge. Double-click to mark all. The arrow keys move the stretch.");
+    if (onHint && shown.ticks() > 0) onHint (TRANS ("Drag to mark a stretch, or to move its edge. Double-click to mark all. The arrow keys move the stretch."));
     setMouseCursor (on_edge ? juce::MouseCursor::LeftRightResizeCursor : juce::MouseCursor::NormalCursor);
 }
 

@@ -3,6 +3,7 @@
 
 #include <host/app/model/face.hpp>
 #include <host/app/model/wire_rules.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <algorithm>
 
@@ -82,7 +83,7 @@ constexpr const char* subject = "node";
 graph::Graph exampleOf (const NodeType& type, const Catalogue& catalogue)
 {
     Builder b (catalogue);
-    b.graph.name = "Example of " + std::string (type.info.id);
+    b.graph.name = filled (TRANS ("Example of %1"), type.info.id).toStdString();
     b.graph.about = std::string (type.info.summary);
     const Json hand { { "stiffness", "600 N/m" }, { "damping", "6 N*s/m" }, { "path", "stroke" } };
     const Json guard { { "max_force", "6 N" } };

@@ -9,6 +9,7 @@
 #include <host/app/model/node_doc.hpp>
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/model/readable.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <tactus/text/number_text.hpp>
 
@@ -23,9 +24,10 @@ namespace tactus::host
 namespace
 {
 constexpr int bar_height = 56;
-constexpr auto subgraph_help = "A subgraph: nodes and wires in a box. Double-click to enter it; the bar above the canvas leads back out.";
-constexpr auto placeholder_help = "This node type is not installed. The node is a placeholder that keeps its params and wires, and outputs 0. It works "
-                                  "again once the type is installed.";
+constexpr auto subgraph_help = NEEDS_TRANS ("A subgraph: nodes and wires in a box. Double-click to enter it; the bar above the canvas leads back out.");
+constexpr auto placeholder_help =
+    NEEDS_TRANS ("This node type is not installed. The node is a placeholder that keeps its params and wires, and outputs 0. It works "
+                 "again once the type is installed.");
 
 juce::String text (std::string_view s) { return juce::String (std::string (s)); }
 
@@ -34,15 +36,15 @@ juce::String unitText (const UnitRule& u)
     switch (u.kind)
     {
     case UnitRule::Kind::fixed:
-        return u.unit.symbol == "1" ? juce::String ("no unit") : fromUtf8 (unitShown (std::string (u.unit.symbol)));
+        return u.unit.symbol == "1" ? TRANS ("no unit") : fromUtf8 (unitShown (std::string (u.unit.symbol)));
     case UnitRule::Kind::open:
-        return "unit of the wired port";
+        return TRANS ("unit of the wired port");
     case UnitRule::Kind::each:
-        return "each entry has the unit of the port wired to it";
+        return TRANS ("each entry has the unit of the port wired to it");
     case UnitRule::Kind::same:
-        return "unit of " + text (u.a);
+        return filled (TRANS ("unit of %1"), u.a);
     case UnitRule::Kind::product:
-        return u.b.empty() ? "product of the units of " + text (u.a) : "unit of " + text (u.a) + " times " + text (u.b);
+        return u.b.empty() ? filled (TRANS ("product of the units of %1"), u.a) : filled (TRANS ("unit of %1 times %2"), u.a, u.b);
     }
     return {};
 }
@@ -50,9 +52,9 @@ juce::String unitText (const UnitRule& u)
 juce::String rangeText (const Interval& i, std::string_view symbol)
 {
     if (std::isinf (i.min) && std::isinf (i.max)) return {};
-    if (std::isinf (i.max)) return "at least " + text (shownQuantity (i.min, symbol));
-    if (std::isinf (i.min)) return "at most " + text (shownQuantity (i.max, symbol));
-    return text (shownQuantity (i.min, symbol)) + " to " + text (shownQuantity (i.max, symbol));
+    if (std::isinf (i.max)) return filled (TRANS ("at least %1"), shownQuantity (i.min, symbol));
+    if (std::isinf (i.min)) return filled (TRANS ("at most %1"), shownQuantity (i.max, symbol));
+    return filled (TRANS ("%1 to %2"), shownQuantity (i.min, symbol), shownQuantity (i.max, symbol));
 }
 
 juce::String about (const PortSheet& p)
@@ -63,22 +65,23 @@ juce::String about (const PortSheet& p)
         juce::StringArray names;
         for (const auto c : p.choices)
             names.add (text (c));
-        parts.add ("one of " + names.joinIntoString (", "));
+        parts.add (filled (TRANS ("one of %1"), names.joinIntoString (", ")));
     }
     else
     {
-        parts.add ((p.width == 3 ? "vector, " : "") + unitText (p.unit));
+        parts.add ((p.width == 3 ? TRANS ("vector") + ", " : juce::String()) + unitText (p.unit));
         if (p.role == Role::param)
         {
             const auto symbol = p.unit.kind == UnitRule::Kind::fixed ? p.unit.unit.symbol : std::string_view {};
-            auto initial = "default " + text (p.width == 3 ? numberText (p.initial[0]) : shownQuantity (p.initial[0], symbol));
+            auto initial = text (p.width == 3 ? numberText (p.initial[0]) : shownQuantity (p.initial[0], symbol));
             if (p.width == 3) initial << " " << text (numberText (p.initial[1])) << " " << text (numberText (p.initial[2]));
-            parts.add (initial);
-            if (const auto usual = rangeText (p.limits.usual, symbol); usual.isNotEmpty()) parts.add ("usually " + usual);
-            if (const auto hard = rangeText (p.limits.hard, symbol); hard.isNotEmpty() && p.limits.hard != p.limits.usual) parts.add ("must be " + hard);
+            parts.add (filled (TRANS ("default %1"), initial));
+            if (const auto usual = rangeText (p.limits.usual, symbol); usual.isNotEmpty()) parts.add (filled (TRANS ("usually %1"), usual));
+            if (const auto hard = rangeText (p.limits.hard, symbol); hard.isNotEmpty() && p.limits.hard != p.limits.usual)
+                parts.add (filled (TRANS ("must be %1"), hard));
         }
     }
-    if (p.limits.latch) parts.add ("read at the start of contact");
+    if (p.limits.latch) parts.add (TRANS ("read at the start of contact"));
     parts.removeEmptyStrings();
     return parts.joinIntoString ("; ");
 }
@@ -111,7 +114,7 @@ private:
     juce::String name, details, sentence;
 };
 
-void addPorts (Column& column, const char* heading, const std::vector<PortSheet>& ports)
+void addPorts (Column& column, const juce::String& heading, const std::vector<PortSheet>& ports)
 {
     if (ports.empty()) return;
     column.add (heading, TextBlock::Kind::heading);
@@ -121,22 +124,23 @@ void addPorts (Column& column, const char* heading, const std::vector<PortSheet>
 
 using Keys = std::pair<const char*, const char*>;
 constexpr std::array key_list {
-    Keys { "Esc", "closes what is open, such as a menu or a field; if nothing is, or a real device runs, ramps all forces to zero" },
-    Keys { "Shift+Esc", "emergency stop: no forces until REARM, while the graph keeps running" },
-    Keys { "1 ... 9", "recalls a snapshot; with Ctrl, stores it" },
-    Keys { "Ctrl+N, Ctrl+O, Ctrl+S, Ctrl+Shift+S", "new, open, save, save as" },
-    Keys { "Z", "gives the window to the canvas, or brings the panels back" },
-    Keys { "H", "holds the tool pressed where it is, or releases it" },
-    Keys { "X", "freezes or unfreezes all scopes" },
-    Keys { "C", "shows the CPU cost of each node" },
-    Keys { "F1 or ?", "help on the selected node, or this list" },
+    Keys { NEEDS_TRANS ("Esc"),
+           NEEDS_TRANS ("closes what is open, such as a menu or a field; if nothing is, or a real device runs, ramps all forces to zero") },
+    Keys { NEEDS_TRANS ("Shift+Esc"), NEEDS_TRANS ("emergency stop: no forces until REARM, while the graph keeps running") },
+    Keys { NEEDS_TRANS ("1 ... 9"), NEEDS_TRANS ("recalls a snapshot; with Ctrl, stores it") },
+    Keys { NEEDS_TRANS ("Ctrl+N, Ctrl+O, Ctrl+S, Ctrl+Shift+S"), NEEDS_TRANS ("new, open, save, save as") },
+    Keys { NEEDS_TRANS ("Z"), NEEDS_TRANS ("gives the window to the canvas, or brings the panels back") },
+    Keys { NEEDS_TRANS ("H"), NEEDS_TRANS ("holds the tool pressed where it is, or releases it") },
+    Keys { NEEDS_TRANS ("X"), NEEDS_TRANS ("freezes or unfreezes all scopes") },
+    Keys { NEEDS_TRANS ("C"), NEEDS_TRANS ("shows the CPU cost of each node") },
+    Keys { NEEDS_TRANS ("F1 or ?"), NEEDS_TRANS ("help on the selected node, or this list") },
 };
 constexpr std::array mouse_list {
-    Keys { "drag on a number", "changes it, with Shift in fine steps; double-click to type a value with its unit" },
-    Keys { "drag from a port", "draws a wire: matching ports light up; drop it on the canvas to add a matching node" },
-    Keys { "double-click on the canvas", "adds a node there" },
-    Keys { "middle or right button, wheel", "the buttons pan, the wheel zooms at the pointer; a right click opens the menu" },
-    Keys { "press on the surface below", "moves the tool with the mouse as your hand; the arrow is the force on it" },
+    Keys { NEEDS_TRANS ("drag on a number"), NEEDS_TRANS ("changes it, with Shift in fine steps; double-click to type a value with its unit") },
+    Keys { NEEDS_TRANS ("drag from a port"), NEEDS_TRANS ("draws a wire: matching ports light up; drop it on the canvas to add a matching node") },
+    Keys { NEEDS_TRANS ("double-click on the canvas"), NEEDS_TRANS ("adds a node there") },
+    Keys { NEEDS_TRANS ("middle or right button, wheel"), NEEDS_TRANS ("the buttons pan, the wheel zooms at the pointer; a right click opens the menu") },
+    Keys { NEEDS_TRANS ("press on the surface below"), NEEDS_TRANS ("moves the tool with the mouse as your hand; the arrow is the force on it") },
 };
 
 /// Adds the documentation from a node header, with its layout.
@@ -169,9 +173,9 @@ void addDoc (Column& column, std::span<const DocPart> parts)
 
 HelpPanel::HelpPanel (const Catalogue& c) : catalogue (c)
 {
-    setTitle ("Help");
+    setTitle (TRANS ("Help"));
     setVisible (false);
-    scroll.setTitle ("Help text");
+    scroll.setTitle (TRANS ("Help text"));
     scroll.setScrollBarsShown (true, false);
     scroll.setScrollBarThickness (8);
     addAndMakeVisible (scroll);
@@ -195,7 +199,7 @@ void HelpPanel::showNode (const std::string& type)
     {
         const bool is_subgraph = type.starts_with ("graph:") || type.starts_with ("file:");
         made->add (juce::String (type), TextBlock::Kind::title);
-        made->add (is_subgraph ? subgraph_help : placeholder_help, TextBlock::Kind::text);
+        made->add (juce::translate (is_subgraph ? subgraph_help : placeholder_help), TextBlock::Kind::text);
     }
     else
     {
@@ -205,15 +209,15 @@ void HelpPanel::showNode (const std::string& type)
         const auto doc = docOf (node->info.id);
         const auto source = std::ranges::find_if (doc, [] (const DocPart& p) { return p.text.starts_with ("Source:"); });
         addDoc (*made, { doc.begin(), source });
-        addPorts (*made, "Inputs", node->inputs);
-        addPorts (*made, "Parameters", node->params);
+        addPorts (*made, TRANS ("Inputs"), node->inputs);
+        addPorts (*made, TRANS ("Parameters"), node->params);
         if (! node->settings.empty())
         {
-            made->add ("Settings, fixed during a run", TextBlock::Kind::heading);
+            made->add (TRANS ("Settings, fixed during a run"), TextBlock::Kind::heading);
             for (const auto& s : node->settings)
                 made->add (std::make_unique<PortLine> (text (nameWithId (s.id)), text (tactus::name (s.kind)), text (s.about)));
         }
-        addPorts (*made, "Outputs", node->outputs);
+        addPorts (*made, TRANS ("Outputs"), node->outputs);
         addDoc (*made, { source, doc.end() });
     }
     shown_type = type;
@@ -225,22 +229,22 @@ void HelpPanel::showNode (const std::string& type)
 void HelpPanel::showKeys()
 {
     auto made = std::make_unique<Column>();
-    made->add ("Keyboard shortcuts", TextBlock::Kind::title);
+    made->add (TRANS ("Keyboard shortcuts"), TextBlock::Kind::title);
     for (const auto& [key, does] : key_list)
-        made->add (std::make_unique<PortLine> (key, does, juce::String()));
-    made->add ("On the canvas", TextBlock::Kind::heading);
+        made->add (std::make_unique<PortLine> (juce::translate (key), juce::translate (does), juce::String()));
+    made->add (TRANS ("On the canvas"), TextBlock::Kind::heading);
     for (const auto& c : canvasCommands())
     {
         juce::StringArray names;
         for (const auto& k : juce::StringArray::fromTokens (c.keys, "|", {}))
             names.add (keyText (k));
-        if (names.isEmpty()) names.add ("menu");
-        made->add (std::make_unique<PortLine> (names.joinIntoString (", "), juce::String (c.name), juce::String()));
+        if (names.isEmpty()) names.add (TRANS ("menu"));
+        made->add (std::make_unique<PortLine> (names.joinIntoString (", "), juce::translate (c.name), juce::String()));
     }
-    made->add ("Mouse", TextBlock::Kind::heading);
+    made->add (TRANS ("Mouse"), TextBlock::Kind::heading);
     for (const auto& [way, does] : mouse_list)
-        made->add (std::make_unique<PortLine> (way, does, juce::String()));
-    made->add ("Select a node and press F1 to read what it does.", TextBlock::Kind::small);
+        made->add (std::make_unique<PortLine> (juce::translate (way), juce::translate (does), juce::String()));
+    made->add (TRANS ("Select a node and press F1 to read what it does."), TextBlock::Kind::small);
     shown_type.clear();
     example.setVisible (false);
     keys.setVisible (false);

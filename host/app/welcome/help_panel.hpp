@@ -3,6 +3,7 @@
 
 #include <host/app/inspector/block.hpp>
 #include <host/app/look/plain_button.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/node/catalogue.hpp>
 
 #include <functional>
@@ -41,7 +42,7 @@ private:
     std::string shown_type;
     std::unique_ptr<Column> column;
     juce::Viewport scroll;
-    PlainButton example { "Open example" }, keys { "Keyboard shortcuts" }, done { "Close" };
+    PlainButton example { TRANS ("Open example") }, keys { TRANS ("Keyboard shortcuts") }, done { TRANS ("Close") };
 };
 
 }   // namespace tactus::host

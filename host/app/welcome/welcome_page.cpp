@@ -2,6 +2,7 @@
 #include "welcome_page.hpp"
 
 #include <host/app/presets/fitted_text.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <algorithm>
 #include <array>
@@ -69,7 +70,7 @@ public:
         {
             g.setColour (theme.accent);
             g.setFont (look.font (12.0f, true));
-            g.drawText ("Feel it", top, juce::Justification::centredRight, false);
+            g.drawText (TRANS ("Feel it"), top, juce::Justification::centredRight, false);
         }
         const int lines = inside.getHeight() > 100 ? 3 : 2;
         drawFittedText (g, firstSentence (preset.about), look.font (12.0f), theme.dim, inside.removeFromTop (lines * line_height));
@@ -100,7 +101,7 @@ public:
 
 WelcomePage::WelcomePage (PictureStore& p) : pictures (p)
 {
-    setTitle ("Welcome");
+    setTitle (TRANS ("Welcome"));
     create.onClick = [this] {
         if (onNew) onNew();
     };
@@ -180,14 +181,14 @@ void WelcomePage::paint (juce::Graphics& g)
     auto lines = title;
     g.setColour (theme.text);
     g.setFont (look.font (20.0f, true));
-    g.drawText ("Feel something", lines.removeFromTop (28), juce::Justification::centredLeft, false);
+    g.drawText (TRANS ("Feel something"), lines.removeFromTop (28), juce::Justification::centredLeft, false);
     g.setColour (theme.dim);
     g.setFont (look.font (13.0f));
-    g.drawText (all.empty() ? "No presets found next to the program. Set TACTUS_PRESETS to their folder, or start with an empty graph."
-                            : "Click a preset to run it with the mouse as your hand: press on the surface below and drag.",
+    g.drawText (all.empty() ? TRANS ("No presets found next to the program. Set TACTUS_PRESETS to their folder, or start with an empty graph.")
+                            : TRANS ("Click a preset to run it with the mouse as your hand: press on the surface below and drag."),
                 lines.removeFromTop (20), juce::Justification::centredLeft, true);
     if (recent_title.isEmpty()) return;
-    g.drawText ("Recent", recent_title, juce::Justification::centredLeft, false);
+    g.drawText (TRANS ("Recent"), recent_title, juce::Justification::centredLeft, false);
 }
 
 }   // namespace tactus::host

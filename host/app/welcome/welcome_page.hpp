@@ -4,6 +4,7 @@
 #include <host/app/look/plain_button.hpp>
 #include <host/app/presets/picture_store.hpp>
 #include <host/app/presets/preset_list.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <functional>
 
@@ -39,7 +40,7 @@ private:
     std::vector<std::unique_ptr<Card>> all;
     std::vector<std::unique_ptr<RecentFile>> files;
     juce::Rectangle<int> title, recent_title;
-    PlainButton create { "New empty graph" }, open { "Open ..." };
+    PlainButton create { TRANS ("New empty graph") }, open { TRANS ("Open ...") };
 };
 
 /// The presets to start with, as different from each other as possible.

@@ -5,6 +5,7 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/presets/preset_list.hpp>
 #include <host/app/storage/carry_files.hpp>
+#include <host/app/text/filled.hpp>
 #include <host/io/clip_io.hpp>
 
 #include <tactus/file/graph_file.hpp>
@@ -27,10 +28,10 @@ juce::String errorList (const Messages& messages, const fs::path& file)
     {
         if (m.severity != Message::Severity::error || ++count > most) continue;
         if (m.file != file.string()) list << printableName (m.file) << ": ";
-        if (m.line > 0) list << "Line " << m.line << ", column " << m.column << ": ";
+        if (m.line > 0) list << filled (TRANS ("Line %1, column %2"), m.line, m.column) << ": ";
         list << messageText (m) << ".\n\n";
     }
-    if (count > most) list << "There are " << count - most << " more errors.\n\n";
+    if (count > most) list << filled (TRANS ("There are %1 more errors."), count - most) << "\n\n";
     return list;
 }
 }   // namespace
@@ -54,21 +55,21 @@ void Files::beginSession (const fs::path& h)
 std::string Files::name() const
 {
     if (! document.graph().name.empty()) return printableName (document.graph().name);
-    return document.file().empty() ? "Untitled graph" : printableName (document.file().stem().string());
+    return document.file().empty() ? TRANS ("Untitled graph").toStdString() : printableName (document.file().stem().string());
 }
 
 //==============================================================================
-void Files::whenSaved (const juce::String& why, std::function<void()> act)
+void Files::whenSaved (const juce::String& asked, std::function<void()> act)
 {
     while (question.isOpen())
         question.cancel();
     if (! document.isChanged()) return act();
-    const auto text = document.file().empty() ? juce::String ("The graph has no file yet. You will be asked where to save it.")
-                                              : "Saving overwrites " + juce::String (document.file().string()) + ".";
-    question.ask ("Save changes to '" + juce::String (name()) + "' " + why + "?", text,
-                  { { "Save", [this, act] { save (act); } },
-                    { "Don't save", act },
-                    { "Cancel", {} } });
+    const auto text = document.file().empty() ? TRANS ("The graph has no file yet. You will be asked where to save it.")
+                                              : filled (TRANS ("Saving overwrites %1."), document.file().string());
+    question.ask (filled (asked, name()), text,
+                  { { TRANS ("Save"), [this, act] { save (act); } },
+                    { TRANS ("Don't save"), act },
+                    { TRANS ("Cancel"), {} } });
 }
 
 void Files::show (graph::Graph g, Document::Source source, const std::string& step, bool runs, bool by_pointer)
@@ -81,15 +82,15 @@ void Files::show (graph::Graph g, Document::Source source, const std::string& st
 
 void Files::create()
 {
-    whenSaved ("before creating a new graph", [this] {
-        show ({}, {}, "new graph", false, false);
-        callbacks.notify ("New graph. Press Space or double-click the canvas to add a node.");
+    whenSaved (TRANS ("Save changes to '%1' before creating a new graph?"), [this] {
+        show ({}, {}, NEEDS_TRANS ("new graph"), false, false);
+        callbacks.notify (TRANS ("New graph. Press Space or double-click the canvas to add a node."));
     });
 }
 
 void Files::openGraph (graph::Graph g, const std::string& step)
 {
-    whenSaved ("before opening another graph", [this, g = std::move (g), step] { show (g, {}, step, true, false); });
+    whenSaved (TRANS ("Save changes to '%1' before opening another graph?"), [this, g = std::move (g), step] { show (g, {}, step, true, false); });
 }
 
 void Files::load (const fs::path& file, Document::Source source, bool by_pointer)
@@ -104,31 +105,31 @@ void Files::load (const fs::path& file, Document::Source source, bool by_pointer
         callbacks.onSettings();
     }
     const auto called = loaded.graph.name.empty() ? file.stem().string() : loaded.graph.name;
-    show (std::move (loaded.graph), std::move (source), "open " + called, true, by_pointer);
-    callbacks.notify (safe ? juce::String ("Safe mode: nothing runs until you press START.") : juce::String());
+    show (std::move (loaded.graph), std::move (source), filled (TRANS ("open %1"), called).toStdString(), true, by_pointer);
+    callbacks.notify (safe ? TRANS ("Safe mode: nothing runs until you press START.") : juce::String());
 }
 
 void Files::loadClipGraph (const fs::path& file, bool by_pointer)
 {
     const auto clip = loadClip (file);
     if (! clip) return refuse (file, { clip.error() });
-    show (graphOfClip (file), {}, "open the clip " + file.stem().string(), true, by_pointer);
-    callbacks.notify (safe ? "Safe mode: nothing runs until you press START." : "The clip plays over and over on a simulated device.");
+    show (graphOfClip (file), {}, filled (TRANS ("open the clip %1"), file.stem().string()).toStdString(), true, by_pointer);
+    callbacks.notify (safe ? TRANS ("Safe mode: nothing runs until you press START.") : TRANS ("The clip plays over and over on a simulated device."));
 }
 
 /// A dialog, because the reason may be long, and a line at the edge of the window is easily missed by someone who waits for a graph.
 void Files::refuse (const fs::path& file, const Messages& messages)
 {
-    std::vector<Question::Choice> choices { { "Open another file ...", [this] { open(); } } };
+    std::vector<Question::Choice> choices { { TRANS ("Open another file ..."), [this] { open(); } } };
     std::error_code failed;
     if (std::ranges::count (settings.recent, file) > 0 && ! fs::exists (file, failed))
-        choices.push_back ({ "Remove from recent files", [this, file] {
+        choices.push_back ({ TRANS ("Remove from recent files"), [this, file] {
                                 std::erase (settings.recent, file);
                                 callbacks.onSettings();
                             } });
-    choices.push_back ({ "Close", {} });
-    question.ask ("Cannot open " + juce::String (printableName (file.filename().string())), errorList (messages, file) + "The open graph is unchanged.",
-                  std::move (choices));
+    choices.push_back ({ TRANS ("Close"), {} });
+    question.ask (filled (TRANS ("Cannot open %1"), printableName (file.filename().string())),
+                  errorList (messages, file) + TRANS ("The open graph is unchanged."), std::move (choices));
 }
 
 void Files::open()
@@ -143,12 +144,12 @@ void Files::open (const fs::path& file)
 {
     std::error_code failed;
     const auto whole = fs::absolute (file, failed);
-    whenSaved ("before opening another graph", [this, whole] { load (whole, { .file = whole }, false); });
+    whenSaved (TRANS ("Save changes to '%1' before opening another graph?"), [this, whole] { load (whole, { .file = whole }, false); });
 }
 
 void Files::openCopy (const fs::path& preset, bool by_pointer)
 {
-    whenSaved ("before opening another graph", [this, preset, by_pointer] { load (preset, { .preset = preset }, by_pointer); });
+    whenSaved (TRANS ("Save changes to '%1' before opening another graph?"), [this, preset, by_pointer] { load (preset, { .preset = preset }, by_pointer); });
 }
 
 //==============================================================================
@@ -178,7 +179,7 @@ void Files::saveAs (std::function<void()> then)
 
 void Files::saveElsewhere (const juce::String& why, const std::function<void()>& then)
 {
-    question.ask ("The graph was not saved", why, { { "Save as ...", [this, then] { saveAs (then); } }, { "Cancel", {} } });
+    question.ask (TRANS ("The graph was not saved"), why, { { TRANS ("Save as ..."), [this, then] { saveAs (then); } }, { TRANS ("Cancel"), {} } });
 }
 
 void Files::saveTo (const fs::path& file, const std::function<void()>& then)
@@ -186,7 +187,7 @@ void Files::saveTo (const fs::path& file, const std::function<void()>& then)
     std::error_code failed;
     const bool is_shipped = ! presetFolder().empty() && fs::equivalent (file.parent_path(), presetFolder(), failed);
     if (is_shipped && file != document.file() && fs::exists (file, failed))
-        return saveElsewhere (juce::String (file.filename().string()) + " ships with Tactus. Choose another name or folder.", then);
+        return saveElsewhere (filled (TRANS ("%1 ships with Tactus. Choose another name or folder."), file.filename().string()), then);
     const auto not_carried = carryFiles (document.graph(), file.parent_path());
     const auto messages = document.save (file);
     if (! messages.empty()) return saveElsewhere (errorList (messages, file).trimEnd(), then);
@@ -194,9 +195,9 @@ void Files::saveTo (const fs::path& file, const std::function<void()>& then)
     settings.noteRecent (file);
     callbacks.onSettings();
     if (not_carried.empty())
-        callbacks.notify ("Saved " + juce::String (file.string()));
+        callbacks.notify (filled (TRANS ("Saved %1"), file.string()));
     else
-        callbacks.notify ("Saved, but " + juce::String (not_carried.front()) + ", which the graph uses, was not copied. Copy it next to the saved file.");
+        callbacks.notify (filled (TRANS ("Saved, but %1, which the graph uses, was not copied. Copy it next to the saved file."), not_carried.front()));
     if (then) then();
 }
 
@@ -222,12 +223,12 @@ void Files::askAboutNext()
     std::vector<Question::Choice> choices;
     if (q.can_recover)
     {
-        choices.push_back ({ "Recover without running", [this] { restoreNext (false); } });
+        choices.push_back ({ TRANS ("Recover without running"), [this] { restoreNext (false); } });
         if (! safe)
-            choices.insert (q.safe_first ? choices.end() : choices.begin(), { "Recover", [this] { restoreNext (true); } });
+            choices.insert (q.safe_first ? choices.end() : choices.begin(), { TRANS ("Recover"), [this] { restoreNext (true); } });
     }
-    choices.push_back ({ "Discard", forget });
-    choices.push_back ({ "Later", later });
+    choices.push_back ({ TRANS ("Discard"), forget });
+    choices.push_back ({ TRANS ("Later"), later });
     question.ask (q.title, q.text, std::move (choices));
 }
 
@@ -236,14 +237,14 @@ void Files::restoreNext (bool runs)
     if (crashed.empty()) return;
     const auto saved = crashed.front().document();
     auto restored = restore (saved);
-    const auto called = restored.graph.name.empty() ? std::string ("a graph") : restored.graph.name;
-    show (std::move (restored.graph), { saved.file, saved.preset, saved.changed }, "recover " + called, runs, false);
+    const auto called = restored.graph.name.empty() ? TRANS ("a graph").toStdString() : restored.graph.name;
+    show (std::move (restored.graph), { saved.file, saved.preset, saved.changed }, filled (TRANS ("recover %1"), called).toStdString(), runs, false);
     if (autosave()) crashed.front().discard();   // only now that the document is autosaved in this session
     const auto more = crashed.size() - 1;
     crashed.clear();
-    juce::String text = "Recovered. Press Ctrl+S to save.";
-    if (! runs || safe) text << " The graph is not running: check it, then press START.";
-    if (more > 0) text += " At the next start, Tactus offers to recover " + juce::String (static_cast<int> (more)) + " more.";
+    auto text = TRANS ("Recovered. Press Ctrl+S to save.");
+    if (! runs || safe) text << " " << TRANS ("The graph is not running: check it, then press START.");
+    if (more > 0) text << " " << filled (TRANS ("At the next start, Tactus offers to recover %1 more."), more);
     callbacks.notify (text);
 }
 
@@ -260,7 +261,7 @@ bool Files::autosave()
     if (! session) return false;
     unsaved_since.reset();
     const auto saved = session->autosave ({ document.file(), document.preset(), document.isChanged(), clock(), writeGraph (document.graph()) });
-    if (! saved) callbacks.notify ("Autosave failed: " + juce::String (saved.error().text) + ". Save often.");
+    if (! saved) callbacks.notify (filled (TRANS ("Autosave failed: %1. Save often."), saved.error().text));
     return saved.has_value();
 }
 

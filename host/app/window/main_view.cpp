@@ -4,6 +4,8 @@
 
 #include <host/app/look/focus.hpp>
 #include <host/app/model/message_text.hpp>
+#include <host/app/storage/language.hpp>
+#include <host/app/text/filled.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
@@ -22,15 +24,15 @@ MainView::MainView (const Catalogue& c)
       playback (edited, c, sound, device_setup, [this] { files.beforeRun(); }),
       limits (edited, device_setup, playback.run(), c),
       patching (edited, c), inspector (edited, c), live (patching, playback.run()),
-      presets (left.add<PresetBrowser> ("Presets", c, settings, pictures)),
-      scopes (bottom.add<ScopePanel> ("Scopes", edited, playback.run().traces(), c)),
-      takes (bottom.add<TakePanel> ("Take", edited, playback, c)),
-      layers (bottom.add<LayersPanel> ("Layers", edited, playback.run().traces(), c)),
-      devices (bottom.add<DevicesPanel> ("Devices", edited, playback.run(), device_setup)),
-      problems (bottom.add<ProblemList> ("Problems", edited)),
+      presets (left.add<PresetBrowser> (TRANS ("Presets"), c, settings, pictures)),
+      scopes (bottom.add<ScopePanel> (TRANS ("Scopes"), edited, playback.run().traces(), c)),
+      takes (bottom.add<TakePanel> (TRANS ("Take"), edited, playback, c)),
+      layers (bottom.add<LayersPanel> (TRANS ("Layers"), edited, playback.run().traces(), c)),
+      devices (bottom.add<DevicesPanel> (TRANS ("Devices"), edited, playback.run(), device_setup)),
+      problems (bottom.add<ProblemList> (TRANS ("Problems"), edited)),
       help (c)
 {
-    left.add<HistoryPanel> ("History", edited);
+    left.add<HistoryPanel> (TRANS ("History"), edited);
     setTitle ("Tactus");
     setWantsKeyboardFocus (true);
     chooseFile = [this] (bool saves, const std::filesystem::path& begin,
@@ -104,9 +106,11 @@ void MainView::begin (const Start& how)
     {
         welcome.show (presets.shipped(), settings.recent);
         welcome.setVisible (true);
-        if (how.safe && ! is_asked) status.notify ("Safe mode: nothing runs until you press START.");
+        if (how.safe && ! is_asked) status.notify (TRANS ("Safe mode: nothing runs until you press START."));
     }
     device_setup.open (home);
+    if (! settings.language.empty() && settings.language != english && translationFor (settings.language, home).empty())
+        status.notify (filled (TRANS ("There is no file %1, so the texts are in English."), (home / "text" / (settings.language + ".txt")).string()));
     if (! read.problem.empty()) status.notify (read.problem);
     for (const auto& m : device_setup.session().messages)
         status.notify (juce::String (m.file + ": " + messageText (m)));
@@ -171,7 +175,7 @@ void MainView::open (const std::filesystem::path& file)
 
 void MainView::closeWhenSaved (std::function<void()> close)
 {
-    files.whenSaved ("before closing Tactus", [this, close = std::move (close)] {
+    files.whenSaved (TRANS ("Save changes to '%1' before closing Tactus?"), [this, close = std::move (close)] {
         run().letGo();
         files.end();
         close();
@@ -195,7 +199,7 @@ void MainView::timerCallback()
     {
         direct_stop->letEscStop (escStops());
         if (const auto why = direct_stop->follow (strip, strip.stopPlace()))
-            status.notify ("While the window is busy, Esc and STOP have to wait: " + juce::String (messageText (*why)));
+            status.notify (filled (TRANS ("While the window is busy, Esc and STOP have to wait: %1"), messageText (*why)));
     }
     hand.setSeen (hand.isShowing() && ! hand.getBounds().isEmpty());
     hand.refresh();
@@ -208,7 +212,7 @@ void MainView::timerCallback()
     if (welcome.isVisible()) welcome.refresh();
     fitting.attend();
     if (ticks_to_save > 0 && --ticks_to_save == 0)
-        if (const auto saved = saveSettings (settings, home); ! saved) status.notify ("Could not save the settings: " + juce::String (saved.error().text));
+        if (const auto saved = saveSettings (settings, home); ! saved) status.notify (filled (TRANS ("Could not save the settings: %1"), saved.error().text));
     if (scopes.isVisible()) scopes.refresh();
     takes.refresh();
     layers.refresh();
@@ -234,7 +238,7 @@ void MainView::showProblems()
     const auto count = all.size();   // without the limits, which the strip counts
     std::ranges::copy (limits.messages(), std::back_inserter (all));
     problems.show (all);
-    bottom.rename (problems, count == 0 ? juce::String ("Problems") : "Problems " + juce::String (count), is_error);
+    bottom.rename (problems, count == 0 ? TRANS ("Problems") : filled (TRANS ("Problems %1"), count), is_error);
     strip.limitLight().show (limits.list());
 }
 
@@ -252,8 +256,8 @@ void MainView::documentChanged()
         presets.showOpen (edited.file().empty() ? edited.preset() : edited.file());
     }
     if (edited.history().position() > 0) welcome.setVisible (false);
-    std::vector<juce::String> trail { edited.graph().name.empty() ? juce::String ("Untitled graph") : juce::String (printableName (edited.graph().name)) };
-    if (onTitle) onTitle (trail.front() + (edited.isChanged() ? " (edited)" : ""));
+    std::vector<juce::String> trail { edited.graph().name.empty() ? TRANS ("Untitled graph") : juce::String (printableName (edited.graph().name)) };
+    if (onTitle) onTitle (trail.front() + (edited.isChanged() ? " (" + TRANS ("edited") + ")" : juce::String()));
     for (const auto& [node, subgraph] : patching.breadcrumbs())
         trail.emplace_back (printableName (node));
     const auto instance = patching.instance();

@@ -135,6 +135,8 @@ private:
     void writeClip (const Clip&, Messages notes, const std::filesystem::path& to);
     void recall (int snapshot);
     void store (int snapshot);
+    juce::PopupMenu::Item menuItem (const juce::String& text, const juce::String& keys, std::function<void()> act, bool is_ticked = false);
+    juce::PopupMenu languageMenu();
     void openMenu (juce::Component& at);
     void askForRecording();
     void askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);

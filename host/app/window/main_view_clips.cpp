@@ -3,6 +3,7 @@
 #include "main_view.hpp"
 
 #include <host/app/model/message_text.hpp>
+#include <host/app/text/filled.hpp>
 #include <host/io/clip_io.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -21,10 +22,10 @@ juce::String lossText (const SavedClip& saved, const Messages& notes)
     for (const auto& m : notes)
         lines.push_back (m.text + (m.remedy.empty() ? "" : "; " + m.remedy));
     std::ranges::move (lossReport (saved), std::back_inserter (lines));
-    juce::String text ("What the file does not hold, or holds differently:\n");
+    auto text = TRANS ("What the file does not hold, or holds differently:") + "\n";
     for (std::size_t i = 0; i < std::min (most, lines.size()); ++i)
         text << "\n- " << juce::String (lines[i]) << ".";
-    if (lines.size() > most) text << "\n\nThere are " << juce::String (lines.size() - most) << " more. `tactus convert` lists all.";
+    if (lines.size() > most) text << "\n\n" << filled (TRANS ("There are %1 more. `tactus convert` lists all."), lines.size() - most);
     return text;
 }
 
@@ -52,7 +53,8 @@ void MainView::saveClipAs (const fs::path& file)
 {
     const auto read = loadClip (file);
     if (! read)
-        return question.ask ("Cannot read " + juce::String (printableName (file.filename().string())), messageText (read.error()) + ".", { { "Close", {} } });
+        return question.ask (filled (TRANS ("Cannot read %1"), printableName (file.filename().string())), messageText (read.error()) + ".",
+                             { { TRANS ("Close"), {} } });
     const auto other = extensionOf (file) == ".haptic" ? ".ahap" : ".haptic";
     chooseOwnFile (file.stem().string() + other, [this, clip = read->clip] (const fs::path& to) { writeClip (clip, {}, to); });
 }
@@ -71,15 +73,15 @@ void MainView::writeClip (const Clip& clip, Messages notes, const fs::path& to)
     if (! file.has_extension()) file += ".haptic";
     const auto name = juce::String (printableName (file.filename().string()));
     const auto saved = saveClip (clip, file);
-    if (! saved) return question.ask ("The clip was not saved", messageText (saved.error()) + ".", { { "Close", {} } });
-    question.ask ("Saved " + name, lossText (*saved, notes), { { "Close", {} } });
+    if (! saved) return question.ask (TRANS ("The clip was not saved"), messageText (saved.error()) + ".", { { TRANS ("Close"), {} } });
+    question.ask (filled (TRANS ("Saved %1"), name), lossText (*saved, notes), { { TRANS ("Close"), {} } });
 }
 
 void MainView::connectTakes()
 {
     takes.onChoose = [this] (const std::string& name, std::function<void (const fs::path&)> chosen) { chooseOwnFile (name, std::move (chosen)); };
     takes.onClip = [this] (const Clip& clip, Messages notes, const fs::path& to) { writeClip (clip, std::move (notes), to); };
-    takes.onSaid = [this] (const juce::String& title, const juce::String& text) { question.ask (title, text, { { "Close", {} } }); };
+    takes.onSaid = [this] (const juce::String& title, const juce::String& text) { question.ask (title, text, { { TRANS ("Close"), {} } }); };
 }
 
 }   // namespace tactus::host

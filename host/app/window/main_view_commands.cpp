@@ -4,6 +4,9 @@
 #include "main_view.hpp"
 
 #include <host/app/look/focus.hpp>
+#include <host/app/look/key_text.hpp>
+#include <host/app/storage/language.hpp>
+#include <host/app/text/filled.hpp>
 #include <host/app/welcome/example.hpp>
 #include <host/io/clip_io.hpp>
 
@@ -23,11 +26,11 @@ constexpr std::array scales { 1.0, 1.25, 1.5, 2.0 };
 /// The title of a dialog and the files that it shows. What is saved follows from the proposed name.
 std::pair<juce::String, juce::String> wordsFor (bool saves, const std::filesystem::path& begin)
 {
-    if (! saves) return { "Open graph or clip", "*.json;*.haptic;*.ahap;*.hjif;*.wav" };
-    if (isClipExtension (begin)) return { "Save clip; the ending of the name selects the format", "*.haptic;*.ahap;*.hjif;*.json;*.wav;*.csv" };
-    if (extensionOf (begin) == ".csv") return { "Save gesture", "*.csv" };
-    if (extensionOf (begin) == ".jsonl") return { "Save test", "*.jsonl" };
-    return { "Save graph", "*.json" };
+    if (! saves) return { TRANS ("Open graph or clip"), "*.json;*.haptic;*.ahap;*.hjif;*.wav" };
+    if (isClipExtension (begin)) return { TRANS ("Save clip; the ending of the name selects the format"), "*.haptic;*.ahap;*.hjif;*.json;*.wav;*.csv" };
+    if (extensionOf (begin) == ".csv") return { TRANS ("Save gesture"), "*.csv" };
+    if (extensionOf (begin) == ".jsonl") return { TRANS ("Save test"), "*.jsonl" };
+    return { TRANS ("Save graph"), "*.json" };
 }
 }   // namespace
 
@@ -121,12 +124,12 @@ void MainView::escape (const juce::KeyPress& key)
 
 void MainView::preview (const std::filesystem::path& file)
 {
-    if (files.isSafe()) return status.notify ("Safe mode: open the preset and press START to feel it.");
+    if (files.isSafe()) return status.notify (TRANS ("Safe mode: open the preset and press START to feel it."));
     auto loaded = loadGraph (file);
     if (hasErrors (loaded.messages)) return;   // the preset list shows them
     const auto name = juce::String (loaded.graph.name);
     playback.preview (std::move (loaded.graph));
-    status.notify (name + ": previewing with its own gesture. Release to stop.");
+    status.notify (filled (TRANS ("%1: previewing with its own gesture. Release to stop."), name));
 }
 
 void MainView::endPreview()
@@ -165,73 +168,94 @@ void MainView::openExample (const std::string& type)
     for (const auto& p : presets.shipped())
         if (p.problem.empty() && p.types.contains (type) && (smallest == nullptr || p.types.size() < smallest->types.size())) smallest = &p;
     if (smallest != nullptr) return files.openCopy (smallest->file, false);
-    if (const auto* known = catalogue.find (type)) files.openGraph (exampleOf (*known, catalogue), "example of " + type);
+    if (const auto* known = catalogue.find (type)) files.openGraph (exampleOf (*known, catalogue), filled (TRANS ("example of %1"), type).toStdString());
 }
 
 void MainView::recall (int number)
 {
     const juce::String n (number);
-    if (! hasSnapshot (edited.graph(), number)) return status.notify ("Snapshot " + n + " is empty. Ctrl+" + n + " stores all values in it.");
+    if (! hasSnapshot (edited.graph(), number)) return status.notify (filled (TRANS ("Snapshot %1 is empty. Ctrl+%1 stores all values in it."), n));
     if (auto command = recallSnapshot (edited.graph(), number)) edited.perform (std::move (*command));
-    status.notify ("Recalled snapshot " + n + ".");
+    status.notify (filled (TRANS ("Recalled snapshot %1."), n));
 }
 
 void MainView::store (int number)
 {
     const juce::String n (number);
-    if (edited.perform (storeSnapshot (edited.graph(), number))) status.notify ("Stored snapshot " + n + ". Press " + n + " to recall it.");
+    if (edited.perform (storeSnapshot (edited.graph(), number))) status.notify (filled (TRANS ("Stored snapshot %1. Press %1 to recall it."), n));
+}
+
+juce::PopupMenu::Item MainView::menuItem (const juce::String& text, const juce::String& keys, std::function<void()> act, bool is_ticked)
+{
+    juce::PopupMenu::Item item (text);
+    item.shortcutKeyDescription = keys;
+    item.isTicked = is_ticked;
+    item.action = [safe = SafePointer (this), act = std::move (act)]   // called later, when the window may be gone
+    {
+        if (safe != nullptr) act();
+    };
+    return item;
+}
+
+juce::PopupMenu MainView::languageMenu()
+{
+    juce::PopupMenu menu;
+    const auto add = [&] (const juce::String& name, const std::string& code) {
+        const auto choose = [this, code] {
+            settings.language = code;
+            saveSettingsSoon();
+            status.notify (TRANS ("The language changes at the next start."));
+        };
+        menu.addItem (menuItem (name, {}, choose, settings.language == code));
+    };
+    add (TRANS ("As the system"), {});
+    add ("English", english);
+    for (const auto& [code, name] : translationsIn (home))
+        add (name, code);
+    return menu;
 }
 
 void MainView::openMenu (juce::Component& at)
 {
-    const auto item = [this] (const juce::String& text, const juce::String& keys, std::function<void()> act, bool is_ticked = false) {
-        juce::PopupMenu::Item i (text);
-        i.shortcutKeyDescription = keys;
-        i.isTicked = is_ticked;
-        i.action = [safe = SafePointer (this), act = std::move (act)]   // called later, when the window may be gone
-        {
-            if (safe != nullptr) act();
-        };
-        return i;
-    };
     juce::PopupMenu menu, recent, size;
     for (const auto& file : settings.recent)
-        recent.addItem (item (file.filename().string(), file.parent_path().string(), [this, file] { files.open (file); }));
+        recent.addItem (menuItem (file.filename().string(), file.parent_path().string(), [this, file] { files.open (file); }));
     const auto addSize = [&] (const juce::String& name, double scale) {
-        size.addItem (item (
+        size.addItem (menuItem (
             name, {}, [this, scale] {
             settings.scale = scale;
             applyScale (scale);
             saveSettingsSoon(); },
             settings.scale == scale));
     };
-    addSize ("Automatic", 0.0);
+    addSize (TRANS ("Automatic"), 0.0);
     for (const double scale : scales)
         addSize (juce::String (juce::roundToInt (100.0 * scale)) + " %", scale);
 
-    menu.addItem (item ("New", "Ctrl+N", [this] { files.create(); }));
-    menu.addItem (item ("Open ...", "Ctrl+O", [this] { files.open(); }));
-    menu.addSubMenu ("Open recent", recent, ! settings.recent.empty());
-    menu.addItem (item ("Save", "Ctrl+S", [this] { files.save(); }));
-    menu.addItem (item ("Save as ...", "Ctrl+Shift+S", [this] { files.saveAs(); }));
-    menu.addItem (item ("Fit a recording ...", {}, [this] { askForRecording(); }));
+    menu.addItem (menuItem (TRANS ("New"), keyText ("ctrl + n"), [this] { files.create(); }));
+    menu.addItem (menuItem (TRANS ("Open ..."), keyText ("ctrl + o"), [this] { files.open(); }));
+    menu.addSubMenu (TRANS ("Open recent"), recent, ! settings.recent.empty());
+    menu.addItem (menuItem (TRANS ("Save"), keyText ("ctrl + s"), [this] { files.save(); }));
+    menu.addItem (menuItem (TRANS ("Save as ..."), keyText ("ctrl + shift + s"), [this] { files.saveAs(); }));
+    menu.addItem (menuItem (TRANS ("Fit a recording ..."), {}, [this] { askForRecording(); }));
     menu.addSeparator();
-    menu.addItem (item (
-        "Light theme", {}, [this] {
+    menu.addItem (menuItem (
+        TRANS ("Light theme"), {}, [this] {
         settings.light = light = ! light;
         applyTheme (*getTopLevelComponent(), light ? Theme::light() : Theme::dark());
         saveSettingsSoon(); },
         light));
-    menu.addSubMenu ("Interface scale", size);
-    menu.addItem (item (
-        "Fuse: run the graph as compiled code", {}, [this] {
+    menu.addSubMenu (TRANS ("Interface scale"), size);
+    menu.addSubMenu (TRANS ("Language"), languageMenu());
+    menu.addItem (menuItem (
+        TRANS ("Fuse: run the graph as compiled code"), {}, [this] {
         settings.fuse = ! settings.fuse;
         applyFusion();
         saveSettingsSoon(); },
         settings.fuse));
     menu.addSeparator();
-    menu.addItem (item ("Help on selected node", "F1", [this] { helpOnSelection(); }));
-    menu.addItem (item ("Keyboard shortcuts", {}, [this] { help.showKeys(); }));
+    menu.addItem (menuItem (TRANS ("Help on selected node"), "F1", [this] { helpOnSelection(); }));
+    menu.addItem (menuItem (TRANS ("Keyboard shortcuts"), {}, [this] { help.showKeys(); }));
     menu.showMenuAsync (juce::PopupMenu::Options().withParentComponent (this).withTargetComponent (at).withMinimumWidth (240).withStandardItemHeight (28));
 }
 
@@ -256,8 +280,8 @@ void MainView::askForFile (bool saves, const std::filesystem::path& begin, std::
 void MainView::askForRecording()
 {
     constexpr bool of_the_desktop = false;   // as in askForFile
-    chooser = std::make_unique<juce::FileChooser> ("Fit a recording", juce::File::getSpecialLocation (juce::File::userHomeDirectory), "*.csv;*.tsv;*.txt",
-                                                   of_the_desktop);
+    chooser = std::make_unique<juce::FileChooser> (TRANS ("Fit a recording"), juce::File::getSpecialLocation (juce::File::userHomeDirectory),
+                                                   "*.csv;*.tsv;*.txt", of_the_desktop);
     chooser->launchAsync (juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this] (const juce::FileChooser& c) {
         takeFocus (patching);
         if (const auto file = c.getResult(); file != juce::File()) fitRecordingIn (file.getFullPathName().toStdString());

@@ -3,6 +3,7 @@
 #include "main_view.hpp"
 
 #include <host/app/model/fragment.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <algorithm>
 
@@ -86,8 +87,8 @@ void MainView::connectWelcome()
 {
     welcome.onFeel = [this] (const std::filesystem::path& file) {
         files.openCopy (file, true);
-        status.notify (files.isSafe() ? "Safe mode: press START, then press and drag on the surface below."
-                                      : "Press and drag on the surface below: the mouse is your hand.");
+        status.notify (files.isSafe() ? TRANS ("Safe mode: press START, then press and drag on the surface below.")
+                                      : TRANS ("Press and drag on the surface below: the mouse is your hand."));
     };
     welcome.onOpenFile = [this] (const std::filesystem::path& file) { files.open (file); };
     welcome.onNew = [this] { files.create(); };
@@ -99,7 +100,7 @@ void MainView::fitRecordingIn (const std::filesystem::path& file) { fitting.open
 
 void MainView::connectFitPanel()
 {
-    fitting.onOpenGraph = [this] (const FittedGraph& made) { files.openGraph (made.preset, "fit " + made.preset.name); };
+    fitting.onOpenGraph = [this] (const FittedGraph& made) { files.openGraph (made.preset, filled (TRANS ("fit %1"), made.preset.name).toStdString()); };
     fitting.onInsert = [this] (const FittedGraph& made) {
         auto source = made.preset;
         auto place = (patching.pointerOrCentre() / Box::grid).roundToInt() * static_cast<int> (Box::grid);
@@ -116,7 +117,7 @@ void MainView::connectFitPanel()
         if (! command) return status.notify (juce::String (command.error().text));
         if (! patching.perform (*std::move (command))) return;
         patching.select (added);
-        status.notify ("Added the fitted node. Wire it to feel it.");
+        status.notify (TRANS ("Added the fitted node. Wire it to feel it."));
     };
 }
 

@@ -2,6 +2,7 @@
 #include "node_palette.hpp"
 
 #include <host/app/look/focus.hpp>
+#include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
@@ -35,11 +36,11 @@ void place (Palette& palette, juce::Point<int> at)
 void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalogue, const NodeRequest& request, const std::vector<std::string>& recent,
                       std::function<void (const std::string&)> onAdded)
 {
-    juce::String purpose = "Add node";
+    auto purpose = TRANS ("Add node");
     if (request.wire != 0)
-        purpose = "Insert into wire";
+        purpose = TRANS ("Insert into wire");
     else if (request.start)
-        purpose = "Connect " + juce::String (request.start->port) + " to";
+        purpose = filled (TRANS ("Connect %1 to"), request.start->port);
     place (palette, canvas.view().toPixels (request.at).toInt() + canvas.getPosition());
     const auto search = [&canvas, &catalogue, recent, request] (const std::string& query) {
         return searchPalette (query, canvas.edited().graph(), catalogue, endsOf (request, canvas.scene()), recent);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <host/app/look/look.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <functional>
 #include <optional>
@@ -26,7 +27,7 @@ public:
     Splitter (Edge e, int initial, int least) : edge (e), initial_extent (initial), least_extent (least)
     {
         setMouseCursor (edge == Edge::top ? juce::MouseCursor::UpDownResizeCursor : juce::MouseCursor::LeftRightResizeCursor);
-        setTitle ("Panel edge");
+        setTitle (TRANS ("Panel edge"));
     }
 
     /// The panel's share of the width or height of the window; 0 if it is folded, nothing if it has its initial size.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <host/app/look/look.hpp>
+#include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
@@ -21,7 +22,7 @@ public:
     juce::String text() const
     {
         if (hinted.isNotEmpty()) return hinted;
-        return notice.isNotEmpty() ? notice : "Space: add a node   F: frame   G: group   B: bypass   Ctrl+Z: undo   F1: help";
+        return notice.isNotEmpty() ? notice : TRANS ("Space: add a node   F: frame   G: group   B: bypass   Ctrl+Z: undo   F1: help");
     }
 
     void paint (juce::Graphics& g) override

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "top_bar.hpp"
 
+#include <host/app/text/filled.hpp>
+
 namespace tactus::host
 {
 
@@ -47,14 +49,14 @@ juce::Path bars()
 class TopBar::Slot final : public juce::Button
 {
 public:
-    explicit Slot (int n) : Button ("Snapshot " + juce::String (n)), number (n) { setWantsKeyboardFocus (false); }
+    explicit Slot (int n) : Button (filled (TRANS ("Snapshot %1"), n)), number (n) { setWantsKeyboardFocus (false); }
 
     void setStored (bool s)
     {
         is_stored = s;
-        const juce::String n (number);
-        setTooltip (s ? "Snapshot " + n + ": click or press " + n + " to recall it, Shift+click or press Ctrl+" + n + " to overwrite it"
-                      : "Snapshot " + n + " is empty: click or press Ctrl+" + n + " to store all values in it");
+        setTooltip (filled (s ? TRANS ("Snapshot %1: click or press %1 to recall it, Shift+click or press Ctrl+%1 to overwrite it")
+                              : TRANS ("Snapshot %1 is empty: click or press Ctrl+%1 to store all values in it"),
+                            number));
         repaint();
     }
     bool isStored() const noexcept { return is_stored; }
@@ -84,10 +86,10 @@ private:
 
 TopBar::TopBar (Document& d)
     : document (d),
-      undo (std::make_unique<IconButton> ("Undo", curvedArrow (false))),
-      redo (std::make_unique<IconButton> ("Redo", curvedArrow (true))),
-      help (std::make_unique<IconButton> ("Help (F1)", questionMark())),
-      menu (std::make_unique<IconButton> ("Menu", bars()))
+      undo (std::make_unique<IconButton> (TRANS ("Undo"), curvedArrow (false))),
+      redo (std::make_unique<IconButton> (TRANS ("Redo"), curvedArrow (true))),
+      help (std::make_unique<IconButton> (TRANS ("Help (F1)"), questionMark())),
+      menu (std::make_unique<IconButton> (TRANS ("Menu"), bars()))
 {
     for (int n = 1; n <= snapshot_count; ++n)
     {
@@ -99,7 +101,7 @@ TopBar::TopBar (Document& d)
         };
         addAndMakeVisible (*slot);
     }
-    instance.setTitle ("Instance");
+    instance.setTitle (TRANS ("Instance"));
     instance.onClick = [this] { openInstances(); };
     addChildComponent (instance);
     undo->onClick = [this] { document.undo(); };
@@ -121,16 +123,16 @@ void TopBar::show (std::vector<juce::String> t, std::optional<Instance> i)
     trail = std::move (t);
     shown = i;
     instance.setVisible (shown.has_value());
-    if (shown) instance.setButtonText ("Instance [" + juce::String (shown->number) + "] of " + juce::String (shown->count));
+    if (shown) instance.setButtonText (filled (TRANS ("Instance [%1] of %2"), shown->number, shown->count));
     resized();
     for (int n = 1; n <= snapshot_count; ++n)
         slots[static_cast<std::size_t> (n - 1)]->setStored (hasSnapshot (document.graph(), n));
     const auto steps = document.stepNames();
     const auto done = document.history().position();
     undo->setEnabled (done > 0);
-    undo->setTooltip (done == 0 ? juce::String ("Nothing to undo") : "Undo: " + juce::String (steps[done - 1]) + " (Ctrl+Z)");
+    undo->setTooltip (done == 0 ? TRANS ("Nothing to undo") : filled (TRANS ("Undo: %1 (Ctrl+Z)"), steps[done - 1]));
     redo->setEnabled (done < steps.size());
-    redo->setTooltip (done == steps.size() ? juce::String ("Nothing to redo") : "Redo: " + juce::String (steps[done]) + " (Ctrl+Y)");
+    redo->setTooltip (done == steps.size() ? TRANS ("Nothing to redo") : filled (TRANS ("Redo: %1 (Ctrl+Y)"), steps[done]));
     repaint();
 }
 
@@ -156,7 +158,7 @@ void TopBar::openInstances()
     constexpr int most_items = 64;
     juce::PopupMenu list;
     for (int i = 0; shown && i < std::min (shown->count, most_items); ++i)
-        list.addItem (i + 1, "Instance [" + juce::String (i) + "]", true, i == shown->number);
+        list.addItem (i + 1, filled (TRANS ("Instance [%1]"), i), true, i == shown->number);
     list.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (instance), [safe = juce::Component::SafePointer (this)] (int item) {
         if (safe != nullptr && item > 0 && safe->onInstance) safe->onInstance (item - 1);
     });
@@ -200,7 +202,7 @@ void TopBar::paint (juce::Graphics& g)
     if (! document.isChanged() || all.empty()) return;
     g.setFont (look.font (12.0f));
     g.setColour (theme.dim);
-    g.drawText ("edited", all.back().withX (all.back().getRight() + 14.0f).withWidth (60.0f), juce::Justification::centredLeft, false);
+    g.drawText (TRANS ("edited"), all.back().withX (all.back().getRight() + 14.0f).withWidth (60.0f), juce::Justification::centredLeft, false);
 }
 
 void TopBar::mouseMove (const juce::MouseEvent& e)

@@ -6,6 +6,7 @@
 #include <host/app/model/document.hpp>
 
 #include <host/app/storage/snapshots.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <array>
 #include <functional>
@@ -54,7 +55,7 @@ private:
 
     Document& document;
     std::optional<Instance> shown;
-    ToolButton instance { "", ToolButton::Kind::framed, "Choose the instance of this subgraph whose values are shown" };
+    ToolButton instance { "", ToolButton::Kind::framed, TRANS ("Choose the instance of this subgraph whose values are shown") };
     std::vector<juce::String> trail;
     int room = 0;   // width available for the trail, in pixels
     std::array<std::unique_ptr<Slot>, snapshot_count> slots;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+#include <vector>
+
+namespace tactus::host::test
+{
+
+/// A piece of a line of text on the screen.
+struct SeenText
+{
+    juce::String text;
+    juce::Rectangle<float> place;   ///< in the pixels of the component that was read
+    bool is_cut = false;            ///< a part lies outside of the area that could be painted
+};
+
+/// Paints a component with all that is in it, and reads the texts from what it paints.
+std::vector<SeenText> readTexts (juce::Component&);
+
+/// The words of the accessible titles, descriptions and help, the tooltips, and the entries of lists of choices, of a component and all
+/// visible ones in it.
+juce::StringArray toldTexts (juce::Component&);
+
+/// The pairs of texts that lie on each other in an area, each as "A | B".
+juce::StringArray overlaps (const std::vector<SeenText>&, juce::Rectangle<float> area);
+
+/// The texts in an area of which a part could not be painted.
+juce::StringArray cutOff (const std::vector<SeenText>&, juce::Rectangle<float> area);
+
+}   // namespace tactus::host::test
