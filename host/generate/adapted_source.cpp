@@ -41,7 +41,6 @@ std::string adapted (const SourceFile& file)
                                   { "std::unique_ptr<", "std::shared_ptr<" },
                                   { "std::make_unique<", "tactus::exported::makeShared<" },
                                   { "std::make_shared<", "tactus::exported::makeShared<" } });
-    text = filled (text, { { "static const auto made = [] {", "const auto made = [] {" } });   // it would outlive the graph whose memory it uses
     if (file.path.starts_with ("tactus/nodes/")) text = withTextViews (text);
     if (text == before) return text;
     text = filled (text, { { "#include <vector>\n", "" } });

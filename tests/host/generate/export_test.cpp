@@ -61,6 +61,17 @@ host::ExportedFolder exportedContacts()
     }
     return host::exportGraph (s.graph, options);
 }
+
+/// The smallest graph with a surface.
+host::ExportedFolder exportedPad()
+{
+    test::Sketch s;
+    s.node ("z", "signal.lfo", { { "frequency", 30.0 }, { "amplitude", 2e-3 } }).node ("hand", "vector.join").wire ("z.out -> hand.z");
+    s.node ("pad", "deform.surface").wire ("hand.out -> pad.position");
+    host::ExportOptions options { .file = "pad.json", .program = "tactus", .compile = {}, .open = {} };
+    options.compile.records.push_back ("pad.force");
+    return host::exportGraph (s.graph, options);
+}
 }   // namespace
 
 TEST_CASE ("exported graphs give the bits of the engine while parameters move", "[export]")
@@ -72,6 +83,7 @@ TEST_CASE ("exported graphs give the bits of the engine while parameters move", 
     for (unsigned seed = 1; seed <= 12; ++seed)
         require (program, test::exportedRandomGraph (seed, 12), "random graph " + std::to_string (seed));
     require (program, exportedContacts(), "contacts");
+    require (program, exportedPad(), "pad");
 
     // A graph with a fault in its code: its self-test has to notice.
     auto broken = test::exportedPreset ("soft_pad");
@@ -92,7 +104,7 @@ TEST_CASE ("exported graphs give the bits of the engine while parameters move", 
         is_right ? ++right : ++wrong;
         CHECK (is_right != line.starts_with ("soft_pad:"));
     }
-    CHECK (right == 21);
+    CHECK (right == 22);
     CHECK (wrong == 1);
 }
 
