@@ -16,6 +16,7 @@
 #include <host/platform/signals.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/run/run.hpp>
+#include <tactus/text/budget.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
@@ -60,6 +61,11 @@ Extent readSpeeds (const std::string& text)
     return range;
 }
 
+void refuseIfStopped()
+{
+    if (stopRequested()) fail ("run/interrupted", "stopped; nothing was written", "run it again, or with fewer --steps");
+}
+
 /// Runs strokes over a graph, and keeps the samples of a port.
 class Strokes
 {
@@ -70,6 +76,7 @@ public:
     }
 
     const std::string& name() const { return loaded.graph.name; }
+    double rate() const { return options.rate_hz > 0.0 ? options.rate_hz : loaded.graph.rate_hz; }
 
     PortSamples samplesOf (const Stroke& stroke)
     {
@@ -95,7 +102,7 @@ public:
         {
             run.tick();
             if (k >= lead_in) samples.frame (run.engine().plan());
-            if (stopRequested()) fail ("run/interrupted", "stopped; nothing was written", "run it again, or with fewer --steps");
+            refuseIfStopped();
         }
         return samples;
     }
@@ -146,6 +153,7 @@ void drawSpectra (const SweepOptions& options, const std::string& name, double l
     Spectrogram spectra { .at = speeds, .step_hz = rate_hz / static_cast<double> (fft_length) };
     for (const auto& s : strokes)
     {
+        refuseIfStopped();
         const std::vector<std::span<const double>> parts (s.all().begin(), s.all().end());
         spectra.columns.push_back (amplitudesOf (parts, rate_hz, fft_length, options.picture.up_to_hz));
     }
@@ -198,15 +206,27 @@ void drawPlaces (const SweepOptions& options, const std::string& name, double le
     options.picture.write (name, { "position along the stroke", "m" }, { "speed", "m/s" }, std::move (map));
 }
 
+/// The samples of all strokes, and the lines of their spectra, are kept until the picture is drawn.
+void checkSlowest (double seconds, double rate_hz, int steps)
+{
+    constexpr double most_ticks = 1 << 18;
+    const double ticks = seconds * rate_hz;
+    if (! (ticks <= most_ticks))
+        throw UsageError ("--speed", "the slowest stroke would take " + shortNumber (seconds) + " s, which is " + std::to_string (std::llround (ticks))
+                                         + " ticks; at most " + std::to_string (std::llround (most_ticks)) + " are analysed");
+    if (const double numbers = ticks * steps; numbers > budgets().numbers)
+        fail (overBudget ("sweep/too_long", &Budgets::numbers, "the strokes", numbers, "make fewer --steps, or faster or shorter strokes"));
+}
+
 void sweepSpeeds (SweepOptions& options)
 {
     options.picture.finish();
     const auto range = readSpeeds (options.speeds);
     const double length = readAmount ("--length", options.length, "m", "60 mm"), depth = readAmount ("--depth", options.depth, "m", "1 mm");
-    if (length / range.low > 1e4) throw UsageError ("--speed", "the slowest stroke would take " + shortNumber (length / range.low) + " s");
     refuseOverwriting ({ options.picture.file }, { options.graph });
     watchForStop();
     Strokes source { options };
+    checkSlowest (length / range.low, source.rate(), options.steps);
     std::vector<double> speeds;
     std::vector<PortSamples> strokes;
     Progress progress { static_cast<std::size_t> (options.steps) };

@@ -163,6 +163,7 @@ Result<> checkNames (const RunTestHead& head, const std::vector<Tap>& taps, cons
 Result<> writeRunTest (const std::string& log, const fs::path& test, const Stretch& stretch, const std::vector<std::string>& records,
                        const std::string& program)
 {
+    if (stretch.names.empty()) return Message::error ("test/no_ports", log, "no port is compared", "name ports to compare, as with --record drag.force");
     const auto part = partOf (log, stretch.until, test.parent_path());
     if (! part) return part.error();
     auto file = AtomicFile::create (test);

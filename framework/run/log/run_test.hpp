@@ -27,8 +27,8 @@ struct RunTestHead
 };
 
 /// Writes a test: the expected values in a stretch of a run, and the log of the run up to the end of the stretch. `records` are the
-/// ports of the stretch. Paths of files that nodes use are relative to the test. Ids: file/unreadable, output/unwritable, and those of
-/// RunLogReader. [main thread]
+/// ports of the stretch. Paths of files that nodes use are relative to the test. Ids: test/no_ports, file/unreadable, output/unwritable, and
+/// those of RunLogReader. [main thread]
 Result<> writeRunTest (const std::string& log, const std::filesystem::path& test, const Stretch&, const std::vector<std::string>& records,
                        const std::string& program);
 

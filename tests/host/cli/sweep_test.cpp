@@ -160,6 +160,7 @@ TEST_CASE ("what cannot be analysed is refused before anything is written", "[cl
     const auto graph = scratch.write ("g.json", gratingGraph (500.0)), out = scratch.path ("s.png");
     checkRefused ({ "sweep", graph, "--speed", "0.2", "-o", out }, 2, "0.02..0.3", out);
     checkRefused ({ "sweep", graph, "--speed", "0.3..0.2", "-o", out }, 2, "0.02..0.3", out);
+    checkRefused ({ "sweep", graph, "--speed", "0.0001..0.2", "-o", out }, 2, "2400000 ticks", out);   // 600 s
     checkRefused ({ "sweep", graph, "--speed", "1..2x", "-o", out }, 2, "0.02..0.3", out);
     checkRefused ({ "sweep", graph, "--speed", "0.1..0.2", "--role", "thumb", "-o", out }, 1, "device/unknown_role", out);
     checkRefused ({ "sweep", graph, "--speed", "0.1..0.2", "--port", "ridges.nothing", "-o", out }, 1, "ridges.nothing", out);

@@ -5,6 +5,7 @@
 
 #include <host/assets/file_assets.hpp>
 #include <host/io/wav.hpp>
+#include <tactus/file/clips/clip_signal.hpp>
 #include <tactus/text/budget.hpp>
 
 #include <catch2/catch.hpp>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -110,4 +112,20 @@ TEST_CASE ("a recording that a clip cannot hold is refused, with a remedy", "[cl
     CHECK (loud.error().remedy.find ("tactus convert") != std::string::npos);
     CHECK (! assets.table ((folder / "none.wav").string()));
     CHECK (loadClip (folder / "x.hmpg").error().remedy.find (".hjif") != std::string::npos);
+}
+
+TEST_CASE ("samples that are not finite become 0 in a clip, and a warning says how many and where", "[clips]")
+{
+    const double inf = std::numeric_limits<double>::infinity();
+    Messages notes;
+    const auto clip = readers::clipOfSignal ({ .rate_hz = 1000.0, .channels = { { 0.5, 0.25 }, { 0.5, std::nan (""), -inf } } }, notes);
+    REQUIRE (notes.size() == 1);
+    CHECK (notes.front().id == "clip/not_finite");
+    CHECK (notes.front().where == "channel 2");
+    CHECK (notes.front().text.starts_with ("2 samples"));
+    CHECK (notes.front().text.find ("0.001 s") != std::string::npos);
+    for (const auto& t : clip.tracks)
+        for (const auto& p : t.amplitude)
+            CHECK (std::isfinite (p.value));
+    CHECK (clip.tracks[1].amplitude[0].value == 0.5);
 }

@@ -142,4 +142,13 @@ TEST_CASE ("a stretch after the end of the run is refused, and one that reaches 
     CHECK (rest->movement.size() == rest->ticks() * rest->columns.size());
 }
 
+TEST_CASE ("a test that would compare no port is refused", "[runlog][run_test]")
+{
+    const TemporaryFolder folder;
+    const auto written = writeRunTest (logOf (folder.path()), folder / "none.jsonl", { .from = 0, .until = 10 }, {}, "test");
+    REQUIRE (! written);
+    CHECK (written.error().id == "test/no_ports");
+    CHECK (! fs::exists (folder / "none.jsonl"));
+}
+
 TEST_CASE ("every file of the corpus of tests of runs is read or refused", "[runlog][run_test]") { CHECK (test::replay ("run_test", fuzz::tryRunTest) > 10); }
