@@ -120,9 +120,9 @@ Result<FittedGraph> blade (const Columns& c, const std::string& file, const FitS
     return made;
 }
 
-Result<FittedGraph> curve (const Columns& c, const std::string& file, const FitSettings& s)
+Result<FittedGraph> curve (const Columns& c, const std::string& file, const FitSettings& s, FitCourse* course)
 {
-    auto fit = fitCurve ({ .depth = fromTouch (c.at ("depth"), s.touch), .force = c.at ("force") }, s.points);
+    auto fit = fitCurve ({ .depth = fromTouch (c.at ("depth"), s.touch), .force = c.at ("force") }, s.points, course);
     if (! fit) return fit.error();
     const EvenBody body { .along = fit->law, .mu = s.mu, .ratio = s.ratio };
     std::string about = "An even body with the curve of a recorded indentation.";
@@ -145,9 +145,9 @@ Result<FittedGraph> curve (const Columns& c, const std::string& file, const FitS
     return made;
 }
 
-Result<FittedGraph> shock (const Columns& c, const std::string& file, const FitSettings& s)
+Result<FittedGraph> shock (const Columns& c, const std::string& file, const FitSettings& s, FitCourse* course)
 {
-    auto fit = fitShock ({ .depth = c.at ("depth"), .force = c.at ("force"), .time = c.at ("t") }, s.mass);
+    auto fit = fitShock ({ .depth = c.at ("depth"), .force = c.at ("force"), .time = c.at ("t") }, s.mass, course);
     if (! fit) return fit.error();
     FittedGraph made { .kind = FitKind::shock, .preset = shockPreset (*fit, sourceOf (FitKind::shock, file, fit->report)), .nodes = { "blow" } };
     made.details = { "stiffness  " + toJson (fit->stiffness).dump(), "damping    " + toJson (fit->damping).dump(),
@@ -179,11 +179,11 @@ Result<FittedGraph> fitted (FitKind kind, const Columns& c, const std::string& f
     case FitKind::blade:
         return blade (c, file, s, course);
     case FitKind::curve:
-        return curve (c, file, s);
+        return curve (c, file, s, course);
     case FitKind::shock:
         break;
     }
-    return shock (c, file, s);
+    return shock (c, file, s, course);
 }
 }   // namespace
 
