@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "fit_columns.hpp"
 #include "fit_job.hpp"
 #include "fit_plot.hpp"
 #include "fit_table.hpp"
@@ -27,6 +28,7 @@ public:
     void attend();   ///< call many times a second
 
     void choose (FitKind);                  ///< as in the list
+    FitColumns& columns() noexcept { return which; }
     void setAmount (const juce::String&);   ///< as typed into the field, such as "2 N"
     bool isFitting() const { return job.isRunning(); }
     const std::optional<FittedGraph>& fitted() const noexcept { return result; }
@@ -44,7 +46,7 @@ public:
 
 private:
     void fit();
-    void fail (const juce::String&);
+    void fail (const std::string&);
     void readAmount();
     void showResult();
 
@@ -56,6 +58,7 @@ private:
     juce::String failure;
 
     juce::ComboBox kinds;
+    FitColumns which;
     juce::Label amount_label;
     juce::TextEditor amount;
     FitPlot plot;

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <tactus/fit/fit_report.hpp>
+#include <host/fitting/fitting.hpp>
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
 namespace tactus::host
 {
 
-/// The verdict, the parameters with their intervals, and the residuals. As high as its content for a width.
+/// A text that begins with a capital letter and ends with a full stop.
+juce::String sentence (const std::string&);
+
+/// The verdict, the parameters with their intervals, the residuals and what else is worth saying. As high as its content for a width.
 class FitTable final : public juce::Component
 {
 public:
     FitTable() { setTitle ("Fitted parameters"); }
 
-    void show (FitReport);
+    void show (const FittedGraph&);
     int heightFor (int width) const;
 
     void paint (juce::Graphics&) override;
@@ -29,6 +32,8 @@ private:
     juce::TextLayout remarks (int width) const;
 
     FitReport report;
+    Messages warnings;
+    juce::StringArray details;
     std::vector<Row> rows;
 };
 
