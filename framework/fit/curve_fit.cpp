@@ -96,6 +96,16 @@ void pool (Fitted& fitted)
         }
 }
 
+/// Straight lines through these forces.
+Law tableOf (double spacing, std::vector<double> force)
+{
+    Law law { .kind = Law::Kind::table };
+    for (std::size_t i = 0; i < force.size(); ++i)
+        law.table.x.push_back (spacing * static_cast<double> (i + 1));
+    law.table.y = std::move (force);
+    return law;
+}
+
 double workAlong (const std::vector<double>& d, const std::vector<double>& f)
 {
     double sum = 0.0;
@@ -142,6 +152,7 @@ Result<CurveFit> rowsOf (const RecordedLoop& loop)
     }
     return fit;
 }
+
 /// How the force at each depth of the table changes with each recorded force, before the curve is made monotone.
 Eigen::MatrixXd influenceOnBranch (const std::vector<double>& d, double spacing, int points)
 {
@@ -174,10 +185,7 @@ std::pair<double, double> leftOutOfBranch (const std::vector<double>& d, const s
         }
     auto fitted = leastSquares (kept_d, kept_f, spacing, points);
     pool (fitted);
-    Law law { .kind = Law::Kind::table };
-    for (int i = 0; i < points; ++i)
-        law.table.x.push_back (spacing * (i + 1));
-    law.table.y = fitted.force;
+    const auto law = tableOf (spacing, std::move (fitted.force));
     std::pair<double, double> sum { 0.0, 0.0 };
     for (std::size_t i = 0; i < d.size(); ++i)
         if (is_left_out (i))
@@ -188,44 +196,48 @@ std::pair<double, double> leftOutOfBranch (const std::vector<double>& d, const s
     return sum;
 }
 
-/// Intervals of at most 20 points. They ignore that the branches are made monotone: this changes only forces that differ by less than their errors,
-/// or that the curve cannot follow.
-void reportCurve (CurveFit& fit, int points)
+/// The covariance of the forces at the depths of a coarse table.
+struct BranchErrors
 {
-    struct Branch
-    {
-        Eigen::MatrixXd covariance;
-        Eigen::VectorXd work;   // of each force
-        double freedom = 0.0;
-    };
+    Eigen::MatrixXd covariance;
+    Eigen::VectorXd work;   // of each force
+    double freedom = 0.0;
+
+    double ofWork() const { return work.dot (covariance * work); }
+};
+
+/// The errors ignore that the branches are made monotone: this changes only forces that differ by less than their errors, or that the curve
+/// cannot follow.
+BranchErrors errorsOfBranch (const std::vector<double>& d, const std::vector<double>& f, double spacing, int points)
+{
+    const auto influence = influenceOnBranch (d, spacing, points);
+    auto smooth = leastSquares (d, f, spacing, points);
+    pool (smooth);
+    const auto law = tableOf (spacing, std::move (smooth.force));
+    Eigen::VectorXd left (influence.cols()), work = Eigen::VectorXd::Constant (points, spacing);
+    for (Eigen::Index i = 0; i < left.size(); ++i)
+        left[i] = f[at (i)] - law (d[at (i)]);
+    work[points - 1] *= 0.5;
+    return { detail::covarianceOf (influence, left, points), work, detail::independentRows (left) - points };
+}
+
+/// Intervals of at most 20 points. Stops between the branches if the fit is cancelled.
+void reportValues (CurveFit& fit, int points, FitCourse* course)
+{
+    auto& values = fit.report.values;
     const int few = std::min (points, 20);
     const double spacing = fit.depth_in.back() / few;
-    const auto branch = [&] (const std::vector<double>& d, const std::vector<double>& f) {
-        const auto influence = influenceOnBranch (d, spacing, few);
-        auto smooth = leastSquares (d, f, spacing, few);
-        pool (smooth);
-        Law law { .kind = Law::Kind::table };
-        for (int i = 0; i < few; ++i)
-            law.table.x.push_back (spacing * (i + 1));
-        law.table.y = smooth.force;
-        Eigen::VectorXd left (influence.cols()), work = Eigen::VectorXd::Constant (few, spacing);
-        for (Eigen::Index i = 0; i < left.size(); ++i)
-            left[i] = f[at (i)] - law (d[at (i)]);
-        work[few - 1] *= 0.5;
-        return Branch { detail::covarianceOf (influence, left, few), work, detail::independentRows (left) - few };
-    };
-    auto& report = fit.report;
-    const auto in = branch (fit.depth_in, fit.force_in);
     const auto sd = [] (double variance) { return std::sqrt (std::max (0.0, variance)); };
-    report.values.push_back (detail::withInterval ("work on the way in", "J", fit.work, sd (in.work.dot (in.covariance * in.work)), in.freedom));
-    double out_work = 0.0;
+    const auto in = errorsOfBranch (fit.depth_in, fit.force_in, spacing, few);
+    values.push_back (detail::withInterval ("work on the way in", "J", fit.work, sd (in.ofWork()), in.freedom));
     Eigen::MatrixXd of_mean = in.covariance;
+    detail::setShare (course, 0.5);
+    if (detail::isCancelled (course)) return;
     if (! fit.depth_out.empty())
     {
-        const auto out = branch (fit.depth_out, fit.force_out);
-        out_work = out.work.dot (out.covariance * out.work);
+        const auto out = errorsOfBranch (fit.depth_out, fit.force_out, spacing, few);
         of_mean = 0.25 * (in.covariance + out.covariance);
-        report.values.push_back (detail::withInterval ("hysteresis", "J", fit.area, sd (in.work.dot (in.covariance * in.work) + out_work), in.freedom, false));
+        values.push_back (detail::withInterval ("hysteresis", "J", fit.area, sd (in.ofWork() + out.ofWork()), in.freedom, false));
     }
     for (int i = few / 4 - 1; i < few; i += std::max (1, few / 4))
         if (i >= 0)
@@ -234,36 +246,45 @@ void reportCurve (CurveFit& fit, int points)
             auto value =
                 detail::withInterval ("force at " + roundedText (1e3 * depth, 3) + " mm", "N", fit.law (depth), sd (of_mean (i, i)), in.freedom, i == few - 1);
             value.low = std::min (value.low, value.value);
-            report.values.push_back (value);
+            values.push_back (value);
         }
-    const double table_spacing = fit.depth_in.back() / points;
-    auto [sum, count] = leftOutOfBranch (fit.depth_in, fit.force_in, table_spacing, points);
+}
+
+void reportResiduals (CurveFit& fit, int points)
+{
+    auto& report = fit.report;
+    const double spacing = fit.depth_in.back() / points;
+    auto [sum, count] = leftOutOfBranch (fit.depth_in, fit.force_in, spacing, points);
+    if (! fit.depth_out.empty())
+    {
+        const auto [out_sum, out_count] = leftOutOfBranch (fit.depth_out, fit.force_out, spacing, points);
+        sum += out_sum;
+        count += out_count;
+    }
     double squares = 0.0;
     for (const auto* column : { &fit.force_in, &fit.force_out })
         for (const double f : *column)
             squares += f * f;
-    if (! fit.depth_out.empty())
-    {
-        const auto [out_sum, out_count] = leftOutOfBranch (fit.depth_out, fit.force_out, table_spacing, points);
-        sum += out_sum;
-        count += out_count;
-    }
     report.rows = fit.depth_in.size() + fit.depth_out.size();
     report.residual_unit = "N";
     report.residual = fit.residual;
     report.left_out_residual = count > 0.0 ? std::sqrt (sum / count) : fit.residual;
     report.size = std::sqrt (squares / static_cast<double> (report.rows));
+}
+
+FitPicture pictureOf (const CurveFit& fit)
+{
     auto x = fit.law.table.x, y = fit.law.table.y;
     x.insert (x.begin(), 0.0);
     y.insert (y.begin(), 0.0);
-    report.picture = { "depth", "m", "force", "N", { { "recorded, on the way in", fit.depth_in, fit.force_in, true }, { "curve", x, y } } };
-    if (! fit.depth_out.empty())
-        report.picture.curves.insert (report.picture.curves.begin() + 1, { "recorded, on the way out", fit.depth_out, fit.force_out, true });
-    judge (report, "Press slowly and along the normal, from the touch to the deepest point and back, and record at least 20 rows per point of the curve.");
+    FitPicture picture { "depth", "m", "force", "N", { { "recorded, on the way in", fit.depth_in, fit.force_in, true } } };
+    if (! fit.depth_out.empty()) picture.curves.push_back ({ "recorded, on the way out", fit.depth_out, fit.force_out, true });
+    picture.curves.push_back ({ "curve", x, y });
+    return picture;
 }
 }   // namespace
 
-Result<CurveFit> fitCurve (const RecordedLoop& loop, int points)
+Result<CurveFit> fitCurve (const RecordedLoop& loop, int points, FitCourse* course)
 {
     if (auto checked = checkBranches (loop); ! checked) return checked.error();
     auto rows = rowsOf (loop);
@@ -276,14 +297,12 @@ Result<CurveFit> fitCurve (const RecordedLoop& loop, int points)
         auto fitted = leastSquares (d, f, spacing, points);
         pool (fitted);
         fit.drop = std::max (fit.drop, fitted.drop);
-        Law law { .kind = Law::Kind::table };
-        for (int i = 0; i < points; ++i)
-            law.table.x.push_back (spacing * (i + 1));
-        law.table.y = fitted.force;
+        auto law = tableOf (spacing, std::move (fitted.force));
         for (std::size_t i = 0; i < d.size(); ++i)
             sum += (f[i] - law (d[i])) * (f[i] - law (d[i]));
         return law;
     };
+    if (detail::isCancelled (course)) return detail::fitCancelled();
     fit.law = branch (fit.depth_in, fit.force_in);
     fit.in = fit.law.table.y;
     fit.work = workAlong (fit.depth_in, fit.force_in);
@@ -300,7 +319,13 @@ Result<CurveFit> fitCurve (const RecordedLoop& loop, int points)
                                  "give the force positive where it pushes the tool out of the object");
     fit.residual = std::sqrt (sum / static_cast<double> (fit.depth_in.size() + fit.depth_out.size()));
     fit.peak = std::max (*std::ranges::max_element (fit.force_in), fit.force_out.empty() ? 0.0 : *std::ranges::max_element (fit.force_out));
-    reportCurve (fit, points);
+    detail::setShare (course, 0.25);
+    if (! detail::isCancelled (course)) reportValues (fit, points, course);
+    detail::setShare (course, 0.75);
+    if (! detail::isCancelled (course)) reportResiduals (fit, points);
+    if (detail::isCancelled (course)) return detail::fitCancelled();
+    fit.report.picture = pictureOf (fit);
+    judge (fit.report, "Press slowly and along the normal, from the touch to the deepest point and back, and record at least 20 rows per point of the curve.");
     return rows;
 }
 

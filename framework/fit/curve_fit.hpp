@@ -34,9 +34,9 @@ struct CurveFit
 /// The rows are in the order of time. Times are not used, so the indentation must be slow. The depth must be 0 at the touch.
 /// `points` is from 2 to 1000. The cross-validation leaves out every fifth of 50 blocks of rows.
 ///
-/// Errors: fit/too_short, fit/not_finite, fit/no_contact, fit/pulls. [any thread]
+/// Errors: fit/too_short, fit/not_finite, fit/no_contact, fit/pulls, fit/cancelled. [any thread]
 ///
 /// Source of the monotone fit: the pool-adjacent-violators algorithm, Ayer et al. 1955.
-Result<CurveFit> fitCurve (const RecordedLoop&, int points = 20);
+Result<CurveFit> fitCurve (const RecordedLoop&, int points = 20, FitCourse* = nullptr);
 
 }   // namespace tactus

@@ -15,7 +15,7 @@ void judge (FitReport& report, const std::string& record_more, double most)
 {
     constexpr double wide = 0.25, much_worse = 1.5;
     if (! (report.residual <= most * report.size))
-        report.lacking.push_back ("the model leaves " + roundedText (100.0 * report.residual / report.size) + " % of the recording unexplained");
+        report.lacking.push_back ("the model leaves " + roundedText (100.0 * report.residual / report.size, 2) + " % of the recording unexplained");
     if (! (report.left_out_residual <= much_worse * report.residual + 1e-3 * report.size))
         report.lacking.push_back (
             "the model predicts a part that was left out much worse than it fits the rest: the recording is too short, or the object changed");

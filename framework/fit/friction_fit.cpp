@@ -318,11 +318,14 @@ Result<FrictionFit> fitFriction (const RecordedDrag& recorded, FitCourse* course
     report.residual = std::sqrt (found.fit.sum() / static_cast<double> (n));
     report.left_out_residual = std::sqrt ((force - predicted).tail (second).squaredNorm() / static_cast<double> (second));
     report.size = detail::rootMeanSquare (drag.force);
-    report.picture = { "position",
+    auto moved = drag.position;   // strokes are often a small part of the distance to the zero of the sensor
+    for (double& at : moved)
+        at -= drag.position[0];
+    report.picture = { "displacement",
                        "m",
                        "friction force",
                        "N",
-                       { { "recorded", drag.position, drag.force, true }, { "fitted", drag.position, { modelled.begin(), modelled.end() } } } };
+                       { { "recorded", moved, drag.force, true }, { "fitted", moved, { modelled.begin(), modelled.end() } } } };
     judge (report, "Record at least three slow strokes back and forth, each several times longer than the contact stretches before it slides.");
     return result;
 }

@@ -3,6 +3,7 @@
 #include "least_squares.hpp"
 
 #include <tactus/kit/math/math.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <Eigen/Cholesky>
 
@@ -255,7 +256,7 @@ Result<GratingFit> fitGrating (const RecordedProfile& recorded, FitCourse* cours
                        "m",
                        { { "recorded", recorded.position, recorded.height, true }, { "fitted", recorded.position, { drawn.begin(), drawn.end() } } } };
     if (p.length() < 3.0 * result.period)
-        report.lacking.push_back ("the recording contains only " + std::to_string (static_cast<int> (p.length() / result.period)) + " whole ridges");
+        report.lacking.push_back ("the recording contains only " + roundedText (p.length() / result.period, 2) + " ridges");
     judge (report, "Scan at least five ridges in a straight line across them, with at least ten rows per ridge.");
     return result;
 }

@@ -179,15 +179,17 @@ Candidate bestOf (const Contact& x, double n, double area)
     return best;
 }
 
-/// Tries powers n in coarse steps, then in finer steps around the best one.
-Candidate bestOf (const Contact& x, double area)
+/// Tries powers n in coarse steps, then in finer steps around the best one. A cancelled search returns the best so far.
+Candidate bestOf (const Contact& x, double area, FitCourse* course)
 {
     constexpr double least = 0.5, most = 4.0;
     Candidate best;
     double from = least, to = most;
+    double share = 0.0;
     for (double step = 0.1; step > 1e-6; step *= 0.1)
     {
-        for (double n = from; n <= to + 0.5 * step; n += step)
+        detail::setShare (course, share += 0.1);
+        for (double n = from; n <= to + 0.5 * step && ! detail::isCancelled (course); n += step)
             if (const auto one = bestOf (x, n, area); one.error < best.error) best = one;
         from = std::max (least, best.n - step);
         to = std::min (most, best.n + step);
@@ -201,16 +203,16 @@ double areaOf (const Contact& x, const Candidate& law)
 }
 
 /// bestOf() lets the force pull, but the law does not. So this looks for the damping with which the law has the area.
-void matchArea (const Contact& x, double area, Candidate& law)
+void matchArea (const Contact& x, double area, Candidate& law, FitCourse* course)
 {
     double low = 0.0, high = std::max (law.c, 1e-12 * law.k);
     const auto areaAt = [&] (double c) {
         law.c = c;
         return areaOf (x, law);
     };
-    for (int i = 0; i < 100 && areaAt (high) < area; ++i)
+    for (int i = 0; i < 100 && ! detail::isCancelled (course) && areaAt (high) < area; ++i)
         high *= 2.0;
-    for (int i = 0; i < 200 && low < high; ++i)
+    for (int i = 0; i < 200 && low < high && ! detail::isCancelled (course); ++i)
     {
         const double middle = 0.5 * (low + high);
         if (middle <= low || middle >= high) break;
@@ -220,13 +222,14 @@ void matchArea (const Contact& x, double area, Candidate& law)
 }
 
 /// The energy that a free impact loses with the fitted law.
-double playedArea (const Candidate& law, double mass, double speed, double duration)
+double playedArea (const Candidate& law, double mass, double speed, double duration, FitCourse* course)
 {
     const auto force = [&] (double d, double v) noexcept { return law.force (d, v); };
-    for (double longest = duration; longest < 1e6 * duration; longest *= 4.0)
+    for (double longest = duration; longest < 1e6 * duration && ! detail::isCancelled (course); longest *= 4.0)
         if (const auto out = freeImpact (force, mass, speed, longest); out.isKnown()) return 0.5 * mass * (speed * speed - out.speed * out.speed);
     return 0.5 * mass * speed * speed;   // the damping keeps the mass inside
 }
+
 /// The weights of the rows in the integral of a force over depth or over time.
 Eigen::RowVectorXd weightsOf (const std::vector<double>& along)
 {
@@ -299,7 +302,7 @@ void reportShock (const Contact& x, const Candidate& law, bool estimates_mass, S
 }
 }   // namespace
 
-Result<ShockFit> fitShock (const RecordedLoop& loop, double mass)
+Result<ShockFit> fitShock (const RecordedLoop& loop, double mass, FitCourse* course)
 {
     if (auto checked = checkImpact (loop); ! checked) return checked.error();
     auto found = contactOf (loop);
@@ -318,11 +321,13 @@ Result<ShockFit> fitShock (const RecordedLoop& loop, double mass)
     if (! (area >= 0.0))
         return detail::fitError ("fit/gains_energy", "the recorded force is larger on the way out than on the way in, so the object would create energy",
                                  "check the order of the rows and the signs: depth and force are positive inside the object");
-    auto law = bestOf (x, area);
+    auto law = bestOf (x, area, course);
+    if (detail::isCancelled (course)) return detail::fitCancelled();
     if (! std::isfinite (law.error))
         return detail::fitError ("fit/no_spring", "no law k d^n with damping fits the recording",
                                  "check the columns: the force must grow with depth, in N and m");
-    matchArea (x, area, law);
+    matchArea (x, area, law, course);
+    detail::setShare (course, 0.7);
 
     ShockFit fit;
     fit.stiffness = { .kind = Law::Kind::power, .a = law.k, .b = law.n };
@@ -338,9 +343,12 @@ Result<ShockFit> fitShock (const RecordedLoop& loop, double mass)
         fit.residual += (x.f[i] - fit.fitted[i]) * (x.f[i] - fit.fitted[i]);
     }
     fit.residual = std::sqrt (fit.residual / static_cast<double> (x.size()));
-    if (fit.speed > 0.0) fit.played_area = playedArea (law, mass, fit.speed, 4.0 * x.d[x.deepest()] / fit.speed);
+    if (fit.speed > 0.0) fit.played_area = playedArea (law, mass, fit.speed, 4.0 * x.d[x.deepest()] / fit.speed, course);
+    if (detail::isCancelled (course)) return detail::fitCancelled();
+    detail::setShare (course, 0.8);
     fit.recorded = x.f;
     reportShock (x, law, estimates_mass, fit);
+    if (detail::isCancelled (course)) return detail::fitCancelled();
     fit.depth = std::move (x.d);
     return fit;
 }

@@ -44,11 +44,11 @@ struct ShockFit
 /// The intervals take the recorded area into account, and include only errors of the force. The cross-validation divides the rows into 50 blocks
 /// and leaves out every fifth block.
 ///
-/// Errors: fit/too_short, fit/not_finite, fit/time, fit/no_contact, fit/no_loop, fit/gains_energy, fit/mass, fit/no_spring.
-/// [any thread]
+/// Errors: fit/too_short, fit/not_finite, fit/time, fit/no_contact, fit/no_loop, fit/gains_energy, fit/mass, fit/no_spring,
+/// fit/cancelled. [any thread]
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 6: the area of the loop of force against deflection matters
 /// more than its shape. The law is eq. (10) with Hunt & Crossley's D = lambda K.
-Result<ShockFit> fitShock (const RecordedLoop&, double mass = 0.0);
+Result<ShockFit> fitShock (const RecordedLoop&, double mass = 0.0, FitCourse* = nullptr);
 
 }   // namespace tactus

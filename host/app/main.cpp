@@ -84,7 +84,7 @@ private:
     {
         const Command options { "Edits and runs graphs of haptic effects, and shows the forces on the hand.", "tactus-host" };
         std::vector<std::string> files;
-        options.addOption ("files", files, "Graphs to open");
+        options.addOption ("files", files, "Graphs or clips to open, or a recording to fit");
         options.addFlag ("--safe", how.safe, "Safe mode: nothing runs until START is pressed");
         options.addFlag ("--light", how.light, "Light theme, whatever the settings say");
         std::string osc = std::to_string (OscPort::usual);

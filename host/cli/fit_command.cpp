@@ -64,8 +64,9 @@ void printFit (const FittedGraph& made, const FitCommandOptions& options)
     }
     std::cout << printableName (options.recording) << ": " << made.report.rows << " rows, " << info.about << "\n"
               << host::textOf (made.report);
-    for (const auto& line : made.details)
-        std::cout << "  " << line << "\n";
+    for (const auto* lines : { &made.details, &made.snippets })
+        for (const auto& line : *lines)
+            std::cout << "  " << line << "\n";
     std::cout << "wrote " << printableName (options.preset) << "\n";
 }
 
@@ -112,7 +113,10 @@ FitCommand addFitKind (const Command& fit, FitKind kind, const std::string& abou
     made.command.addOption ("-o,--out", options->preset, "The preset to write: a graph file").required();
     made.command.addOption ("--plot", options->plot, "Plot the recording and the fit into this PNG, SVG or PDF file");
     made.command.addFlag ("--json", options->json, "Print JSON, for use by programs");
-    made.command.addOption ("--column", options->columns, "The name of the column for a role, such as --column \"force=Fx\"; roles: " + roles).oneValueEach();
+    made.command
+        .addOption ("--column", options->columns,
+                    "The name of the column for a role, such as --column \"force=Fx\"; without a name: not recorded. Roles: " + roles)
+        .oneValueEach();
     made.command
         .addOption ("--unit", options->units,
                     "What 1 in a column means, such as --unit \"force=1 mN\"; default: as in the name of the column (x_um, \"Force [mN]\"), or SI")

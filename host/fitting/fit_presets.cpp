@@ -117,23 +117,27 @@ void setSources (graph::Graph& graph, std::initializer_list<std::pair<const char
 
 constexpr const char* board_guess = "guess: what the simulated device can render";
 
-/// Rounds a number to six digits, which is more than the accuracy of any fit.
-double tidy (double v) { return std::stod (shortNumber (v, 6)); }
+/// Rounds a number to six digits, which is more than the accuracy of any fit; places along a path need them.
+double tidy (double v, int digits = 6) { return std::stod (shortNumber (v, digits)); }
 }   // namespace
 
-graph::Graph frictionPreset (const FrictionFit& fit, const std::string& source)
+graph::Graph frictionPreset (const FrictionFit& fit, const std::string& load_source, const std::string& source)
 {
     auto graph = graphOf (frictionSketch());
     constexpr const char* names[] { "stick", "dupont", "ramp", "dahl", "curve" };
     auto& params = nodeIn (graph, "drag").params;
-    params = { { "mu", tidy (fit.mu) },
-               { "d_max", tidy (fit.d_max) },
+    params = { { "mu", tidy (fit.mu, 4) },
+               { "d_max", tidy (fit.d_max, 4) },
                { "adhesion", names[static_cast<std::size_t> (fit.adhesion)] },
-               { "reference_load", tidy (fit.reference_load) } };
-    if (fit.adhesion == BristleAdhesion::dupont) params["break_away"] = tidy (fit.break_away);
+               { "reference_load", tidy (fit.reference_load, 4) } };
+    if (fit.adhesion == BristleAdhesion::dupont) params["break_away"] = tidy (fit.break_away, 4);
     graph.about = "Friction fitted to a recording: it slides at " + shortNumber (fit.mu) + " times the load. The contact stretches "
                   + shortNumber (1e3 * fit.d_max) + " mm before it slides at a load of " + shortNumber (fit.reference_load) + " N.";
-    setSources (graph, { { "drag.mu", source }, { "drag.d_max", source }, { "board.stiffness", board_guess } });
+    setSources (graph, { { "drag.mu", source },
+                         { "drag.d_max", source },
+                         { "drag.adhesion", source },
+                         { "drag.reference_load", load_source },
+                         { "board.stiffness", board_guess } });
     return graph;
 }
 

@@ -16,7 +16,7 @@ namespace tactus::host
 
 // Graphs in which a fit can be felt. `source` says where the numbers come from. Everything that was not fitted is marked as a guess.
 
-graph::Graph frictionPreset (const FrictionFit&, const std::string& source);
+graph::Graph frictionPreset (const FrictionFit&, const std::string& load_source, const std::string& source);
 graph::Graph modesPreset (const ModesFit&, double newtons_per_unit, const std::string& amplitude_source, const std::string& source);
 graph::Graph texturePreset (const TextureFit&, double mass, const std::string& mass_source, const std::string& source);
 

@@ -41,7 +41,8 @@ Result<FittedGraph> friction (const Columns& c, const std::string& file, const F
 {
     auto fit = fitFriction ({ c.at ("position"), c.at ("force"), c.at ("load"), orElse (s.load, 1.0) }, course);
     if (! fit) return fit.error();
-    FittedGraph made { .kind = FitKind::friction, .preset = frictionPreset (*fit, sourceOf (FitKind::friction, file, fit->report)), .nodes = { "drag" } };
+    const auto load = ! c.at ("load").empty() ? "the mean of the recorded load" : s.load > 0.0 ? "as given" : "guess: the load was not recorded";
+    FittedGraph made { .kind = FitKind::friction, .preset = frictionPreset (*fit, load, sourceOf (FitKind::friction, file, fit->report)), .nodes = { "drag" } };
     constexpr const char* functions[] { "stick", "dupont", "ramp", "dahl", "curve" };
     made.details.push_back (std::string ("adhesion  ") + functions[static_cast<std::size_t> (fit->adhesion)] + ", d_max at a load of "
                             + shortNumber (fit->reference_load) + " N");
@@ -77,7 +78,9 @@ Result<FittedGraph> texture (const Columns& c, const std::string& file, const Fi
     if (s.most > 0) recorded.most_coefficients = s.most;
     auto fit = fitTexture (recorded, course);
     if (! fit) return fit.error();
-    const auto from = s.mass > 0.0 ? "the given mass" : "a guess of the mass of the tip";
+    std::string from = s.mass > 0.0 ? "the given mass" : "a guess of the mass of the tip";
+    if (recorded.speed.empty()) from += "; speed: " + shortNumber (recorded.assumed_speed) + (s.speed > 0.0 ? " m/s, as given" : " m/s, a guess");
+    if (recorded.force.empty()) from += "; normal force: " + shortNumber (recorded.assumed_force) + (s.force > 0.0 ? " N, as given" : " N, a guess");
     FittedGraph made { .kind = FitKind::texture,
                        .preset = texturePreset (*fit, orElse (s.mass, 0.01), from, sourceOf (FitKind::texture, file, fit->report)),
                        .nodes = { "grain" } };
@@ -113,16 +116,16 @@ Result<FittedGraph> blade (const Columns& c, const std::string& file, const FitS
     auto fit = fitBlade ({ fromTouch (c.at ("depth"), s.touch), c.at ("force"), orElse (s.width, 0.02) }, course);
     if (! fit) return fit.error();
     FittedGraph made { .kind = FitKind::blade, .preset = bladePreset (*fit, sourceOf (FitKind::blade, file, fit->report)), .nodes = { "blade" } };
-    made.details.push_back ("law       " + toJson (fit->law).dump() + (fit->cracked_law ? ", with a crack " + toJson (fit->cracked_law).dump() : ""));
+    made.snippets.push_back ("law       " + toJson (fit->law).dump() + (fit->cracked_law ? ", with a crack " + toJson (fit->cracked_law).dump() : ""));
     made.details.push_back ("width     " + shortNumber (1e3 * fit->width) + " mm"
                             + (s.width > 0.0 ? "" : ", a guess: toughness is the force of cutting divided by it"));
     made.report = std::move (fit->report);
     return made;
 }
 
-Result<FittedGraph> curve (const Columns& c, const std::string& file, const FitSettings& s)
+Result<FittedGraph> curve (const Columns& c, const std::string& file, const FitSettings& s, FitCourse* course)
 {
-    auto fit = fitCurve ({ .depth = fromTouch (c.at ("depth"), s.touch), .force = c.at ("force") }, s.points);
+    auto fit = fitCurve ({ .depth = fromTouch (c.at ("depth"), s.touch), .force = c.at ("force") }, s.points, course);
     if (! fit) return fit.error();
     const EvenBody body { .along = fit->law, .mu = s.mu, .ratio = s.ratio };
     std::string about = "A uniform body with the curve of a recorded indentation.";
@@ -134,8 +137,8 @@ Result<FittedGraph> curve (const Columns& c, const std::string& file, const FitS
         made.details.push_back ("hysteresis  " + shortNumber (1e3 * fit->area, 6) + " mJ, " + shortNumber (100.0 * fit->area / fit->work, 2)
                                 + " % of the work on the way in; the curve is the mean of both ways and loses nothing");
     const auto curves = curvesOf (body);
-    made.details.push_back ("for deform.plane    \"law\": " + toJson (fit->law).dump());
-    made.details.push_back ("for deform.surface  \"curves\": " + curves.at ("curves").dump() + ", \"mu\": " + curves.at ("mu").dump());
+    made.snippets.push_back ("for deform.plane    \"law\": " + toJson (fit->law).dump());
+    made.snippets.push_back ("for deform.surface  \"curves\": " + curves.at ("curves").dump() + ", \"mu\": " + curves.at ("mu").dump());
     constexpr double much = 0.02;
     if (fit->drop > much * fit->peak)
         made.warnings.push_back (Message::warning (
@@ -145,13 +148,13 @@ Result<FittedGraph> curve (const Columns& c, const std::string& file, const FitS
     return made;
 }
 
-Result<FittedGraph> shock (const Columns& c, const std::string& file, const FitSettings& s)
+Result<FittedGraph> shock (const Columns& c, const std::string& file, const FitSettings& s, FitCourse* course)
 {
-    auto fit = fitShock ({ .depth = c.at ("depth"), .force = c.at ("force"), .time = c.at ("t") }, s.mass);
+    auto fit = fitShock ({ .depth = c.at ("depth"), .force = c.at ("force"), .time = c.at ("t") }, s.mass, course);
     if (! fit) return fit.error();
     FittedGraph made { .kind = FitKind::shock, .preset = shockPreset (*fit, sourceOf (FitKind::shock, file, fit->report)), .nodes = { "blow" } };
-    made.details = { "stiffness  " + toJson (fit->stiffness).dump(), "damping    " + toJson (fit->damping).dump(),
-                     "mass       " + shortNumber (fit->mass) + " kg, at " + shortNumber (fit->speed) + " m/s",
+    made.snippets = { "stiffness  " + toJson (fit->stiffness).dump(), "damping    " + toJson (fit->damping).dump() };
+    made.details = { "mass       " + shortNumber (fit->mass) + " kg, at " + shortNumber (fit->speed) + " m/s",
                      "area       " + shortNumber (1e3 * fit->recorded_area, 6) + " mJ recorded, " + shortNumber (1e3 * fit->fitted_area, 6) + " mJ fitted, "
                          + shortNumber (1e3 * fit->played_area, 6) + " mJ when the shock is played at this speed" };
     constexpr double much = 0.1;
@@ -179,11 +182,11 @@ Result<FittedGraph> fitted (FitKind kind, const Columns& c, const std::string& f
     case FitKind::blade:
         return blade (c, file, s, course);
     case FitKind::curve:
-        return curve (c, file, s);
+        return curve (c, file, s, course);
     case FitKind::shock:
         break;
     }
-    return shock (c, file, s);
+    return shock (c, file, s, course);
 }
 }   // namespace
 
@@ -195,6 +198,15 @@ Result<FittedGraph> fitRecording (FitKind kind, const Table& table, const std::s
     if (! made) return Message::error (made.error().id, file, made.error().text, made.error().remedy);
     made->preset.name = std::filesystem::path (file).stem().string();
     return made;
+}
+
+FitPicture pictureOf (FitKind kind, const Table& table, const ColumnChoice& choice)
+{
+    const auto& columns = infoOf (kind).columns;
+    auto x = columnOf (table, {}, columns[0], choice), y = columnOf (table, {}, columns[1], choice);
+    if (! x || ! y) return {};
+    const auto nameOf = [] (const FitColumn& column) { return column.role == "t" ? std::string ("time") : column.role; };
+    return { nameOf (columns[0]), columns[0].unit, nameOf (columns[1]), columns[1].unit, { { "recorded", std::move (*x), std::move (*y), true } } };
 }
 
 }   // namespace tactus::host

@@ -64,12 +64,16 @@ struct FittedGraph
     FitReport report {};
     graph::Graph preset {};
     std::vector<std::string> nodes {};     ///< names of the fitted nodes in the preset
-    std::vector<std::string> details {};   ///< lines about this kind
+    std::vector<std::string> details {};    ///< lines about this kind
+    std::vector<std::string> snippets {};   ///< lines with parts of graph files
     Messages warnings {};
 };
 
 /// Fits a recording. `file` is named in messages and in the preset. Errors: fit/…; see framework/fit. [any thread]
 Result<FittedGraph> fitRecording (FitKind, const Table&, const std::string& file, const FitSettings&, FitCourse* = nullptr);
+
+/// What was recorded, the second column of a kind over the first. Empty if the columns cannot be read. [any thread]
+FitPicture pictureOf (FitKind, const Table&, const ColumnChoice&);
 
 /// "0.472 [0.468, 0.475]", with a unit and a prefix where they help.
 std::string textOf (const FitValue&);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 namespace tactus::host
 {
@@ -62,8 +63,8 @@ char separatorOf (const std::string& line)
         if (line.find (c) != std::string::npos) return c;
     return ' ';
 }
+}   // namespace
 
-/// The unit in the name of a column; empty if there is none.
 std::string unitIn (const std::string& column)
 {
     for (const auto& [open, close] : { std::pair { '[', ']' }, std::pair { '(', ')' } })
@@ -74,7 +75,16 @@ std::string unitIn (const std::string& column)
     const auto unit = column.substr (from + 1);
     return unit == "gf" || unit == "g" || parseMeasure ("1 " + unit) ? unit : "";
 }
-}   // namespace
+
+std::optional<double> factorOf (const std::string& text, const std::string& si_unit)
+{
+    const auto unit = trimmed (text);
+    if (unit == "gf" && si_unit == "N") return gram_force;
+    if (unit == "g" && si_unit == "m/s2") return standard_gravity;
+    const auto measure = parseMeasure (startsWithNumber (unit) ? unit : "1 " + unit), si = parseMeasure ("1 " + si_unit);
+    if (! measure || ! si || measure->dimension != si->dimension || ! (std::abs (measure->value) > 0.0) || ! std::isfinite (measure->value)) return {};
+    return measure->value;
+}
 
 Result<Table> readRecording (const std::filesystem::path& path)
 {
@@ -115,7 +125,8 @@ std::string bareName (const std::string& column)
 
 std::optional<std::size_t> findColumn (const Table& table, const FitColumn& wanted, const ColumnChoice& choice)
 {
-    if (const auto chosen = choice.names.find (wanted.role); chosen != choice.names.end()) return table.column (chosen->second);
+    if (const auto chosen = choice.names.find (wanted.role); chosen != choice.names.end())
+        return chosen->second.empty() ? std::nullopt : table.column (chosen->second);
     for (const auto& name : wanted.names)
         for (std::size_t i = 0; i < table.columns.size(); ++i)
             if (bareName (table.columns[i]) == name) return i;
@@ -126,14 +137,15 @@ Result<std::vector<double>> columnOf (const Table& table, const std::string& fil
 {
     const auto chosen = choice.names.find (wanted.role);
     const auto found = findColumn (table, wanted, choice);
-    if (! found && ! wanted.required && chosen == choice.names.end()) return std::vector<double> {};
+    const bool is_named = chosen != choice.names.end() && ! chosen->second.empty();
+    if (! found && ! wanted.required && ! is_named) return std::vector<double> {};
     if (! found)
     {
         std::string columns;
         for (const auto& column : table.columns)
             columns += (columns.empty() ? "" : ", ") + column;
         return Message::error ("fit/column", file,
-                               "there is no column " + quote (chosen != choice.names.end() ? chosen->second : wanted.role) + "; there are " + columns,
+                               "there is no column " + quote (is_named ? chosen->second : wanted.role) + "; there are " + columns,
                                "name the column " + quote (wanted.role) + " (" + wanted.about + "), or say which one it is: --column " + wanted.role + "=NAME");
     }
 
@@ -143,16 +155,11 @@ Result<std::vector<double>> columnOf (const Table& table, const std::string& fil
         factor = unit->second;
     else if (const auto written = unitIn (name); ! written.empty() && ! wanted.unit.empty())
     {
-        const auto measure = parseMeasure ("1 " + written), si = parseMeasure ("1 " + wanted.unit);
-        if (written == "gf" && wanted.unit == "N")
-            factor = gram_force;
-        else if (written == "g" && wanted.unit == "m/s2")
-            factor = standard_gravity;
-        else if (measure && si && measure->dimension == si->dimension)
-            factor = measure->value;
-        else
+        const auto known = factorOf (written, wanted.unit);
+        if (! known)
             return Message::error ("fit/unit", file, "the column " + quote (name) + " is in " + quote (written) + ", not in a unit of " + wanted.unit,
                                    "say what 1 in this column means, such as --unit \"" + wanted.role + "=1 " + wanted.unit + "\"");
+        factor = *known;
     }
     std::vector<double> values;
     for (std::size_t r = 0; r < table.rows(); ++r)

@@ -25,13 +25,19 @@ struct FitColumn
 /// The columns, and their units, that the user has chosen for each role.
 struct ColumnChoice
 {
-    std::map<std::string, std::string> names {};
+    std::map<std::string, std::string> names {};   ///< an empty name: not recorded, for a role that is not required
     std::map<std::string, double> units {};   ///< what 1 means, in SI
 };
 
 /// Reads numbers under a header row, separated by commas, semicolons, tabs or spaces. The header may start with #.
 /// Errors: those of readTable. [any thread]
 Result<Table> readRecording (const std::filesystem::path&);
+
+/// The unit in the name of a column, such as "mm" for "Position [mm]" or x_mm; empty if there is none.
+std::string unitIn (const std::string& column);
+
+/// What 1 in a column means in an SI unit: 0.001 for "mm" or "1 mm" in m, 0.5 for "0.5 N" in N. Empty if the text does not fit.
+std::optional<double> factorOf (const std::string& text, const std::string& si_unit);
 
 /// The name of a column without its unit, in lower case: "x" for x_um, "normal" for "Normal [uN]".
 std::string bareName (const std::string& column);

@@ -38,9 +38,14 @@ std::string fixedText (double v, double wide)
 {
     if (! std::isfinite (v)) return "unknown";
     if (! (wide > 0.0) || ! std::isfinite (wide) || std::abs (v) >= 1e7) return shortNumber (v, 4);
-    const int decimals = std::clamp (1 - static_cast<int> (std::floor (std::log10 (wide))), 0, 9);
+    const auto twoDigitsOf = [] (double number) { return 1 - static_cast<int> (std::floor (std::log10 (number))); };
+    const int decimals = std::min (9, twoDigitsOf (wide));
     std::ostringstream out;
-    out << std::fixed << std::setprecision (decimals) << v;
+    out << std::fixed << std::setprecision (std::max (0, decimals));
+    if (const int zeros = std::abs (v) >= 1.0 ? std::min (-decimals, -twoDigitsOf (std::abs (v))) : 0; zeros > 0)   // 40200 instead of 40188
+        out << std::pow (10.0, zeros) * std::round (v / std::pow (10.0, zeros));
+    else
+        out << v;
     const auto text = out.str();
     return text.find_first_not_of ("-0.") == std::string::npos && text.front() == '-' ? text.substr (1) : text;   // no -0.00
 }

@@ -15,13 +15,14 @@ namespace tactus::host
 
 namespace
 {
-constexpr int fit_margin = 24, widest_box = 1080, highest_box = 640, field_height = 28, table_width = 380;
+constexpr int fit_margin = 24, widest_box = 1240, highest_box = 720, field_height = 28, table_width = 380;
 
 /// What a kind needs to know and a recording does not contain.
 struct Amount
 {
     const char *label, *unit, *usual;
     double FitSettings::*member;
+    bool is_above_0 = true;   ///< otherwise it may have any value
 };
 
 std::optional<Amount> amountOf (FitKind kind)
@@ -37,19 +38,20 @@ std::optional<Amount> amountOf (FitKind kind)
         return Amount { NEEDS_TRANS ("Width of the cut"), "m", "20 mm", &FitSettings::width };
     case FitKind::shock:
         return Amount { NEEDS_TRANS ("Mass"), "kg", "", &FitSettings::mass };
-    case FitKind::modes:
     case FitKind::curve:
+        return Amount { NEEDS_TRANS ("Depth at the touch"), "m", "0 mm", &FitSettings::touch, false };
+    case FitKind::modes:
         break;
     }
     return {};
 }
 
 /// A load that was recorded need not be typed.
-bool isRecorded (FitKind kind, const Table& table)
+bool isRecorded (FitKind kind, const Table& table, const ColumnChoice& choice)
 {
     if (kind != FitKind::friction) return false;
     const auto& columns = infoOf (kind).columns;
-    return findColumn (table, *std::ranges::find (columns, "load", &FitColumn::role)).has_value();
+    return findColumn (table, *std::ranges::find (columns, "load", &FitColumn::role), choice).has_value();
 }
 }   // namespace
 
@@ -60,7 +62,7 @@ FitPanel::FitPanel()
     setTitle (TRANS ("Fit a recording"));
     kinds.setTitle (TRANS ("What was recorded"));
     for (const auto& info : fitKinds())
-        kinds.addItem (fromUtf8 (info.name) + " - " + fromUtf8 (info.about), static_cast<int> (info.kind) + 1);
+        kinds.addItem (fromUtf8 (info.name) + juce::String::fromUTF8 (" \xe2\x80\x93 ") + fromUtf8 (info.about), static_cast<int> (info.kind) + 1);
     kinds.setTextWhenNothingSelected (TRANS ("Choose what was recorded"));
     kinds.onChange = [this] {
         if (kinds.getSelectedId() > 0) choose (static_cast<FitKind> (kinds.getSelectedId() - 1));
@@ -68,6 +70,11 @@ FitPanel::FitPanel()
     amount.onReturnKey = amount.onFocusLost = [this] { readAmount(); };
     amount.onEscapeKey = [this] { close(); };
     amount.setSelectAllWhenFocused (true);
+    amount.setIndents (8, 6);
+    which.onChange = [this] {
+        if (isOpen()) fit();
+    };
+    which.onEscape = [this] { close(); };
     amount_label.setJustificationType (juce::Justification::centredRight);
     as_graph.setFirst (true);
     as_graph.setTooltip (TRANS ("Open a new graph in which the fit can be felt; the open graph is saved first if you like"));
@@ -77,7 +84,7 @@ FitPanel::FitPanel()
     cancel.onClick = [this] { close(); };
     scroll.setViewedComponent (&values, false);
     scroll.setScrollBarsShown (true, false);
-    for (auto* c : std::initializer_list<juce::Component*> { &kinds, &amount_label, &amount, &plot, &scroll, &as_graph, &into_graph, &cancel })
+    for (auto* c : std::initializer_list<juce::Component*> { &kinds, &which, &amount_label, &amount, &plot, &scroll, &as_graph, &into_graph, &cancel })
         addAndMakeVisible (c);
 }
 
@@ -88,13 +95,15 @@ void FitPanel::open (const std::filesystem::path& path)
     chosen.reset();
     kinds.setSelectedId (0, juce::dontSendNotification);
     table.reset();
+    which.clear();
+    plot.show ({});
     setVisible (true);
     toFront (false);
     auto read = readRecording (path);
     if (read)
         table = std::make_shared<const Table> (std::move (*read));
     else
-        fail (juce::String (messageText (read.error())));
+        fail (messageText (read.error()));
     if (table)
     {
         const auto guessed = guessKind (*table);
@@ -120,6 +129,7 @@ void FitPanel::choose (FitKind kind)
     amount_label.setText (wanted ? juce::translate (wanted->label) : juce::String(), juce::dontSendNotification);
     amount.setTitle (wanted ? juce::translate (wanted->label) : juce::String());
     amount.setTextToShowWhenEmpty (TRANS ("from the times"), themeOf (*this).dim);
+    if (table) which.show (*table, kind);
     fit();
 }
 
@@ -141,26 +151,30 @@ void FitPanel::fit()
     failure.clear();
     plot.show ({});
     values.show ({});
-    FitSettings settings;
+    FitSettings settings { .columns = which.choice() };
     const auto wanted = chosen ? amountOf (*chosen) : std::nullopt;
     amount.getProperties().set ("fitted", amount.getText());
     if (! table || ! chosen) return;
-    if (wanted && amount.getText().trim().isNotEmpty())
+    if (const auto wrong = which.problem(); wrong.isNotEmpty()) return fail (wrong.toStdString());
+    plot.show (pictureOf (*chosen, *table, settings.columns));
+    const bool asks = wanted && ! isRecorded (*chosen, *table, settings.columns);
+    if (asks && amount.getText().trim().isNotEmpty())
     {
         const auto typed = parseMeasure (amount.getText().trim().toStdString()), unit = parseMeasure (std::string ("1 ") + wanted->unit);
         const bool fits = typed && (typed->dimension == unit->dimension || typed->dimension == Dimension {});
-        if (! fits || ! (typed->value > 0.0) || ! std::isfinite (typed->value))
-            return fail (filled (TRANS ("%1: %2 does not fit. Type a number above 0 with its unit, such as 1.5 %3."), juce::translate (wanted->label),
-                                 amount.getText().quoted(), wanted->unit));
+        if (! fits || (wanted->is_above_0 && ! (typed->value > 0.0)) || ! std::isfinite (typed->value))
+            return fail (filled (wanted->is_above_0 ? TRANS ("%1: %2 does not fit. Type a number above 0 with its unit, such as 1.5 %3.")
+                                                    : TRANS ("%1: %2 does not fit. Type a number with its unit, such as 1.5 %3."),
+                                 juce::translate (wanted->label), amount.getText().quoted(), wanted->unit));
         settings.*(wanted->member) = typed->value;
     }
     job.start (*chosen, table, file.string(), settings);
     showResult();
 }
 
-void FitPanel::fail (const juce::String& why)
+void FitPanel::fail (const std::string& why)
 {
-    failure = why;
+    failure = sentence (why);
     result.reset();
     showResult();
 }
@@ -168,13 +182,13 @@ void FitPanel::fail (const juce::String& why)
 void FitPanel::attend()
 {
     if (! isOpen()) return;
-    if (job.isRunning()) repaint (plot.getBounds());
+    if (job.isRunning()) repaint (scroll.getBounds());
     auto done = job.take();
     if (! done) return;
-    if (! *done) return fail (juce::String (messageText (done->error())));
+    if (! *done) return fail (messageText (done->error()));
     result = std::move (**done);
     plot.show (result->report.picture);
-    values.show (result->report);
+    values.show (*result);
     showResult();
 }
 
@@ -185,9 +199,9 @@ void FitPanel::showResult()
     into_graph.setEnabled (result.has_value());
     for (auto* button : { &as_graph, &into_graph })
         button->setAlpha (button->isEnabled() ? 1.0f : 0.4f);
-    plot.setVisible (result.has_value());
+    plot.setVisible (! plot.shown().curves.empty());
     scroll.setVisible (result.has_value());
-    const bool asks = chosen && amountOf (*chosen) && table && ! isRecorded (*chosen, *table);
+    const bool asks = chosen && amountOf (*chosen) && table && ! isRecorded (*chosen, *table, which.choice());
     amount.setVisible (asks);
     amount_label.setVisible (asks);
     setDescription (failure.isNotEmpty() ? failure : job.isRunning() ? TRANS ("Fitting") : juce::String());
@@ -230,6 +244,8 @@ void FitPanel::resized()
         amount_label.setBounds (row.removeFromRight (130));
     }
     kinds.setBounds (row.removeFromLeft (std::min (row.getWidth(), 460)));
+    area.removeFromTop (10);
+    which.setBounds (area.removeFromTop (table && chosen ? FitColumns::height : 0));
     area.removeFromTop (14);
     auto buttons = area.removeFromBottom (32);
     area.removeFromBottom (16);
@@ -267,7 +283,7 @@ void FitPanel::paint (juce::Graphics& g)
     }
     if (result) return;
 
-    const auto place = plot.getBounds().getUnion (scroll.getBounds());
+    const auto place = plot.isVisible() ? scroll.getBounds() : plot.getBounds().getUnion (scroll.getBounds());
     if (failure.isNotEmpty())
     {
         const auto text = wrapText (failure, look.font (13.0f), theme.stop, static_cast<float> (place.getWidth()));
@@ -275,7 +291,7 @@ void FitPanel::paint (juce::Graphics& g)
         return;
     }
     if (! job.isRunning()) return;
-    auto line = place.withSizeKeepingCentre (280, 40);
+    auto line = place.withSizeKeepingCentre (std::min (280, place.getWidth()), 40);
     g.setColour (theme.dim);
     g.setFont (look.font (13.0f));
     g.drawText (TRANS ("Fitting ..."), line.removeFromTop (20), juce::Justification::centred, false);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "fit_columns.hpp"
 #include "fit_job.hpp"
 #include "fit_plot.hpp"
 #include "fit_table.hpp"
@@ -27,7 +28,8 @@ public:
 
     void attend();   ///< call many times a second
 
-    void choose (FitKind);                  ///< chooses a kind, as the list does
+    void choose (FitKind);   ///< chooses a kind, as the list does
+    FitColumns& columns() noexcept { return which; }
     void setAmount (const juce::String&);   ///< sets the amount, as if the user typed it: "2 N"
     bool isFitting() const { return job.isRunning(); }
     const std::optional<FittedGraph>& fitted() const noexcept { return result; }
@@ -45,7 +47,7 @@ public:
 
 private:
     void fit();
-    void fail (const juce::String&);
+    void fail (const std::string&);
     void readAmount();
     void showResult();
 
@@ -57,6 +59,7 @@ private:
     juce::String failure;
 
     juce::ComboBox kinds;
+    FitColumns which;
     juce::Label amount_label;
     juce::TextEditor amount;
     FitPlot plot;

@@ -7,6 +7,7 @@
 #include <host/io/axis.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace tactus::host
@@ -77,21 +78,33 @@ void paintFitAxes (juce::Graphics& g, juce::Rectangle<int> area, FitAxes& axes, 
     g.drawText (fromUtf8 (axes.along.label), bottom.withTrimmedTop (row + 2), juce::Justification::centred, false);
 }
 
-/// A line, at most about two points per pixel column: the lowest and the highest row of each.
+/// A line. Of a long recording, only the lowest and the highest row of each part are drawn, so that a tone keeps its height.
 juce::Path fitPath (const FitCurve& curve, const FitAxes& axes)
 {
+    constexpr std::size_t most_parts = 10000;
+    const auto part = std::max<std::size_t> (1, curve.x.size() / most_parts);
     juce::Path path;
     bool begun = false;
-    const auto step = std::max<std::size_t> (1, curve.x.size() / 20000);
-    for (std::size_t i = 0; i < curve.x.size(); i += step)
+    const auto add = [&] (std::size_t i) {
+        const juce::Point<float> p { axes.toX (curve.x[i]), axes.toY (curve.y[i]) };
+        std::exchange (begun, true) ? path.lineTo (p) : path.startNewSubPath (p);
+    };
+    for (std::size_t from = 0; from < curve.x.size(); from += part)
     {
-        if (! isPlottable (curve.x[i]) || ! isPlottable (curve.y[i]))
+        std::optional<std::size_t> low, high;
+        for (std::size_t i = from; i < std::min (from + part, curve.x.size()); ++i)
+        {
+            if (! isPlottable (curve.x[i]) || ! isPlottable (curve.y[i])) continue;
+            if (! low || curve.y[i] < curve.y[*low]) low = i;
+            if (! high || curve.y[i] > curve.y[*high]) high = i;
+        }
+        if (! low)
         {
             begun = false;
             continue;
         }
-        const juce::Point<float> p { axes.toX (curve.x[i]), axes.toY (curve.y[i]) };
-        std::exchange (begun, true) ? path.lineTo (p) : path.startNewSubPath (p);
+        add (std::min (*low, *high));
+        if (*low != *high) add (std::max (*low, *high));
     }
     return path;
 }
@@ -99,7 +112,7 @@ juce::Path fitPath (const FitCurve& curve, const FitAxes& axes)
 juce::Colour fitColour (const FitCurve& curve, std::size_t index, const Theme& theme)
 {
     if (! curve.is_recorded) return theme.accent;
-    return index == 0 ? theme.dim : theme.of (Quantity::length);
+    return index == 0 ? theme.dim : theme.axes[1];
 }
 
 /// Names and colours in the upper right corner.

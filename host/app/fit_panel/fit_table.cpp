@@ -3,10 +3,12 @@
 
 #include <host/app/look/look.hpp>
 #include <host/app/look/text.hpp>
+#include <host/app/model/message_text.hpp>
+#include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/fitting/fitting.hpp>
 #include <tactus/text/number_text.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tactus::host
@@ -27,9 +29,23 @@ std::pair<juce::String, juce::String> valueAndInterval (const FitValue& v)
 }
 }   // namespace
 
-void FitTable::show (FitReport r)
+juce::String sentence (const std::string& text)
 {
-    report = std::move (r);
+    const auto whole = fromUtf8 (text);
+    return whole.substring (0, 1).toUpperCase() + whole.substring (1) + (whole.isEmpty() || whole.endsWithChar ('.') ? "" : ".");
+}
+
+void FitTable::show (const FittedGraph& made)
+{
+    report = made.report;
+    warnings = made.warnings;
+    details.clear();
+    for (const auto& line : made.details)   // "adhesion  stick"
+    {
+        const auto space = std::min (line.find ("  "), line.size());
+        const auto text = line.find_first_not_of (' ', space);
+        details.add (sentence (text == std::string::npos ? line : line.substr (0, space) + ": " + line.substr (text)));
+    }
     rows.clear();
     juce::StringArray read;
     for (const auto& v : report.values)
@@ -45,16 +61,26 @@ void FitTable::show (FitReport r)
 juce::TextLayout FitTable::remarks (int width) const
 {
     const auto& look = lookOf (*this);
-    juce::String text;
+    const auto& theme = look.theme();
+    juce::AttributedString text;
+    const auto add = [&] (const juce::String& line, juce::Colour colour) { text.append (line + "\n", look.font (12.0f), colour); };
     for (const auto& lack : report.lacking)
-        text << fromUtf8 (lack).substring (0, 1).toUpperCase() << fromUtf8 (lack).substring (1) << (lack.ends_with ('.') ? "" : ".") << "\n";
-    const auto unit = report.residual_unit.empty() ? juce::String() : " " + fromUtf8 (report.residual_unit);
-    text << filled (TRANS ("Unexplained: %1 % (%2 rms); %3 on a part that was left out."), roundedText (100.0 * report.residual / report.size, 2),
-                    fromUtf8 (roundedText (report.residual, 3)) + unit, fromUtf8 (roundedText (report.left_out_residual, 3)) + unit)
-         << "\n";
+        add (sentence (lack), theme.text);
+    for (const auto& warning : warnings)
+        add (sentence (messageText (warning)), theme.text);
+    const auto size = [&] (double residual) {
+        return fromUtf8 (report.residual_unit.empty() ? roundedText (residual, 3) : withPrefix (residual, report.residual_unit));
+    };
+    add (filled (TRANS ("Unexplained: %1 % (%2 rms); %3 on a part that was left out."), roundedText (100.0 * report.residual / report.size, 2),
+                 size (report.residual), size (report.left_out_residual)),
+         theme.dim);
+    for (const auto& detail : details)
+        add (detail, theme.dim);
     for (const auto& note : report.notes)
-        text << fromUtf8 (note).substring (0, 1).toUpperCase() << fromUtf8 (note).substring (1) << ".\n";
-    return wrapText (text.trimEnd(), look.font (12.0f), look.theme().dim, static_cast<float> (width));
+        add (sentence (note), theme.dim);
+    juce::TextLayout layout;
+    layout.createLayout (text, static_cast<float> (width));
+    return layout;
 }
 
 int FitTable::heightFor (int width) const

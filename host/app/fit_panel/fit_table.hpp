@@ -2,21 +2,23 @@
 #pragma once
 
 #include <host/app/text/filled.hpp>
-
-#include <tactus/fit/fit_report.hpp>
+#include <host/fitting/fitting.hpp>
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
 namespace tactus::host
 {
 
-/// The verdict, the parameters with their intervals, and the residuals. Its height depends on its content and its width.
+/// A text that begins with a capital letter and ends with a full stop.
+juce::String sentence (const std::string&);
+
+/// The verdict, the parameters with their intervals, the residuals and remarks. Its height depends on its content and its width.
 class FitTable final : public juce::Component
 {
 public:
     FitTable() { setTitle (TRANS ("Fitted parameters")); }
 
-    void show (FitReport);
+    void show (const FittedGraph&);
     int heightFor (int width) const;
 
     void paint (juce::Graphics&) override;
@@ -31,6 +33,8 @@ private:
     juce::TextLayout remarks (int width) const;
 
     FitReport report;
+    Messages warnings;
+    juce::StringArray details;
     std::vector<Row> rows;
 };
 

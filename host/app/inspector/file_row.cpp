@@ -135,7 +135,7 @@ private:
     {
         const auto folder = context.folder();
         const auto start = folder.empty() ? juce::File() : juce::File::getCurrentWorkingDirectory().getChildFile (folder);
-        // false: no dialog of the desktop, which would keep Esc from this program, see MainView::askForFile
+        // false: no dialog of the desktop, which would keep Esc from this program, see MainView::launchChooser
         chooser = std::make_unique<juce::FileChooser> (TRANS ("Choose a file"), start, patternsOf (kind), false);
         const auto chosen = [safe = juce::Component::SafePointer (this)] (const juce::FileChooser& c) {
             if (safe != nullptr && c.getResult() != juce::File()) safe->setFile (c.getResult().getFullPathName());

@@ -33,6 +33,9 @@ public:
 
     void setJustification (juce::Justification j) { justified = j; }
 
+    /// Shows a dot in the colour of the toggle before the text while it is off, as for a recording.
+    void setDot() { has_dot = true; }
+
     int bestWidth() const { return static_cast<int> (lookOf (*this).font (12.0f).getStringWidthFloat (getButtonText())) + 20; }
 
     void paintButton (juce::Graphics& g, bool over, bool down) override
@@ -62,9 +65,15 @@ public:
             g.drawRoundedRectangle (area, 4.0f, 1.0f);
         }
         g.setFont (look.font (12.0f, lit));
+        auto place = justified == juce::Justification::centred ? getLocalBounds() : getLocalBounds().reduced (4, 0);
+        if (has_dot && ! lit)
+        {
+            g.setColour (isEnabled() ? on : theme.dim.withAlpha (0.5f));
+            g.fillEllipse (place.removeFromLeft (28).toFloat().withSizeKeepingCentre (8.0f, 8.0f));
+            place.removeFromRight (8);
+        }
         g.setColour (textColour (theme, lit, over, on));
-        const bool centred = justified == juce::Justification::centred;
-        g.drawText (getButtonText(), centred ? getLocalBounds() : getLocalBounds().reduced (4, 0), justified, true);
+        g.drawText (getButtonText(), place, justified, true);
     }
 
 private:
@@ -72,11 +81,13 @@ private:
     {
         if (! isEnabled()) return theme.dim.withAlpha (0.5f);
         if (kind == Kind::framed || (kind == Kind::tab && getToggleState())) return theme.text;
+        if (has_dot && ! lit) return theme.text;
         if (lit) return fill.getPerceivedBrightness() > 0.5f ? juce::Colour (0xff14171b) : juce::Colours::white;
         return over ? theme.text : theme.dim;
     }
 
     Kind kind;
+    bool has_dot = false;
     juce::Justification justified = juce::Justification::centred;
     std::function<juce::Colour (const Theme&)> on_colour;
 };

@@ -115,7 +115,7 @@ void FilmButton::ask (Film film)
     const auto folder = juce::File::getSpecialLocation (juce::File::userDocumentsDirectory).getChildFile ("Tactus");
     folder.createDirectory();
     const auto file = folder.getChildFile ("film" + juce::Time::getCurrentTime().formatted (" %Y-%m-%d %H-%M-%S") + ".png");
-    constexpr bool of_the_desktop = false;   // such a dialog would keep Esc from this program, see MainView::askForFile
+    constexpr bool of_the_desktop = false;   // such a dialog would keep Esc from this program, see MainView::launchChooser
     chooser = std::make_unique<juce::FileChooser> (TRANS ("Save film"), file, "*.png", of_the_desktop);
     using Choice = juce::FileBrowserComponent;
     auto kept = std::make_shared<Film> (std::move (film));

@@ -29,6 +29,7 @@ TakePanel::TakePanel (Document& d, Playback& p, const Catalogue& c) : document (
 {
     setTitle (TRANS ("Take"));
     record.setColour ([] (const Theme& t) { return t.stop; });
+    record.setDot();
     record.onClick = [this] { toggleRecording(); };
     clip.onClick = [this] { makeClip(); };
     gesture.onClick = [this] { makeGesture(); };
@@ -121,7 +122,7 @@ void TakePanel::makeClip()
         if (! read) return refuse (read.error());
         Messages notes;
         const auto made = clipOfStretch (*read, notes);
-        if (onChoose && onClip) onChoose ("take.haptic", [this, made, notes] (const std::filesystem::path& to) { onClip (made, notes, to); });
+        if (onChoose && onClip) onChoose ("take.wav", [this, made, notes] (const std::filesystem::path& to) { onClip (made, notes, to); });
     });
 }
 

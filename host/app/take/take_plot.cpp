@@ -2,8 +2,10 @@
 #include "take_plot.hpp"
 
 #include <host/app/look/component_colour.hpp>
+#include <host/app/look/text.hpp>
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/io/axis.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -149,8 +151,18 @@ void TakePlot::paintMark (juce::Graphics& g) const
     g.setColour (theme.dim);
     g.setFont (look.font (11.0f));
     const auto low_edge = getLocalBounds().removeFromBottom (15).reduced (2, 0);
+    const auto ends = juce::String (length(), 2) + " s";
     g.drawText ("0 s", low_edge, juce::Justification::centredLeft, false);
-    g.drawText (juce::String (length(), 2) + " s", low_edge, juce::Justification::centredRight, false);
+    g.drawText (ends, low_edge, juce::Justification::centredRight, false);
+    const float room = g.getCurrentFont().getStringWidthFloat (ends) + 24.0f;
+    for (const auto& tick : ticksWithin ({ 0.0, length() }, std::max (2, low_edge.getWidth() / 100)))
+    {
+        const float x = xAt (tick.at);
+        if (x < box.getX() + room || x > box.getRight() - room) continue;
+        g.drawVerticalLine (juce::roundToInt (x), box.getBottom(), box.getBottom() + 3.0f);
+        g.drawText (fromUtf8 (tick.text), juce::Rectangle<float> (x - 40.0f, static_cast<float> (low_edge.getY()), 80.0f, 15.0f),
+                    juce::Justification::centred, false);
+    }
 }
 
 void TakePlot::paint (juce::Graphics& g)

@@ -164,15 +164,6 @@ void MainView::applyFusion()
     run().fuse (settings.fuse ? std::optional (how) : std::nullopt);
 }
 
-void MainView::open (const std::filesystem::path& file)
-{
-    // A shipped preset is opened as a copy, whichever way its path is written.
-    std::error_code failed;
-    const auto whole = std::filesystem::absolute (file, failed);
-    const bool is_shipped = std::filesystem::equivalent (whole.parent_path(), presetFolder(), failed) && ! failed;
-    is_shipped ? files.openCopy (whole, false) : files.open (file);
-}
-
 void MainView::closeWhenSaved (std::function<void()> close)
 {
     files.whenSaved (TRANS ("Save changes to '%1' before closing Tactus?"), [this, close = std::move (close)] {
@@ -192,7 +183,8 @@ void MainView::timerCallback()
 {
     playback.attend();
     // A dialog for files that has just closed gives the focus back to what had it before.
-    if (question.isOpen() && ! question.hasKeyboardFocus (true) && juce::Component::getNumCurrentlyModalComponents() == 0) takeFocus (question);
+    juce::Component* over = question.isOpen() ? static_cast<juce::Component*> (&question) : fitting.isOpen() ? &fitting : nullptr;
+    if (over != nullptr && ! over->hasKeyboardFocus (true) && juce::Component::getNumCurrentlyModalComponents() == 0) takeFocus (*over);
     if (osc_server) osc_server->attend();
     strip.refresh();
     if (direct_stop)

@@ -139,6 +139,8 @@ private:
     juce::PopupMenu languageMenu();
     void openMenu (juce::Component& at);
     void askForRecording();
+    void launchChooser (const juce::String& title, const juce::String& patterns, const juce::File& begin, int how,
+                        std::function<void (const std::filesystem::path&)>);
     void askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
     void applySettings();
     void applyFusion();
@@ -183,6 +185,7 @@ private:
     HelpPanel help;
     FitPanel fitting;
     std::unique_ptr<juce::FileChooser> chooser;
+    juce::File recordings;   // the folder of the last recording that was chosen
     juce::Component::SafePointer<juce::Component> focused;   // the component with the focus, whose keys are listened to
     Messages missing;                                        // what the graph lacks to be felt
     const void* shown_identity = nullptr;                    // identity of the document that is shown

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files that are dropped on the window, and clips that are saved.
+// Files that are opened or dropped on the window, and clips that are saved.
 #include "main_view.hpp"
 
 #include <host/app/model/message_text.hpp>
@@ -29,24 +29,33 @@ juce::String lossText (const SavedClip& saved, const Messages& notes)
     return text;
 }
 
-bool isTable (const fs::path& file)
+bool isRecording (const fs::path& file)
 {
     const auto extension = extensionOf (file);
     return extension == ".csv" || extension == ".tsv" || extension == ".txt";
 }
 }   // namespace
 
+void MainView::open (const fs::path& file)
+{
+    if (isRecording (file)) return fitRecordingIn (file);
+    // A shipped preset is opened as a copy, whichever way its path is written.
+    std::error_code failed;
+    const auto whole = fs::absolute (file, failed);
+    const bool is_shipped = fs::equivalent (whole.parent_path(), presetFolder(), failed) && ! failed;
+    is_shipped ? files.openCopy (whole, false) : files.open (file);
+}
+
 bool MainView::isInterestedInFileDrag (const juce::StringArray& dragged)
 {
     if (dragged.size() != 1 || question.isOpen()) return false;
     const fs::path file { dragged[0].toStdString() };
-    return isClipExtension (file) || isTable (file) || extensionOf (file) == ".json";
+    return isClipExtension (file) || isRecording (file) || extensionOf (file) == ".json";
 }
 
 void MainView::filesDropped (const juce::StringArray& dropped, int, int)
 {
-    const fs::path file { dropped[0].toStdString() };
-    isTable (file) ? fitRecordingIn (file) : open (file);
+    open (dropped[0].toStdString());
 }
 
 void MainView::saveClipAs (const fs::path& file)

@@ -261,30 +261,35 @@ void MainView::openMenu (juce::Component& at)
 
 void MainView::askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)> chosen)
 {
-    // Never a dialog of the desktop: that is another program, so its window would keep Esc from stopping the forces.
-    constexpr bool of_the_desktop = false;
     const auto [title, patterns] = wordsFor (saves, begin);
-    chooser = std::make_unique<juce::FileChooser> (title, juce::File (begin.string()), patterns, of_the_desktop);
     using Choice = juce::FileBrowserComponent;
     const int how = saves ? Choice::saveMode | Choice::canSelectFiles | Choice::warnAboutOverwriting : Choice::openMode | Choice::canSelectFiles;
-    chooser->launchAsync (how, [this, chosen = std::move (chosen)] (const juce::FileChooser& c) {
-        takeFocus (patching);
-        // Later, when the dialog is gone: it gives the focus back, which a question that `chosen` asks needs.
-        if (const auto file = c.getResult(); file != juce::File())
-            juce::MessageManager::callAsync ([safe = SafePointer (this), chosen, path = file.getFullPathName().toStdString()] {
-                if (safe != nullptr) chosen (path);
-            });
-    });
+    launchChooser (title, patterns, juce::File (begin.string()), how, std::move (chosen));
 }
 
 void MainView::askForRecording()
 {
-    constexpr bool of_the_desktop = false;   // as in askForFile
-    chooser = std::make_unique<juce::FileChooser> (TRANS ("Fit a recording"), juce::File::getSpecialLocation (juce::File::userHomeDirectory),
-                                                   "*.csv;*.tsv;*.txt", of_the_desktop);
-    chooser->launchAsync (juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this] (const juce::FileChooser& c) {
+    const auto home_folder = juce::File::getSpecialLocation (juce::File::userHomeDirectory);
+    launchChooser (TRANS ("Fit a recording"), "*.csv;*.tsv;*.txt", recordings.isDirectory() ? recordings : home_folder,
+                   juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this] (const std::filesystem::path& file) {
+                       recordings = juce::File (file.parent_path().string());
+                       fitRecordingIn (file);
+                   });
+}
+
+void MainView::launchChooser (const juce::String& title, const juce::String& patterns, const juce::File& begin, int how,
+                              std::function<void (const std::filesystem::path&)> chosen)
+{
+    // Never a dialog of the desktop: that is another program, so its window would keep Esc from stopping the forces.
+    constexpr bool of_the_desktop = false;
+    chooser = std::make_unique<juce::FileChooser> (title, begin, patterns, of_the_desktop);
+    chooser->launchAsync (how, [this, chosen = std::move (chosen)] (const juce::FileChooser& c) {
         takeFocus (patching);
-        if (const auto file = c.getResult(); file != juce::File()) fitRecordingIn (file.getFullPathName().toStdString());
+        // Later, when the dialog is gone: it gives the focus back, which what `chosen` opens needs.
+        if (const auto file = c.getResult(); file != juce::File())
+            juce::MessageManager::callAsync ([safe = SafePointer (this), chosen, path = file.getFullPathName().toStdString()] {
+                if (safe != nullptr) chosen (path);
+            });
     });
 }
 

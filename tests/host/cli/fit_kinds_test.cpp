@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program.hpp"
 
+#include <host/fitting/fitting.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/kit/random.hpp>
 
@@ -8,9 +9,11 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <thread>
 
 using namespace tactus;
 using test::checkRefused;
@@ -88,6 +91,24 @@ std::string cut()
         if (depth >= 3e-3 && crack == 0.0) crack = 2e-3;
         if (crack > 0.0) crack = std::max (crack, depth - 2e-3);
         out << depth << "," << 2000.0 * (depth - crack) + 0.05 * random.normal();
+    });
+}
+
+/// A slow push of 4 mm, in and out.
+std::string press()
+{
+    return table ("depth,force", 4000, [] (std::ostream& out, int i) {
+        const double depth = 4e-3 * (1.0 - std::abs (i / 2000.0 - 1.0));
+        out << depth << "," << (i < 2000 ? 1200.0 : 900.0) * depth;
+    });
+}
+
+/// An impact of 5 ms, recorded with its times.
+std::string blow()
+{
+    return table ("t,depth,force", 2000, [] (std::ostream& out, int i) {
+        const double phase = std::numbers::pi * i / 1999.0, depth = 1e-3 * std::sin (phase);
+        out << 5e-3 * i / 1999.0 << "," << depth << "," << 5e4 * depth * (1.0 + 0.2 * std::cos (phase));
     });
 }
 
@@ -221,4 +242,38 @@ TEST_CASE ("fit: recordings and options that cannot be used are refused, and not
                scratch.write ("rest.csv", table ("t,acceleration,speed", 400, [] (std::ostream& out, int i) { out << i * 1e-3 << "," << i % 3 << ",0"; })),
                "-o", preset },
              1, "[fit/at_rest]");
+}
+
+TEST_CASE ("fit: every kind can be cancelled, before it begins and while it runs", "[cli][fit]")
+{
+    const std::map<std::string, std::string> recordings { { "friction", strokes() }, { "modes", ring() }, { "texture", cloth() }, { "grating", ridges() },
+                                                          { "blade", cut() },        { "curve", press() }, { "shock", blow() } };
+    for (const auto& info : host::fitKinds())
+    {
+        CAPTURE (info.id);
+        const Scratch scratch;
+        const auto rows = host::readRecording (scratch.write ("recording.csv", recordings.at (info.id)));
+        REQUIRE (rows);
+        const auto problemIf = [&] (FitCourse& course) {
+            const auto made = host::fitRecording (info.kind, *rows, "recording.csv", {}, &course);
+            return made ? std::string() : made.error().id;
+        };
+        FitCourse whole, refused;
+        CHECK (problemIf (whole) == "");
+        CHECK (whole.share > 0.0);
+        refused.cancelled = true;
+        CHECK (problemIf (refused) == "fit/cancelled");
+
+        for (const double share : { 0.1, 0.5, 0.75 })
+        {
+            FitCourse course;
+            std::jthread other ([&] (std::stop_token done) {
+                while (course.share < share && ! done.stop_requested())
+                    std::this_thread::yield();
+                course.cancelled = true;
+            });
+            const auto problem = problemIf (course);
+            CHECK ((problem == "" || problem == "fit/cancelled"));   // it may end before the other thread sees the share
+        }
+    }
 }

@@ -148,7 +148,7 @@ TEST_CASE ("fit panel: another kind or amount starts a new fit, and the panel sh
     rig.panel().choose (FitKind::texture);
     rig.finish();
     CHECK_FALSE (rig.panel().fitted());
-    CHECK (rig.panel().problem().contains ("no column"));
+    CHECK (rig.panel().problem().contains ("Choose the column of: t, acceleration"));
 }
 
 TEST_CASE ("fit panel: the panel reports a file that is not a recording, or whose columns suggest no kind", "[app][fit]")
@@ -160,8 +160,67 @@ TEST_CASE ("fit panel: the panel reports a file that is not a recording, or whos
     rig.view.fitRecordingIn (rig.write ("letters.csv", "a,b\n1,2\n3,4\n"));
     CHECK_FALSE (rig.panel().kind());
     CHECK (rig.panel().problem().contains ("Choose"));
+    rig.panel().choose (FitKind::friction);
+    CHECK_FALSE (rig.panel().isFitting());
+    CHECK (rig.panel().problem().contains ("position, force"));
     rig.view.fitRecordingIn (rig.home / "missing.csv");
     CHECK (rig.panel().problem().isNotEmpty());
+}
+
+TEST_CASE ("fit panel: columns and units can be chosen, and a wrong unit is said", "[app][fit]")
+{
+    FitRig rig;
+    auto text = strokedRows (true);
+    text.replace (0, text.find ('\n'), "a,b,c");
+    rig.view.fitRecordingIn (rig.write ("letters.csv", text));
+    auto& panel = rig.panel();
+    panel.choose (FitKind::friction);
+    panel.columns().chooseColumn ("position", "a");
+    CHECK_FALSE (panel.isFitting());
+    panel.columns().chooseColumn ("force", "b");
+    rig.finish();
+    REQUIRE (panel.fitted());
+    CHECK (panel.fitted()->report.at ("mu").value == Approx (0.8).epsilon (0.02));   // of 1 N
+    panel.columns().chooseColumn ("load", "c");
+    rig.finish();
+    REQUIRE (panel.fitted());
+    CHECK (panel.fitted()->report.at ("mu").value == Approx (0.4).epsilon (0.02));
+    panel.columns().setUnit ("position", "mm");
+    rig.finish();
+    REQUIRE (panel.fitted());
+    CHECK (panel.fitted()->report.at ("d_max").value == Approx (1e-7).epsilon (0.02));
+    panel.columns().setUnit ("position", "N");
+    CHECK_FALSE (panel.isFitting());
+    CHECK_FALSE (panel.fitted());
+    CHECK (panel.problem().contains ("\"N\" does not fit"));
+    panel.columns().setUnit ("position", "1 m");
+    panel.columns().chooseColumn ("load", {});
+    rig.finish();
+    REQUIRE (panel.fitted());
+    CHECK (panel.fitted()->report.at ("mu").value == Approx (0.8).epsilon (0.02));
+}
+
+TEST_CASE ("fit panel: a press that snaps is said, and the depth of the touch can be given", "[app][fit]")
+{
+    FitRig rig;
+    std::ostringstream text;
+    text << "depth_mm,force\n";
+    for (int i = 0; i < 800; ++i)
+    {
+        const double depth = 0.005 * std::min (i, 800 - i);
+        text << depth << "," << (depth > 1.2 && depth < 1.5 ? 0.4 : 1.0) * std::max (0.0, depth - 0.5) << "\n";
+    }
+    rig.view.fitRecordingIn (rig.write ("key.csv", text.str()));
+    rig.finish();
+    REQUIRE (rig.panel().fitted());
+    CHECK (rig.panel().kind() == FitKind::curve);
+    REQUIRE (rig.panel().fitted()->warnings.size() == 1);
+    CHECK (rig.panel().fitted()->warnings[0].id == "fit/falls");
+    const double whole = rig.panel().fitted()->report.picture.curves.front().x.back();
+    rig.panel().setAmount ("0.5 mm");
+    rig.finish();
+    REQUIRE (rig.panel().fitted());
+    CHECK (rig.panel().fitted()->report.picture.curves.front().x.back() == Approx (whole - 5e-4));
 }
 
 TEST_CASE ("fit panel: a CSV file that is dropped on the window opens the panel, other files do not", "[app][fit]")
@@ -175,6 +234,9 @@ TEST_CASE ("fit panel: a CSV file that is dropped on the window opens the panel,
     CHECK (rig.panel().isOpen());
     rig.finish();
     CHECK (rig.panel().fitted());
+    rig.panel().close();
+    rig.view.open (file.toStdString());   // as named on the command line
+    CHECK (rig.panel().isOpen());
 }
 
 TEST_CASE ("fit panel: it is drawn in both themes at each size", "[app][fit]")

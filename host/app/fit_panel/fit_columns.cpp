@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit_columns.hpp"
+
+#include <host/app/look/look.hpp>
+#include <host/app/look/text.hpp>
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr int label_height = 18, cell_gap = 12, unit_width = 64, unit_gap = 4;
+constexpr int not_recorded = 1, first_column = 2;   // ids in the list
+}   // namespace
+
+void FitColumns::clear()
+{
+    cells.clear();
+    repaint();
+}
+
+void FitColumns::show (const Table& table, FitKind kind)
+{
+    cells.clear();
+    names = table.columns;
+    for (const auto& wanted : infoOf (kind).columns)
+    {
+        auto& cell = *cells.emplace_back (std::make_unique<Cell>());
+        cell.wanted = wanted;
+        const auto role = fromUtf8 (wanted.role);
+        cell.column.setTitle ("Column of " + role);
+        cell.column.setTooltip ("The column with the " + fromUtf8 (wanted.about));
+        cell.column.setTextWhenNothingSelected ("Choose");
+        if (! wanted.required) cell.column.addItem ("not recorded", not_recorded);
+        for (std::size_t i = 0; i < names.size(); ++i)
+            cell.column.addItem (fromUtf8 (names[i]), first_column + static_cast<int> (i));
+        const auto found = findColumn (table, wanted);
+        const int nothing = wanted.required ? 0 : not_recorded;
+        cell.column.setSelectedId (found ? first_column + static_cast<int> (*found) : nothing, juce::dontSendNotification);
+        const auto written = found ? unitIn (names[*found]) : std::string();
+        cell.unit.setTitle ("Unit of " + role);
+        cell.unit.setTooltip ("What 1 in this column means, such as mm, gf or \"0.5 N\"");
+        cell.unit.show (fromUtf8 (written.empty() ? wanted.unit : written));
+        cell.column.onChange = [this, &cell] {
+            const auto i = static_cast<std::size_t> (std::max (0, cell.column.getSelectedId() - first_column));
+            const auto of_column = cell.column.getSelectedId() >= first_column ? unitIn (names[i]) : std::string();
+            cell.unit.show (fromUtf8 (of_column.empty() ? cell.wanted.unit : of_column));
+            changed();
+        };
+        cell.unit.onEscapeKey = [this] {
+            if (onEscape) onEscape();
+        };
+        cell.unit.onApply = [this] (const juce::String&) { changed(); };
+        addAndMakeVisible (cell.column);
+        if (! wanted.unit.empty()) addAndMakeVisible (cell.unit);
+    }
+    resized();
+    repaint();
+}
+
+void FitColumns::changed()
+{
+    for (auto& cell : cells)
+        cell->unit.setEnabled (cell->column.getSelectedId() >= first_column);
+    if (onChange) onChange();
+}
+
+FitColumns::Cell* FitColumns::find (const std::string& role)
+{
+    const auto found = std::ranges::find (cells, role, [] (const auto& cell) { return cell->wanted.role; });
+    return found == cells.end() ? nullptr : found->get();
+}
+
+void FitColumns::chooseColumn (const std::string& role, const juce::String& column)
+{
+    auto* cell = find (role);
+    if (! cell) return;
+    const auto at = std::ranges::find (names, column.toStdString());
+    if (at != names.end()) cell->column.setSelectedId (first_column + static_cast<int> (at - names.begin()), juce::sendNotificationSync);
+    if (column.isEmpty() && ! cell->wanted.required) cell->column.setSelectedId (not_recorded, juce::sendNotificationSync);
+}
+
+void FitColumns::setUnit (const std::string& role, const juce::String& unit)
+{
+    auto* cell = find (role);
+    if (! cell) return;
+    cell->unit.setText (unit, false);
+    cell->unit.apply();
+}
+
+ColumnChoice FitColumns::choice() const
+{
+    ColumnChoice made;
+    for (const auto& cell : cells)
+    {
+        const int id = cell->column.getSelectedId();
+        if (id == not_recorded) made.names[cell->wanted.role] = "";
+        if (id < first_column) continue;
+        made.names[cell->wanted.role] = names[static_cast<std::size_t> (id - first_column)];
+        if (cell->wanted.unit.empty()) continue;
+        if (const auto factor = factorOf (cell->unit.getText().toStdString(), cell->wanted.unit)) made.units[cell->wanted.role] = *factor;
+    }
+    return made;
+}
+
+juce::String FitColumns::problem() const
+{
+    juce::StringArray missing;
+    for (const auto& cell : cells)
+        if (cell->column.getSelectedId() == 0) missing.add (fromUtf8 (cell->wanted.role));
+    if (! missing.isEmpty()) return "The names of the columns do not say which is which. Choose the column of: " + missing.joinIntoString (", ") + ".";
+    for (const auto& cell : cells)
+        if (cell->column.getSelectedId() >= first_column && ! cell->wanted.unit.empty()
+            && ! factorOf (cell->unit.getText().toStdString(), cell->wanted.unit))
+            return "Unit of " + fromUtf8 (cell->wanted.role) + ": " + cell->unit.getText().quoted() + " does not fit. Type a unit like "
+                   + fromUtf8 (cell->wanted.unit) + ", with its prefix.";
+    return {};
+}
+
+void FitColumns::paint (juce::Graphics& g)
+{
+    const auto& look = lookOf (*this);
+    g.setColour (look.theme().dim);
+    g.setFont (look.font (12.0f));
+    for (const auto& cell : cells)
+        g.drawText (fromUtf8 (cell->wanted.role == "t" ? "time" : cell->wanted.role) + (cell->wanted.required ? "" : ", if recorded"), cell->column.getX(), 0,
+                    cell->unit.getRight() - cell->column.getX(), label_height - 4, juce::Justification::centredLeft, true);
+}
+
+void FitColumns::resized()
+{
+    if (cells.empty()) return;
+    const int count = static_cast<int> (cells.size());
+    const int width = std::min (320, (getWidth() - (count - 1) * cell_gap) / count);
+    for (int i = 0; i < count; ++i)
+    {
+        auto& cell = *cells[static_cast<std::size_t> (i)];
+        auto place = juce::Rectangle<int> (i * (width + cell_gap), label_height, width, height - label_height);
+        const bool has_unit = ! cell.wanted.unit.empty();
+        cell.unit.setBounds (has_unit ? place.removeFromRight (std::min (unit_width, width / 3)) : juce::Rectangle<int> (place.getRight(), place.getY(), 0, 0));
+        if (has_unit) place.removeFromRight (unit_gap);
+        cell.column.setBounds (place);
+    }
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/corpus.hpp"
+
+#include <fuzz/recording_target.hpp>
+
+#include <catch2/catch.hpp>
+
+using namespace tactus;
+
+TEST_CASE ("every file of the recording corpus is fitted or refused", "[fit]") { CHECK (test::replay ("recording", fuzz::tryRecording) > 10); }
