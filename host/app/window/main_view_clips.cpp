@@ -22,6 +22,8 @@ juce::String lossText (const SavedClip& saved, const Messages& notes)
     for (const auto& m : notes)
         lines.push_back (m.text + (m.remedy.empty() ? "" : "; " + m.remedy));
     std::ranges::move (lossReport (saved), std::back_inserter (lines));
+    if (lines.back().starts_with ("none")) lines.pop_back();
+    if (lines.empty()) return TRANS ("The file holds the whole clip. Rendered, it is the same.");
     auto text = TRANS ("What the file does not hold, or holds differently:") + "\n";
     for (std::size_t i = 0; i < std::min (most, lines.size()); ++i)
         text << "\n- " << juce::String (lines[i]) << ".";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Recordings are made from known parameters, 300 for each kind, with fixed seeds. The noise is 20 dB below the signal.
+// Recordings are made from known parameters with noise 20 dB below the signal, 300 for each kind (fewer where they are long), with fixed seeds.
 
 #include "draws.hpp"
 
@@ -70,26 +70,25 @@ TEST_CASE ("fit of friction: intervals contain the truth, and mu, d_max and stif
         tally.add ("d_max", fit->report.at ("d_max"), s.truth.d_max);
         tally.add ("stiffness", fit->report.at ("stiffness"), s.truth.stiffness());
     }
-    CHECK (right >= 0.9 * draws);   // in 500 noisy rows, the adhesion functions are not always distinguishable
+    CHECK (right >= 0.96 * draws);   // 500 rows under noise do not always tell dupont from ramp
     tally.check ("mu", 0.02, draws);
     tally.check ("d_max", 0.02, draws);
     tally.check ("stiffness", 0.02, draws);
 }
 
-TEST_CASE ("fit of friction: break_away is within 5 % if the recording is long", "[fit]")
+TEST_CASE ("fit of friction: break_away is within 2.5 % if the recording is long", "[fit]")
 {
-    double squares = 0.0;
-    constexpr int longer = 8;
+    Draws tally;
+    const int longer = test::rounds (24);
     for (int seed = 1; seed <= longer; ++seed)
     {
         Random random { static_cast<std::uint64_t> (seed) };
         const auto s = stroked (random, BristleAdhesion::dupont, 4000);
         const auto fit = fitFriction (s.recording);
         REQUIRE (fit);
-        REQUIRE (fit->adhesion == BristleAdhesion::dupont);
-        squares += std::pow (fit->break_away / s.truth.break_away - 1.0, 2) / longer;
+        if (fit->adhesion == BristleAdhesion::dupont) tally.add ("break_away", fit->report.at ("break_away"), s.truth.break_away);
     }
-    CHECK (std::sqrt (squares) < 0.05);
+    tally.check ("break_away", 0.025, longer);
 }
 
 TEST_CASE ("fit of modes: intervals contain the truth, and the strongest mode is within 2 %", "[fit]")
@@ -195,37 +194,44 @@ TEST_CASE ("fit of a texture: intervals contain the truth in spite of sensor noi
     tally.check ("variance", 0.08, draws);
 }
 
-TEST_CASE ("fit of a texture: ten seconds give the coefficients within 2 %, the variance within 6 %", "[fit]")
+TEST_CASE ("fit of a texture: five seconds at each speed give the coefficients within 1 %, the variance within 3 %", "[fit]")
 {
-    Random random { 5 };
-    RecordedTexture texture { .most_coefficients = 6 };
-    double before = 0.0, earlier = 0.0;
-    for (int i = -200; i < 20000; ++i)
+    Draws tally;
+    const int longer = test::rounds (12);
+    for (int seed = 1; seed <= longer; ++seed)
     {
-        const double y = 1.5 * before - 0.8 * earlier + 0.5 * random.normal();
-        earlier = before;
-        before = y;
-        if (i < 0) continue;
-        texture.time.push_back (i / 2000.0);
-        texture.acceleration.push_back (y);
-        texture.speed.push_back (i < 10000 ? 0.1 : 0.3);
-        texture.force.push_back (1.0);
+        Random random { static_cast<std::uint64_t> (seed) };
+        RecordedTexture texture { .most_coefficients = 6 };
+        double before = 0.0, earlier = 0.0;
+        for (int i = -200; i < 20000; ++i)
+        {
+            const double y = 1.5 * before - 0.8 * earlier + 0.5 * random.normal();
+            earlier = before;
+            before = y;
+            if (i < 0) continue;
+            texture.time.push_back (i / 2000.0);
+            texture.acceleration.push_back (y);
+            texture.speed.push_back (i < 10000 ? 0.1 : 0.3);
+            texture.force.push_back (1.0);
+        }
+        addNoise (texture.acceleration, random);
+        const auto fit = fitTexture (texture);
+        REQUIRE (fit);
+        REQUIRE (fit->models.size() == 2);   // one per speed
+        CHECK (fit->rate == Approx (2000.0));
+        CHECK (fit->models[0].speed == Approx (0.1));
+        CHECK (fit->models[1].speed == Approx (0.3));
+        CHECK (fit->report.is_good);
+        for (const std::string name : { "model 1", "model 2" })
+        {
+            tally.add ("a1", fit->report.at (name + " a1"), 1.5);
+            tally.add ("a2", fit->report.at (name + " a2"), -0.8);
+            tally.add ("variance", fit->report.at (name + " variance"), 0.25);
+        }
     }
-    addNoise (texture.acceleration, random);
-    const auto fit = fitTexture (texture);
-    REQUIRE (fit);
-    REQUIRE (fit->models.size() == 2);   // one per speed
-    CHECK (fit->rate == Approx (2000.0));
-    CHECK (fit->models[0].speed == Approx (0.1));
-    CHECK (fit->models[1].speed == Approx (0.3));
-    for (const auto& model : fit->models)
-    {
-        REQUIRE (model.coefficients.size() == 2);
-        CHECK (model.coefficients[0] == Approx (1.5).epsilon (0.02));
-        CHECK (model.coefficients[1] == Approx (-0.8).epsilon (0.02));
-        CHECK (model.variance == Approx (0.25).epsilon (0.06));
-    }
-    CHECK (fit->report.is_good);
+    tally.check ("a1", 0.01, 2 * longer);
+    tally.check ("a2", 0.01, 2 * longer);
+    tally.check ("variance", 0.03, 2 * longer);
 }
 
 namespace
