@@ -3,6 +3,7 @@
 
 #include <host/app/look/look.hpp>
 #include <host/app/look/text.hpp>
+#include <host/app/text/filled.hpp>
 
 #include <algorithm>
 
@@ -30,18 +31,18 @@ void FitColumns::show (const Table& table, FitKind kind)
         auto& cell = *cells.emplace_back (std::make_unique<Cell>());
         cell.wanted = wanted;
         const auto role = fromUtf8 (wanted.role);
-        cell.column.setTitle ("Column of " + role);
-        cell.column.setTooltip ("The column with the " + fromUtf8 (wanted.about));
-        cell.column.setTextWhenNothingSelected ("Choose");
-        if (! wanted.required) cell.column.addItem ("not recorded", not_recorded);
+        cell.column.setTitle (filled (TRANS ("Column of %1"), role));
+        cell.column.setTooltip (filled (TRANS ("The column with the %1"), fromUtf8 (wanted.about)));
+        cell.column.setTextWhenNothingSelected (TRANS ("Choose"));
+        if (! wanted.required) cell.column.addItem (TRANS ("not recorded"), not_recorded);
         for (std::size_t i = 0; i < names.size(); ++i)
             cell.column.addItem (fromUtf8 (names[i]), first_column + static_cast<int> (i));
         const auto found = findColumn (table, wanted);
         const int nothing = wanted.required ? 0 : not_recorded;
         cell.column.setSelectedId (found ? first_column + static_cast<int> (*found) : nothing, juce::dontSendNotification);
         const auto written = found ? unitIn (names[*found]) : std::string();
-        cell.unit.setTitle ("Unit of " + role);
-        cell.unit.setTooltip ("What 1 in this column means, such as mm, gf or \"0.5 N\"");
+        cell.unit.setTitle (filled (TRANS ("Unit of %1"), role));
+        cell.unit.setTooltip (TRANS ("What 1 in this column means, such as mm, gf or \"0.5 N\""));
         cell.unit.show (fromUtf8 (written.empty() ? wanted.unit : written));
         cell.column.onChange = [this, &cell] {
             const auto i = static_cast<std::size_t> (std::max (0, cell.column.getSelectedId() - first_column));
@@ -110,12 +111,13 @@ juce::String FitColumns::problem() const
     juce::StringArray missing;
     for (const auto& cell : cells)
         if (cell->column.getSelectedId() == 0) missing.add (fromUtf8 (cell->wanted.role));
-    if (! missing.isEmpty()) return "The names of the columns do not say which is which. Choose the column of: " + missing.joinIntoString (", ") + ".";
+    if (! missing.isEmpty())
+        return filled (TRANS ("The names of the columns do not say which is which. Choose the column of: %1."), missing.joinIntoString (", "));
     for (const auto& cell : cells)
         if (cell->column.getSelectedId() >= first_column && ! cell->wanted.unit.empty()
             && ! factorOf (cell->unit.getText().toStdString(), cell->wanted.unit))
-            return "Unit of " + fromUtf8 (cell->wanted.role) + ": " + cell->unit.getText().quoted() + " does not fit. Type a unit like "
-                   + fromUtf8 (cell->wanted.unit) + ", with its prefix.";
+            return filled (TRANS ("Unit of %1: %2 does not fit. Type a unit like %3, with its prefix."), cell->wanted.role, cell->unit.getText().quoted(),
+                           cell->wanted.unit);
     return {};
 }
 
@@ -125,8 +127,11 @@ void FitColumns::paint (juce::Graphics& g)
     g.setColour (look.theme().dim);
     g.setFont (look.font (12.0f));
     for (const auto& cell : cells)
-        g.drawText (fromUtf8 (cell->wanted.role == "t" ? "time" : cell->wanted.role) + (cell->wanted.required ? "" : ", if recorded"), cell->column.getX(), 0,
+        {
+        const auto role = fromUtf8 (cell->wanted.role == "t" ? "time" : cell->wanted.role);
+        g.drawText (cell->wanted.required ? role : filled (TRANS ("%1, if recorded"), role), cell->column.getX(), 0,
                     cell->unit.getRight() - cell->column.getX(), label_height - 4, juce::Justification::centredLeft, true);
+    }
 }
 
 void FitColumns::resized()

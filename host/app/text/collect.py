@@ -38,7 +38,7 @@ JUCE_TEXTS = [
 # programs. "*" is any file.
 NOT_TEXTS = {
     "*": {" mm", " N/mm", " dB", "Hz", "Tactus", "Source:"},
-    "fit_panel/fit_panel.cpp": {"20 mm"},
+    "fit_panel/fit_panel.cpp": {"20 mm", "0 mm"},
     "inspector/setting_editor.cpp": {"JSON: %1"},
     "layers/mixer_parts.cpp": {"layer "},
     "look/formula.cpp": {"Delta"},
@@ -162,6 +162,9 @@ def main(arguments):
         if problems:
             print("python3 host/app/text/collect.py renews en.txt")
         return 1 if problems else 0
+    if arguments and arguments[0].startswith("-"):
+        print(__doc__)
+        return 2
     if arguments:
         problems = compare(pathlib.Path(arguments[0]))
         print("\n".join(problems) or "complete")
