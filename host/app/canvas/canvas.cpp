@@ -398,7 +398,7 @@ void Canvas::showMenu()
     for (const auto& c : canvasCommands())
     {
         if (! c.in_menu || ! c.can (*this)) continue;
-        juce::PopupMenu::Item item (c.name);
+        juce::PopupMenu::Item item (juce::translate (c.name));
         const auto keys = juce::StringArray::fromTokens (c.keys, "|", {});
         if (! keys.isEmpty()) item.shortcutKeyDescription = keyText (keys[0]);
         item.action = [safe = SafePointer (this), &c] {

@@ -11,7 +11,7 @@ class Canvas;
 /// A canvas command with a menu item, a keyboard shortcut, or both.
 struct CanvasCommand
 {
-    const char* name;                       ///< menu text
+    const char* name;                       ///< menu text, in English
     const char* keys;                       ///< juce::KeyPress descriptions, separated by '|'; "" for none
     bool (*can) (const Canvas&) noexcept;   ///< false if the command does not apply to the selection
     void (*run) (Canvas&);
