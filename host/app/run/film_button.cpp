@@ -40,7 +40,7 @@ void FilmButton::refresh()
     }
     else if (isFilming())
     {
-        const double seconds = static_cast<double> (tape().end() - std::min (tape().end(), *first_tick)) / filming_rate;
+        const double seconds = tape().secondsSince (*first_tick);
         label ("Stop " + juce::String (juce::roundToInt (std::floor (seconds))) + " s");
         if (seconds >= FilmTape::longest_s - 0.5 || tape().end() < *first_tick) end();   // the tape is full, or another run has begun
     }
@@ -65,7 +65,8 @@ void FilmButton::openMenu()
         });
     };
     const bool has_something = tape().end() > 0;
-    add (menu, juce::String::fromUTF8 ("Save the last ") + juce::String (length_s, 0) + juce::String::fromUTF8 (" s\xe2\x80\xa6"), has_something, false,
+    const juce::String which = has_something || ! playback.current().isRunning() ? juce::String() : juce::String (": only while 3D is shown");
+    add (menu, juce::String::fromUTF8 ("Save the last ") + juce::String (length_s, 0) + juce::String::fromUTF8 (" s\xe2\x80\xa6") + which, has_something, false,
          [] (FilmButton& b) { b.saveLast(); });
     add (menu, "Film from now on", playback.current().isRunning(), false, [] (FilmButton& b) { b.begin(); });
     menu.addSeparator();
@@ -83,7 +84,6 @@ void FilmButton::saveLast() { ask (tape().last (length_s)); }
 void FilmButton::begin()
 {
     first_tick = tape().end();
-    filming_rate = std::max (1.0, tape().rate());
     tape().keep (FilmTape::longest_s);
 }
 

@@ -43,7 +43,7 @@ private:
     FilmTape& tape() const { return playback.current().film(); }
     void finish();
 
-    static constexpr int picture_width = 960;
+    static constexpr int picture_width = 800;
     static constexpr const char* widest = "Saving 99 %";
 
     Playback& playback;
@@ -51,7 +51,6 @@ private:
     LabelButton button { "Film", "Saves the scene as a film: pictures, sound and force" };
     double length_s = 10.0;
     std::optional<std::uint64_t> first_tick;   // while it films
-    double filming_rate = 1.0;
     std::unique_ptr<FilmJob> job;
     std::unique_ptr<juce::FileChooser> chooser;
 };

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hand_panel.hpp"
 
+#include <host/app/look/text.hpp>
 #include <host/app/model/message_text.hpp>
+#include <host/app/model/with_prefix.hpp>
 #include <tactus/run/device/gestures.hpp>
 
 namespace tactus::host
@@ -68,6 +70,7 @@ public:
 
 HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (std::make_unique<PlayButton>()), listen (std::make_unique<SoundButton>())
 {
+    setTitle ("Hand");
     source.setTitle ("What moves the tool");
     source.addItem ("Device of the graph", as_described);
     source.addItem ("Mouse or pen", by_pointer);
@@ -129,7 +132,7 @@ void HandPanel::connectScene()
     in_space.onClick = [choose] { choose (true); };
     larger.onClick = [this] { enlarge (! is_large); };
     addChildComponent (space);
-    addChildComponent (film_button);
+    addAndMakeVisible (film_button);
     film_button.onHint = [this] (const juce::String& text) {
         if (onHint) onHint (text);
     };
@@ -145,17 +148,23 @@ void HandPanel::showScene (bool scene)
     from_above.setToggleState (! is_scene, juce::dontSendNotification);
     in_space.setToggleState (is_scene, juce::dontSendNotification);
     space.setVisible (is_scene);
-    space.watch (is_scene && is_seen);
+    watchScene();
     surface.setVisible (! is_scene || showsBoth());
     larger.setVisible (is_scene);
-    film_button.setVisible (is_scene);
     resized();
     repaint();
 }
 
 void HandPanel::setSeen (bool seen)
 {
-    if (std::exchange (is_seen, seen) != seen) space.watch (is_scene && is_seen);
+    if (std::exchange (is_seen, seen) != seen) watchScene();
+}
+
+/// A film needs the scene even if it is not on the screen.
+void HandPanel::watchScene()
+{
+    const bool watches = (is_scene && is_seen) || film_button.isFilming();
+    if (std::exchange (is_watching, watches) != watches) space.watch (watches);
 }
 
 void HandPanel::enlarge (bool large)
@@ -179,7 +188,8 @@ void HandPanel::refresh()
 {
     const auto& run = playback.current();
     surface.refresh();
-    if (is_scene) space.refresh();
+    watchScene();
+    space.refresh();
     film_button.refresh();
     listen->setToggleState (sound.isOn(), juce::dontSendNotification);
     showSource (run.hand());
@@ -230,7 +240,7 @@ juce::String HandPanel::noteFor (const LiveRun& run) const
     if (! run.isRunning()) return "Not running. Press START at the top right.";
     if (run.hand().kind != LiveRun::Hand::Kind::pointer) return is_scene ? "Drag: turn. Shift+drag: move. Wheel: zoom." : "The tool follows its device.";
     if (is_scene && ! showsBoth()) return "Drag the tool to press. Elsewhere: turn; Shift: move; wheel: zoom.";
-    const auto depth = juce::String (1000.0 * surface.depth(), 1) + " mm. ";
+    const auto depth = fromUtf8 (withPrefix (surface.depth(), "m", 2)) + ". ";
     return surface.isHeld() ? "Held at a depth of " + depth + "H: release" : "Press and drag. The wheel sets the depth: " + depth + "H: hold";
 }
 
@@ -262,14 +272,12 @@ void HandPanel::resized()
     head.removeFromLeft (52);   // the title
     for (auto* b : { &from_above, &in_space, &larger })
     {
+        if (! b->isVisible()) continue;
         b->setBounds (head.removeFromLeft (b->wantedWidth()));
         head.removeFromLeft (b == &in_space ? 8 : 2);
     }
-    if (is_scene)
-    {
-        film_button.setBounds (head.removeFromLeft (film_button.wantedWidth()));
-        head.removeFromLeft (2);
-    }
+    film_button.setBounds (head.removeFromLeft (film_button.wantedWidth()));
+    head.removeFromLeft (2);
     source.setBounds (head.removeFromRight (std::min (200, head.getWidth() - 4)));
     auto low = area.removeFromBottom (bar_height).reduced (margin, 4);
     play->setBounds (low.removeFromLeft (24));
