@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "safety_strip.hpp"
 
+#include <host/app/look/text.hpp>
+#include <host/app/model/with_prefix.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +15,8 @@ namespace
 constexpr int button_width = 112;
 constexpr double pause_before_start_s = 1.0;
 
-juce::String newtonText (double force) { return juce::String (force, 3) + " N"; }
+/// Less than half a millinewton is not felt, and its digits would only flicker.
+juce::String newtonText (double force) { return std::abs (force) < 0.5e-3 ? juce::String ("0 N") : fromUtf8 (withPrefix (force, "N")); }
 
 juce::String stiffnessText (double stiffness)
 {
@@ -52,9 +56,13 @@ juce::String delayText (const LiveRun& run)
 {
     const auto d = run.delay();
     if (! d) return "no path from hand to motor";
-    const auto delay = "delay " + juce::String (*d) + (*d == 1 ? " tick" : " ticks");
-    const auto stiffness = run.stiffnessLeft();
-    return stiffness ? delay + ", walls stable up to " + stiffnessText (*stiffness) : delay;
+    return "delay " + juce::String (*d) + (*d == 1 ? " tick" : " ticks");
+}
+
+juce::String wallsText (const LiveRun& run)
+{
+    const auto stiffness = run.delay() ? run.stiffnessLeft() : std::nullopt;
+    return stiffness ? "walls stable up to " + stiffnessText (*stiffness) : juce::String();
 }
 }   // namespace
 
@@ -101,6 +109,7 @@ private:
 
 SafetyStrip::SafetyStrip (Playback& p) : playback (p), button (std::make_unique<StopButton>()), rearm (std::make_unique<StopButton>())
 {
+    setTitle ("Safety");
     rearm->setButtonText ("REARM");
     rearm->setTooltip ("Lets the forces rise again, slowly. Press it only when it is safe.");
     rearm->onClick = [this] { playback.current().rearm(); };
@@ -156,6 +165,7 @@ SafetyStrip::Shown SafetyStrip::stateOf (LiveRun& run)
     now.force = newtonText (status->force) + "  |  peak " + newtonText (status->peak);
     now.misses = "late ticks: " + juce::String (static_cast<juce::int64> (status->misses));
     now.delay = delayText (run);
+    now.walls = wallsText (run);
     return now;
 }
 
@@ -237,8 +247,8 @@ void SafetyStrip::paint (juce::Graphics& g)
         drawNumber (g, shown.force, area.removeFromLeft (force_width));
         area.removeFromLeft (gap);
     }
-    add (shown.misses, 76.0f, theme.dim);
-    add (shown.delay, 0.0f, theme.dim);
+    for (const auto& text : { shown.misses, shown.delay, shown.walls })   // left out rather than cut off
+        if (look.font (13.0f).getStringWidthFloat (text) + 4.0f <= area.getWidth()) add (text, 0.0f, theme.dim);
 }
 
 }   // namespace tactus::host
