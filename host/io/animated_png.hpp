@@ -10,10 +10,13 @@ namespace tactus::host
 {
 
 /// Writes an animated PNG, frame by frame (APNG specification 1.0, Mozilla). Every browser and most viewers play it; others show its first
-/// frame. Each frame holds only the rectangle that has changed. [any thread]
+/// frame. Each frame holds only the pixels that have changed. [any thread]
 class AnimatedPng
 {
 public:
+    /// A pixel stays as it is shown while its red, green and blue differ by at most `tolerance` (0 to 255) from those of the frame.
+    explicit AnimatedPng (int t = 0) noexcept : tolerance (t) {}
+
     /// Adds a frame that is shown for this time. All frames must be opaque, and have the size of the first one. False if it cannot be encoded.
     bool add (const juce::Image& frame, std::uint16_t milliseconds);
 
@@ -23,11 +26,14 @@ public:
     std::string file (bool repeats = true) const;
 
 private:
+    bool differs (const juce::PixelRGB&, const juce::PixelRGB&) const noexcept;
     juce::Rectangle<int> changed (const juce::Image& frame) const;
+    std::string encoded (const juce::Image& frame, juce::Rectangle<int> part);
 
+    int tolerance;
     std::string header, body;   // IHDR; the frames
     std::uint32_t count = 0, sequence = 0;
-    juce::Image before;
+    juce::Image shown;          // what a player shows after the latest frame
 };
 
 }   // namespace tactus::host

@@ -76,8 +76,18 @@ Canvas::~Canvas() { document.remove (*this); }
 
 void Canvas::documentChanged()
 {
+    std::set<graph::Id> before;
+    for (const auto& n : shown->nodes())
+        before.insert (n.id);
     updateBreadcrumbs (entered, document.graph());
     rebuild();
+    // A view that the user has not moved stays fitted when a node appears outside of it, such as by a click in another panel.
+    const auto isOut = [&] (const SceneNode& n) {
+        const auto b = n.bounds();
+        return ! before.contains (n.id)
+               && ! getLocalBounds().toFloat().contains (juce::Rectangle<float> (window.toPixels (b.getTopLeft()), window.toPixels (b.getBottomRight())));
+    };
+    if (framed && *framed == window && ! drag && std::ranges::any_of (shown->nodes(), isOut)) frameAll();
     std::erase_if (highlights.selected, [this] (graph::Id id) {
         if (isNote (id)) return noteOf (id) >= shown->notes().size();
         return shown->find (id) == nullptr && shown->findWire (id) == nullptr;

@@ -235,7 +235,7 @@ public:
     void move (const juce::MouseEvent& e) override
     {
         end_at = canvas.view().toCanvas (e.position);
-        const auto over = canvas.scene().socketAt (end_at, reach_px / canvas.view().zoom);
+        const auto over = targetAt (end_at);
         if (over && over.node->id != start.node)
         {
             const auto fits = check (*over.node, *over.socket->port);
@@ -255,7 +255,7 @@ public:
     {
         canvas.hint ({});
         const auto at = canvas.view().toCanvas (e.position);
-        const auto over = canvas.scene().socketAt (at, reach_px / canvas.view().zoom);
+        const auto over = targetAt (at);
         if (! over)
         {
             if (e.getDistanceFromDragStart() <= least_drag_px || canvas.scene().nodeAt (at) != nullptr) return;
@@ -287,6 +287,30 @@ public:
     }
 
 private:
+    /// The port at a place; elsewhere on a node, the first one that fits, best one that has no wire yet.
+    SceneSocket targetAt (juce::Point<float> at) const
+    {
+        const auto& scene = canvas.scene();
+        if (const auto over = scene.socketAt (at, reach_px / canvas.view().zoom)) return over;
+        const auto* node = scene.nodeAt (at);
+        if (node == nullptr || node->id == start.node) return {};
+        const auto from = scene.findPort (start);
+        const auto isTaken = [&] (const Socket& s) {
+            return std::ranges::any_of (scene.wires(), [&] (const SceneWire& w) {
+                return s.port->role == Role::input && w.in == s.port->id && w.end >= 0 && scene.nodes()[static_cast<std::size_t> (w.end)].id == node->id;
+            });
+        };
+        const auto wanted = start.role == Role::output ? Role::input : Role::output;
+        SceneSocket found;
+        for (const auto& s : node->box.sockets)
+            if (from && s.port->role == wanted && s.port->width == from.port->width && check (*node, *s.port))
+            {
+                if (! isTaken (s)) return { node, &s };
+                if (! found) found = { node, &s };
+            }
+        return found;
+    }
+
     Result<> check (const SceneNode& n, const FacePort& p) const
     {
         const auto from = canvas.scene().findPort (start);

@@ -17,13 +17,15 @@ namespace tactus::host
 namespace
 {
 constexpr float corner = 5.0f, socket_radius = 4.0f;
-constexpr float too_small_to_read = 0.35f;   // zoom below which text is too small to read
+constexpr float too_small_to_read = 0.35f;     // zoom below which text is too small to read
+constexpr float labels_too_small = 0.44f;      // zoom below which the labels of ports are: they have less than 5.3 pixels
+constexpr float least_title = 10.0f;           // pixels
 
 class NodePainter
 {
 public:
     NodePainter (juce::Graphics& graphics, const Look& l, const Highlights& h, float z)
-        : g (graphics), look (l), theme (l.theme()), highlights (h), zoom (z), is_readable (z > too_small_to_read)
+        : g (graphics), look (l), theme (l.theme()), highlights (h), zoom (z), is_readable (z > too_small_to_read), has_labels (z > labels_too_small)
     {
     }
 
@@ -33,7 +35,7 @@ public:
         const bool selected = highlights.selected.contains (node.id);
         g.setColour (juce::Colours::black.withAlpha (theme.is_dark ? 0.35f : 0.10f));
         g.fillRoundedRectangle (bounds.translated (0.0f, 2.0f).expanded (1.0f), corner);
-        g.setColour (theme.raised);
+        g.setColour (is_readable ? theme.raised : headerColour (theme, familyOf (node)).withMultipliedAlpha (node.bypass ? 0.4f : 1.0f));
         g.fillRoundedRectangle (bounds, corner);
         is_readable ? header (node) : nameAlone (node);
         const auto outline = highlights.hovered == node.id ? theme.dim : theme.hairline;
@@ -51,6 +53,11 @@ public:
     }
 
 private:
+    static std::string familyOf (const SceneNode& node)
+    {
+        return node.face->kind == Face::Kind::subgraph ? std::string ("graph") : node.type.substr (0, node.type.find ('.'));
+    }
+
     /// The name at a readable size on screen. It may extend over the edges of a small node.
     void nameAlone (const SceneNode& node) const
     {
@@ -67,18 +74,22 @@ private:
     void header (const SceneNode& node) const
     {
         const auto area = node.bounds().withHeight (Box::header_height);
-        const auto family = node.face->kind == Face::Kind::subgraph ? std::string ("graph") : node.type.substr (0, node.type.find ('.'));
+        const auto family = familyOf (node);
         const float alpha = node.bypass ? 0.4f : 1.0f;
         juce::Path top;
         top.addRoundedRectangle (area.getX(), area.getY(), area.getWidth(), area.getHeight(), corner, corner, true, true, false, false);
         g.setColour (headerColour (theme, family).withMultipliedAlpha (alpha));
         g.fillPath (top);
+        const auto font = look.font (std::max (Box::title_size, least_title / zoom), true);
+        const auto beside_glyph = area.withTrimmedLeft (Box::padding + 22.0f).withTrimmedRight (4.0f);
+        const bool has_glyph = zoom >= least_title / Box::title_size || font.getStringWidthFloat (node.name) <= beside_glyph.getWidth();
         g.setColour (glyphColour (theme, family).withMultipliedAlpha (alpha));
-        g.strokePath (glyphOf (family), juce::PathStrokeType (1.3f, juce::PathStrokeType::curved, juce::PathStrokeType::rounded),
-                      juce::AffineTransform::translation (area.getX() + Box::padding, area.getCentreY() - 7.0f));
+        if (has_glyph)   // a title that is enlarged may need its place
+            g.strokePath (glyphOf (family), juce::PathStrokeType (1.3f, juce::PathStrokeType::curved, juce::PathStrokeType::rounded),
+                          juce::AffineTransform::translation (area.getX() + Box::padding, area.getCentreY() - 7.0f));
         g.setColour (theme.text.withMultipliedAlpha (alpha));
-        g.setFont (look.font (Box::title_size, true));
-        g.drawText (node.name, area.withTrimmedLeft (Box::padding + 22.0f).withTrimmedRight (4.0f), juce::Justification::centredLeft, true);
+        g.setFont (font);
+        g.drawText (node.name, has_glyph ? beside_glyph : area.reduced (4.0f, 0.0f), juce::Justification::centredLeft, true);
         if (const auto state = highlights.live.states.find (node.id); state != highlights.live.states.end()) light (area, state->second);
         const float middle = area.getBottom() - 14.0f;
         if (node.bypass) g.drawLine (area.getX() + Box::padding, middle, area.getRight() - Box::padding, middle, 1.0f);
@@ -126,7 +137,7 @@ private:
                 g.fillEllipse (juce::Rectangle<float> (2 * r, 2 * r).withCentre (place));
             if (highlights.fits && fits) g.drawEllipse (juce::Rectangle<float> (2 * r + 6, 2 * r + 6).withCentre (place), 1.5f);
         }
-        if (! is_readable) return;
+        if (! has_labels) return;
         g.setFont (look.font (Box::label_size));
         g.setColour ((s.port->role == Role::param ? theme.dim : theme.text).withMultipliedAlpha (alpha));
         g.drawText (fromUtf8 (s.label), row, s.port->role == Role::output ? juce::Justification::centredRight : juce::Justification::centredLeft, false);
@@ -149,7 +160,7 @@ private:
     const Theme& theme;
     const Highlights& highlights;
     float zoom;
-    bool is_readable;   // large enough for text
+    bool is_readable, has_labels;   // large enough for the title, and for the labels
 };
 
 juce::Colour colourOf (const Note& note, const Theme& theme)

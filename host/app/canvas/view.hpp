@@ -36,8 +36,8 @@ struct View
     void frame (juce::Rectangle<float> area, juce::Rectangle<float> window) noexcept
     {
         if (area.isEmpty() || window.isEmpty()) return;
-        constexpr float margin = 48.0f;
-        const auto inside = window.reduced (std::min (margin, window.getWidth() / 4), std::min (margin, window.getHeight() / 4));
+        constexpr float margin = 48.0f, share = 0.06f;   // of a small window
+        const auto inside = window.reduced (std::min (margin, share * window.getWidth()), std::min (margin, share * window.getHeight()));
         zoom = std::clamp (std::min ({ 1.0f, inside.getWidth() / area.getWidth(), inside.getHeight() / area.getHeight() }), smallest, largest);
         origin = inside.getCentre() - area.getCentre() * zoom;
     }

@@ -27,7 +27,7 @@ Message stoppedFilm()
 Result<std::string> picturesOf (const Film& film, FilmPicture& picture, const std::function<bool (double)>& progress)
 {
     constexpr double share = 0.9;   // of the whole work
-    AnimatedPng animation;
+    AnimatedPng animation { film_tolerance };
     const auto count = std::max (1, static_cast<int> (std::lround (film.seconds() * 1000.0 / film_picture_ms)));
     for (int i = 0; i < count; ++i)
     {
@@ -95,8 +95,8 @@ void writeVideo (const fs::path& named, const std::string& ffmpeg, const std::fu
     const auto with = [&named] (const char* extension) { return fs::path (named).replace_extension (extension); };
     const auto half_made = with (".partial.webm"), says = with (".partial.txt"), video = with (".webm");
     const std::vector<std::string> command { ffmpeg, "-nostdin", "-loglevel", "error", "-y", "-f", "apng", "-ignore_loop", "1", "-i", with (".png").string(),
-                                             "-i", with (".wav").string(), "-c:v", "libvpx-vp9", "-pix_fmt", "yuv420p", "-crf", "24", "-b:v", "0", "-c:a",
-                                             "libopus", half_made.string() };
+                                             "-i", with (".wav").string(), "-c:v", "libvpx-vp9", "-pix_fmt", "yuv420p", "-crf", "24", "-b:v", "0", "-deadline",
+                                             "good", "-cpu-used", "4", "-row-mt", "1", "-c:a", "libopus", half_made.string() };
     const auto noVideo = [&] (const juce::String& why, const juce::String& remedy) {
         written.notes.push_back (Message::warning ("film/no_video", video.string(), why.toStdString(), remedy.toStdString()));
     };

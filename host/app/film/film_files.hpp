@@ -31,4 +31,7 @@ Result<WrittenFilm> writeFilm (const Film&, FilmPicture&, const std::filesystem:
 /// How long each picture is shown, in ms.
 inline constexpr int film_picture_ms = 40;
 
+/// By how much of 255 a colour may be off. One does not see it, and the smooth shading of a surface no longer changes all over in each picture.
+inline constexpr int film_tolerance = 3;
+
 }   // namespace tactus::host

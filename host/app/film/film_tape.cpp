@@ -52,6 +52,12 @@ Film FilmTape::last (double seconds) const
     return since (end() - std::min (end(), wanted));
 }
 
+double FilmTape::secondsSince (std::uint64_t first) const
+{
+    const auto from = std::ranges::lower_bound (ticks, first, {}, &FilmTick::tick);
+    return from == ticks.end() ? 0.0 : static_cast<double> (end() - from->tick) / rate_hz;
+}
+
 Film FilmTape::since (std::uint64_t first) const
 {
     Film film { .rate_hz = rate_hz };

@@ -62,7 +62,9 @@ public:
     double rate() const noexcept { return rate_hz; }
 
     Film last (double seconds) const;              ///< the latest stretch of this length, or a shorter one
-    Film since (std::uint64_t first_tick) const;   ///< the stretch that begins at a tick
+    Film since (std::uint64_t first_tick) const;   ///< the stretch that begins at a tick, or at the first one that was kept after it
+
+    double secondsSince (std::uint64_t first_tick) const;   ///< the length of that stretch
 
 private:
     static constexpr std::size_t ring_length = 8192;

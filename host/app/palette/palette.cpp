@@ -145,9 +145,19 @@ void Palette::paintListBoxItem (int row, juce::Graphics& g, int w, int h, bool s
     g.strokePath (glyphOf (family), juce::PathStrokeType (1.3f), juce::AffineTransform::translation (10.0f, static_cast<float> (h) / 2 - 7.0f));
     area = area.withTrimmedLeft (34).reduced (0, 3);
     auto first = area.removeFromTop (area.getHeight() / 2);
+    const bool has_name = ! entry.name.empty() && entry.name != entry.type;
+    const auto title = juce::String::fromUTF8 ((has_name ? entry.name : entry.type).c_str());
+    first.removeFromRight (10);
+    if (has_name)   // the id, as files have it
+    {
+        g.setColour (theme.dim);
+        g.setFont (look.font (11.0f));
+        const auto title_width = static_cast<int> (std::ceil (look.font (13.0f, true).getStringWidthFloat (title)));
+        g.drawText (juce::String (entry.type), first.withTrimmedLeft (title_width + 8), juce::Justification::centredRight, true);
+    }
     g.setColour (theme.text);
     g.setFont (look.font (13.0f, true));
-    g.drawText (entry.type, first.removeFromLeft (w - 44), juce::Justification::centredLeft, true);
+    g.drawText (title, first, juce::Justification::centredLeft, true);
     g.setFont (look.font (12.0f));
     g.setColour (theme.dim);
     g.drawText (entry.summary, area.withTrimmedRight (10), juce::Justification::centredLeft, true);

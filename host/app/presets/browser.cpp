@@ -216,7 +216,9 @@ void PresetBrowser::resized()
     const int wanted = chips.heightFor (area.getWidth(), is_low ? 1 : 3);
     chips.setBounds (area.removeFromTop (std::min (wanted, area.getHeight() / 2)));
     area.removeFromTop (4);
-    footer = area.removeFromBottom (is_low ? 88 : 176);
+    int below = is_low ? 88 : 176;   // what is known of a preset gives way to the list of presets
+    if (area.getHeight() - below < 4 * row_height) below = area.getHeight() - 44 < 3 * row_height ? 0 : 44;
+    footer = area.removeFromBottom (below);
     area.removeFromBottom (4);
     list.setBounds (area);
 }
@@ -236,6 +238,7 @@ void PresetBrowser::paint (juce::Graphics& g)
         if (! presets.empty()) text = TRANS ("No match. Remove a word or a tag.");
         g.drawFittedText (text, list.getBounds().reduced (8), juce::Justification::topLeft, 6);
     }
+    if (footer.isEmpty()) return;
     g.setColour (look.theme().hairline);
     g.drawHorizontalLine (footer.getY(), static_cast<float> (footer.getX()), static_cast<float> (footer.getRight()));
     if (const auto* p = described()) return paintFooter (g, *p);

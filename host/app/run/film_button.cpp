@@ -51,7 +51,7 @@ void FilmButton::refresh()
     }
     else if (isFilming())
     {
-        const double seconds = static_cast<double> (tape().end() - std::min (tape().end(), *first_tick)) / filming_rate;
+        const double seconds = tape().secondsSince (*first_tick);
         label (stopText (juce::roundToInt (std::floor (seconds))));
         if (seconds >= FilmTape::longest_s - 0.5 || tape().end() < *first_tick) end();   // the tape is full, or another run has begun
     }
@@ -76,7 +76,9 @@ void FilmButton::openMenu()
         });
     };
     const bool has_something = tape().end() > 0;
-    add (menu, filled (TRANS ("Save the last %1 s..."), juce::String (length_s, 0)), has_something, false,
+    const bool is_hidden = ! has_something && playback.current().isRunning();
+    const auto last = is_hidden ? TRANS ("Save the last %1 s...: only while 3D is shown") : TRANS ("Save the last %1 s...");
+    add (menu, filled (last, juce::String (length_s, 0)), has_something, false,
          [] (FilmButton& b) { b.saveLast(); });
     add (menu, TRANS ("Film from now on"), playback.current().isRunning(), false, [] (FilmButton& b) { b.begin(); });
     menu.addSeparator();
@@ -94,7 +96,6 @@ void FilmButton::saveLast() { ask (tape().last (length_s)); }
 void FilmButton::begin()
 {
     first_tick = tape().end();
-    filming_rate = std::max (1.0, tape().rate());
     tape().keep (FilmTape::longest_s);
 }
 

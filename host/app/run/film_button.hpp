@@ -44,14 +44,13 @@ private:
     FilmTape& tape() const { return playback.current().film(); }
     void finish();
 
-    static constexpr int picture_width = 960;
+    static constexpr int picture_width = 800;
 
     Playback& playback;
     SceneView& space;
     LabelButton button { TRANS ("Film"), TRANS ("Saves the scene as a film: pictures, sound and force") };
     double length_s = 10.0;
-    std::optional<std::uint64_t> first_tick;   // of the film that is being recorded
-    double filming_rate = 1.0;
+    std::optional<std::uint64_t> first_tick;   // while it films
     std::unique_ptr<FilmJob> job;
     std::unique_ptr<juce::FileChooser> chooser;
 };

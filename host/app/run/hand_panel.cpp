@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hand_panel.hpp"
 
+#include <host/app/look/text.hpp>
 #include <host/app/model/message_text.hpp>
+#include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/run/device/gestures.hpp>
 
@@ -69,6 +71,7 @@ public:
 
 HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (std::make_unique<PlayButton>()), listen (std::make_unique<SoundButton>())
 {
+    setTitle (TRANS ("Hand"));
     source.setTitle (TRANS ("What moves the tool"));
     source.addItem (TRANS ("Device of the graph"), as_described);
     source.addItem (TRANS ("Mouse or pen"), by_pointer);
@@ -130,7 +133,7 @@ void HandPanel::connectScene()
     in_space.onClick = [choose] { choose (true); };
     larger.onClick = [this] { enlarge (! is_large); };
     addChildComponent (space);
-    addChildComponent (film_button);
+    addAndMakeVisible (film_button);
     film_button.onHint = [this] (const juce::String& text) {
         if (onHint) onHint (text);
     };
@@ -146,17 +149,23 @@ void HandPanel::showScene (bool scene)
     from_above.setToggleState (! is_scene, juce::dontSendNotification);
     in_space.setToggleState (is_scene, juce::dontSendNotification);
     space.setVisible (is_scene);
-    space.watch (is_scene && is_seen);
+    watchScene();
     surface.setVisible (! is_scene || showsBoth());
     larger.setVisible (is_scene);
-    film_button.setVisible (is_scene);
     resized();
     repaint();
 }
 
 void HandPanel::setSeen (bool seen)
 {
-    if (std::exchange (is_seen, seen) != seen) space.watch (is_scene && is_seen);
+    if (std::exchange (is_seen, seen) != seen) watchScene();
+}
+
+/// A film needs the scene even if it is not on the screen.
+void HandPanel::watchScene()
+{
+    const bool watches = (is_scene && is_seen) || film_button.isFilming();
+    if (std::exchange (is_watching, watches) != watches) space.watch (watches);
 }
 
 void HandPanel::enlarge (bool large)
@@ -180,7 +189,8 @@ void HandPanel::refresh()
 {
     const auto& run = playback.current();
     surface.refresh();
-    if (is_scene) space.refresh();
+    watchScene();
+    space.refresh();
     film_button.refresh();
     listen->setToggleState (sound.isOn(), juce::dontSendNotification);
     showSource (run.hand());
@@ -232,8 +242,8 @@ juce::String HandPanel::noteFor (const LiveRun& run) const
     if (run.hand().kind != LiveRun::Hand::Kind::pointer)
         return is_scene ? TRANS ("Drag: turn. Shift+drag: move. Wheel: zoom.") : TRANS ("The tool follows its device.");
     if (is_scene && ! showsBoth()) return TRANS ("Drag the tool to press. Elsewhere: turn; Shift: move; wheel: zoom.");
-    const auto text = surface.isHeld() ? TRANS ("Held at a depth of %1 mm. H: release") : TRANS ("Press and drag. The wheel sets the depth: %1 mm. H: hold");
-    return filled (text, juce::String (1000.0 * surface.depth(), 1));
+    const auto text = surface.isHeld() ? TRANS ("Held at a depth of %1. H: release") : TRANS ("Press and drag. The wheel sets the depth: %1. H: hold");
+    return filled (text, withPrefix (surface.depth(), "m", 2));
 }
 
 bool HandPanel::isInterestedInFileDrag (const juce::StringArray& files) { return files.size() == 1 && files[0].endsWithIgnoreCase (".csv"); }
@@ -264,14 +274,12 @@ void HandPanel::resized()
     head.removeFromLeft (52);   // the title
     for (auto* b : { &from_above, &in_space, &larger })
     {
+        if (! b->isVisible()) continue;
         b->setBounds (head.removeFromLeft (b->wantedWidth()));
         head.removeFromLeft (b == &in_space ? 8 : 2);
     }
-    if (is_scene)
-    {
-        film_button.setBounds (head.removeFromLeft (film_button.wantedWidth()));
-        head.removeFromLeft (2);
-    }
+    film_button.setBounds (head.removeFromLeft (film_button.wantedWidth()));
+    head.removeFromLeft (2);
     source.setBounds (head.removeFromRight (std::min (200, head.getWidth() - 4)));
     auto low = area.removeFromBottom (bar_height).reduced (margin, 4);
     play->setBounds (low.removeFromLeft (24));

@@ -25,7 +25,7 @@ public:
     /// Shows the scene in space instead of the surface from above. While enlarged, a wide panel shows both.
     void showScene (bool);
     bool showsScene() const noexcept { return is_scene; }
-    /// A scene that is not on the screen asks the run for nothing. Say so while the window is minimised or the panel is folded.
+    /// A scene that is not on the screen asks the run for nothing, unless it is filmed. Say so while the window is minimised or the panel is folded.
     void setSeen (bool);
     std::function<void()> onSceneToggled;   ///< called when the user has switched
 
@@ -51,6 +51,7 @@ private:
     juce::String noteFor (const LiveRun&) const;
     bool showsBoth() const noexcept { return is_large && getWidth() >= least_width_for_both; }
     void connectScene();
+    void watchScene();
 
     static constexpr int least_width_for_both = 760;
 
@@ -61,7 +62,7 @@ private:
     LabelButton from_above { TRANS ("2D"), TRANS ("The surface from above") }, in_space { TRANS ("3D"), TRANS ("The scene in space") };
     LabelButton larger { TRANS ("Enlarge"), TRANS ("Shows the scene in place of the canvas") };
     FilmButton film_button { playback, space };
-    bool is_scene = false, is_large = false, is_seen = true;
+    bool is_scene = false, is_large = false, is_seen = true, is_watching = false;
     juce::ComboBox source;
     std::unique_ptr<juce::Button> play, listen;
     juce::Slider position, speed;

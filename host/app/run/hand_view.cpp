@@ -2,6 +2,8 @@
 #include "hand_view.hpp"
 
 #include <host/app/look/focus.hpp>
+#include <host/app/look/text.hpp>
+#include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>
@@ -189,7 +191,10 @@ void HandView::paintHeight (juce::Graphics& g) const
     g.setColour (tool->force.norm() > 1e-6 ? theme.of (Quantity::force) : theme.of (Quantity::length));
     g.fillEllipse (juce::Rectangle<float> (9.0f, 9.0f).withCentre ({ bar.getCentreX(), z }));
     g.setColour (theme.text);
-    drawNumber (g, juce::String (1000.0 * tool->position.z(), 2) + " mm", bar.withTop (bar.getBottom() - 18.0f).withTrimmedRight (4.0f));
+    constexpr double least_shown = 0.5e-6;   // m; below, the digits only flicker
+    const double height = tool->position.z();
+    drawNumber (g, std::abs (height) < least_shown ? juce::String ("0 mm") : fromUtf8 (withPrefix (height, "m")),
+                bar.withTop (bar.getBottom() - 18.0f).withTrimmedRight (4.0f));
 }
 
 }   // namespace tactus::host

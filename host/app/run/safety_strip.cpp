@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "safety_strip.hpp"
 
+#include <host/app/look/text.hpp>
+#include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>
@@ -14,7 +16,8 @@ namespace
 constexpr int button_width = 112;
 constexpr double pause_before_start_s = 1.0;
 
-juce::String newtonText (double force) { return juce::String (force, 3) + " N"; }
+/// Less than half a millinewton is not felt, and its digits would only flicker.
+juce::String newtonText (double force) { return std::abs (force) < 0.5e-3 ? juce::String ("0 N") : fromUtf8 (withPrefix (force, "N")); }
 
 juce::String stiffnessText (double stiffness)
 {
@@ -54,9 +57,13 @@ juce::String delayText (const LiveRun& run)
 {
     const auto d = run.delay();
     if (! d) return TRANS ("no path from hand to motor");
-    const auto delay = filled (*d == 1 ? TRANS ("delay %1 tick") : TRANS ("delay %1 ticks"), *d);
-    const auto stiffness = run.stiffnessLeft();
-    return stiffness ? delay + ", " + filled (TRANS ("walls stable up to %1"), stiffnessText (*stiffness)) : delay;
+    return filled (*d == 1 ? TRANS ("delay %1 tick") : TRANS ("delay %1 ticks"), *d);
+}
+
+juce::String wallsText (const LiveRun& run)
+{
+    const auto stiffness = run.delay() ? run.stiffnessLeft() : std::nullopt;
+    return stiffness ? filled (TRANS ("walls stable up to %1"), stiffnessText (*stiffness)) : juce::String();
 }
 }   // namespace
 
@@ -105,6 +112,7 @@ private:
 SafetyStrip::SafetyStrip (Playback& p)
     : playback (p), button (std::make_unique<StopButton> (TRANS ("STOP"), true)), rearm (std::make_unique<StopButton> (TRANS ("REARM"), false))
 {
+    setTitle (TRANS ("Safety"));
     rearm->setTooltip (TRANS ("Lets the forces rise again, slowly. Press it only when it is safe."));
     rearm->onClick = [this] { playback.current().rearm(); };
     addChildComponent (*rearm);
@@ -159,6 +167,7 @@ SafetyStrip::Shown SafetyStrip::stateOf (LiveRun& run)
     now.force = newtonText (status->force) + "  |  " + filled (TRANS ("peak %1"), newtonText (status->peak));
     now.misses = filled (TRANS ("late ticks: %1"), status->misses);
     now.delay = delayText (run);
+    now.walls = wallsText (run);
     return now;
 }
 
@@ -240,8 +249,8 @@ void SafetyStrip::paint (juce::Graphics& g)
         drawNumber (g, shown.force, area.removeFromLeft (force_width));
         area.removeFromLeft (gap);
     }
-    add (shown.misses, 76.0f, theme.dim);
-    add (shown.delay, 0.0f, theme.dim);
+    for (const auto& text : { shown.misses, shown.delay, shown.walls })   // left out rather than cut off
+        if (look.font (13.0f).getStringWidthFloat (text) + 4.0f <= area.getWidth()) add (text, 0.0f, theme.dim);
 }
 
 }   // namespace tactus::host

@@ -40,7 +40,7 @@ public:
 private:
     struct Shown
     {
-        juce::String state, guard, force, misses, delay;
+        juce::String state, guard, force, misses, delay, walls;
         bool running = false, alarmed = false, warned = false, stopped_for_good = false, has_errors = false;
 
         bool operator== (const Shown&) const = default;

@@ -65,6 +65,7 @@ void SceneView::refresh()
         is_dirty = true;
     }
     auto latest = feed.now();
+    if (! playback.current().isRunning()) latest.tools.clear();   // the last ones would look as if they still pressed
     const bool is_news = ! isSame (latest, now);
     now = std::move (latest);
     if (const auto* tool = handTool(); follows() && tool != nullptr)

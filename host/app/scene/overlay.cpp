@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "overlay.hpp"
 
+#include <host/app/look/text.hpp>
+#include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
 
 namespace tactus::host::scene
@@ -11,11 +13,7 @@ namespace
 constexpr float gizmo_reach = 22.0f, gizmo_dot = 8.0f;   // pixels
 constexpr double least_force = 5e-3;                     // N; smaller ones have no arrow
 
-juce::String lengthText (double metres)
-{
-    const double mm = 1000.0 * metres;
-    return juce::String (mm, std::abs (mm) < 10.0 ? 2 : 1) + " mm";
-}
+juce::String lengthText (double metres, int digits = 3) { return fromUtf8 (withPrefix (metres, "m", digits)); }
 
 /// The part of a line that is inside of a rectangle; empty: none.
 std::optional<juce::Line<float>> clipped (juce::Line<float> line, juce::Rectangle<float> area)
@@ -39,7 +37,7 @@ std::optional<juce::Line<float>> clipped (juce::Line<float> line, juce::Rectangl
 
 double Overlay::arrowLength (double newtons, double height) noexcept { return std::min (48.0 * newtons, 0.42 * height); }
 
-juce::String Overlay::forceText (double newtons) { return juce::String (newtons, newtons < 0.1 ? 3 : 2) + " N"; }
+juce::String Overlay::forceText (double newtons) { return fromUtf8 (withPrefix (newtons, "N")); }
 
 void Overlay::backdrop (juce::Rectangle<float> box) const
 {
@@ -179,7 +177,7 @@ void Overlay::drawScale (const Scene& scene, const Now& now)
     backdrop (grid);
     graphics.setFont (look.font (11.0f));
     graphics.setColour (theme.text);
-    graphics.drawText (filled (TRANS ("Grid %1 mm"), juce::roundToInt (1000.0 * step)), grid, juce::Justification::centred, false);
+    graphics.drawText (filled (TRANS ("Grid %1"), lengthText (step, 1)), grid, juce::Justification::centred, false);
     double depth = 0.0;
     for (const auto& t : scene.touches (now))
         depth = std::max (depth, t.depth);

@@ -31,9 +31,16 @@ void EnergyPlot::show (const Signals& signals)
     }
     layOut ({ "J" });
     auto& lane = lanes.front();
-    const float text_width = lookOf (*this).font (12.0f).getStringWidthFloat (juce::String::fromUTF8 (describe (meter.balance()).c_str()));
-    const int lines = std::clamp (static_cast<int> (std::ceil (1.1f * text_width / std::max (1.0f, static_cast<float> (getWidth()) - 16.0f))), 1, most_lines);
-    lane.area.removeFromTop (line_height * static_cast<float> (lines) + legend_height);
+    constexpr float least_plot = 40.0f;   // pixels; the numbers and the legend give way to it
+    text = juce::String::fromUTF8 (describe (meter.balance()).c_str());
+    const auto linesOf = [this] (const juce::String& t) {
+        const float width = lookOf (*this).font (12.0f).getStringWidthFloat (t), line = std::max (1.0f, static_cast<float> (getWidth()) - 16.0f);
+        return std::clamp (static_cast<int> (std::ceil (1.1f * width / line)), 1, most_lines);
+    };
+    if (lane.area.getHeight() - line_height * static_cast<float> (linesOf (text)) < least_plot) text = text.upToFirstOccurrenceOf (":", false, false);
+    lane.area.removeFromTop (line_height * static_cast<float> (linesOf (text)));
+    has_legend = lane.area.getHeight() - legend_height >= least_plot;
+    if (has_legend) lane.area.removeFromTop (legend_height);
     rate_hz = traces.front()->rate();
     const auto seen = windowOf (traces, spec.seconds, {}, 0.0);
     zero = seen.to;
@@ -88,10 +95,11 @@ void EnergyPlot::paintOver (juce::Graphics& g)
     const auto& now = meter.balance();
     g.setFont (look.font (12.0f));
     g.setColour (now.isPassive() ? theme().text : theme().warning);
-    g.drawMultiLineText (juce::String::fromUTF8 (describe (now).c_str()), 8, 16, getWidth() - 16);
+    g.drawMultiLineText (text, 8, 16, getWidth() - 16);
     const auto legend = lane.area.withY (lane.area.getY() - legend_height).withHeight (legend_height);
     const auto stored_ink = theme().of (Quantity::length).withAlpha (0.55f), lost_ink = theme().of (Quantity::energy).withAlpha (0.45f);
-    paintLegend (g, legend, { { theme().text, TRANS ("hand") }, { stored_ink, TRANS ("stored") }, { lost_ink, TRANS ("dissipated") } });
+    if (has_legend)
+        paintLegend (g, legend, { { theme().text, TRANS ("hand") }, { stored_ink, TRANS ("stored") }, { lost_ink, TRANS ("dissipated") } });
     if (now.gaps == 0) return;
     g.setFont (look.font (11.0f));
     g.setColour (theme().dim);

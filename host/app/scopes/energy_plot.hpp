@@ -28,6 +28,8 @@ private:
     EnergyMeter meter;
     TraceColumns work, stored, dissipated;
     double rate_hz = 1.0, zero = 0.0;
+    juce::String text;   // what is said about the balance
+    bool has_legend = true;
 };
 
 }   // namespace tactus::host

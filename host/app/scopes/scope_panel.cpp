@@ -3,25 +3,35 @@
 
 #include <host/app/text/filled.hpp>
 
+#include <array>
+
 namespace tactus::host
 {
+
+namespace
+{
+constexpr std::array scope_kinds { ScopeKind::time, ScopeKind::over, ScopeKind::spectrum, ScopeKind::spectrogram, ScopeKind::energy, ScopeKind::tool };
+}
 
 ScopePanel::ScopePanel (Document& d, Traces& t, const Catalogue& c) : document (d), catalogue (c), traces (t), client (t)
 {
     setTitle (TRANS ("Scopes"));
     setWantsKeyboardFocus (true);
-    for (const auto kind : { ScopeKind::time, ScopeKind::over, ScopeKind::spectrum, ScopeKind::spectrogram, ScopeKind::energy, ScopeKind::tool })
+    for (const auto kind : scope_kinds)
     {
         auto& b = *adders.emplace_back (std::make_unique<FlatButton> ("+ " + titleOf (kind)));
         b.setTooltip (TRANS ("Adds a scope"));
-        b.onClick = [this, kind] {
-            if (model.scopes.size() < most_scopes)
-                add (kind);
-            else if (onHint)
-                onHint (filled (TRANS ("At most %1 scopes; close one first"), most_scopes));
-        };
+        b.onClick = [this, kind] { offer (kind); };
         addAndMakeVisible (b);
     }
+    more.setTooltip (TRANS ("Adds a scope"));
+    more.onClick = [this] { openAdders(); };
+    addChildComponent (more);
+    scroll.setViewedComponent (&shelf, false);
+    scroll.setScrollBarsShown (false, true);
+    scroll.setScrollBarThickness (8);
+    scroll.setWantsKeyboardFocus (false);
+    addAndMakeVisible (scroll);
     freeze_button.setTooltip (TRANS ("Freezes all scopes, or lets them continue. The run is not affected. Key: X"));
     freeze_button.onClick = [this] { freezeAll (! isFrozen()); };
     addAndMakeVisible (freeze_button);
@@ -35,6 +45,24 @@ ScopePanel::ScopePanel (Document& d, Traces& t, const Catalogue& c) : document (
     };
     document.add (*this);
     suggest();
+}
+
+void ScopePanel::offer (ScopeKind kind)
+{
+    if (model.scopes.size() < most_scopes)
+        add (kind);
+    else if (onHint)
+        onHint (filled (TRANS ("At most %1 scopes; close one first"), most_scopes));
+}
+
+void ScopePanel::openAdders()
+{
+    juce::PopupMenu menu;
+    for (const auto kind : scope_kinds)
+        menu.addItem (titleOf (kind), [safe = juce::Component::SafePointer (this), kind] {
+            if (safe != nullptr) safe->offer (kind);
+        });
+    menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (more));
 }
 
 void ScopePanel::suggest()
@@ -87,7 +115,15 @@ void ScopePanel::showView (ScopeSpec& s)
     v.onFreeze = [this] { freeze_button.setToggleState (isFrozen(), juce::dontSendNotification); };
     v.onSave = [this, &v] (juce::Component& below) { save (v, below); };
     v.addMouseListener (this, true);
-    addAndMakeVisible (v);
+    shelf.addAndMakeVisible (v);
+}
+
+/// Scrolls as far as it takes to show all of this scope.
+void ScopePanel::reveal (const ScopeView& v)
+{
+    const int left = scroll.getViewPositionX(), right = left + scroll.getViewWidth();
+    if (v.getX() < left) scroll.setViewPosition (v.getX(), 0);
+    if (v.getRight() > right) scroll.setViewPosition (v.getRight() - scroll.getViewWidth(), 0);
 }
 
 ScopeView& ScopePanel::add (ScopeKind kind)
@@ -97,6 +133,7 @@ ScopeView& ScopePanel::add (ScopeKind kind)
     model.active = model.scopes.back().get();
     requestPorts();
     resized();
+    reveal (*views.back());
     views.back()->refresh();
     return *views.back();
 }
@@ -116,9 +153,11 @@ bool ScopePanel::probe (const std::string& port)
 {
     const auto scopes_before = model.scopes.size();
     const bool is_shown = model.probe (port);
-    if (model.scopes.size() > scopes_before) showView (*model.scopes.back());
+    const bool is_new = model.scopes.size() > scopes_before;
+    if (is_new) showView (*model.scopes.back());
     requestPorts();
     resized();
+    if (is_new) reveal (*views.back());
     return is_shown;
 }
 
@@ -181,17 +220,24 @@ void ScopePanel::report (const Result<>& written, const juce::File& file)
 
 juce::Rectangle<int> ScopePanel::emptyArea() const { return getLocalBounds().withTrimmedTop (row_height); }
 
+void ScopePanel::Shelf::paint (juce::Graphics& g)
+{
+    g.setColour (themeOf (*this).hairline);
+    for (const auto* view : getChildren())
+        if (view->getX() > 0) g.drawVerticalLine (view->getX() - 1, 0.0f, static_cast<float> (getHeight()));
+}
+
 void ScopePanel::paint (juce::Graphics& g)
 {
     const auto& look = lookOf (*this);
     const auto& theme = look.theme();
     g.fillAll (theme.panel);
-    g.setColour (theme.hairline);
-    for (std::size_t i = 1; i < views.size(); ++i)
-        g.drawVerticalLine (views[i]->getX() - 1, static_cast<float> (row_height), static_cast<float> (getHeight()));
     if (warned.isNotEmpty())
     {
-        const auto row = getLocalBounds().removeFromTop (row_height).withLeft (adders.back()->getRight() + 12).withRight (freeze_button.getX() - 8);
+        const auto row = getLocalBounds()
+                             .removeFromTop (row_height)
+                             .withLeft ((more.isVisible() ? more.getRight() : adders.back()->getRight()) + 12)
+                             .withRight (freeze_button.getX() - 8);
         g.setFont (look.font (12.0f));
         g.setColour (theme.warning);
         g.drawText (warned, row, juce::Justification::centredRight, true);
@@ -209,8 +255,16 @@ void ScopePanel::resized()
     auto area = getLocalBounds();
     auto row = area.removeFromTop (row_height).reduced (4, 3);
     freeze_button.setBounds (row.removeFromRight (freeze_button.wantedWidth()));
+    int wanted = 0;
+    for (const auto& a : adders)
+        wanted += a->wantedWidth();
+    more.setVisible (wanted > row.getWidth());
+    more.setBounds (row.withWidth (std::min (row.getWidth(), more.wantedWidth())));
     for (auto& a : adders)
+    {
+        a->setVisible (! more.isVisible());
         a->setBounds (row.removeFromLeft (std::min (row.getWidth(), a->wantedWidth())));
+    }
 
     const auto& first = std::ranges::find_if (context.ports,
                                               [] (const ScopePort& p) { return p.port.role == Role::output && p.port.quantity() == Quantity::force; });
@@ -222,9 +276,21 @@ void ScopePanel::resized()
         suggestion.dot = themeOf (*this).of (Quantity::force);
         suggestion.setBounds (emptyArea().withSizeKeepingCentre (suggestion.wantedWidth(), FlatButton::height).translated (0, 16));
     }
-    for (std::size_t i = 0; i < views.size(); ++i)
-        views[i]->setBounds (area.removeFromLeft (area.getWidth() / static_cast<int> (views.size() - i)).withTrimmedLeft (i == 0 ? 0 : 1));
+    scroll.setBounds (area);
+    scroll.setVisible (! views.empty());
+    layOutScopes();
     repaint();
+}
+
+/// Equally wide, but none narrower than one can read.
+void ScopePanel::layOutScopes()
+{
+    const int count = static_cast<int> (views.size()), width = std::max (scroll.getWidth(), count * least_scope_width);
+    const int bar = width > scroll.getWidth() ? scroll.getScrollBarThickness() : 0;
+    shelf.setSize (width, std::max (0, scroll.getHeight() - bar));
+    auto area = shelf.getLocalBounds();
+    for (int i = 0; i < count; ++i)
+        views[static_cast<std::size_t> (i)]->setBounds (area.removeFromLeft (area.getWidth() / (count - i)).withTrimmedLeft (i == 0 ? 0 : 1));
 }
 
 bool ScopePanel::keyPressed (const juce::KeyPress& key)

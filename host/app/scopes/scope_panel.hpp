@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// Scopes side by side, with a row of buttons to add more.
+/// Scopes next to one another, with a row of buttons to add more. Where they are too many for the width, they keep a readable width and scroll.
 class ScopePanel final : public juce::Component, private Document::Listener
 {
 public:
@@ -44,10 +44,20 @@ public:
     void mouseDown (const juce::MouseEvent&) override;
 
 private:
-    static constexpr int row_height = 30;
+    static constexpr int row_height = 30, least_scope_width = 200;   // in units of the window
     static constexpr std::size_t most_scopes = 8;
 
+    /// The row of scopes, which may be wider than the panel.
+    struct Shelf final : juce::Component
+    {
+        void paint (juce::Graphics&) override;
+    };
+
     void documentChanged() override;
+    void offer (ScopeKind);
+    void openAdders();
+    void reveal (const ScopeView&);
+    void layOutScopes();
     void showView (ScopeSpec&);
     void close (const ScopeSpec&);
     void requestPorts();
@@ -62,8 +72,11 @@ private:
     Traces::Client client;
     ScopeContext context;
     ScopeModel model;
+    Shelf shelf;
+    juce::Viewport scroll;
     std::vector<std::unique_ptr<ScopeView>> views;   // in the order of the model
     std::vector<std::unique_ptr<FlatButton>> adders;
+    FlatButton more { "+ " + TRANS ("Scope") };   // in place of the adders, where there is no room for them
     FlatButton freeze_button { TRANS ("Freeze all (X)") };
     FlatButton suggestion { "" };   // a port to start with, while there is no scope
     juce::String warned;

@@ -126,7 +126,8 @@ void SpectrumPlot::paintOver (juce::Graphics& g)
 {
     const auto& area = lanes.front().area;
     const auto text = [] (double v, const std::string& unit) { return juce::String::fromUTF8 (withPrefix (v, unit).c_str()); };
-    if (spec.cursors.empty() && highest)
+    constexpr double least_peak = 1e-9;   // below, it is the rounding of a constant
+    if (spec.cursors.empty() && highest && highest->amplitude > least_peak)
     {
         const auto corner = area.withTop (area.getBottom() - 48.0f).withWidth (std::min (132.0f, area.getWidth()));
         paintReadout (g, { filled (TRANS ("peak %1"), text (highest->hz, "Hz")), text (highest->amplitude, units.front()) }, corner);

@@ -103,10 +103,15 @@ void MainView::globalFocusChanged (juce::Component* now)
 
 bool MainView::keyPressed (const juce::KeyPress& key, juce::Component*)
 {
-    if (key.getKeyCode() != juce::KeyPress::escapeKey || ! playback.current().isWanted()) return false;
-    if (! key.getModifiers().isShiftDown() && ! escStops()) return false;
-    stopBy (key);
-    return true;   // the next Esc closes what is open
+    if (key.getKeyCode() != juce::KeyPress::escapeKey) return false;
+    if (playback.current().isWanted() && (key.getModifiers().isShiftDown() || escStops()))
+    {
+        stopBy (key);
+        return true;   // the next Esc closes what is open
+    }
+    if (! help.isOpen() || question.isOpen() || fitting.isOpen() || palette.isVisible() || juce::Component::getNumCurrentlyModalComponents() > 0) return false;
+    help.close();   // even while a field has the keyboard, which would keep the key
+    return true;
 }
 
 void MainView::stopBy (const juce::KeyPress& key) { key.getModifiers().isShiftDown() ? playback.emergencyStop() : playback.stop(); }

@@ -2,6 +2,7 @@
 // What the window does on the callbacks of its panels, panel by panel.
 #include "main_view.hpp"
 
+#include <host/app/look/focus.hpp>
 #include <host/app/model/fragment.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -33,7 +34,10 @@ bool MainView::hasBoundRole() const
 
 void MainView::connectPresets()
 {
-    presets.onOpen = [this] (const Preset& p, bool is_own) { is_own ? files.open (p.file) : files.openCopy (p.file, false); };
+    presets.onOpen = [this] (const Preset& p, bool is_own) {
+        is_own ? files.open (p.file) : files.openCopy (p.file, false);
+        if (! question.isOpen()) takeFocus (patching);   // what one types next is for the graph, not for the search
+    };
     presets.onSettings = [this] { saveSettingsSoon(); };
     presets.onPreview = [this] (const std::filesystem::path& file) { preview (file); };
     presets.onPreviewEnd = [this] { endPreview(); };

@@ -6,6 +6,7 @@
 #include <juce_graphics/juce_graphics.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -61,7 +62,8 @@ private:
             x = number (c, 12);
             y = number (c, 16);
             seconds.push_back (static_cast<double> (number (c, 20, 2)) / static_cast<double> (number (c, 22, 2)));
-            require (c.data.size() == 26 && c.data[24] == 0 && c.data[25] == 0, "how a frame is put over the one before");
+            require (c.data.size() == 26 && c.data[24] == 0 && (c.data[25] == 0 || c.data[25] == 1), "how a frame is put over the one before");
+            is_over = c.data[25] == 1;
             is_open = true;
         }
         if (c.type == "IDAT") require (is_open && frames.empty(), "the first frame");
@@ -89,21 +91,30 @@ private:
                                     : frames.back().createCopy();
         for (int j = 0; j < part.getHeight(); ++j)
             for (int i = 0; i < part.getWidth(); ++i)
-                whole.setPixelAt (static_cast<int> (x) + i, static_cast<int> (y) + j, part.getPixelAt (i, j));
+                if (const auto colour = part.getPixelAt (i, j); ! is_over || ! colour.isTransparent())
+                {
+                    require (colour.isOpaque(), "a pixel is neither opaque nor transparent");
+                    whole.setPixelAt (static_cast<int> (x) + i, static_cast<int> (y) + j, colour);
+                }
         frames.push_back (whole);
     }
 
     std::string header, data;
     std::uint32_t sequence = 0, width = 0, height = 0, x = 0, y = 0;
-    bool is_open = false;
+    bool is_open = false, is_over = false;
 };
 
-inline bool isSame (const juce::Image& a, const juce::Image& b)
+/// True if no red, green or blue of a pixel differs by more than `tolerance` of 255.
+inline bool isSame (const juce::Image& a, const juce::Image& b, int tolerance = 0)
 {
+    const auto near = [tolerance] (juce::uint8 v, juce::uint8 w) { return std::abs (int { v } - int { w }) <= tolerance; };
     if (a.getBounds() != b.getBounds()) return false;
     for (int y = 0; y < a.getHeight(); ++y)
         for (int x = 0; x < a.getWidth(); ++x)
-            if (a.getPixelAt (x, y) != b.getPixelAt (x, y)) return false;
+        {
+            const auto p = a.getPixelAt (x, y), q = b.getPixelAt (x, y);
+            if (! near (p.getRed(), q.getRed()) || ! near (p.getGreen(), q.getGreen()) || ! near (p.getBlue(), q.getBlue())) return false;
+        }
     return true;
 }
 

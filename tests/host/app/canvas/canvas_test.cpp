@@ -31,6 +31,23 @@ TEST_CASE ("a wire can be drawn from an output to a matching input, or from the 
     CHECK (rig.hasWire ("drag.deflection -> grain.position"));
 }
 
+TEST_CASE ("a wire that is dropped on a node goes to the first port that fits\\, best one without a wire", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto body = [&] (const std::string& name) {
+        const auto& n = rig.node (name);
+        return rig.canvas->view().toPixels (n.bounds().getCentre().withY (n.bounds().getY() + 8.0f));   // its header has no port
+    };
+    rig.hand().drag (rig.port ("drag", Role::output, "force"), body ("grain_felt"));
+    CHECK (rig.hasWire ("drag.force -> grain_felt.in"));
+    const auto before = rig.text();
+    rig.hand().drag (rig.port ("board", Role::output, "depth"), body ("motor"));   // nothing fits
+    CHECK (rig.text() == before);
+    rig.hand().drag (rig.port ("drag", Role::output, "force"), body ("motor"));   // forces add up
+    CHECK (rig.hasWire ("drag.force -> motor.force"));
+    CHECK (rig.hasWire ("board.force -> motor.force"));
+}
+
 TEST_CASE ("forces into one input add up", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };

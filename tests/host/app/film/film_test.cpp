@@ -88,7 +88,7 @@ TEST_CASE ("a film has a picture every 40 ms\\, in the requested size", "[app][f
         CHECK (frame.getBounds() == juce::Rectangle<int> (0, 0, 480, 300));
     CHECK_FALSE (tactus::test::isSame (played.frames.front(), played.frames.back()));
     for (const std::size_t i : { 0u, 12u, 24u })   // each shows the state of its time
-        CHECK (tactus::test::isSame (played.frames[i], picture.draw (*stateAt (film, static_cast<double> (i) * 0.04))));
+        CHECK (tactus::test::isSame (played.frames[i], picture.draw (*stateAt (film, static_cast<double> (i) * 0.04)), film_tolerance));
     REQUIRE (written->notes.size() == 1);
     CHECK (written->notes.front().id == "film/no_video");
     CHECK (written->files.size() == 3);
@@ -193,6 +193,9 @@ TEST_CASE ("a tape keeps the last seconds, and forgets an earlier run", "[app][f
     CHECK (all.states.front().tick <= 3000);               // what is shown at the beginning
     CHECK (tape.last (0.5).seconds() == Approx (0.5));
     CHECK (tape.since (4900).ticks.size() == 100);
+    CHECK (tape.secondsSince (4900) == Approx (0.1));
+    CHECK (tape.secondsSince (0) == Approx (2.0));
+    CHECK (tape.secondsSince (5000) == 0.0);
     CHECK (stateAt (all, 0.0)->tick <= 3000);
     CHECK (stateAt (all, 100.0) == &all.states.back());
     tape.note (0, Vec3::Zero(), Vec3::Zero());   // another run
@@ -255,6 +258,44 @@ TEST_CASE ("the button saves what the scene showed, while the run continues", "[
     CHECK (table->at (ticks.size() - 1, 6) == ticks.back().force.z());
     const PlayedPng played { bytesOf (folder / "film.png") };
     CHECK (static_cast<double> (played.frames.size()) == Approx (static_cast<double> (ticks.size()) / tape.rate() / 0.04).margin (1.5));
-    CHECK (played.frames.front().getWidth() == 960);
+    CHECK (played.frames.front().getWidth() == 800);
+    playback.run().letGo();
+}
+
+TEST_CASE ("a film is made of the scene while it is hidden\\, too", "[app][film]")
+{
+    const Dressing dressing;
+    Document document { host::test::presetGraph ("dry_wood") };
+    Sound sound;
+    DeviceSetup setup;
+    Playback playback { document, catalogue(), sound, setup, [] {} };
+    HandPanel panel { playback, sound };
+    panel.setSize (420, 300);
+    REQUIRE_FALSE (panel.showsScene());
+    CHECK (panel.film().isVisible());
+    playback.start ({ LiveRun::Hand::Kind::path, "stroke" });
+    auto& tape = playback.run().film();
+    const auto attend = [&] {
+        playback.attend();
+        panel.refresh();
+        std::this_thread::sleep_for (std::chrono::milliseconds (5));
+    };
+    const auto until = [&] (auto&& isSo) {
+        for (int i = 0; i < 12000 && ! isSo(); ++i)
+            attend();
+        return isSo();
+    };
+    REQUIRE (until ([&] { return playback.run().status() && playback.run().status()->ticks > 2000; }));
+    CHECK (tape.end() == 0);   // a hidden scene costs nothing
+    panel.film().begin();
+    REQUIRE (until ([&] { return tape.secondsSince (0) > 0.5; }));
+    CHECK (panel.film().isFilming());
+    panel.setSeen (false);
+    const auto before = tape.end();
+    REQUIRE (until ([&] { return tape.end() > before + 1000; }));
+    const auto film = tape.since (0);
+    CHECK (film.states.size() > 5);
+    CHECK_FALSE (film.states.back().stage->isEmpty());
+    CHECK_FALSE (film.states.back().now.tools.empty());
     playback.run().letGo();
 }

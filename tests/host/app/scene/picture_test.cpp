@@ -328,5 +328,5 @@ TEST_CASE ("an arrow grows with its force up to a limit, and its number has a un
     CHECK (Overlay::arrowLength (2.0, 600.0) > Overlay::arrowLength (1.0, 600.0));
     CHECK (Overlay::arrowLength (1e6, 600.0) < 300.0);
     CHECK (Overlay::forceText (1.2) == "1.20 N");
-    CHECK (Overlay::forceText (0.0123) == "0.012 N");
+    CHECK (Overlay::forceText (0.0123) == "12.3 mN");
 }

@@ -443,6 +443,33 @@ TEST_CASE ("scopes: the cost of scopes over ten seconds", "[.][bench]")
         }
 }
 
+TEST_CASE ("scopes in a narrow panel keep a readable width\\, and a new one is scrolled into view", "[app][scopes]")
+{
+    Bench b;
+    for (const int width : { 240, 480, 640, 1600 })
+    {
+        b.panel->setSize (width, 180);
+        b.panel->suggest();
+        while (b.panel->shown().size() < 6)
+        {
+            const auto& added = b.panel->add (ScopeKind::spectrum);
+            const auto place = b.panel->getLocalArea (&added, added.getLocalBounds());
+            INFO (width << ": " << place.toString());
+            CHECK (b.panel->getLocalBounds().contains (place));
+        }
+        int right = 0;
+        for (const auto& v : b.panel->shown())
+        {
+            CHECK (v->getWidth() >= 199);
+            CHECK (v->getX() >= right);   // none covers another one
+            right = v->getRight();
+        }
+        b.panel->setSize (1600, 180);
+        for (const auto& v : b.panel->shown())
+            CHECK (b.panel->getLocalBounds().contains (b.panel->getLocalArea (v.get(), v->getLocalBounds())));   // there is room for all
+    }
+}
+
 TEST_CASE ("scopes: for a slow stroke over a preset, the nodes account for all work of the hand", "[app][scopes]")
 {
     for (const char* name : { "dry_wood", "squealing_rubber", "soft_pad", "bare_skin" })

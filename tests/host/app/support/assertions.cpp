@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A failed JUCE assertion is a bug in our code, so it aborts the test.
-#include <juce_core/juce_core.h>
+#include <juce_gui_basics/juce_gui_basics.h>
+
+#define CATCH_CONFIG_EXTERNAL_INTERFACES   // for listeners
+#include <catch2/catch.hpp>
 
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 
 namespace
 {
@@ -26,4 +30,31 @@ struct Watch
 
     Assertions logger;
 } watch;
+
+/// Keeps JUCE alive from the first test to the last one. It cannot start twice on a display: its cursors and clipboard windows would be those
+/// of a connection that has been closed.
+struct KeepsJuce final : Catch::TestEventListenerBase
+{
+    using TestEventListenerBase::TestEventListenerBase;
+
+    void testRunStarting (const Catch::TestRunInfo&) override
+    {
+        gui.emplace();
+        ignoreXErrors();
+    }
+    void testRunEnded (const Catch::TestRunStats&) override { gui.reset(); }
+
+    /// As JUCE does in a program, but not in a test: without a handler, Xlib ends the process. It complains about a Stage, which is no window of
+    /// the X server and gets a cursor all the same.
+    void ignoreXErrors()
+    {
+        using Handler = int (*) (void* display, void* error);
+        if (auto* set = reinterpret_cast<Handler (*) (Handler)> (xlib.getFunction ("XSetErrorHandler"))) set ([] (void*, void*) { return 0; });
+    }
+
+    juce::DynamicLibrary xlib { "libX11.so.6" };   // which JUCE loads, too
+    std::optional<juce::ScopedJuceInitialiser_GUI> gui;
+};
+
+CATCH_REGISTER_LISTENER (KeepsJuce)
 }   // namespace

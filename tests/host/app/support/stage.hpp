@@ -135,6 +135,28 @@ public:
             key (juce::KeyPress (static_cast<int> (*c), {}, *c));
     }
 
+    /// What is on the screen: like a window manager, it has only those places painted that asked for it.
+    const juce::Image& screen()
+    {
+        auto* peer = static_cast<Peer*> (getPeer());
+        if (shown.getBounds() != getLocalBounds())   // a new window is painted as a whole
+        {
+            shown = juce::Image (juce::Image::ARGB, getWidth(), getHeight(), true, juce::SoftwareImageType());
+            peer->stale = getLocalBounds();
+        }
+        const auto stale = std::exchange (peer->stale, {});
+        if (! stale.isEmpty()) paintInto (shown, stale);
+        return shown;
+    }
+
+    /// What should be on the screen.
+    juce::Image painted()
+    {
+        juce::Image all (juce::Image::ARGB, getWidth(), getHeight(), true, juce::SoftwareImageType());
+        paintInto (all, getLocalBounds());
+        return all;
+    }
+
     void drop (const juce::String& file, juce::Point<float> to)
     {
         auto* peer = getPeer();
@@ -151,7 +173,7 @@ private:
     public:
         using ComponentPeer::ComponentPeer;
 
-        void* getNativeHandle() const override { return const_cast<Peer*> (this); }
+        void* getNativeHandle() const override { return const_cast<Peer*> (this); }   // unknown to the X server, if there is one
         void setVisible (bool) override {}
         void setTitle (const juce::String&) override {}
         void setBounds (const juce::Rectangle<int>& b, bool) override
@@ -184,11 +206,13 @@ private:
             if (std::exchange (has_focus, true)) return;
             handleFocusGain();
         }
-        void repaint (const juce::Rectangle<int>&) override {}
+        void repaint (const juce::Rectangle<int>& area) override { stale.add (area); }
         void performAnyPendingRepaintsNow() override {}
         void setAlpha (float) override {}
         juce::StringArray getAvailableRenderingEngines() override { return { "None" }; }
         void textInputRequired (juce::Point<int>, juce::TextInputTarget&) override {}
+
+        juce::RectangleList<int> stale;   // what asked to be painted
 
     private:
         juce::Rectangle<int> bounds;
@@ -196,6 +220,14 @@ private:
     };
 
     juce::ComponentPeer* createNewPeer (int style, void*) override { return new Peer (*this, style); }
+
+    void paintInto (juce::Image& image, const juce::RectangleList<int>& area)
+    {
+        auto clip = area;
+        clip.clipTo (image.getBounds());
+        juce::LowLevelGraphicsSoftwareRenderer context (image, {}, clip);
+        getPeer()->handlePaint (context);
+    }
 
     juce::Point<float> inPeer() const { return at * getDesktopScaleFactor(); }
     void modifiersNow() const { juce::ModifierKeys::currentModifiers = juce::ModifierKeys (held | down); }
@@ -213,6 +245,7 @@ private:
 
     juce::Point<float> at;
     int down = 0, held = 0;
+    juce::Image shown;
     juce::int64 time = juce::Time::currentTimeMillis();
 };
 

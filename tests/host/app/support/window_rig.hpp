@@ -24,17 +24,18 @@ struct WindowRig
     std::unique_ptr<MainView> view;
     int clicks = 0;
 
-    /// Without a preset: the welcome page.
-    explicit WindowRig (const std::string& preset = {}, int width = 1280, int height = 720)
+    /// Without a preset: the welcome page. In safe mode, nothing runs until START.
+    explicit WindowRig (const std::string& preset = {}, int width = 1280, int height = 720, bool safe = true)
     {
         juce::LookAndFeel::setDefaultLookAndFeel (&look);
         setenv ("TACTUS_PRESETS", TACTUS_SOURCE_DIR "/graphs", 1);
         stage = std::make_unique<Stage> (width, height);
         view = std::make_unique<MainView> (catalogue());
         stage->fill (*view);
-        MainView::Start start { .home = home.path(), .safe = true };
+        MainView::Start start { .home = home.path(), .safe = safe };
         if (! preset.empty()) start.files = { std::string (TACTUS_SOURCE_DIR "/graphs/") + preset };
         view->begin (start);
+        if (! view->asked().isOpen()) view->grabKeyboardFocus();   // as the program does
         settle();
     }
 

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+// What a person does to reach a goal, action by action: each click, drag, typed word and key is one.
+#include "host/app/support/window_rig.hpp"
+
+#include <tactus/file/graph_file.hpp>
+
+#include <iostream>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+struct Person
+{
+    WindowRig w;
+    int actions = 0;
+    std::filesystem::path file = w.home / "mine.json";   // the name that is typed into the dialog for files
+
+    explicit Person (bool safe) : w ({}, 1280, 720, safe) {}
+
+    Canvas& canvas() { return w.view->canvas(); }
+    juce::Point<float> of (juce::Component& c) { return w.stage->getLocalPoint (&c, c.getLocalBounds().getCentre()).toFloat(); }
+
+    juce::Point<float> onCanvas (juce::Point<float> at)
+    {
+        const auto pixel = canvas().view().toPixels (at);
+        REQUIRE (canvas().getLocalBounds().toFloat().contains (pixel));
+        return w.stage->getLocalPoint (&canvas(), pixel);
+    }
+
+    /// A visible place near a node, in pixels from its middle, as far as it takes to be on no node.
+    juce::Point<float> near (const std::string& node, juce::Point<float> way)
+    {
+        const auto& nodes = canvas().scene().nodes();
+        const auto found = std::ranges::find (nodes, node, &SceneNode::name);
+        REQUIRE (found != nodes.end());
+        auto at = found->bounds().getCentre();
+        for (int i = 0; i < 100 && canvas().scene().nodeAt (at) != nullptr; ++i)
+            at += way / canvas().view().zoom;
+        return onCanvas (at + way / canvas().view().zoom);
+    }
+
+    juce::Point<float> port (const std::string& node, Role role, const std::string& id)
+    {
+        INFO (node << '.' << id);
+        const auto& nodes = canvas().scene().nodes();
+        const auto found = std::ranges::find (nodes, node, &SceneNode::name);
+        REQUIRE (found != nodes.end());
+        const auto* socket = found->box.find (role, id);
+        REQUIRE (socket != nullptr);
+        return onCanvas (found->placeOf (*socket));
+    }
+
+    void click (const juce::String& text)
+    {
+        w.click (text);
+        ++actions;
+    }
+
+    void click (juce::Component* c, int button = juce::ModifierKeys::leftButtonModifier)
+    {
+        REQUIRE (c != nullptr);
+        const auto at = of (*c);
+        auto* hit = w.stage->getComponentAt (at.toInt());
+        REQUIRE ((hit == c || c->isParentOf (hit)));   // nothing covers it
+        w.stage->click (at, button);
+        ++actions;
+        WindowRig::settle();
+    }
+
+    void drag (juce::Point<float> from, juce::Point<float> to)
+    {
+        w.stage->drag (from, to);
+        ++actions;
+        WindowRig::settle();
+    }
+
+    void key (const juce::String& described)
+    {
+        w.key (described);
+        ++actions;
+        WindowRig::settle();
+    }
+
+    void type (const juce::String& word)
+    {
+        w.stage->type (word);
+        ++actions;
+        WindowRig::settle();
+    }
+
+    /// Drops a wire on the canvas, and adds the node that the word finds.
+    void extend (juce::Point<float> from, juce::Point<float> to, const juce::String& word)
+    {
+        drag (from, to);
+        type (word);
+        key ("return");
+    }
+
+    /// The dialog for files takes a typed name and Enter.
+    void answerFiles()
+    {
+        w.view->chooseFile = [this] (bool, const std::filesystem::path&, const std::function<void (const std::filesystem::path&)>& chosen) {
+            actions += 2;
+            chosen (file);
+        };
+    }
+
+    juce::Component* titled (const juce::String& title) { return find (*w.view, title); }
+
+    static juce::Component* find (juce::Component& c, const juce::String& title)
+    {
+        if (c.isShowing() && c.getTitle() == title) return &c;
+        for (auto* child : c.getChildren())
+            if (auto* found = find (*child, title)) return found;
+        return nullptr;
+    }
+};
+
+/// The force on the tool, averaged over a stroke at this height, in m.
+Vec3 forceAt (const graph::Graph& g, double z)
+{
+    const auto compiled = compile (g, catalogue());
+    REQUIRE (compiled.plan != nullptr);
+    auto& role = compiled.plan->roles().front();
+    Vec3 sum = Vec3::Zero(), sway = Vec3::Zero();
+    constexpr int ticks = 4000;
+    for (int i = 0; i < ticks; ++i)
+    {
+        role.state->reading.position = Vec3 (2e-5 * i, 0.0, z);
+        compiled.plan->tick();
+        Vec3 now = Vec3::Zero();
+        for (const auto& sink : role.sinks)
+            now += sink.effort (sink.node).force;
+        sum += now;
+        sway += now.cwiseAbs2();
+    }
+    return (sway / ticks - (sum / ticks).cwiseAbs2()).cwiseMax (0.0).cwiseSqrt() + (sum / ticks).cwiseAbs();
+}
+}   // namespace
+
+TEST_CASE ("a person builds plane\\, friction\\, a gated grating and a knob\\, and saves\\, in 25 actions", "[app][person]")
+{
+    Person p { true };
+    p.answerFiles();
+    p.key ("ctrl + n");
+    p.key ("spacebar");
+    p.type ("plane");
+    p.key ("return");
+    p.extend (p.port ("plane", Role::input, "position"), p.near ("plane", { -12.0f, 0.0f }), "hand");
+    p.extend (p.port ("plane", Role::output, "force"), p.near ("plane", { 12.0f, 0.0f }), "motor");
+    p.extend (p.port ("position", Role::output, "position"), p.near ("plane", { 0.0f, 12.0f }), "friction");
+    const auto friction = p.w.graph().root.nodes.back().name;
+    p.drag (p.port ("plane", Role::output, "resistance"), p.port (friction, Role::input, "normal_force"));
+    p.drag (p.port (friction, Role::output, "force"), p.port ("force", Role::input, "force"));
+    p.click ("Layers");
+    p.click ("+ Texture");
+    REQUIRE (p.canvas().selection() == tactus::host::Selection { p.w.graph().root.find ("grating")->id });   // what was added is selected
+    p.click (p.titled ("Amplitude"), juce::ModifierKeys::rightButtonModifier);
+    p.key ("cursor down");
+    p.key ("return");
+    p.key ("ctrl + s");
+    INFO (p.actions << " actions");
+    CHECK (p.actions <= 25);
+    std::cout << "plane, friction, gated grating, knob, saved: " << p.actions << " actions\n";
+
+    const auto saved = loadGraph (p.file);
+    REQUIRE_FALSE (hasErrors (saved.messages));
+    auto g = saved.graph;
+    REQUIRE (g.controls.size() == 1);
+    CHECK (g.controls[0].to.front().path == "grating.amplitude");
+    CHECK (forceAt (g, 1e-3).norm() == 0.0);   // in the air
+    g.controls[0].value = 0.0;
+    const auto smooth = forceAt (g, -1e-3);
+    CHECK (smooth.z() > 0.1);   // the plane
+    CHECK (smooth.x() > 0.05);   // friction
+    g.controls[0].value = 1.0;
+    CHECK ((forceAt (g, -1e-3) - smooth).norm() > 0.01);   // the grating, by the knob
+}
+
+TEST_CASE ("a person feels something in two actions", "[app][person]")
+{
+    Person p { false };
+    p.click ("Dry wood");
+    auto* surface = p.titled ("Surface");
+    REQUIRE (surface != nullptr);
+    const auto at = p.of (*surface);
+    p.w.stage->move (at);
+    p.w.stage->press();   // one drag, which has not ended yet
+    ++p.actions;
+    bool is_felt = false;
+    for (int i = 0; i < 2000 && ! is_felt; ++i)
+    {
+        p.w.stage->move (at.translated (static_cast<float> (i % 40), 0.0f));
+        WindowRig::settle (10);
+        const auto tool = p.w.view->run().tool();
+        is_felt = tool && tool->force.norm() > 0.1;
+    }
+    p.w.stage->release();
+    CHECK (is_felt);
+    CHECK (p.actions == 2);
+    p.w.view->run().letGo();
+}
+
+TEST_CASE ("a person finds a preset and loads it in three actions", "[app][person]")
+{
+    Person p { true };
+    p.click (p.titled ("Search presets"));
+    p.type ("liver");
+    p.key ("return");
+    CHECK (p.w.graph().name == "Liver");
+    CHECK (p.actions == 3);
+}

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// What is on the screen is what should be there, whatever has happened before: no place keeps an old picture.
+#include "host/app/support/window_rig.hpp"
+
+#include <host/app/window/appearance.hpp>
+
+#include <cstdlib>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+/// Where two pictures differ by more than the rounding of smoothed edges, which depends on where a picture is cut; empty if they do not.
+juce::Rectangle<int> difference (const juce::Image& a, const juce::Image& b)
+{
+    constexpr int rounding = 24;   // of 255
+    if (a.getBounds() != b.getBounds()) return a.getBounds().getUnion (b.getBounds());
+    const juce::Image::BitmapData x (a, juce::Image::BitmapData::readOnly), y (b, juce::Image::BitmapData::readOnly);
+    int left = x.width, right = 0, top = x.height, bottom = 0;
+    for (int row = 0; row < x.height; ++row)
+        for (int i = 0; i < x.width; ++i)
+        {
+            const auto *p = x.getPixelPointer (i, row), *q = y.getPixelPointer (i, row);
+            int apart = 0;
+            for (int k = 0; k < x.pixelStride; ++k)
+                apart = std::max (apart, std::abs (p[k] - q[k]));
+            if (apart <= rounding) continue;
+            left = std::min (left, i);
+            right = std::max (right, i + 1);
+            top = std::min (top, row);
+            bottom = row + 1;
+        }
+    return right == 0 ? juce::Rectangle<int>() : juce::Rectangle<int>::leftTopRightBottom (left, top, right, bottom);
+}
+
+void save (const juce::Image& image, const char* name)
+{
+    const auto* folder = std::getenv ("TACTUS_TEST_PICTURES");
+    if (folder == nullptr) return;
+    juce::FileOutputStream file (juce::File (folder).getChildFile (name));
+    file.setPosition (0);
+    file.truncate();
+    juce::PNGImageFormat().writeImageToStream (image, file);
+}
+
+void checkScreen (WindowRig& w, const std::string& after)
+{
+    juce::Rectangle<int> stale;
+    for (int i = 0; i < 20; ++i)   // a picture that another thread has just finished is shown by the next timer
+    {
+        WindowRig::settle (80);
+        const auto& screen = w.stage->screen();
+        const auto painted = w.stage->painted();
+        stale = difference (screen, painted);
+        if (stale.isEmpty()) return;
+        save (screen, (after + "-screen.png").c_str());
+        save (painted, (after + "-painted.png").c_str());
+    }
+    INFO ("after: " << after << "; stale: " << stale.toString());
+    CHECK (stale.isEmpty());
+}
+
+std::filesystem::path preset (const char* name) { return std::filesystem::path (TACTUS_SOURCE_DIR "/graphs") / name; }
+
+/// Waits until a stopped run has let its forces fall.
+void stop (WindowRig& w)
+{
+    w.view->run().letGo();
+    WindowRig::settle (100);
+}
+}   // namespace
+
+TEST_CASE ("no place of the window keeps an old picture", "[app][stale]")
+{
+    WindowRig w ("dry_wood.json", 1280, 720, false);
+    stop (w);
+    checkScreen (w, "a stop");
+    for (const char* tab : { "Layers", "Devices", "Problems", "Take", "Scopes", "History", "Presets" })
+    {
+        w.click (tab);
+        checkScreen (w, tab);
+    }
+    w.view->canvas().grabKeyboardFocus();
+    w.view->canvas().select ({ w.graph().root.find ("drag")->id });
+    checkScreen (w, "a selection");
+    REQUIRE (w.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.7) }));
+    checkScreen (w, "an edit");
+    w.view->document().undo();
+    checkScreen (w, "an undo");
+    w.view->document().redo();
+    checkScreen (w, "a redo");
+    for (const char* key : { "z", "z", "F1", "escape", "f", "home", "c", "m", "m" })
+    {
+        w.key (key);
+        checkScreen (w, key);
+    }
+    w.view->document().undo();
+    w.view->open (preset ("bronze_bell.json"));
+    stop (w);
+    checkScreen (w, "another graph");
+    w.click ("3D");
+    checkScreen (w, "3D");
+    w.click ("2D");
+    checkScreen (w, "2D");
+    for (const auto* theme : { &Theme::light(), &Theme::dark() })
+    {
+        applyTheme (*w.stage, *theme);
+        checkScreen (w, "another theme");
+    }
+    w.stage->setSize (1024, 700);
+    checkScreen (w, "another size");
+    w.view->open (preset ("soft_pad.json"));
+    stop (w);
+    checkScreen (w, "a third graph");
+    w.key ("ctrl + n");
+    checkScreen (w, "a new graph");
+}
+
+TEST_CASE ("a window with a history looks as a new one that opens the same graph", "[app][stale]")
+{
+    const std::vector<juce::String> panels { "Inspector", "Canvas", "Scopes", "Hand", "Layers" };
+    const auto pictures = [&] (WindowRig& w) {
+        std::vector<juce::Image> all;
+        for (const auto& title : panels)
+        {
+            if (title == "Layers") w.click (title);
+            WindowRig::settle (80);
+            INFO (title);
+            juce::Component* panel = nullptr;
+            const auto look_in = [&] (auto&& self, juce::Component& c) -> void {
+                if (panel == nullptr && c.isShowing() && c.getTitle() == title) panel = &c;
+                for (auto* child : c.getChildren())
+                    self (self, *child);
+            };
+            look_in (look_in, *w.view);
+            REQUIRE (panel != nullptr);
+            all.push_back (panel->createComponentSnapshot (panel->getLocalBounds()));
+        }
+        return all;
+    };
+    const char* const graph = GENERATE ("bronze_bell.json", "soft_pad.json");
+    std::vector<juce::Image> fresh;
+    {
+        WindowRig w (graph);
+        fresh = pictures (w);
+    }
+    WindowRig w ("dry_wood.json");
+    for (int i = 0; i < 100 && WindowRig::buttonIn (*w.view, "START") == nullptr; ++i)
+        WindowRig::settle();
+    w.click ("START");
+    WindowRig::settle (300);   // it runs
+    w.view->canvas().select ({ w.graph().root.find ("drag")->id });
+    REQUIRE (w.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.7) }));
+    WindowRig::settle (100);
+    w.view->document().undo();
+    w.key ("shift + escape");
+    applyTheme (*w.stage, Theme::light());
+    WindowRig::settle (100);
+    applyTheme (*w.stage, Theme::dark());
+    w.view->open (preset (graph));
+    WindowRig::settle (200);
+    stop (w);
+    const auto now = pictures (w);
+    for (std::size_t i = 0; i < panels.size(); ++i)
+    {
+        const auto stale = difference (now[i], fresh[i]);
+        INFO (panels[i] << " differs in " << stale.toString());
+        if (! stale.isEmpty())
+        {
+            save (now[i], ("now-" + panels[i] + ".png").toRawUTF8());
+            save (fresh[i], ("fresh-" + panels[i] + ".png").toRawUTF8());
+        }
+        CHECK (stale.isEmpty());
+    }
+}
+
+TEST_CASE ("the scene shows no tool and no force once the run has stopped", "[app][stale]")
+{
+    WindowRig w ("dry_wood.json", 1280, 720, false);
+    w.click ("3D");
+    juce::Component* scene = nullptr;
+    const auto look_in = [&] (auto&& self, juce::Component& c) -> void {
+        if (c.isShowing() && c.getTitle() == "Scene") scene = &c;
+        for (auto* child : c.getChildren())
+            self (self, *child);
+    };
+    look_in (look_in, *w.view);
+    REQUIRE (scene != nullptr);
+    for (int i = 0; i < 1000 && ! scene->getDescription().contains ("N"); ++i)
+        WindowRig::settle();
+    REQUIRE (scene->getDescription().contains ("N"));
+    w.view->run().stop();   // as STOP does: it lets the forces fall first
+    for (int i = 0; i < 1000 && w.view->run().isRunning(); ++i)
+        WindowRig::settle();
+    WindowRig::settle (200);
+    CHECK (scene->getDescription().isEmpty());
+}
