@@ -46,7 +46,7 @@ NOT_TEXTS = {
     "model/clip_graph.cpp": {"600 N/m", "50 g"},
     "presets/picture_store.cpp": {"force pictures"},
     "run/device_trial.cpp": None,
-    "run/hand_view.cpp": {"10 mm"},
+    "run/hand_view.cpp": {"0 mm", "10 mm"},
     "run/live_run.cpp": {"nothing is running in the window", "press START in the window"},
     "run/osc_server.cpp": None,
     "scopes/energy_meter.cpp": {"work of the hand"},
