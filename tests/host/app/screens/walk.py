@@ -19,7 +19,7 @@ import tempfile
 import time
 
 PATIENCE = 30.0  # s to wait for something to appear
-SIZES, THEMES = ("1280x720", "1920x1080", "3840x2160"), ("dark", "light")
+SIZES, THEMES = ("1024x700", "1280x720", "1920x1080", "2560x1440", "3840x2160"), ("dark", "light")
 
 
 class Walk:
