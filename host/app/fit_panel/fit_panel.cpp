@@ -107,7 +107,7 @@ void FitPanel::open (const std::filesystem::path& path)
     if (table)
     {
         const auto guessed = guessKind (*table);
-        guessed ? choose (*guessed) : fail (TRANS ("The columns do not say what was recorded. Choose it in the list."));
+        guessed ? choose (*guessed) : fail (TRANS ("The columns do not say what was recorded. Choose it in the list.").toStdString());
     }
     takeFocus (*this);
 }
@@ -165,7 +165,8 @@ void FitPanel::fit()
         if (! fits || (wanted->is_above_0 && ! (typed->value > 0.0)) || ! std::isfinite (typed->value))
             return fail (filled (wanted->is_above_0 ? TRANS ("%1: %2 does not fit. Type a number above 0 with its unit, such as 1.5 %3.")
                                                     : TRANS ("%1: %2 does not fit. Type a number with its unit, such as 1.5 %3."),
-                                 juce::translate (wanted->label), amount.getText().quoted(), wanted->unit));
+                                 juce::translate (wanted->label), amount.getText().quoted(), wanted->unit)
+                             .toStdString());
         settings.*(wanted->member) = typed->value;
     }
     job.start (*chosen, table, file.string(), settings);
