@@ -42,7 +42,7 @@ void FitColumns::show (const Table& table, FitKind kind)
         cell.column.setSelectedId (found ? first_column + static_cast<int> (*found) : nothing, juce::dontSendNotification);
         const auto written = found ? unitIn (names[*found]) : std::string();
         cell.unit.setTitle (filled (TRANS ("Unit of %1"), role));
-        cell.unit.setTooltip (TRANS ("What 1 in this column means, such as mm, gf or \"0.5 N\""));
+        cell.unit.setTooltip (TRANS ("What 1 in this column means, such as mm, gf or 0.5 N"));
         cell.unit.show (fromUtf8 (written.empty() ? wanted.unit : written));
         cell.column.onChange = [this, &cell] {
             const auto i = static_cast<std::size_t> (std::max (0, cell.column.getSelectedId() - first_column));
