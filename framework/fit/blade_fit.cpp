@@ -49,7 +49,7 @@ public:
     Index first() const { return is_bent ? 2 : 1; }
     Index parameters() const { return first() + (cut.bursts ? 3 : 0); }
     bool isLeftOut (Index i) const { return weight[i] == 0.0; }
-    double power (const VectorXd& x) const { return is_bent ? math::exp (x[1]) : 1.0; }
+    double power (const VectorXd& x) const { return is_bent ? math::exp (std::clamp (x[1], -1.2, 1.8)) : 1.0; }   // 0.3 to 6
     double atLength (const VectorXd& x) const { return cut.unit * math::exp (x[0]); }
     double rupture (const VectorXd& x) const { return cut.length * x[first()]; }
     double cutting (const VectorXd& x) const { return cut.unit * math::exp (x[first() + 1]); }
@@ -98,7 +98,17 @@ public:
                  .residual = [this] (const VectorXd& x, VectorXd& r) {
                      r = weight.cwiseProduct ((Eigen::Map<const VectorXd> (cut.force.data(), cut.size()) - modelled (x)) / cut.unit);
                  },
+                 .size = detail::rootMeanSquare (cut.force) / cut.unit,
                  .course = course };
+    }
+
+    /// True if the crack grows again after the burst, in so many rows that noise does not explain it.
+    bool cutsOn (const VectorXd& x) const
+    {
+        const double stretch = cut.length * math::pow (cutting (x) / (softening (x) * atLength (x)), 1.0 / power (x)), crack = burst (x, stretch);
+        const auto after = cut.depth.begin() + cut.last_whole + 1;
+        const auto growing = std::count_if (after, cut.depth.end(), [&] (double depth) { return depth - stretch > crack; });
+        return growing >= std::max<std::ptrdiff_t> (5, (cut.depth.end() - after) / 20);
     }
 
 private:
@@ -195,6 +205,10 @@ FoundCut searchCut (const Cut& around, FitCourse* course)
 {
     FoundCut best;
     const double n = static_cast<double> (around.size());
+    double independent = n;   // rows
+    const auto scoreOf = [&] (const detail::LeastSquaresFit& fit) {
+        return n * math::log (fit.sumToCompare()) + static_cast<double> (fit.x.size()) * math::log (n) * n / independent;
+    };
     double forces = 0.0, weights = 0.0;   // of the whole sample, around a line from the touch
     for (Index i = 0; i <= around.last_whole; ++i)
     {
@@ -209,7 +223,7 @@ FoundCut searchCut (const Cut& around, FitCourse* course)
     const auto start = [&] (const Cut& cut, bool is_bent) {
         const CutSearch search (cut, is_bent, course);
         auto fit = detail::minimise (search.problem(), search.start (std::max (1e-3 * cut.unit, stiff), plateau));
-        const double score = n * math::log (std::max (fit.sum(), 1e-300)) + static_cast<double> (search.parameters()) * math::log (n);
+        const double score = scoreOf (fit);
         if (fit.x.allFinite() && score < best.score) best = { is_bent, cut, std::move (fit), score };
     };
     constexpr Index most = 2;
@@ -221,7 +235,10 @@ FoundCut searchCut (const Cut& around, FitCourse* course)
         detail::setShare (course, 0.15 * static_cast<double> (aside + most));
         start (cut, false);
     }
-    if (std::isfinite (best.score) && ! detail::isCancelled (course)) start (Cut { best.cut }, true);
+    if (! std::isfinite (best.score) || detail::isCancelled (course)) return best;
+    independent = std::clamp (detail::independentRows (best.fit.residual), std::min (20.0, n), n);
+    best.score = scoreOf (best.fit);
+    start (Cut { best.cut }, true);
     return best;
 }
 
@@ -240,13 +257,20 @@ void reportBurst (const CutSearch& search, const FoundCut& found, const Eigen::M
     const double half = detail::halfWidth95 (freedom), of_depth = half * cut.length * std::sqrt (covariance (b, b));
     double low = std::max (below, search.rupture (x) - of_depth), high = std::min (above, search.rupture (x) + of_depth);
     if (! (low < high)) std::tie (low, high) = std::pair { below, above };
-    const double of_law = half * std::sqrt (covariance (0, 0) + (found.is_bent ? 2.0 * covariance (0, 1) * math::log (d / cut.length) * n : 0.0));
+    const double bend = n * math::log (d / cut.length);
+    const double of_law = half * std::sqrt (found.is_bent ? detail::varianceAlong (covariance, 0, Eigen::Vector2d { 1.0, bend }) : covariance (0, 0));
     const double down = math::hypot (of_law, n * (d - low) / d), up = math::hypot (of_law, n * (high - d) / d);
     result.rupture_force = f;
     values.push_back ({ "rupture_force", "N", f, f * math::exp (-down), f * math::exp (up), true });
 
     result.toughness = search.cutting (x) / result.width;
-    values.push_back (detail::withLogInterval ("toughness", "J/m2", result.toughness, std::sqrt (covariance (b + 1, b + 1)), freedom));
+    auto toughness = detail::withLogInterval ("toughness", "J/m2", result.toughness, std::sqrt (covariance (b + 1, b + 1)), freedom);
+    if (! search.cutsOn (x))
+    {
+        toughness.high = endless;   // only a lower bound: the force would have risen further
+        result.report.lacking.push_back ("the recording ends before the blade cuts on after the burst, so the toughness is uncertain");
+    }
+    values.push_back (toughness);
     const double softening = search.softening (x), of_softening = std::sqrt (covariance (b + 2, b + 2));
     values.push_back (detail::withLogInterval ("cracked stiffness ratio", "", softening, of_softening, freedom, false));
     if (softening < 1.0 && std::abs (x[b + 2]) > half * of_softening)
@@ -264,7 +288,7 @@ void reportCut (const FoundCut& found, BladeFit& result)
     const CutSearch search (found.cut, found.is_bent, nullptr);
     const auto& x = found.fit.x;
     const auto& cut = found.cut;
-    const auto covariance = detail::covarianceOf (detail::influenceOf (found.fit), found.fit.residual, search.parameters());
+    const auto covariance = detail::covarianceOf (found.fit);
     const double freedom = detail::independentRows (found.fit.residual) - static_cast<double> (search.parameters()), n = search.power (x);
     result.law = { .kind = Law::Kind::power, .a = search.atLength (x) / math::pow (cut.length, n), .b = n };
     auto& values = result.report.values;

@@ -29,7 +29,8 @@ struct BladeFit
 /// Fits the stiffness before and after the burst, the force at the burst and the toughness. The crack right after the burst follows from the
 /// energy that the sample had stored (Griffith), as in the node. The burst is a jump between two rows, so the interval
 /// of its force is the narrower of two: that of the fit, and that between the two rows. A recording that ends before the burst gives only
-/// lower bounds for the two forces. The cross-validation divides the rows into 50 blocks and leaves out every fifth block.
+/// lower bounds for the two forces, and one that ends before the blade cuts on gives only a lower bound for the toughness. The cross-validation
+/// divides the rows into 50 blocks and leaves out every fifth block.
 ///
 /// Errors: fit/too_short, fit/not_finite, fit/no_contact, fit/pulls, fit/no_cut, fit/cancelled. [any thread]
 Result<BladeFit> fitBlade (const RecordedCut&, FitCourse* = nullptr);

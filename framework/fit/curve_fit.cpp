@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -27,10 +28,24 @@ struct Fitted
     double drop = 0.0;                   // N
 };
 
+constexpr double straight = 1e-6;   // weight of the second differences, in rows
+
+/// Adds the squares of the second differences, f[i - 1] - 2 f[i] + f[i + 1] with 0 before the first.
+void addStraightness (Eigen::MatrixXd& normal)
+{
+    for (Eigen::Index i = 0; i + 1 < normal.rows(); ++i)
+    {
+        const Eigen::Index indices[] { i - 1, i, i + 1 };
+        const double factors[] { 1.0, -2.0, 1.0 };
+        for (int a = i == 0 ? 1 : 0; a < 3; ++a)
+            for (int b = i == 0 ? 1 : 0; b < 3; ++b)
+                normal (indices[a], indices[b]) += straight * factors[a] * factors[b];
+    }
+}
+
 /// Least squares. At a depth without a row nearby, the curve continues that of its neighbours in a straight line.
 Fitted leastSquares (const std::vector<double>& d, const std::vector<double>& f, double spacing, int points)
 {
-    constexpr double straight = 1e-6;   // weight of the second differences, in rows
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero (points, points);
     Eigen::VectorXd right = Eigen::VectorXd::Zero (points);
     Fitted fitted;
@@ -50,14 +65,7 @@ Fitted leastSquares (const std::vector<double>& d, const std::vector<double>& f,
         normal (upper, upper - 1) += share * (1.0 - share);
         fitted.weight[at (upper - 1)] += 1.0 - share;
     }
-    for (int i = 0; i + 1 < points; ++i)   // (f[i - 1] - 2 f[i] + f[i + 1])^2, with 0 before the first
-    {
-        const int indices[] { i - 1, i, i + 1 };
-        const double factors[] { 1.0, -2.0, 1.0 };
-        for (int a = i == 0 ? 1 : 0; a < 3; ++a)
-            for (int b = i == 0 ? 1 : 0; b < 3; ++b)
-                normal (indices[a], indices[b]) += straight * factors[a] * factors[b];
-    }
+    addStraightness (normal);
     const Eigen::VectorXd solved = normal.ldlt().solve (right);
     fitted.force.assign (solved.begin(), solved.end());
     return fitted;
@@ -156,7 +164,6 @@ Result<CurveFit> rowsOf (const RecordedLoop& loop)
 /// How the force at each depth of the table changes with each recorded force, before the curve is made monotone.
 Eigen::MatrixXd influenceOnBranch (const std::vector<double>& d, double spacing, int points)
 {
-    constexpr double straight = 1e-6;
     const auto rows = static_cast<Eigen::Index> (d.size());
     Eigen::MatrixXd terms = Eigen::MatrixXd::Zero (rows, points);
     for (Eigen::Index i = 0; i < rows; ++i)
@@ -167,7 +174,7 @@ Eigen::MatrixXd influenceOnBranch (const std::vector<double>& d, double spacing,
         if (upper > 0) terms (i, upper - 1) = 1.0 - (u - upper);
     }
     Eigen::MatrixXd normal = terms.transpose() * terms;
-    normal.diagonal().array() += straight;
+    addStraightness (normal);
     return normal.ldlt().solve (terms.transpose());
 }
 
@@ -207,25 +214,35 @@ struct BranchErrors
 };
 
 /// The errors ignore that the branches are made monotone: this changes only forces that differ by less than their errors, or that the curve
-/// cannot follow.
+/// cannot follow. At depths without a row nearby, they are infinite.
 BranchErrors errorsOfBranch (const std::vector<double>& d, const std::vector<double>& f, double spacing, int points)
 {
     const auto influence = influenceOnBranch (d, spacing, points);
     auto smooth = leastSquares (d, f, spacing, points);
     pool (smooth);
     const auto law = tableOf (spacing, std::move (smooth.force));
+    constexpr double nearly_none = 1e-3;   // rows
     Eigen::VectorXd left (influence.cols()), work = Eigen::VectorXd::Constant (points, spacing);
     for (Eigen::Index i = 0; i < left.size(); ++i)
         left[i] = f[at (i)] - law (d[at (i)]);
     work[points - 1] *= 0.5;
-    return { detail::covarianceOf (influence, left, points), work, detail::independentRows (left) - points };
+    auto covariance = detail::covarianceOf (influence, left, points, detail::rootMeanSquare (f));
+    for (int i = 0; i < points; ++i)
+        if (smooth.weight[at (i)] < nearly_none)
+        {
+            covariance.row (i).setZero();
+            covariance.col (i).setZero();
+            covariance (i, i) = std::numeric_limits<double>::infinity();
+        }
+    return { covariance, work, detail::independentRows (left) - points };
 }
 
-/// Intervals of at most 20 points. Stops between the branches if the fit is cancelled.
+/// Intervals of at most 20 points, with at least two rows for each. Stops between the branches if the fit is cancelled.
 void reportValues (CurveFit& fit, int points, FitCourse* course)
 {
     auto& values = fit.report.values;
-    const int few = std::min (points, 20);
+    const auto rows = fit.depth_out.empty() ? fit.depth_in.size() : std::min (fit.depth_in.size(), fit.depth_out.size());
+    const int few = std::min ({ points, 20, static_cast<int> (std::max<std::size_t> (1, rows / 8)) * 4 });
     const double spacing = fit.depth_in.back() / few;
     const auto sd = [] (double variance) { return std::sqrt (std::max (0.0, variance)); };
     const auto in = errorsOfBranch (fit.depth_in, fit.force_in, spacing, few);

@@ -54,13 +54,47 @@ Result<> checkColumns (const std::vector<const std::vector<double>*>& columns, s
     return {};
 }
 
+namespace
+{
+/// What 1 in the last digit of each time means; 0 if the times were not rounded. A time whose last digits are 0 counts like its neighbours.
+std::vector<double> lastDigits (const std::vector<double>& time)
+{
+    constexpr int most = 9, around = 5;
+    std::vector<double> own, least;
+    for (const double t : time)
+    {
+        double unit = 1.0;
+        int digits = 0;
+        for (; digits <= most && std::abs (t / unit - std::round (t / unit)) > 1e-4; ++digits)
+            unit *= 0.1;
+        own.push_back (digits <= most ? unit : 0.0);
+    }
+    for (auto i = own.begin(); i != own.end(); ++i)
+        least.push_back (*std::min_element (i - std::min<std::ptrdiff_t> (around, i - own.begin()), i + std::min<std::ptrdiff_t> (around + 1, own.end() - i)));
+    return least;
+}
+}   // namespace
+
 Result<double> evenStep (const std::vector<double>& time)
 {
     const double step = (time.back() - time.front()) / static_cast<double> (time.size() - 1);
     if (std::ranges::adjacent_find (time, std::ranges::greater_equal {}) != time.end() || ! (step > 0.0))
         return fitError ("fit/time", "the times do not increase from row to row", "sort the rows by time");
-    for (std::size_t i = 0; i < time.size(); ++i)
-        if (std::abs (time[i] - time.front() - step * static_cast<double> (i)) > 0.5 * step)
+    constexpr double tolerance = 0.1, nearly = 0.02;
+    const auto digits = lastDigits (time);
+    for (std::size_t i = 1; i < time.size(); ++i)
+    {
+        // Rounding makes even steps as long as the next smaller or larger number of units.
+        const double next = time[i] - time[i - 1], unit = std::max (digits[i], 1e-9 * step), units = step / unit;
+        const bool is_even = next > unit * std::floor (units + nearly) - tolerance * step && next < unit * std::ceil (units - nearly) + tolerance * step;
+        if (! is_even)
+            return fitError ("fit/uneven",
+                             "the rows are not evenly spaced: row " + std::to_string (i + 1) + " comes " + roundedText (next / step, 3)
+                                 + " mean steps after the row before it",
+                             "record at a constant rate without losing rows, or resample the recording");
+    }
+    for (std::size_t i = 1; i < time.size(); ++i)
+        if (std::abs (time[i] - time.front() - step * static_cast<double> (i)) > 0.5 * step + digits[i])
             return fitError ("fit/uneven", "the rows are not evenly spaced: row " + std::to_string (i + 1) + " is off by more than half a step",
                              "record at a constant rate, or resample the recording");
     return step;

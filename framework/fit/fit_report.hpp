@@ -82,7 +82,8 @@ double rootMeanSquare (const std::vector<double>&);
 /// Errors: fit/not_finite, if a number is nan or infinite; fit/too_short, if there are fewer than `fewest` rows, or the columns have different lengths.
 Result<> checkColumns (const std::vector<const std::vector<double>*>& columns, std::size_t fewest, const std::string& what);
 
-/// The mean time step between two rows, in s. Each time may be off by up to half a step, because programs round times. Errors: fit/time, fit/uneven.
+/// The mean time step between two rows, in s. Each step may be off by 10 % of the mean, and also by what rounding to the printed digits changes; each
+/// time may be off by up to half a step. Errors: fit/time, fit/uneven.
 Result<double> evenStep (const std::vector<double>& time);
 }   // namespace detail
 

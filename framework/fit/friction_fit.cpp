@@ -102,6 +102,7 @@ public:
                      r = Eigen::Map<const VectorXd> (drag.force.data(), static_cast<Index> (rows)) - modelled (x, rows);
                  },
                  .step = 1e-4,
+                 .size = detail::rootMeanSquare (drag.force),
                  .course = course };
     }
 
@@ -164,9 +165,12 @@ struct DragStart
     double mu = 0.1, offset = 0.0, error = std::numeric_limits<double>::infinity();
 };
 
-DragStart coarse (const Drag& drag, BristleAdhesion adhesion, std::size_t rows)
+/// No start has mu above 0 if the force does not depend on the movement.
+DragStart coarse (const Drag& drag, BristleAdhesion adhesion, std::size_t rows, const FitCourse* course)
 {
     constexpr int lengths = 18;
+    constexpr double faint = 1e-6;   // share of the recorded force
+    const double least = faint * detail::rootMeanSquare (drag.force) * std::sqrt (static_cast<double> (rows));
     const auto n = static_cast<double> (rows);
     const Eigen::Map<const VectorXd> force (drag.force.data(), static_cast<Index> (rows));
     DragStart best;
@@ -175,12 +179,14 @@ DragStart coarse (const Drag& drag, BristleAdhesion adhesion, std::size_t rows)
         for (const double break_away : yields)
             for (const double first : { -0.9, 0.0, 0.9 })
             {
+                if (detail::isCancelled (course)) return {};
                 const DragShape shape { adhesion, drag.range * math::pow (10.0, -3.0 + 2.9 * i / (lengths - 1)), break_away, first };
                 const VectorXd unit = drag.reference_load * dragAlong (drag, shape, rows);
                 const double mean_unit = drag.goes_both_ways ? unit.sum() / n : 0.0, mean = drag.goes_both_ways ? force.sum() / n : 0.0;
-                const double mu = (unit.array() - mean_unit).matrix().dot ((force.array() - mean).matrix()) / (unit.array() - mean_unit).matrix().squaredNorm();
+                const VectorXd moved = unit.array() - mean_unit;
+                const double mu = moved.dot ((force.array() - mean).matrix()) / moved.squaredNorm();
                 const double offset = mean - mu * mean_unit, error = (force - mu * unit).array().operator- (offset).matrix().squaredNorm();
-                if (mu > 0.0 && error < best.error) best = { shape, mu, offset, error };
+                if (mu * moved.norm() > least && error < best.error) best = { shape, mu, offset, error };
             }
     return best;
 }
@@ -202,7 +208,7 @@ std::vector<FoundDrag> search (const Drag& drag, FitCourse* course)
     for (std::size_t i = 0; i < all.size(); ++i)
     {
         if (detail::isCancelled (course)) return {};
-        starts[i] = coarse (drag, all[i], drag.size());
+        starts[i] = coarse (drag, all[i], drag.size(), course);
         least = std::min (least, starts[i].error);
         detail::setShare (course, 0.1 * static_cast<double> (i + 1));
     }
@@ -211,25 +217,22 @@ std::vector<FoundDrag> search (const Drag& drag, FitCourse* course)
     for (std::size_t i = 0; i < all.size(); ++i)
     {
         detail::setShare (course, 0.4 + 0.1 * static_cast<double> (i));
-        if (! (starts[i].error <= hopeless * least) || detail::isCancelled (course)) continue;
+        if (! std::isfinite (starts[i].error) || ! (starts[i].error <= hopeless * least) || detail::isCancelled (course)) continue;
         const DragSearch search (drag, all[i], drag.size(), course);
         auto fit = detail::minimise (search.problem(), search.start (starts[i].shape, starts[i].mu, starts[i].offset));
+        if (! fit.x.allFinite() || ! fit.residual.allFinite()) continue;
         if (independent == 0.0) independent = std::max (20.0, detail::independentRows (fit.residual));
-        const double score = independent * math::log (fit.sum()) + static_cast<double> (search.parameters()) * math::log (independent);
+        const double score = independent * math::log (fit.sumToCompare()) + static_cast<double> (search.parameters()) * math::log (independent);
         found.push_back ({ all[i], std::move (fit), score });
     }
     std::ranges::sort (found, {}, &FoundDrag::score);
     return found;
 }
 /// Deviations of ln mu, ln d_max and ln stiffness for one adhesion function; infinite if the recording does not determine them.
-Eigen::Vector3d deviations (Index parameters, const detail::LeastSquaresFit& fit)
+Eigen::Vector3d deviations (const detail::LeastSquaresFit& fit)
 {
-    const auto covariance = detail::covarianceOf (detail::influenceOf (fit), fit.residual, parameters);
-    constexpr double unknown = std::numeric_limits<double>::infinity();
-    const auto set = detail::isSet (fit);
-    const auto one = [&] (Index i) { return set[static_cast<std::size_t> (i)] ? std::sqrt (std::max (0.0, covariance (i, i))) : unknown; };
-    const double of_stiffness = set[0] && set[1] ? std::sqrt (std::max (0.0, covariance (0, 0) + covariance (1, 1) - 2.0 * covariance (0, 1))) : unknown;
-    return { one (0), one (1), of_stiffness };
+    const auto covariance = detail::covarianceOf (fit);
+    return { std::sqrt (covariance (0, 0)), std::sqrt (covariance (1, 1)), std::sqrt (detail::varianceAlong (covariance, 0, Eigen::Vector2d { 1.0, -1.0 })) };
 }
 
 /// Adhesion functions that fit almost as well widen the intervals, each weighted by its probability (Buckland, Burnham & Augustin 1997).
@@ -238,7 +241,7 @@ void reportDrag (const Drag& drag, const std::vector<FoundDrag>& all, FrictionFi
     const auto& best = all.front();
     const DragSearch search (drag, best.adhesion, drag.size(), nullptr);
     const auto& x = best.fit.x;
-    const auto covariance = detail::covarianceOf (detail::influenceOf (best.fit), best.fit.residual, search.parameters());
+    const auto covariance = detail::covarianceOf (best.fit);
     const double freedom = detail::independentRows (best.fit.residual) - static_cast<double> (search.parameters());
     Eigen::Vector3d variance = Eigen::Vector3d::Zero();
     double sum = 0.0;
@@ -246,8 +249,7 @@ void reportDrag (const Drag& drag, const std::vector<FoundDrag>& all, FrictionFi
     {
         const double weight = math::exp (-0.5 * std::min (100.0, other.score - best.score));
         if (weight < 1e-3) continue;
-        const DragSearch of_other (drag, other.adhesion, drag.size(), nullptr);
-        const auto spread = deviations (of_other.parameters(), other.fit);
+        const auto spread = deviations (other.fit);
         const double mu = other.fit.x[0] - x[0], d_max = other.fit.x[1] - x[1];
         const Eigen::Vector3d off { mu, d_max, mu - d_max };
         variance += weight * (spread.cwiseProduct (spread) + off.cwiseProduct (off));

@@ -67,6 +67,7 @@ public:
         return { .rows = profile.size(),
                  .residual = [this] (const VectorXd& x, VectorXd& r) { r = weight.cwiseProduct (profile.height - modelled (x)); },
                  .jacobian = [this] (const VectorXd& x, MatrixXd& j) { setSlopes (x, j); },
+                 .size = std::sqrt (profile.height.squaredNorm() / static_cast<double> (profile.size())),
                  .course = course };
     }
 
@@ -186,7 +187,7 @@ FoundRidges searchRidges (const Profile& p, Index most, FitCourse* course)
             auto fit = detail::minimise (search.problem(), search.start (per_metre));
             if (independent == 0.0) independent = std::max (20.0, detail::independentRows (fit.residual));
             const double n = static_cast<double> (p.size());
-            const double score = n * math::log (fit.sum()) + static_cast<double> (search.parameters()) * math::log (n) * n / std::min (n, independent)
+            const double score = n * math::log (fit.sumToCompare()) + static_cast<double> (search.parameters()) * math::log (n) * n / std::min (n, independent)
                                  + doubt * static_cast<double> (number - 1);
             if (score < best.score && fit.x.allFinite()) best = { harmonics, std::move (fit), score };
         }
@@ -197,7 +198,7 @@ FoundRidges searchRidges (const Profile& p, Index most, FitCourse* course)
 void reportRidges (const Profile& p, const FoundRidges& found, GratingFit& result)
 {
     const auto& x = found.fit.x;
-    const auto covariance = detail::covarianceOf (detail::influenceOf (found.fit), found.fit.residual, x.size());
+    const auto covariance = detail::covarianceOf (found.fit);
     const double freedom = detail::independentRows (found.fit.residual) - static_cast<double> (x.size());
     auto& report = result.report;
     result.period = math::exp (-x[0]);
@@ -209,7 +210,7 @@ void reportRidges (const Profile& p, const FoundRidges& found, GratingFit& resul
     {
         const double amplitude = math::hypot (x[1 + 2 * h], x[2 + 2 * h]), halves = detail::halfWidth95 (freedom);
         const Eigen::Vector2d along { x[1 + 2 * h] / amplitude, x[2 + 2 * h] / amplitude };
-        const double deviation = std::sqrt (std::max (0.0, along.dot (covariance.block<2, 2> (1 + 2 * h, 1 + 2 * h) * along)));
+        const double deviation = std::sqrt (detail::varianceAlong (covariance, 1 + 2 * h, along));
         // The phase counts from the position 0 of the recording.
         const double number = static_cast<double> (h + 1), shift = 2.0 * std::numbers::pi * number * p.origin / result.period;
         result.harmonics.push_back (

@@ -102,7 +102,7 @@ Dependence dependenceOf (const Eigen::VectorXd& r)
 
 LeastSquaresFit evaluated (const LeastSquares& problem, const Eigen::VectorXd& x)
 {
-    LeastSquaresFit fit { .x = x, .residual = Eigen::VectorXd (problem.rows), .jacobian = Eigen::MatrixXd (problem.rows, x.size()) };
+    LeastSquaresFit fit { .x = x, .residual = Eigen::VectorXd (problem.rows), .jacobian = Eigen::MatrixXd (problem.rows, x.size()), .size = problem.size };
     problem.residual (x, fit.residual);
     Functor { problem, x.size() }.df (x, fit.jacobian);
     return fit;
@@ -155,8 +155,11 @@ std::vector<bool> isSet (const LeastSquaresFit& fit)
 /// Independent errors e pass an all-pole filter and become the residuals r. So the influence of e on an estimate is the influence of r, filtered
 /// backwards in time. Each fitted parameter takes up the error of one independent row. If rows depend on one another, several of them count as
 /// one independent row.
-Eigen::MatrixXd covarianceOf (const Eigen::MatrixXd& influence, const Eigen::VectorXd& residual, Eigen::Index parameters)
+Eigen::MatrixXd covarianceOf (const Eigen::MatrixXd& influence, const Eigen::VectorXd& residual, Eigen::Index parameters, double size)
 {
+    constexpr double finest = 1e-6;   // error of a sensor over the size of the signal
+    if (residual.squaredNorm() <= static_cast<double> (residual.size()) * finest * finest * size * size)
+        return finest * finest * size * size * influence * influence.transpose();
     const auto n = residual.size(), p = influence.rows();
     const auto dependence = dependenceOf (residual);
     const double independent = independentRows (residual), taken = std::min (static_cast<double> (parameters), 0.8 * independent);
@@ -175,6 +178,28 @@ Eigen::MatrixXd covarianceOf (const Eigen::MatrixXd& influence, const Eigen::Vec
     return variance * filtered * filtered.transpose();
 }
 
+Eigen::MatrixXd covarianceOf (const LeastSquaresFit& fit)
+{
+    Eigen::MatrixXd covariance = covarianceOf (influenceOf (fit), fit.residual, fit.x.size(), fit.size);
+    const auto set = isSet (fit);
+    for (Eigen::Index i = 0; i < fit.x.size(); ++i)
+    {
+        if (set[static_cast<std::size_t> (i)]) continue;
+        covariance.row (i).setZero();
+        covariance.col (i).setZero();
+        covariance (i, i) = std::numeric_limits<double>::infinity();
+    }
+    return covariance;
+}
+
+double varianceAlong (const Eigen::MatrixXd& covariance, Eigen::Index first, const Eigen::VectorXd& factors)
+{
+    const auto n = factors.size();
+    const Eigen::MatrixXd block = covariance.block (first, first, n, n);
+    if (! block.allFinite()) return std::numeric_limits<double>::infinity();
+    return std::max (0.0, factors.dot (block * factors));
+}
+
 double independentRows (const Eigen::VectorXd& residual)
 {
     const auto dependence = dependenceOf (residual);
@@ -187,7 +212,8 @@ double independentRows (const Eigen::VectorXd& residual)
 double halfWidth95 (double freedom)
 {
     const double n = std::max (1.0, freedom);
-    return 1.959964 + 2.3722 / n + 2.8225 / (n * n) + 5.0 / (n * n * n);   // Student's t to about 1 %, from 2 degrees of freedom on
+    // The asymptotic series of Student's t; the last term makes it exact at 1 degree of freedom.
+    return 1.959964 + (2.3723 + (2.8225 + (2.5556 + (1.5895 + 1.4063 / n) / n) / n) / n) / n;
 }
 
 FitValue withInterval (std::string name, std::string unit, double value, double deviation, double freedom, bool is_main)

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <functional>
 
 namespace tactus::detail
@@ -17,6 +18,7 @@ struct LeastSquares
     std::function<void (const Eigen::VectorXd& x, Eigen::VectorXd& residual)> residual {};   ///< recorded minus model
     std::function<void (const Eigen::VectorXd& x, Eigen::MatrixXd& jacobian)> jacobian {};   ///< empty: by central differences
     double step = 1e-5;                                                                      ///< of these differences
+    double size = 0.0;                                                                       ///< root mean square of the recorded values
     const FitCourse* course = nullptr;                                                       ///< can cancel the search
 };
 
@@ -24,8 +26,16 @@ struct LeastSquaresFit
 {
     Eigen::VectorXd x, residual;
     Eigen::MatrixXd jacobian;   ///< of the residual, at x
+    double size = 0.0;          ///< root mean square of the recorded values
 
     double sum() const { return residual.squaredNorm(); }
+
+    /// The sum, but not less than rounding leaves of a recording without noise. It decides between models.
+    double sumToCompare() const
+    {
+        constexpr double rounding = 1e-9;   // of the size
+        return std::max ({ sum(), static_cast<double> (residual.size()) * rounding * rounding * size * size, 1e-300 });
+    }
 };
 
 /// The Levenberg-Marquardt method (Eigen's). The result is a local minimum, so the start matters.
@@ -40,8 +50,15 @@ Eigen::MatrixXd influenceOf (const LeastSquaresFit&);
 
 /// The covariance of estimates. `influence` contains their slopes with the recorded values, a row for each estimate. The residuals show how large
 /// the errors of the recorded values are, and how they depend on one another: they are modelled as autoregressive, with an order that BIC
-/// selects. `parameters` is the number of fitted parameters.
-Eigen::MatrixXd covarianceOf (const Eigen::MatrixXd& influence, const Eigen::VectorXd& residual, Eigen::Index parameters);
+/// selects. The errors are taken as at least a millionth of `size`, because no sensor is better. `parameters` is the number of fitted parameters.
+Eigen::MatrixXd covarianceOf (const Eigen::MatrixXd& influence, const Eigen::VectorXd& residual, Eigen::Index parameters, double size = 0.0);
+
+/// The covariance of the fitted parameters. The variance of a parameter that the recording does not determine is infinite, and its covariances
+/// with the others are 0.
+Eigen::MatrixXd covarianceOf (const LeastSquaresFit&);
+
+/// The variance of the sum of parameters with these factors, which begin at `first`. Infinite if one of them has an infinite variance.
+double varianceAlong (const Eigen::MatrixXd& covariance, Eigen::Index first, const Eigen::VectorXd& factors);
 
 /// False for parameters on which no residual depends, or whose effect other parameters can cancel completely.
 std::vector<bool> isSet (const LeastSquaresFit&);
@@ -49,7 +66,7 @@ std::vector<bool> isSet (const LeastSquaresFit&);
 /// The effective number of independent rows. It is smaller than the number of rows if the residuals depend on one another.
 double independentRows (const Eigen::VectorXd& residual);
 
-/// Half the width of a 95 % interval in standard deviations.
+/// Half the width of a 95 % interval in standard deviations: Student's t to 0.5 %. At least one degree of freedom is assumed.
 double halfWidth95 (double degrees_of_freedom);
 
 /// An interval around a value.

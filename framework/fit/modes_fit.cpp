@@ -32,7 +32,7 @@ constexpr std::size_t fewest_ring_rows = 64;
 struct Ring
 {
     VectorXd value;
-    double dt = 0.0, largest = 0.0, start = 0.0;
+    double dt = 0.0, largest = 0.0, start = 0.0, blow = 0.0;
 
     Index size() const { return value.size(); }
     double duration() const { return dt * static_cast<double> (size()); }
@@ -119,6 +119,7 @@ public:
         return { .rows = ring.size(),
                  .residual = [this] (const VectorXd& x, VectorXd& r) { r = weight.cwiseProduct (ring.value - modelled (x)); },
                  .jacobian = [this] (const VectorXd& x, MatrixXd& j) { j = -(weight.asDiagonal() * slopes (x)); },
+                 .size = std::sqrt (ring.value.squaredNorm() / static_cast<double> (ring.size())),
                  .course = course };
     }
 
@@ -154,6 +155,22 @@ private:
     const FitCourse* course;
     VectorXd weight;
 };
+
+/// The time of the blow before the fitted part: where the half-wave with the largest value begins. Looks back until the values have not grown for
+/// half the length of the fitted part, so an earlier blow does not count.
+double blowBefore (const RecordedRing& recorded, std::size_t from, std::size_t to)
+{
+    const auto& v = recorded.value;
+    std::size_t largest = from;
+    for (auto i = from; i-- > 0 && largest - i <= (to - from) / 2;)
+        if (std::abs (v[i]) > std::abs (v[largest])) largest = i;
+    if (largest == from) return recorded.time[from];
+    const auto is_same_wave = [&] (std::size_t i) { return v[i] * v[largest] > 0.05 * v[largest] * v[largest]; };
+    auto first = largest;
+    while (first > 0 && is_same_wave (first))
+        --first;
+    return recorded.time[first];
+}
 
 Result<Ring> ringOf (const RecordedRing& recorded)
 {
@@ -201,6 +218,7 @@ Result<Ring> ringOf (const RecordedRing& recorded)
     ring.largest = ring.value.cwiseAbs().maxCoeff();
     if (! (ring.largest > 0.0)) return fitError ("fit/silent", "the fitted part is 0 throughout", "choose another part of the recording");
     ring.value /= ring.largest;
+    ring.blow = std::min (ring.start, recorded.blow.value_or (blowBefore (recorded, from, to)));
     return ring;
 }
 
@@ -311,7 +329,7 @@ FoundRing searchRing (const Ring& ring, int most, FitCourse* course)
                 continue;
             if (independent == 0.0 || best.tones > 0) independent = std::max (30.0, detail::independentRows (fit.residual));
             const double n = static_cast<double> (ring.size());
-            const double score = n * math::log (fit.sum()) + static_cast<double> (search.parameters()) * math::log (n) * n / std::min (n, independent);
+            const double score = n * math::log (fit.sumToCompare()) + static_cast<double> (search.parameters()) * math::log (n) * n / std::min (n, independent);
             if (score < best.score) best = { tones, drift, std::move (fit), score };
         }
     }
@@ -336,9 +354,8 @@ double leftOut (const Ring& ring, const FoundRing& found, FitCourse* course)
 void reportTones (const Ring& ring, const FoundRing& found, ModesFit& result)
 {
     const auto& x = found.fit.x;
-    const RingSearch search (ring, found.tones, found.drift, nullptr);
-    const MatrixXd covariance = detail::covarianceOf (detail::influenceOf (found.fit), found.fit.residual, search.parameters());
-    const double freedom = detail::independentRows (found.fit.residual) - static_cast<double> (search.parameters());
+    const MatrixXd covariance = detail::covarianceOf (found.fit);
+    const double freedom = detail::independentRows (found.fit.residual) - static_cast<double> (x.size());
     struct Row
     {
         ModesFit::Tone tone;
@@ -351,13 +368,14 @@ void reportTones (const Ring& ring, const FoundRing& found, ModesFit& result)
         const auto p = RingSearch::part (x, k);
         const Index i = RingSearch::per_tone * k;
         const double amplitude = math::hypot (p.cosine, p.sine);
-        const Eigen::Vector2d along { p.cosine / amplitude, p.sine / amplitude };
-        const double variance = along.dot (covariance.block<2, 2> (i + 2, i + 2) * along);
+        // ln amplitude at the blow, by ln decay, cosine and sine.
+        const double since = p.decay * (ring.start - ring.blow);
+        const Eigen::Vector3d along { since, p.cosine / (amplitude * amplitude), p.sine / (amplitude * amplitude) };
         const double energy = amplitude * amplitude / p.decay * (1.0 - math::exp (-2.0 * p.decay * ring.duration()));
-        rows.push_back ({ { p.frequency, p.decay, ring.largest * amplitude, math::atan2 (p.cosine, p.sine), energy },
+        rows.push_back ({ { p.frequency, p.decay, ring.largest * amplitude * math::exp (since), math::atan2 (p.cosine, p.sine), energy },
                           std::sqrt (covariance (i, i)),
                           std::sqrt (covariance (i + 1, i + 1)),
-                          std::sqrt (std::max (0.0, variance)) / amplitude });
+                          std::sqrt (detail::varianceAlong (covariance, i + 1, along)) });
         all += energy;
     }
     std::ranges::sort (rows, {}, [] (const Row& r) { return r.tone.frequency; });
@@ -385,7 +403,7 @@ Result<ModesFit> fitModes (const RecordedRing& recorded, FitCourse* course)
     if (found.tones == 0)
         return fitError ("fit/no_ring", "no decaying tone explains the recording", "check which column is read, and that the recording begins at the blow");
 
-    ModesFit result { .start = ring.start };
+    ModesFit result { .start = ring.start, .blow = ring.blow };
     auto& report = result.report;
     reportTones (ring, found, result);
     const RingSearch search (ring, found.tones, found.drift, course);
@@ -394,7 +412,8 @@ Result<ModesFit> fitModes (const RecordedRing& recorded, FitCourse* course)
     report.residual = ring.largest * std::sqrt (found.fit.sum() / static_cast<double> (ring.size()));
     report.left_out_residual = ring.largest * leftOut (ring, found, course);
     report.size = ring.largest * std::sqrt (ring.value.squaredNorm() / static_cast<double> (ring.size()));
-    report.notes.push_back ("fitted from " + roundedText (ring.start, 4) + " s to " + roundedText (ring.start + ring.duration(), 4) + " s");
+    report.notes.push_back ("fitted from " + roundedText (ring.start, 4) + " s to " + roundedText (ring.start + ring.duration(), 4)
+                            + " s; the amplitudes are those at the blow, at " + roundedText (ring.blow, 4) + " s");
     std::vector<double> t;
     for (Index i = 0; i < ring.size(); ++i)
         t.push_back (ring.start + ring.dt * static_cast<double> (i));

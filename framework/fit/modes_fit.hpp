@@ -13,10 +13,11 @@ struct RecordedRing
 {
     std::vector<double> time {}, value {};   ///< s, evenly spaced
     std::optional<double> from {}, to {};    ///< s; the fitted part. Default: from the largest value to where the ring has fallen to a twentieth
+    std::optional<double> blow {};           ///< s; the time of the blow. Default: the start of the half-wave with the largest value before the fitted part
     int most_modes = 8;
 };
 
-/// Decaying tones, sum of amplitude e^(-decay t) sin (2 pi frequency t + phase), with t from the start of the fitted part.
+/// Decaying tones, sum of amplitude e^(-decay (t - blow)) sin (2 pi frequency (t - start) + phase), with t as recorded.
 struct ModesFit
 {
     struct Tone
@@ -26,7 +27,8 @@ struct ModesFit
     };
 
     std::vector<Tone> tones {};   ///< by frequency
-    double start = 0.0;           ///< s: the time in the recording at which t is 0
+    double start = 0.0;           ///< s: the start of the fitted part
+    double blow = 0.0;            ///< s: the time of the blow, at most `start`
     FitReport report {};
 };
 

@@ -11,6 +11,7 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 namespace tactus::detail
 {
@@ -57,7 +58,11 @@ std::vector<double> reflectionsByBurg (const std::vector<std::span<const double>
 {
     std::vector<std::vector<double>> forward, backward;
     for (const auto s : stretches)
-        forward.emplace_back (s.begin(), s.end());
+    {
+        const double mean = std::accumulate (s.begin(), s.end(), 0.0) / static_cast<double> (s.size());
+        for (auto& v : forward.emplace_back (s.begin(), s.end()))
+            v -= mean;
+    }
     backward = forward;
     std::vector<double> reflections;
     for (std::size_t m = 1; m <= static_cast<std::size_t> (order); ++m)
@@ -252,6 +257,7 @@ SpectrumModel fitSpectrum (const Periodogram& data, const std::vector<std::span<
         best = { { a.begin(), a.end() },
                  math::exp (fit.x[order]),
                  math::exp (fit.x[order + 1]),
+                 fit.sum() / n,
                  data.widening
                      * (information.eigenvectors() * information.eigenvalues().cwiseInverse().asDiagonal() * information.eigenvectors().transpose()) };
         best.covariance.row (order + 1) *= power;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
 
 namespace tactus
@@ -66,8 +67,39 @@ std::vector<int> groupsOf (const std::vector<double>& values, const std::vector<
 struct Group
 {
     std::vector<Stretch> stretches {};
-    double speed = 0.0, force = 0.0, rows = 0.0;   // sums until they are divided by the number of rows
+    double speed = 0.0, force = 0.0, rows = 0.0;   // sums, then means
 };
+
+/// A mean from the sums of groups.
+struct Mean
+{
+    double sum = 0.0, rows = 0.0;
+
+    void add (double more, double count)
+    {
+        sum += more;
+        rows += count;
+    }
+    double value() const { return sum / rows; }
+};
+
+/// Groups with enough rows. The node interpolates in a grid of speeds and forces. So groups that were meant to have the same speed get exactly the
+/// same one, and the same holds for forces.
+std::vector<Group> onGrid (const std::map<std::pair<int, int>, Group>& groups)
+{
+    std::map<int, Mean> speeds, forces;
+    const auto has_enough = [] (const Group& group) { return group.rows >= static_cast<double> (fewest_texture_rows); };
+    for (const auto& [key, group] : groups)
+        if (has_enough (group))
+        {
+            speeds[key.first].add (group.speed, group.rows);
+            forces[key.second].add (group.force, group.rows);
+        }
+    std::vector<Group> enough;
+    for (const auto& [key, group] : groups)
+        if (has_enough (group)) enough.push_back ({ group.stretches, speeds[key.first].value(), forces[key.second].value(), group.rows });
+    return enough;
+}
 
 std::vector<Group> groupsOf (const RecordedTexture& r)
 {
@@ -101,15 +133,7 @@ std::vector<Group> groupsOf (const RecordedTexture& r)
         }
         from = to;
     }
-    std::vector<Group> enough;
-    for (auto& [key, group] : groups)
-        if (group.rows >= static_cast<double> (fewest_texture_rows))
-        {
-            group.speed /= group.rows;
-            group.force /= group.rows;
-            enough.push_back (std::move (group));
-        }
-    return enough;
+    return onGrid (groups);
 }
 
 /// The sum of squares of the errors of predictions from one row to the next, and the number of these predictions.
@@ -156,6 +180,16 @@ void addModel (const Group& group, const detail::SpectrumModel& found, TextureFi
     values.push_back (detail::withLogInterval (name + " variance", "m2/s4", found.variance, std::sqrt (found.covariance (order, order)), freedom));
     const double half = detail::halfWidth95 (freedom) * std::sqrt (found.covariance (order + 1, order + 1));
     values.push_back ({ name + " sensor noise", "m2/s4", found.floor, std::max (0.0, found.floor - half), found.floor + half, false });
+}
+
+/// Says so if the recorded spectrum differs from the model by more than about 2 dB and more than chance explains.
+void judgeSpectrum (const detail::Periodogram& data, const detail::SpectrumModel& model, TextureFit& result)
+{
+    constexpr double of_noise = 2.0 * std::numbers::egamma, deviation = 1.607, clear = 0.3;   // of the deviance of a line
+    const double chance = 3.0 * deviation * std::sqrt (data.widening / static_cast<double> (data.power.size()));
+    if (model.deviance > of_noise + clear + chance)
+        result.report.lacking.push_back ("the spectrum of model " + std::to_string (result.models.size())
+                                         + " is not that of the recording: a tone, or single events, cannot be played as noise");
 }
 
 /// The spectrum of the strongest group, averaged over bands, and of its model.
@@ -220,6 +254,7 @@ Result<TextureFit> fitTexture (const RecordedTexture& recorded, FitCourse* cours
         if (detail::isCancelled (course)) return detail::fitCancelled();
         if (found.coefficients.empty()) return fitError ("fit/silent", "the acceleration does not vary at some speed and force", "check which column is read");
         addModel (group, found, result);
+        judgeSpectrum (data, found, result);
         const auto [off, rows] = predictionErrors (group.stretches, found.coefficients);
         const auto [off_left_out, rows_left_out] = predictionErrors (second, half.coefficients);
         sum += off;

@@ -10,4 +10,7 @@ namespace tactus::host
 /// Throws UsageError, with the name of the option.
 double readAmount (const std::string& option, const std::string& text, const char* si_unit, const char* example);
 
+/// The same for a place or a time, which may be 0 or negative.
+double readSignedAmount (const std::string& option, const std::string& text, const char* si_unit, const char* example);
+
 }   // namespace tactus::host

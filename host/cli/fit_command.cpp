@@ -4,10 +4,14 @@
 #include "overwriting.hpp"
 #include "report.hpp"
 
+#include <host/assets/file_assets.hpp>
 #include <host/io/plot.hpp>
 #include <tactus/file/graph_file.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/plan/compile.hpp>
 #include <tactus/text/quote.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <utility>
@@ -70,6 +74,17 @@ void printFit (const FittedGraph& made, const FitCommandOptions& options)
     std::cout << "wrote " << printableName (options.preset) << "\n";
 }
 
+/// Ends the command if the nodes refuse the fitted values.
+void checkPreset (const FittedGraph& made, const std::string& recording)
+{
+    FileAssets assets;
+    const auto compiled = compile (made.preset, catalogue(), { .assets = &assets });
+    const auto error = std::ranges::find (compiled.messages, Message::Severity::error, &Message::severity);
+    if (error == compiled.messages.end()) return;
+    fail (Message::error ("fit/preset", recording, "the fitted values cannot be played: " + error->text,
+                          "the recording does not look like one of this kind: check the columns and their units"));
+}
+
 void runFit (FitKind kind, FitCommandOptions options)
 {
     readChoices (options, infoOf (kind));
@@ -80,6 +95,7 @@ void runFit (FitKind kind, FitCommandOptions options)
     const auto table = orFail (readRecording (options.recording));
     auto made = orFail (fitRecording (kind, table, options.recording, options.settings));
     made.preset.name = std::filesystem::path (options.preset).stem().string();
+    checkPreset (made, options.recording);
     orFail (saveGraph (made.preset, options.preset));
     if (! options.plot.empty()) drawFit (made.report.picture, std::filesystem::path (options.recording).filename().string(), options.plot);
     printFit (made, options);
@@ -94,6 +110,17 @@ void FitCommand::addAmount (const std::string& option, const char* si_unit, cons
     command.addOption (
         option,
         [target = options, option, si_unit, example, take] (const std::string& text) { take (target->settings, readAmount (option, text, si_unit, example)); },
+        about);
+}
+
+void FitCommand::addSignedAmount (const std::string& option, const char* si_unit, const char* example, const std::string& about,
+                                  std::function<void (FitSettings&, double)> take) const
+{
+    command.addOption (
+        option,
+        [target = options, option, si_unit, example, take] (const std::string& text) {
+            take (target->settings, readSignedAmount (option, text, si_unit, example));
+        },
         about);
 }
 

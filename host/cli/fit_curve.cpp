@@ -23,8 +23,8 @@ void addFitCurve (const Command& fit)
                          "What 1 in this column means; the same as --unit " + role + "=…",
                          [role] (FitSettings& s, double factor) { s.columns.units[role] = factor; });
     }
-    curve.addAmount ("--touch", "m", "0.2 mm", "Depth in the recording at which the tool touches the object; default: 0",
-                     [] (FitSettings& s, double metres) { s.touch = metres; });
+    curve.addSignedAmount ("--touch", "m", "0.2 mm", "Depth in the recording at which the tool touches the object; default: 0",
+                           [] (FitSettings& s, double metres) { s.touch = metres; });
     curve.command.addOption ("--points", settings.points, "Number of points of the curve; default 20").check (within (2, 1000));
     curve.command.addOption ("--mu", settings.mu, "Drag over push while the tool slides; default 0.3, a guess").check (finiteWithin (0.0, 10.0));
     curve.command.addOption ("--ratio", settings.ratio, "Sideways deflection at which the tool slides, over its depth; default 0.45, a guess")

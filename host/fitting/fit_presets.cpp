@@ -161,7 +161,11 @@ graph::Graph modesPreset (const ModesFit& fit, double newtons_per_unit, const st
 
 graph::Graph texturePreset (const TextureFit& fit, double mass, const std::string& mass_source, const std::string& source)
 {
-    auto graph = graphOf (textureSketch());
+    auto sketch = textureSketch();
+    constexpr int rates[] { 4000, 8000, 10000, 20000 };
+    const auto* enough = std::ranges::find_if (rates, [&] (int rate) { return rate >= fit.rate; });
+    sketch.rate_hz = enough != std::end (rates) ? *enough : rates[std::size (rates) - 1];
+    auto graph = graphOf (sketch);
     Json models = Json::array();
     for (const auto& m : fit.models)
     {

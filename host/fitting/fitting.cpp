@@ -52,7 +52,7 @@ Result<FittedGraph> friction (const Columns& c, const std::string& file, const F
 
 Result<FittedGraph> modes (const Columns& c, const std::string& file, const FitSettings& s, FitCourse* course)
 {
-    RecordedRing ring { .time = c.at ("t"), .value = c.at ("value"), .from = s.from, .to = s.to };
+    RecordedRing ring { .time = c.at ("t"), .value = c.at ("value"), .from = s.from, .to = s.to, .blow = s.blow };
     if (s.most > 0) ring.most_modes = s.most;
     auto fit = fitModes (ring, course);
     if (! fit) return fit.error();
@@ -88,6 +88,9 @@ Result<FittedGraph> texture (const Columns& c, const std::string& file, const Fi
         made.details.push_back ("model " + std::to_string (i + 1) + "   " + shortNumber (fit->models[i].speed) + " m/s, " + shortNumber (fit->models[i].force)
                                 + " N, " + std::to_string (fit->models[i].rows) + " rows at " + shortNumber (fit->rate) + " Hz");
     made.report = std::move (fit->report);
+    if (fit->rate > made.preset.rate_hz)
+        made.report.notes.push_back ("the preset runs at " + shortNumber (1e-3 * made.preset.rate_hz) + " kHz, so it lacks frequencies above "
+                                     + shortNumber (0.5e-3 * made.preset.rate_hz) + " kHz");
     return made;
 }
 
@@ -157,8 +160,9 @@ Result<FittedGraph> shock (const Columns& c, const std::string& file, const FitS
     made.details = { "mass       " + shortNumber (fit->mass) + " kg, at " + shortNumber (fit->speed) + " m/s",
                      "area       " + shortNumber (1e3 * fit->recorded_area, 6) + " mJ recorded, " + shortNumber (1e3 * fit->fitted_area, 6) + " mJ fitted, "
                          + shortNumber (1e3 * fit->played_area, 6) + " mJ when the shock is played at this speed" };
-    constexpr double much = 0.1;
-    if (! (std::abs (fit->played_area - fit->recorded_area) <= much * fit->recorded_area))
+    constexpr double much = 0.1, of_energy = 0.01;   // the second one is for an impact that loses almost nothing
+    const double energy = 0.5 * fit->mass * fit->speed * fit->speed;
+    if (! (std::abs (fit->played_area - fit->recorded_area) <= much * fit->recorded_area + of_energy * energy))
         made.warnings.push_back (
             Message::warning ("fit/not_free", file, "a free impact of this mass at this speed does not lose the same energy as the recorded one",
                               "the tool was probably pushed during the recording, or --mass is wrong: correct --mass, or record a tool that moves "

@@ -51,7 +51,8 @@ struct FitSettings
     double force = 0.0;                     ///< N; texture: normal to the surface
     double width = 0.0;                     ///< m; blade: default 20 mm
     double touch = 0.0;                     ///< m; blade, curve: depth at which the tool touches
-    std::optional<double> from {}, to {};   ///< s; modes
+    std::optional<double> from {}, to {};   ///< s; modes: the fitted part
+    std::optional<double> blow {};          ///< s; modes: the time of the blow
     int most = 0;                           ///< modes, coefficients or harmonics
     int points = 20;                        ///< curve
     double mu = 0.3, ratio = 0.45;          ///< curve

@@ -2,12 +2,14 @@
 #include "recording.hpp"
 
 #include <tactus/file/text_file.hpp>
+#include <tactus/kit/at.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/units.hpp>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 
 namespace tactus::host
 {
@@ -33,11 +35,14 @@ std::vector<std::string> split (const std::string& line, char at)
     return parts;
 }
 
-/// A header or a row as readTable expects it.
+/// The name of a column that has none in the file.
+std::string columnName (std::size_t index) { return "column " + std::to_string (index + 1); }
+
+/// A header or a row as readTable expects it. Programs such as pandas leave the name of the first column empty.
 std::string withCommas (const std::string& line, char separator, bool is_header)
 {
     std::string joined;
-    if (separator == ' ' && ! is_header)
+    if (separator == ' ')
     {
         for (const char c : trimmed (line))
             if (c != ' ' && c != '\t')
@@ -46,8 +51,12 @@ std::string withCommas (const std::string& line, char separator, bool is_header)
                 joined += ',';
         return joined;
     }
-    for (const auto& part : split (line, separator))
-        joined += (joined.empty() ? "" : ",") + trimmed (part);
+    const auto parts = split (line, separator);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+    {
+        const auto part = trimmed (parts[i]);
+        joined += (i > 0 ? "," : "") + (is_header && part.empty() ? columnName (i) : part);
+    }
     return joined;
 }
 
@@ -86,6 +95,31 @@ std::optional<double> factorOf (const std::string& text, const std::string& si_u
     return measure->value;
 }
 
+namespace
+{
+/// A recording as readTable expects it, and the line in the file of each of its lines.
+struct PlainText
+{
+    std::string text {};
+    std::vector<std::size_t> lines {};   // from 1
+
+    void add (const std::string& line, std::size_t index)
+    {
+        text += line + '\n';
+        lines.push_back (index + 1);
+    }
+};
+
+/// Replaces the line in the place of a message, name:line:column, by that in the file. The column may be another there, so it is left out.
+Message inFile (Message message, const std::string& name, const PlainText& plain)
+{
+    if (! message.where.starts_with (name + ":")) return message;
+    const auto line = std::strtoul (message.where.c_str() + name.size() + 1, nullptr, 10);
+    if (line >= 1 && line <= plain.lines.size()) message.where = name + ":" + std::to_string (plain.lines[line - 1]);
+    return message;
+}
+}   // namespace
+
 Result<Table> readRecording (const std::filesystem::path& path)
 {
     const auto name = path.string();
@@ -95,23 +129,27 @@ Result<Table> readRecording (const std::filesystem::path& path)
     std::size_t header = 0;
     while (header < lines.size() && trimmed (lines[header]).empty())
         ++header;
+    const auto has_names = [&] { return std::ranges::none_of (split (lines[header], ','), [] (const auto& part) { return trimmed (part).empty(); }); };
     const bool is_plain = header < lines.size() && separatorOf (lines[header]) == ',' && header + 1 < lines.size() && separatorOf (lines[header + 1]) == ','
-                          && lines[header].find ('#') == std::string::npos;
+                          && lines[header].find ('#') == std::string::npos && has_names();
     if (is_plain || header + 1 >= lines.size()) return readTable (*text, name);
 
-    std::string plain;
+    PlainText plain;
     const auto first_row = startsWithNumber (lines[header]) ? header : header + 1;
+    auto names = withCommas (lines[header], separatorOf (lines[header]), true);
     if (first_row == header)
     {
-        const auto count = std::ranges::count (withCommas (lines[header], separatorOf (lines[header]), false), ',') + 1;
-        for (std::ptrdiff_t i = 0; i < count; ++i)
-            plain += (i > 0 ? ",column " : "column ") + std::to_string (i + 1);
+        const auto count = at (std::ranges::count (withCommas (lines[header], separatorOf (lines[header]), false), ','));
+        names = columnName (0);
+        for (std::size_t i = 1; i <= count; ++i)
+            names += "," + columnName (i);
     }
-    else
-        plain = withCommas (lines[header], separatorOf (lines[header]), true);
+    plain.add (names, header);
     for (std::size_t i = first_row; i < lines.size(); ++i)
-        if (! trimmed (lines[i]).empty()) plain += '\n' + withCommas (lines[i], separatorOf (lines[i]), false);
-    return readTable (plain + '\n', name);
+        if (! trimmed (lines[i]).empty()) plain.add (withCommas (lines[i], separatorOf (lines[i]), false), i);
+    auto table = readTable (plain.text, name);
+    if (! table) return inFile (table.error(), name, plain);
+    return table;
 }
 
 std::string bareName (const std::string& column)

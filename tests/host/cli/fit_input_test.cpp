@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What `tactus fit` reads from files and options, and what it writes for recordings at the limits.
+
+#include "program.hpp"
+
+#include <host/fitting/fitting.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/kit/random.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <sstream>
+
+using namespace tactus;
+using test::runTactus;
+using test::Scratch;
+
+namespace
+{
+constexpr double full_circle = 2.0 * std::numbers::pi;
+
+std::string table (const std::string& header, int rows, const std::function<void (std::ostream&, int)>& row)
+{
+    std::ostringstream text;
+    text.precision (12);
+    text << header << "\n";
+    for (int i = 0; i < rows; ++i)
+    {
+        row (text, i);
+        text << "\n";
+    }
+    return text.str();
+}
+
+/// A ring of 100 m/s2 at 300 Hz that decays with 200 1/s, struck 10 ms after the start.
+std::string tap()
+{
+    Random random { 3 };
+    return table ("t,acceleration", 1000, [random] (std::ostream& out, int i) mutable {
+        const double t = i * 1e-4, since = t - 0.01;
+        out << t << "," << (since < 0.0 ? 0.0 : 100.0 * std::exp (-200.0 * since) * std::sin (full_circle * 300.0 * since)) + 0.02 * random.normal();
+    });
+}
+
+/// Strokes on a contact that stretches 0.1 mm. The separator also follows an index in front.
+std::string strokes (const std::string& header, char separator, bool has_index)
+{
+    double d = 0.0, last = 0.0;
+    return table (header, 600, [=] (std::ostream& out, int i) mutable {
+        const double phase = std::fmod (i / 200.0, 1.0), x = 1e-3 * (1.0 - std::abs (2.0 * phase - 1.0));
+        d = std::clamp (d + x - last, -1e-4, 1e-4);
+        last = x;
+        if (has_index) out << i << separator;
+        out << x << separator << -0.8 * d / 1e-4;
+    });
+}
+
+std::string hiss (double rate)
+{
+    Random random { 6 };
+    double before = 0.0;
+    return table ("t,acceleration", 3000, [=] (std::ostream& out, int i) mutable {
+        before = 0.7 * before + random.normal();
+        out << i / rate << "," << before;
+    });
+}
+
+/// The fitted graph; `arguments` follow the names of the recording and the preset.
+graph::Graph fitted (const Scratch& scratch, const std::string& kind, const std::string& csv, std::vector<std::string> arguments,
+                     std::string* printed = nullptr)
+{
+    const auto preset = scratch.path ("preset.json");
+    arguments.insert (arguments.begin(), { "fit", kind, scratch.write ("recording.csv", csv), "-o", preset });
+    const auto ran = runTactus (arguments);
+    INFO (ran.out << ran.err);
+    REQUIRE (ran.status == 0);
+    if (printed) *printed = ran.out + ran.err;
+    return loadGraph (preset).graph;
+}
+}   // namespace
+
+TEST_CASE ("fit modes: the preset rings as loud as the recorded blow, wherever the fitted part begins", "[cli][fit]")
+{
+    const Scratch scratch;
+    using Options = std::vector<std::string>;
+    for (const Options& part : { Options {}, Options { "--from", "30 ms", "--to", "50 ms" }, Options { "--from", "30 ms", "--blow", "10 ms" } })
+    {
+        auto arguments = part;
+        arguments.insert (arguments.end(), { "--mass", "20 g", "--speed", "0.3 m/s" });
+        const auto graph = fitted (scratch, "modes", tap(), arguments);
+        CHECK (graph.root.find ("ring")->settings.at ("modes")[0].at ("amplitude").get<double>() == Approx (100.0 * 0.02 / 0.3).epsilon (0.04));
+    }
+}
+
+TEST_CASE ("fit: places and times may be 0 or negative", "[cli][fit]")
+{
+    const Scratch scratch;
+    const auto press = table ("depth,force", 400, [] (std::ostream& out, int i) {
+        const double depth = -2e-3 + 1e-5 * i;
+        out << depth << "," << std::max (0.0, 2000.0 * (depth + 1e-3));
+    });
+    std::string printed;
+    fitted (scratch, "curve", press, { "--touch", "-1 mm" }, &printed);
+    CHECK (printed.find ("good") != std::string::npos);
+    fitted (scratch, "modes", tap(), { "--from", "10 ms", "--blow", "0 s" });
+    const auto refused = runTactus ({ "fit", "modes", scratch.write ("tap.csv", tap()), "-o", scratch.path ("p.json"), "--from", "1 m" });
+    CHECK (refused.status == 2);
+    CHECK (refused.err.find ("--from") != std::string::npos);
+}
+
+TEST_CASE ("fit: a column without a name, such as the index that pandas writes, is no obstacle", "[cli][fit]")
+{
+    const Scratch scratch;
+    const auto presetOf = [&] (const std::string& csv) { return writeGraph (fitted (scratch, "friction", csv, {})); };
+    const auto plain = presetOf (strokes ("position,force", ',', false));
+    CHECK (presetOf (strokes (",position,force", ',', true)) == plain);
+    CHECK (presetOf (strokes (";position;force", ';', true)) == plain);
+    CHECK (presetOf (strokes ("# position  force", ' ', false)) == plain);
+}
+
+TEST_CASE ("fit: messages about numbers name the line in the file", "[cli][fit]")
+{
+    const Scratch scratch;
+    const auto read = host::readRecording (scratch.write ("blank.csv", "\n\nx;f\n1;2\n\n\n1;two\n"));
+    REQUIRE_FALSE (read);
+    CHECK (read.error().where.ends_with ("blank.csv:7"));
+    const auto headless = host::readRecording (scratch.write ("headless.csv", "1;2\n3;four\n"));
+    REQUIRE_FALSE (headless);
+    CHECK (headless.error().where.ends_with ("headless.csv:2"));
+}
+
+TEST_CASE ("fit shock: an elastic impact is a free impact", "[cli][fit]")
+{
+    const Scratch scratch;
+    const auto csv = table ("depth,force,t", 61, [] (std::ostream& out, int i) {
+        const double phase = std::numbers::pi * i / 60.0, depth = 1e-3 * std::max (0.0, std::sin (phase));
+        out << depth << "," << 5000.0 * depth * (1.0 + 1e-9 * std::cos (phase)) << "," << i * 1e-4;   // a loss above the rounding of the numbers
+    });
+    std::string printed;
+    fitted (scratch, "shock", csv, {}, &printed);
+    CHECK (printed.find ("fit/not_free") == std::string::npos);
+}
+
+TEST_CASE ("fit texture: the preset runs at least as fast as the recording, or a note says what it lacks", "[cli][fit]")
+{
+    const Scratch scratch;
+    std::string printed;
+    CHECK (fitted (scratch, "texture", hiss (2000), {}).rate_hz == 4000);
+    CHECK (fitted (scratch, "texture", hiss (10000), {}, &printed).rate_hz == 10000);
+    CHECK (printed.find ("lacks frequencies") == std::string::npos);
+    CHECK (fitted (scratch, "texture", hiss (40000), {}, &printed).rate_hz == 20000);
+    CHECK (printed.find ("lacks frequencies above 10 kHz") != std::string::npos);
+}
