@@ -92,7 +92,7 @@ Result<> writeSound (const fs::path& path, const Film& film, Messages& notes)
 /// The pictures and the sound as a video, by a program that may not be installed.
 void writeVideo (const fs::path& named, const std::string& ffmpeg, const std::function<bool (double)>& progress, WrittenFilm& written)
 {
-    const auto with = [&named] (const char* extension) { return fs::path (named).replace_extension (extension); };
+    const auto with = [&named] (const char* extension) { return filmFile (named, extension); };
     const auto half_made = with (".partial.webm"), says = with (".partial.txt"), video = with (".webm");
     const std::vector<std::string> command { ffmpeg, "-nostdin", "-loglevel", "error", "-y", "-f", "apng", "-ignore_loop", "1", "-i", with (".png").string(),
                                              "-i", with (".wav").string(), "-c:v", "libvpx-vp9", "-pix_fmt", "yuv420p", "-crf", "24", "-b:v", "0", "-deadline",
@@ -122,13 +122,28 @@ void writeVideo (const fs::path& named, const std::string& ffmpeg, const std::fu
 }
 }   // namespace
 
+fs::path filmFile (const fs::path& named, const std::string& extension)
+{
+    const auto given = named.extension();
+    const bool is_ours = given == ".png" || given == ".wav" || given == ".csv" || given == ".webm";
+    return fs::path (named).replace_extension (is_ours ? extension : given.string() + extension);
+}
+
+std::optional<fs::path> fileInTheWay (const fs::path& named)
+{
+    std::error_code unseen;
+    for (const auto* extension : { ".wav", ".csv", ".webm" })
+        if (const auto file = filmFile (named, extension); fs::exists (file, unseen)) return file;
+    return {};
+}
+
 Result<WrittenFilm> writeFilm (const Film& film, FilmPicture& picture, const fs::path& named, const std::function<bool (double)>& progress,
                                const std::string& ffmpeg)
 {
     if (film.ticks.empty() || film.states.empty())
         return Message::error ("film/empty", named.string(), TRANS ("there is nothing to save yet").toStdString(),
                                TRANS ("start the graph, and move the tool").toStdString());
-    const auto with = [&named] (const char* extension) { return fs::path (named).replace_extension (extension); };
+    const auto with = [&named] (const char* extension) { return filmFile (named, extension); };
     const auto pictures = picturesOf (film, picture, progress);
     if (! pictures) return pictures.error();
     WrittenFilm written;

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,17 @@ struct WrittenFilm
 /// Writes the files of a film into one folder: NAME.png, an animated PNG with 25 pictures per second; NAME.wav, the force on the tool as a
 /// sound for loudspeakers (Listening); NAME.csv, with columns t, x, y, z (m) and force.x, force.y, force.z (N); and NAME.webm, a video with
 /// the sound, if `ffmpeg` is installed. Each file is written completely or not at all. `progress` receives the fraction that is done. If it
-/// returns false, the writing stops, and no file is written.
+/// returns false while the pictures are drawn, no file is written; later, only the video is left out. Files of these names are replaced.
 ///
 /// Error ids: film/empty, film/stopped, film/picture, output/unwritable. [any thread; no other thread may use the picture during the call]
 Result<WrittenFilm> writeFilm (const Film&, FilmPicture&, const std::filesystem::path& named, const std::function<bool (double)>& progress,
                                const std::string& ffmpeg = "ffmpeg");
+
+/// The file of a film with this extension: what is after a dot in the name stays, unless it is an extension of a film's files.
+std::filesystem::path filmFile (const std::filesystem::path& named, const std::string& extension);
+
+/// The first file of a film of this name, other than its .png, that exists already.
+std::optional<std::filesystem::path> fileInTheWay (const std::filesystem::path& named);
 
 /// How long each picture is shown, in ms.
 inline constexpr int film_picture_ms = 40;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "film_button.hpp"
 
+#include <host/app/film/film_files.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -129,6 +130,15 @@ void FilmButton::ask (Film film)
 
 void FilmButton::save (Film film, const std::filesystem::path& named)
 {
+    // The dialog has asked only about the .png.
+    if (const auto taken = fileInTheWay (named))
+    {
+        if (onHint) onHint (filled (TRANS ("The film is not saved: %1 exists already. Choose another name."), taken->filename().string()));
+        juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), kept = std::make_shared<Film> (std::move (film))] {
+            if (safe != nullptr) safe->ask (std::move (*kept));
+        });
+        return;
+    }
     job = std::make_unique<FilmJob> (std::move (film), themeOf (*this), space.getLocalBounds(), picture_width, named);
     refresh();
 }

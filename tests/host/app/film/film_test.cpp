@@ -299,3 +299,15 @@ TEST_CASE ("a film is made of the scene while it is hidden\\, too", "[app][film]
     CHECK_FALSE (film.states.back().now.tools.empty());
     playback.run().letGo();
 }
+
+TEST_CASE ("a film takes only names that are free, and keeps a dot in its name", "[app][film]")
+{
+    const TemporaryFolder folder;
+    CHECK (filmFile (folder / "strokes.png", ".wav") == folder / "strokes.wav");
+    CHECK (filmFile (folder / "film v1.2", ".wav") == folder / "film v1.2.wav");
+    CHECK (filmFile (folder / "film v1.2.png", ".csv") == folder / "film v1.2.csv");
+    CHECK_FALSE (fileInTheWay (folder / "strokes.png"));
+    std::ofstream (folder / "strokes.csv") << "t,x\n";
+    CHECK (fileInTheWay (folder / "strokes.png") == folder / "strokes.csv");
+    CHECK_FALSE (fileInTheWay (folder / "strokes v1.png"));
+}
