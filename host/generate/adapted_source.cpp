@@ -41,6 +41,8 @@ std::string adapted (const SourceFile& file)
                                   { "std::unique_ptr<", "std::shared_ptr<" },
                                   { "std::make_unique<", "tactus::exported::makeShared<" },
                                   { "std::make_shared<", "tactus::exported::makeShared<" } });
+    // Exported code sets all settings, so the default surface would only take memory. It would outlive the graph whose memory it uses.
+    text = filled (text, { { "surface = pad();", "surface;" }, { "static const auto made = [] {", "const auto made = [] {" } });
     if (file.path.starts_with ("tactus/nodes/")) text = withTextViews (text);
     if (text == before) return text;
     text = filled (text, { { "#include <vector>\n", "" } });

@@ -446,17 +446,19 @@ private:
 
     bool isSlippery() const noexcept { return std::ranges::all_of (settings.surface->mu, &Ratio::isNone); }
 
-    /// The default surface: a soft square of 10 cm that faces upwards. Each node makes its own, so that the memory of a node does not depend
-    /// on which nodes were made before.
+    /// The default surface: a soft square of 10 cm that faces upwards.
     static std::shared_ptr<const Surface> pad()
     {
-        const Law across { .kind = Law::Kind::power, .a = 500.0, .b = 1.0 }, along { .kind = Law::Kind::power, .a = 1000.0, .b = 1.0 };
-        Surface s;
-        const std::vector<Vec3> corners { { -0.05, -0.05, 0.0 }, { 0.05, -0.05, 0.0 }, { 0.05, 0.05, 0.0 }, { -0.05, 0.05, 0.0 } };
-        s.mesh = std::make_shared<const Mesh> (Mesh { corners, { { 0, 1, 2 }, { 0, 2, 3 } } });
-        s.curves.push_back ({ Surface::Curves { across, across, along } });
-        s.mu.push_back ({ .number = 0.5 });
-        return std::make_shared<const Surface> (std::move (s));
+        static const auto made = [] {
+            const Law across { .kind = Law::Kind::power, .a = 500.0, .b = 1.0 }, along { .kind = Law::Kind::power, .a = 1000.0, .b = 1.0 };
+            Surface s;
+            const std::vector<Vec3> corners { { -0.05, -0.05, 0.0 }, { 0.05, -0.05, 0.0 }, { 0.05, 0.05, 0.0 }, { -0.05, 0.05, 0.0 } };
+            s.mesh = std::make_shared<const Mesh> (Mesh { corners, { { 0, 1, 2 }, { 0, 2, 3 } } });
+            s.curves.push_back ({ Surface::Curves { across, across, along } });
+            s.mu.push_back ({ .number = 0.5 });
+            return std::make_shared<const Surface> (std::move (s));
+        }();
+        return made;
     }
 
     double dt = 1.0 / Setup {}.rate_hz;   // s
