@@ -144,7 +144,7 @@ TEST_CASE ("fit of a texture: a tone is not a texture", "[fit]")
 
 TEST_CASE ("fit of a cut: without the part where the crack grows again, the toughness is unknown", "[fit]")
 {
-    for (const std::uint64_t seed : { 1, 2, 3, 4, 6, 10 })
+    for (const std::uint64_t seed : { 1u, 2u, 3u, 4u, 6u, 10u })
     {
         CAPTURE (seed);
         const auto early = fitBlade (cutUntil (0.0095, seed)), whole = fitBlade (cutUntil (0.02, seed));
