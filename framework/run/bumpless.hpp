@@ -21,7 +21,7 @@ class Bumpless
 public:
     static constexpr double fade_s = 0.010;
 
-    void prepare (double dt_s) noexcept { length = std::max (1, static_cast<int> (std::lround (fade_s / dt_s))); }   // [main thread]
+    void prepare (double dt_s) noexcept { now = length = std::max (1, static_cast<int> (std::lround (fade_s / dt_s))); }   // [main thread]
 
     void begin() noexcept { now = 0; }   // [tick thread]
 
