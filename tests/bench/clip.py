@@ -8,35 +8,17 @@
 - at rest, a tick of signal.clip costs at most twice a tick of signal.constant.
 """
 
-import pathlib
-import re
-import shutil
-import subprocess
 import sys
-import tempfile
 
-SKIPPED = 77
+import callgrind
+
 MOST_GROWTH, MOST_AT_REST = 1.1, 2.0
 
 
-def count(program):
-    """Returns {line: instructions} for the lines that the program prints."""
-    with tempfile.TemporaryDirectory() as folder:
-        out = pathlib.Path(folder) / "out"
-        ran = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=counted_load", "--toggle-collect=counted_tick",
-                              "--dump-after=counted", f"--callgrind-out-file={out}", program],
-                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
-        if ran.returncode != 0:
-            sys.exit(ran.stderr)
-        return {line: int(re.search(r"^summary: (\d+)", pathlib.Path(f"{out}.{number}").read_text(), re.M)[1])
-                for number, line in enumerate(ran.stdout.splitlines(), start=1)}
-
-
 def main():
-    if shutil.which("valgrind") is None:
-        print("skipped: valgrind is not installed")
-        return SKIPPED
-    counted = count(sys.argv[1])
+    if callgrind.is_missing():
+        return callgrind.SKIPPED
+    counted = dict(callgrind.count(["counted_load", "counted_tick"], sys.argv[1]))
     limits = []
     for format_ in ("haptic", "ahap", "hjif", "json"):
         few, many = counted[f"load {format_} 1000"] / 1000, counted[f"load {format_} 10000"] / 10_000
@@ -45,11 +27,7 @@ def main():
     clip, constant = (counted[f"rest signal.{node} 1000"] / 1000 for node in ("clip", "constant"))
     print(f"at rest {clip:9.1f} instructions per tick, signal.constant {constant:.1f}")
     limits.append(("a clip at rest, in ticks of signal.constant", clip / constant, MOST_AT_REST))
-    failed = False
-    for what, value, most in limits:
-        failed = failed or value > most
-        print(f"{what}: {value:.4g}, at most {most:g}{'   TOO MUCH' if value > most else ''}")
-    return 1 if failed else 0
+    return callgrind.judge(limits)
 
 
 if __name__ == "__main__":

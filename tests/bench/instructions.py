@@ -14,24 +14,18 @@ import subprocess
 import sys
 import tempfile
 
+import callgrind
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def count(program, *arguments):
     """Returns [(id, instructions per tick or None, problem)]. The first entry is a tick that does nothing."""
-    with tempfile.TemporaryDirectory() as folder:
-        out = pathlib.Path(folder) / "out"
-        ran = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=ticked", "--dump-after=counted", f"--callgrind-out-file={out}",
-                              program, *arguments],
-                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
-        if ran.returncode != 0:
-            sys.exit(ran.stderr)
-        rows = []
-        for number, line in enumerate(ran.stdout.splitlines(), start=1):
-            node, ticks, problem = (line.split(" ", 2) + [""])[:3]
-            total = int(re.search(r"^summary: (\d+)", (out.parent / f"out.{number}").read_text(), re.M)[1])
-            rows.append((node, total / int(ticks) if int(ticks) else None, problem))
-        return rows
+    rows = []
+    for line, total in callgrind.count(["ticked"], program, *arguments):
+        node, ticks, problem = (line.split(" ", 2) + [""])[:3]
+        rows.append((node, total / int(ticks) if int(ticks) else None, problem))
+    return rows
 
 
 def whole_tick(program, graph, ticks=4000):
