@@ -31,6 +31,7 @@ esac
 
 packages+=(python3-jsonschema python3-distributed xvfb xdotool)
 case $mode in ''|--long) packages+=(libclang-rt-14-dev) ;; esac
+case $mode in ''|--quick|--long) packages+=(valgrind) ;; esac
 [ "$mode" = --export ] && packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
 [ "$mode" = --screens ] && packages+=(xauth imagemagick)
