@@ -2,6 +2,7 @@
 // What `tactus fit` reads from files and options, and what it writes for recordings at the limits.
 
 #include "program.hpp"
+#include "table_text.hpp"
 
 #include <host/fitting/fitting.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -10,30 +11,16 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <functional>
 #include <numbers>
-#include <sstream>
 
 using namespace tactus;
 using test::runTactus;
 using test::Scratch;
+using test::table;
 
 namespace
 {
 constexpr double full_circle = 2.0 * std::numbers::pi;
-
-std::string table (const std::string& header, int rows, const std::function<void (std::ostream&, int)>& row)
-{
-    std::ostringstream text;
-    text.precision (12);
-    text << header << "\n";
-    for (int i = 0; i < rows; ++i)
-    {
-        row (text, i);
-        text << "\n";
-    }
-    return text.str();
-}
 
 /// A ring of 100 m/s2 at 300 Hz that decays with 200 1/s, struck 10 ms after the start.
 std::string tap()

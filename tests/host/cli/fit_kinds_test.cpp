@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program.hpp"
+#include "table_text.hpp"
 
 #include <host/fitting/fitting.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -8,10 +9,8 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <thread>
 
@@ -19,24 +18,11 @@ using namespace tactus;
 using test::checkRefused;
 using test::runTactus;
 using test::Scratch;
+using test::table;
 
 namespace
 {
 constexpr double full_circle = 2.0 * std::numbers::pi;
-
-/// A table of numbers with 17 digits; the function returns the text of a row.
-std::string table (const std::string& header, int rows, const std::function<void (std::ostream&, int)>& row)
-{
-    std::ostringstream text;
-    text.precision (12);
-    text << header << "\n";
-    for (int i = 0; i < rows; ++i)
-    {
-        row (text, i);
-        text << "\n";
-    }
-    return text.str();
-}
 
 /// Strokes of 1 mm on a contact that stretches 0.1 mm and then slides at 0.8 N, at a load of 2 N.
 std::string strokes (const std::string& header = "position,force,load")
@@ -246,8 +232,15 @@ TEST_CASE ("fit: recordings and options that cannot be used are refused, and not
 
 TEST_CASE ("fit: every kind can be cancelled, before it begins and while it runs", "[cli][fit]")
 {
-    const std::map<std::string, std::string> recordings { { "friction", strokes() }, { "modes", ring() }, { "texture", cloth() }, { "grating", ridges() },
-                                                          { "blade", cut() },        { "curve", press() }, { "shock", blow() } };
+    const std::map<std::string, std::string> recordings {
+        { "friction", strokes() },
+        { "modes", ring() },
+        { "texture", cloth() },
+        { "grating", ridges() },
+        { "blade", cut() },
+        { "curve", press() },
+        { "shock", blow() },
+    };
     for (const auto& info : host::fitKinds())
     {
         CAPTURE (info.id);
