@@ -205,7 +205,8 @@ void FitPanel::showResult()
     const bool asks = chosen && amountOf (*chosen) && table && ! isRecorded (*chosen, *table, which.choice());
     amount.setVisible (asks);
     amount_label.setVisible (asks);
-    setDescription (failure.isNotEmpty() ? failure : job.isRunning() ? TRANS ("Fitting") : juce::String());
+    const auto state = job.isRunning() ? TRANS ("Fitting") : juce::String();
+    setDescription (failure.isNotEmpty() ? failure : state);
     resized();
     repaint();
 }
@@ -267,11 +268,7 @@ void FitPanel::paint (juce::Graphics& g)
 {
     const auto& look = lookOf (*this);
     const auto& theme = look.theme();
-    g.fillAll (juce::Colours::black.withAlpha (theme.is_dark ? 0.55f : 0.35f));
-    g.setColour (theme.panel);
-    g.fillRoundedRectangle (box.toFloat(), 8.0f);
-    g.setColour (theme.hairline);
-    g.drawRoundedRectangle (box.toFloat().reduced (0.5f), 8.0f, 1.0f);
+    drawDialog (g, theme, box);
     g.setColour (theme.text);
     g.setFont (look.font (16.0f, true));
     const auto heading = box.reduced (fit_margin, 20).removeFromTop (24);

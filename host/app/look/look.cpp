@@ -145,4 +145,14 @@ void drawNumber (juce::Graphics& g, const juce::String& text, juce::Rectangle<fl
     }
 }
 
+void drawDialog (juce::Graphics& g, const Theme& theme, juce::Rectangle<int> box)
+{
+    constexpr float corner = 8.0f;
+    g.fillAll (juce::Colours::black.withAlpha (theme.is_dark ? 0.55f : 0.35f));
+    g.setColour (theme.panel);
+    g.fillRoundedRectangle (box.toFloat(), corner);
+    g.setColour (theme.hairline);
+    g.drawRoundedRectangle (box.toFloat().reduced (0.5f), corner, 1.0f);
+}
+
 }   // namespace tactus::host

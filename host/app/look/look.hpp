@@ -52,4 +52,7 @@ inline const Theme& themeOf (const juce::Component& c) { return lookOf (c).theme
 /// Draws a number right-aligned with tabular digits, so that it does not jitter while it changes.
 void drawNumber (juce::Graphics&, const juce::String&, juce::Rectangle<float>);
 
+/// Dims the window, and draws the box of a dialog over it.
+void drawDialog (juce::Graphics&, const Theme&, juce::Rectangle<int> box);
+
 }   // namespace tactus::host

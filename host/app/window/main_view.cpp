@@ -183,7 +183,9 @@ void MainView::timerCallback()
 {
     playback.attend();
     // A dialog for files that has just closed gives the focus back to what had it before.
-    juce::Component* over = question.isOpen() ? static_cast<juce::Component*> (&question) : fitting.isOpen() ? &fitting : nullptr;
+    juce::Component* over = nullptr;
+    if (fitting.isOpen()) over = &fitting;
+    if (question.isOpen()) over = &question;
     if (over != nullptr && ! over->hasKeyboardFocus (true) && juce::Component::getNumCurrentlyModalComponents() == 0) takeFocus (*over);
     if (osc_server) osc_server->attend();
     strip.refresh();

@@ -27,8 +27,8 @@ juce::String lossText (const SavedClip& saved, const Messages& notes)
     auto text = TRANS ("What the file does not hold, or holds differently:") + "\n";
     for (std::size_t i = 0; i < std::min (most, lines.size()); ++i)
         text << "\n- " << juce::String (lines[i]) << ".";
-    if (lines.size() > most) text << "\n\n" << filled (TRANS ("There are %1 more. `tactus convert` lists all."), lines.size() - most);
-    return text;
+    if (lines.size() <= most) return text;
+    return text + "\n\n" + filled (TRANS ("There are %1 more. `tactus convert` lists all."), lines.size() - most);
 }
 
 bool isRecording (const fs::path& file)

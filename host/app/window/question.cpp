@@ -93,11 +93,7 @@ void Question::paint (juce::Graphics& g)
 {
     const auto& look = lookOf (*this);
     const auto& theme = look.theme();
-    g.fillAll (juce::Colours::black.withAlpha (theme.is_dark ? 0.55f : 0.35f));
-    g.setColour (theme.panel);
-    g.fillRoundedRectangle (box.toFloat(), 8.0f);
-    g.setColour (theme.hairline);
-    g.drawRoundedRectangle (box.toFloat().reduced (0.5f), 8.0f, 1.0f);
+    drawDialog (g, theme, box);
     auto area = box.reduced (margin);
     g.setColour (theme.text);
     g.setFont (look.font (16.0f, true));
