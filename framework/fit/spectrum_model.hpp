@@ -25,7 +25,7 @@ struct SpectrumModel
 {
     std::vector<double> coefficients {};
     double variance = 1.0, floor = 0.0;
-    double deviance = 0.0;            ///< mean over the lines; about 1.154 (twice Euler's constant) if the signal is noise with this spectrum
+    double deviance = 0.0;           ///< mean over the lines; about 1.154 (twice Euler's constant) if the signal is noise with this spectrum
     Eigen::MatrixXd covariance {};   ///< of the coefficients, ln variance and the floor
 };
 

@@ -162,7 +162,9 @@ public:
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wdangling-pointer"   // a false alarm of GCC 12 where a list is the default of a member
 #endif
-    Vector (std::initializer_list<T> values) : Vector (values.begin(), values.end()) {}
+    Vector (std::initializer_list<T> values) : Vector (values.begin(), values.end())
+    {
+    }
 #if defined(__GNUC__) && ! defined(__clang__) && __GNUC__ >= 12
 #pragma GCC diagnostic pop
 #endif

@@ -41,7 +41,8 @@ Result<FittedGraph> friction (const Columns& c, const std::string& file, const F
 {
     auto fit = fitFriction ({ c.at ("position"), c.at ("force"), c.at ("load"), orElse (s.load, 1.0) }, course);
     if (! fit) return fit.error();
-    const auto load = ! c.at ("load").empty() ? "the mean of the recorded load" : s.load > 0.0 ? "as given" : "guess: the load was not recorded";
+    const auto given = s.load > 0.0 ? "as given" : "guess: the load was not recorded";
+    const auto load = c.at ("load").empty() ? given : "the mean of the recorded load";
     FittedGraph made { .kind = FitKind::friction, .preset = frictionPreset (*fit, load, sourceOf (FitKind::friction, file, fit->report)), .nodes = { "drag" } };
     constexpr const char* functions[] { "stick", "dupont", "ramp", "dahl", "curve" };
     made.details.push_back (std::string ("adhesion  ") + functions[static_cast<std::size_t> (fit->adhesion)] + ", d_max at a load of "

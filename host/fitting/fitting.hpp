@@ -64,7 +64,7 @@ struct FittedGraph
     FitKind kind {};
     FitReport report {};
     graph::Graph preset {};
-    std::vector<std::string> nodes {};     ///< names of the fitted nodes in the preset
+    std::vector<std::string> nodes {};      ///< names of the fitted nodes in the preset
     std::vector<std::string> details {};    ///< lines about this kind
     std::vector<std::string> snippets {};   ///< lines with parts of graph files
     Messages warnings {};

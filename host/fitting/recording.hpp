@@ -26,7 +26,7 @@ struct FitColumn
 struct ColumnChoice
 {
     std::map<std::string, std::string> names {};   ///< an empty name: not recorded, for a role that is not required
-    std::map<std::string, double> units {};   ///< what 1 means, in SI
+    std::map<std::string, double> units {};        ///< what 1 means, in SI
 };
 
 /// Reads numbers under a header row, separated by commas, semicolons, tabs or spaces. The header may start with #.

@@ -33,7 +33,7 @@ private:
     int tolerance;
     std::string header, body;   // IHDR; the frames
     std::uint32_t count = 0, sequence = 0;
-    juce::Image shown;          // what a player shows after the latest frame
+    juce::Image shown;   // what a player shows after the latest frame
 };
 
 }   // namespace tactus::host

@@ -17,9 +17,9 @@ namespace tactus::host
 namespace
 {
 constexpr float corner = 5.0f, socket_radius = 4.0f;
-constexpr float too_small_to_read = 0.35f;     // zoom below which text is too small to read
-constexpr float labels_too_small = 0.44f;      // zoom below which the labels of ports are: they have less than 5.3 pixels
-constexpr float least_title = 10.0f;           // pixels
+constexpr float too_small_to_read = 0.35f;   // zoom below which text is too small to read
+constexpr float labels_too_small = 0.44f;    // zoom below which the labels of ports are: they have less than 5.3 pixels
+constexpr float least_title = 10.0f;         // pixels
 
 class NodePainter
 {

@@ -127,7 +127,7 @@ void FitColumns::paint (juce::Graphics& g)
     g.setColour (look.theme().dim);
     g.setFont (look.font (12.0f));
     for (const auto& cell : cells)
-        {
+    {
         const auto role = fromUtf8 (cell->wanted.role == "t" ? "time" : cell->wanted.role);
         g.drawText (cell->wanted.required ? role : filled (TRANS ("%1, if recorded"), role), cell->column.getX(), 0,
                     cell->unit.getRight() - cell->column.getX(), label_height - 4, juce::Justification::centredLeft, true);

@@ -58,7 +58,8 @@ std::string unitShown (const std::string& unit)
 {
     static const std::set<std::string> with_prefix { "um", "us", "uN", "uJ", "um/s", "ug", "uW" };
     std::string shown;
-    for (const char c : unit) shown += c == '*' ? std::string ("·") : std::string (1, c);
+    for (const char c : unit)
+        shown += c == '*' ? std::string ("·") : std::string (1, c);
     return with_prefix.contains (unit) ? "µ" + shown.substr (1) : shown;
 }
 

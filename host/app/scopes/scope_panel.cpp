@@ -246,7 +246,7 @@ void ScopePanel::paint (juce::Graphics& g)
     g.setFont (look.font (13.0f));
     g.setColour (theme.dim);
     const auto text = suggestion.isVisible() ? TRANS ("No scopes. Select a wire and press P, add a scope above, or start with this port:")
-                                              : TRANS ("No scopes. Add nodes to the graph, select a wire, and press P");
+                                             : TRANS ("No scopes. Add nodes to the graph, select a wire, and press P");
     g.drawFittedText (text, emptyArea().reduced (24, 16).withTrimmedBottom (32), juce::Justification::centred, 2);
 }
 

@@ -18,7 +18,7 @@ struct Settings
     static constexpr std::size_t most_recent = 12, most_recent_types = 6;
 
     bool light = false;
-    double scale = 0.0;   ///< scale of the user interface; 0: automatic
+    double scale = 0.0;     ///< scale of the user interface; 0: automatic
     std::string language;   ///< "de" for the translation in text/de.txt, "en" for English; empty: the language of the system
     bool welcomed = false;
     bool scene = false;                          ///< the hand is shown in space, not from above

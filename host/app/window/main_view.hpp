@@ -185,7 +185,7 @@ private:
     HelpPanel help;
     FitPanel fitting;
     std::unique_ptr<juce::FileChooser> chooser;
-    juce::File recordings;   // the folder of the last recording that was chosen
+    juce::File recordings;                                   // the folder of the last recording that was chosen
     juce::Component::SafePointer<juce::Component> focused;   // the component with the focus, whose keys are listened to
     Messages missing;                                        // what the graph lacks to be felt
     const void* shown_identity = nullptr;                    // identity of the document that is shown

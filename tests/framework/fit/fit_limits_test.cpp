@@ -348,8 +348,17 @@ TEST_CASE ("fits need evenly spaced rows: a lost row is found, rounded times are
 
 TEST_CASE ("fits: 95 % intervals are those of Student's t", "[fit]")
 {
-    const std::pair<double, double> known[] { { 1, 12.706 }, { 2, 4.3027 }, { 3, 3.1824 }, { 4, 2.7764 },  { 5, 2.5706 },
-                                              { 7, 2.3646 }, { 10, 2.2281 }, { 30, 2.0423 }, { 1e6, 1.9600 } };
+    const std::pair<double, double> known[] {
+        { 1, 12.706 },
+        { 2, 4.3027 },
+        { 3, 3.1824 },
+        { 4, 2.7764 },
+        { 5, 2.5706 },
+        { 7, 2.3646 },
+        { 10, 2.2281 },
+        { 30, 2.0423 },
+        { 1e6, 1.9600 },
+    };
     for (const auto& [freedom, half] : known)
         CHECK (detail::halfWidth95 (freedom) == Approx (half).epsilon (0.005));
 }

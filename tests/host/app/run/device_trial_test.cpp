@@ -73,7 +73,7 @@ TEST_CASE ("a device is not tested while the forces are off, and a stop ends the
     CHECK (r.playback.tryDevice ("stylus").error().id == "device_trial/stopped");
     r.playback.start ({});
     REQUIRE (r.until ([&] { return r.playback.run().isRunning(); }));
-    CHECK (r.playback.tryDevice ("nobody").error().id == "device_trial/no_motor");
+    CHECK (r.playback.tryDevice ("no_such_role").error().id == "device_trial/no_motor");
     REQUIRE (r.playback.tryDevice ("stylus"));
     r.playback.stop();
     CHECK (r.until ([&] { return ! r.playback.isTrying(); }));

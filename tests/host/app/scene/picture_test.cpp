@@ -112,8 +112,20 @@ TEST_CASE ("a coarse cube stays when the camera comes close to one of its faces"
     auto mesh = std::make_shared<Mesh>();
     for (int i = 0; i < 8; ++i)
         mesh->points.push_back (0.05 * Vec3 (i % 2 == 0 ? -1.0 : 1.0, i / 2 % 2 == 0 ? -1.0 : 1.0, i / 4 == 0 ? -1.0 : 1.0));
-    mesh->triangles = { { 0, 2, 1 }, { 1, 2, 3 }, { 4, 5, 6 }, { 5, 7, 6 }, { 0, 1, 4 }, { 1, 5, 4 },
-                        { 2, 6, 3 }, { 3, 6, 7 }, { 0, 4, 2 }, { 2, 4, 6 }, { 1, 3, 5 }, { 3, 7, 5 } };
+    mesh->triangles = {
+        { 0, 2, 1 },
+        { 1, 2, 3 },
+        { 4, 5, 6 },
+        { 5, 7, 6 },
+        { 0, 1, 4 },
+        { 1, 5, 4 },
+        { 2, 6, 3 },
+        { 3, 6, 7 },
+        { 0, 4, 2 },
+        { 2, 4, 6 },
+        { 1, 3, 5 },
+        { 3, 7, 5 },
+    };
     auto surface = std::make_shared<Surface>();
     surface->mesh = mesh;
     Body cube { .kind = Kind::body, .path = "cube", .role = "tool", .is_placed = true };

@@ -36,7 +36,7 @@ bool hasLetters (const juce::String& s, int in_a_row)
     return false;
 }
 
-/// "0.3", "N/mm", "drag.force.x", "stored_energy", "/home/me/graph.json"
+/// "0.3", "N/mm", "drag.force.x", "stored_energy", "graphs/dry_wood.json"
 bool isNumberOrId (const juce::String& word)
 {
     static const std::regex number (R"(\W*[\d.,+-]*(k|m|\xc2\xb5|n|M)?(N|m|s|g|Hz|J|W|Pa|rad|dB|min|x)?([/*^][\w/*^]+)?\W*|[xyz])");
@@ -148,7 +148,8 @@ void Data::add (const juce::String& s)
     juce::StringArray lines;
     lines.addLines (s.toLowerCase());
     for (const auto& line : lines)
-        all << '\n' << juce::StringArray::fromTokens (line, " \t", {}).joinIntoString (" ");
+        all << '\n'
+            << juce::StringArray::fromTokens (line, " \t", {}).joinIntoString (" ");
 }
 
 bool Data::has (const juce::String& words) const
@@ -172,7 +173,7 @@ juce::String Data::wordsLeft (const juce::String& text) const
         juce::StringArray phrase;
         auto words = juce::StringArray::fromTokens (line, " \t", {});
         if (line.endsWith ("...")) words.remove (words.size() - 1);   // a part of a word
-        words.add (mark);   // ends the last phrase
+        words.add (mark);                                             // ends the last phrase
         for (const auto& w : words)
         {
             if (! w.contains (mark) && ! isNumberOrId (w))

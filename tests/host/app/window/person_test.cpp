@@ -174,7 +174,7 @@ TEST_CASE ("a person builds plane\\, friction\\, a gated grating and a knob\\, a
     CHECK (forceAt (g, 1e-3).norm() == 0.0);   // in the air
     g.controls[0].value = 0.0;
     const auto smooth = forceAt (g, -1e-3);
-    CHECK (smooth.z() > 0.1);   // the plane
+    CHECK (smooth.z() > 0.1);    // the plane
     CHECK (smooth.x() > 0.05);   // friction
     g.controls[0].value = 1.0;
     CHECK ((forceAt (g, -1e-3) - smooth).norm() > 0.01);   // the grating, by the knob
