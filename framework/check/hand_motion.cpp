@@ -53,7 +53,7 @@ Messages divergence (const HandMotion& motion, std::span<const Reach> reaches)
         char time[32];
         std::snprintf (time, sizeof time, "%.3g", static_cast<double> (at - role.readings.begin()) / motion.rate_hz);
         all.push_back (Message::error ("check/diverged", "/devices/" + role.role,
-                                       "the tool of '" + role.role + "' runs away at " + time + " s, so slopes along its motion say nothing",
+                                       "the tool of '" + role.role + "' runs away at " + time + " s, so slopes along its motion mean nothing",
                                        "the graph is unstable with this hand: make its forces weaker, or check it along --device " + role.role
                                            + "=gesture:NAME or --sweep"));
     }

@@ -226,7 +226,7 @@ private:
     {
         const bool has_teeth = s.teeth > 0.0 && s.teeth < s.d_max;
         const double limit = has_teeth ? s.teeth : s.d_max;
-        auto& c = add (s.node, "d_max", "delta < d_max, better 10 delta < d_max", "m",
+        auto& c = add (s.node, "d_max", "delta < d_max, preferably 10 delta < d_max", "m",
                        "slides at a stretch of " + text (1e6 * s.d_max, "um") + (has_teeth ? ", with teeth of " + text (1e6 * s.teeth, "um") : ""));
         if (! numbers.quantum) return unknown (c, 0.0, "quantum");
         const double delta = numbers.quantum->value;

@@ -18,7 +18,7 @@ std::string always (const NodeType&) { return {}; }
 constexpr auto list = std::to_array<Examination> ({
     { "hooks", "every hook returns, and the node accepts its own defaults", 1, false, &always, &hookFault },
     { "datasheet", "every default is in its range, and no name occurs twice", 1, false, &always, &sheetFault },
-    { "sizes", "it writes nothing behind its outputs", 1, false, &always, &sizeFault },
+    { "sizes", "it writes nothing past the end of its outputs", 1, false, &always, &sizeFault },
     { "finite", "finite inputs give finite outputs, with any params in their range", 1, true, &always, &rangeFault },
     { "nan", "an input that is not finite gives 0, and the next tick is as before", 1, true, &noInputs, &nanFault },
     { "bits", "two fresh instances give the same bits", 1, true, &always, &repeatFault },

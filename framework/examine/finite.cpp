@@ -53,7 +53,7 @@ std::string sizeFault (const NodeType& type, unsigned seed)
         randomTameInputs (rig, dice);
         rig.tick();
     }
-    return rig.wroteTooFar() ? say ("it writes behind its outputs, whose size is given as ", type.outputs_size, " bytes") : "";
+    return rig.wroteTooFar() ? say ("it writes past the end of its outputs, whose size is given as ", type.outputs_size, " bytes") : "";
 }
 
 }   // namespace tactus::examine

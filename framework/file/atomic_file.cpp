@@ -41,7 +41,7 @@ void removeLeftovers (const fs::path& folder)
     }
 }
 
-constexpr int most_partial = 99;   // unfinished files beside one target
+constexpr int most_partial = 99;   // unfinished files next to one target
 
 /// NAME.partial.csv, NAME.partial-2.csv and so on. The extension stays last, so that other programs know what is in the file.
 fs::path partialName (const fs::path& target, int number)
@@ -136,7 +136,7 @@ Result<> AtomicFile::openTemporary (IfKilled if_killed)
         if (lockTemporary() || kept || i == tries) return {};
         discard();
     }
-    return unwritable ("there are " + std::to_string (most_partial) + " unfinished files beside it, such as " + partialName (target, 1).string());
+    return unwritable ("there are " + std::to_string (most_partial) + " unfinished files next to it, such as " + partialName (target, 1).string());
 }
 
 bool AtomicFile::lockTemporary()

@@ -328,7 +328,9 @@ Result<FrictionFit> fitFriction (const RecordedDrag& recorded, FitCourse* course
                        "friction force",
                        "N",
                        { { "recorded", moved, drag.force, true }, { "fitted", moved, { modelled.begin(), modelled.end() } } } };
-    judge (report, "Record at least three slow strokes back and forth, each several times longer than the contact stretches before it slides.");
+    judge (report,
+           "Record at least three slow strokes back and forth, each several times longer than the distance that the contact stretches "
+           "before it slides.");
     return result;
 }
 

@@ -347,7 +347,7 @@ public:
         auto* patch = find (c.patch);
         if (patch == nullptr) return noPatch (c.patch);
         if (! c.patch.empty() && (c.name || c.about || c.tags || c.rate_hz))
-            return Message::error ("edit/bad_value", {}, "a subgraph has no name, description, tags or rate of its own", "set them in the graph");
+            return Message::error ("edit/bad_value", {}, "a subgraph does not have its own name, description, tags or rate", "set them in the graph");
         if (checked())
         {
             if (c.rate_hz && ! (*c.rate_hz > 0.0 && std::isfinite (*c.rate_hz)))

@@ -106,7 +106,7 @@ LoadedPlugins loadPlugins (const std::vector<std::filesystem::path>& files, cons
                 all.messages.push_back (Message::error ("plugin/two_ids", file.string(),
                                                         "the node " + quote (type.info.id) + " exists already, in "
                                                             + (other->origin.empty() ? std::string ("Tactus itself") : quotePath (other->origin)),
-                                                        "remove one of the two, or ask the author of one for another id"));
+                                                        "remove one of the two, or ask the author of one for a different id"));
         }
     }
     return all;

@@ -282,7 +282,7 @@ OwnNodes::OwnNodes (const py::list& descriptions)
     {
         types.push_back (std::make_unique<OwnType> (*this, from.cast<py::dict>()));
         if (tactus::catalogue().find (types.back()->id) != nullptr)
-            fail (Message::error ("node/id_taken", types.back()->id, "Tactus has a node of this id already", "give your node another id"));
+            fail (Message::error ("node/id_taken", types.back()->id, "Tactus already has a node with this id", "give your node another id"));
         described.push_back (types.back()->describe());
     }
     if (described.empty()) return;

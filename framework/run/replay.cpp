@@ -46,7 +46,7 @@ Result<> Replay::begin()
                                                   + "; only the same program is certain to reproduce the run bit for bit"));
     else if (head.functions != math::revision)
         warnings.push_back (Message::warning ("log/other_functions", log.name(),
-                                              "the run was recorded by a version with other bits of sin, exp and the like (revision "
+                                              "the run was recorded by a version whose sin, exp and the like give different bits (revision "
                                                   + std::to_string (head.functions) + ", here " + std::to_string (math::revision)
                                                   + "), so the replay may differ in the last digits"));
     if (options.duration_s > 0.0) most = static_cast<std::uint64_t> (std::ceil (options.duration_s * rate() - 1e-6));

@@ -256,7 +256,7 @@ struct Limit
     using Outputs = Out<Vec3>;
     static constexpr Info info = infoOf ("light.limit");
     static constexpr std::tuple ports { input (&Inputs::in, "in", unit::newton, "force"), input (&Inputs::contact, "contact", unit::state, "contact"),
-                                        output (&Outputs::out, "out", unit::newton, "half of it while apart") };
+                                        output (&Outputs::out, "out", unit::newton, "half of it without contact") };
     Params params;
     Outputs tick (const Inputs& in) noexcept { return { .out = (0.5 + 0.5 * in.contact) * in.in }; }
 };

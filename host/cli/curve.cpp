@@ -88,7 +88,7 @@ void compute (const Shape& shape, const CurveOptions& options)
         const auto source = "`tactus curve " + std::string (shape.name) + "`: " + shape.formula + ", E = " + options.young + ", nu = "
                             + shortNumber (options.poisson)
                             + ", " + options.tool;
-        const auto about = "A flat, even body, computed: " + std::string (shape.formula) + ".";
+        const auto about = "A flat, homogeneous body, computed: " + std::string (shape.formula) + ".";
         orFail (saveGraph (surfacePreset (even, name, about, source), options.preset));
         std::cout << "wrote " << printableName (options.preset) << "\n";
     }
@@ -107,7 +107,7 @@ const Shape shapes[] {
 
 void addCurve (const Command& app)
 {
-    const auto command = app.add ("curve", "Compute the curve of force over depth of a large, flat, even elastic body");
+    const auto command = app.add ("curve", "Compute the curve of force over depth of a large, flat, homogeneous elastic body");
     command.requireCommand();
     for (const auto& shape : shapes)
     {

@@ -43,7 +43,7 @@ void addLimits (const Command& app)
 void addPlugins (const Command& app)
 {
     app.addOption (
-           "--plugins", [] (const std::string&) {}, "A folder of node plugins, beside those that are installed (docs/plugins.md)")
+           "--plugins", [] (const std::string&) {}, "A folder of node plugins, in addition to those that are installed (docs/plugins.md)")
         .type ("DIR")
         .oneValueEach();
 }

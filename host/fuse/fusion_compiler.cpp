@@ -20,7 +20,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/// The options among the compiler flags of this program that can change how a struct lies in memory.
+/// The options among the compiler flags of this program that can change how a struct is laid out in memory.
 std::vector<std::string> machineFlags()
 {
     std::vector<std::string> all;
@@ -132,7 +132,7 @@ std::string FusionCompiler::keyOf (const FusedCode& code) const
     return digest.text();
 }
 
-/// Writes what the headers stand for, if it is not in the folder yet.
+/// Writes the headers that the code includes, or the bitcode in their place, unless they are in the folder already.
 Result<> FusionCompiler::writeHeaders (const FusedCode& code)
 {
     if (code.language == FusedCode::Language::llvm)
@@ -156,7 +156,7 @@ Result<> FusionCompiler::write (const FusedCode& code)
 {
     if (folder.empty()) folder = privateFolder ("tactus-fuse-");
     if (folder.empty())
-        return Message::error ("fuse/no_folder", {}, "no folder can be made for what is compiled, so the graph is not fused",
+        return Message::error ("fuse/no_folder", {}, "no temporary folder can be made for compiled code, so the graph is not fused",
                                "free some space in " + quote (temporaryFolder().string()) + ", or set TMPDIR to a folder that this user may write");
     if (auto done = writeHeaders (code); ! done) return done;
     return writeTextFile (sourceOf (code), code.text);

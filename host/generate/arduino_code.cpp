@@ -135,10 +135,10 @@ inline Asked askedBy (const Report& r) noexcept
 )";
 
 constexpr const char* sketch = R"(// SPDX-License-Identifier: MIT
-// The board plays the graph by itself, as often per second as the patch says. 1000 times a second it reports to Tactus by RawHID. While
-// Tactus drives the motors, they do what Tactus asks; when its reports stop for 20 ms, or it lets go, the board's own graph drives them.
-// Here the position comes from three analog sensors, and the force goes to three motor drivers. Change readPosition, drive and the
-// numbers above them to what your device has, and the limits in setup to what its motors are rated for.
+// The board plays the graph by itself, at the rate of the patch. 1000 times a second it reports to Tactus by RawHID. While Tactus drives
+// the motors, they do what Tactus asks; when its reports stop for 20 ms, or it lets go, the board's own graph drives them. Here the
+// position comes from three analog sensors, and the force goes to three motor drivers. Change readPosition, drive and the numbers above
+// them to what your device has, and the limits in setup to what its motors are rated for.
 #include <@S@.hpp>
 #include <tactus_board.hpp>
 

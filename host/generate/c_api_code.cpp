@@ -44,7 +44,7 @@ std::string roleStructs (const Exported& e)
                   "    uint32_t buttons;              /* bit i: button i is down */\n"
                   "    double true_position[3];       /* of a simulated device, m */\n"
                   "    double true_velocity[3];       /* of a simulated device, m/s */\n"
-                  "    double unrendered_force[3];    /* what the motors could not do of the last force, N */\n"
+                  "    double unrendered_force[3];    /* the part of the last force that the motors could not render, N */\n"
                   "    double unrendered_torque[3];   /* the same for the torque, N m */\n"
                 + cChannels ("axes", layout.axes.size(), "m, rad or 1")
                 + cChannels ("signals", static_cast<std::size_t> (layout.signal_inputs), "signal inputs")

@@ -56,8 +56,8 @@ void addRoleInputs (Variables& all, const Exported& e, std::size_t i)
         { "rotation", "rotation vector, rad" },
         { "true_position", "of a simulated device, m" },
         { "true_velocity", "of a simulated device, m/s" },
-        { "unrendered_force", "what the motors could not do, N" },
-        { "unrendered_torque", "what the motors could not do, N m" },
+        { "unrendered_force", "force that the motors could not render, N" },
+        { "unrendered_torque", "torque that the motors could not render, N m" },
     };
     for (const auto& [name, about] : vectors)
         for (const char c : { 'x', 'y', 'z' })

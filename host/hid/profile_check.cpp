@@ -121,7 +121,7 @@ private:
             {
                 if (! name.empty() && std::ranges::count (seen, name) > 0)
                     in.error (key, "profile/twice", quote (name) + " is named more than once in \"force\" and \"torque\"",
-                              "name each field once, and write null for a component that has no field of its own");
+                              "name each field once, and write null for a component without its own field");
                 seen.push_back (name);
             }
         };
@@ -143,7 +143,7 @@ private:
             known ("signals", signal.frequency, efforts, "Hz");
             if (! signal.amplitude.empty() && (std::ranges::count (p.force, signal.amplitude) > 0 || std::ranges::count (p.torque, signal.amplitude) > 0))
                 in.error ("signals", "profile/signal_on_force", "the amplitude of a signal drives " + quote (signal.amplitude) + ", which renders the force",
-                          "give the signal an effort of its own, because the guard limits forces and signals separately");
+                          "give the signal its own effort, because the guard limits forces and signals separately");
         }
     }
 
@@ -185,7 +185,7 @@ private:
     void rest (const OutputReport& report, const OutputField& field, double number)
     {
         const auto& e = field.encoding;
-        std::string asked;   // what the number asks for; empty if it is no force
+        std::string asked;   // what the number asks for; empty if it is not a force
         if (const double value = number * e.scale + e.offset; e.law == Encoding::Law::linear && ! (std::abs (value) <= std::abs (e.scale)))
             asked = numberText (value) + " " + field.unit;
         if (const double zero = encoded (e, 0.0); e.law == Encoding::Law::table && std::isfinite (zero))   // else the scale is refused elsewhere

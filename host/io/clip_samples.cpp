@@ -54,7 +54,7 @@ Result<Clip> clipOfTable (const Table& table, const std::string& name, Messages&
         track.amplitude = pointsOf (table, *time, amplitude ? *amplitude : *value);
         if (const auto sharpness = table.column (columnName ("sharpness", channel))) track.sharpness = pointsOf (table, *time, *sharpness);
     }
-    if (clip.tracks.empty()) return refuse ("clip/columns", "it has neither a column amplitude nor a column value", "name one of its columns so");
+    if (clip.tracks.empty()) return refuse ("clip/columns", "it has neither a column amplitude nor a column value", "give one of its columns this name");
     readers::scaleWaves (clip, name, notes);
     if (const auto what = problemOf (clip); ! what.empty()) return refuse ("clip/range", what, "correct the column");
     return clip;

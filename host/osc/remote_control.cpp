@@ -80,7 +80,7 @@ std::optional<Trigger::Edge> edgeOf (const OSCArgument& a)
 // Forces may rise only if someone at the device can see that no one will be hurt.
 constexpr const char* from_elsewhere = "other machines can send this message too, and people there cannot see whether someone at the device could be hurt";
 
-Message badArguments (const std::string& remedy) { return Message::error ("osc/arguments", {}, "this OSC address needs other arguments", remedy); }
+Message badArguments (const std::string& remedy) { return Message::error ("osc/arguments", {}, "this OSC address needs different arguments", remedy); }
 }   // namespace
 
 std::vector<Controlled::Role> rolesOf (const RunStatus& status)

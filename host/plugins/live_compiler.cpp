@@ -32,7 +32,7 @@ fs::path firstOf (const std::vector<fs::path>& candidates)
     return {};
 }
 
-/// The development files beside this program, in an installation or in a build tree.
+/// The development files next to this program, in an installation or in a build tree.
 fs::path includeFolder() { return firstOf ({ programFolder() / "../include/tactus/plugin/node_plugin.hpp" }).parent_path().parent_path().parent_path(); }
 
 fs::path frameworkLibrary()
@@ -90,7 +90,7 @@ Result<> LiveCompiler::needFolder (const LiveSource& s)
 {
     if (folder.empty()) folder = privateFolder ("tactus-live-");
     if (folder.empty())
-        return Message::error ("live/no_folder", s.file.string(), "no folder can be made for what is compiled, so edits of the C++ code have no effect",
+        return Message::error ("live/no_folder", s.file.string(), "no temporary folder can be made for compiled code, so edits of the C++ code have no effect",
                                "free some space in " + quote (temporaryFolder().string()) + ", or set TMPDIR to a folder that this user may write");
     if (std::error_code unknown; fs::exists (commonHeader(), unknown)) return {};
     return writeTextFile (commonHeader(), common_headers);
@@ -161,7 +161,7 @@ std::vector<std::string> LiveCompiler::commonFlags (const LiveSource& s) const
 Result<std::vector<std::string>> LiveCompiler::commandFor (const LiveSource& s)
 {
     if (includeFolder().empty() || frameworkLibrary().empty())
-        return Message::error ("live/no_headers", s.file.string(), "the headers and libtactus_framework.a of Tactus are not beside this program",
+        return Message::error ("live/no_headers", s.file.string(), "the headers and libtactus_framework.a of Tactus are not next to this program",
                                "install the development files of Tactus (Debian: apt install libtactus-dev), or use the program of a build tree");
     auto command = commonFlags (s);
     for (const auto& include : s.includes)

@@ -54,7 +54,7 @@ Result<LiveSource> liveBuild (const fs::path& plugin)
 {
     const auto text = readTextFile (plugin.string() + ".build");
     if (! text)
-        return Message::error ("live/no_build_file", plugin.string(), "nothing beside the plugin says how to build it",
+        return Message::error ("live/no_build_file", plugin.string(), "no file next to the plugin says how to build it",
                                "build it with tactus_add_plugin of this version, or give its header with --live");
     LiveSource source { .file = plugin };
     std::istringstream lines (*text);

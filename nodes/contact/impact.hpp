@@ -84,7 +84,7 @@ struct Impact
         param (&Params::window, "window", unit::second, "longest time over which the speed is measured",
                { .hard = { 0, longest_window }, .usual = { 0.005, 0.05 } }),
         output (&Outputs::hit, "hit", unit::hit, "impact speed on the first tick of a contact, else 0"),
-        output (&Outputs::contact, "contact", unit::state, "1 in contact, 0 apart"),
+        output (&Outputs::contact, "contact", unit::state, "1 in contact, else 0"),
     };
 
     Params params;

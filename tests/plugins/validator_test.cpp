@@ -95,7 +95,7 @@ TEST_CASE ("check-plugin catches what a tick must not do", "[plugins]")
     catches ("bad_locks", { "locks: a tick locks a mutex" });
     catches ("bad_calls", { "system_calls: a tick calls the operating system: `getppid`" });
     catches ("bad_nan", { "finite: out is ", "(seed " });
-    catches ("bad_overrun", { "sizes: it writes behind its outputs" });
+    catches ("bad_overrun", { "sizes: it writes past the end of its outputs" });
 }
 
 TEST_CASE ("check-plugin catches bits that depend on the run or on another instance", "[plugins]")

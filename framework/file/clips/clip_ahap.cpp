@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Apple AHAP, read. Sources: developer.apple.com, "Representing haptic patterns in AHAP files"; the scale of intensity and sharpness is
+// Reads Apple AHAP. Sources: developer.apple.com, "Representing haptic patterns in AHAP files"; the scale of intensity and sharpness is
 // that of Meta's converter: amplitude = intensity squared, and frequency = sharpness squared, except for transients
 // (facebook/meta-haptics-sdk, core/haptic_data, MIT).
 #include "clip_formats.hpp"
@@ -121,7 +121,7 @@ private:
             return file.note (type, "clip/not_carried",
                               "the sound " + (sound && sound->json->is_string() ? quote (sound->json->asString()) : "event")
                                   + " is left out: a clip holds no sounds",
-                              "play it beside the clip");
+                              "play it alongside the clip");
         }
         Event event { .time = timeOf (spot) };
         if (! is_tap)
@@ -161,7 +161,7 @@ private:
         if (name == "HapticIntensityControl") return &intensity;
         if (name == "HapticSharpnessControl") return &sharpness;
         file.note (id, "clip/not_carried", "changes of " + quote (name) + " are left out",
-                   "nothing, if it is of a sound; else draw it into a curve of HapticIntensityControl");
+                   "no action is needed if it is of a sound; else draw it into a curve of HapticIntensityControl");
         return nullptr;
     }
 

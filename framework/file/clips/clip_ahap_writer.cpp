@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Apple AHAP, written by the rules of Meta's converter: at most 16 points in a curve, curves chained by repeating a point, continuous
+// Writes Apple AHAP by the rules of Meta's converter: at most 16 points in a curve, curves chained by repeating a point, continuous
 // events of at most 30 s, intensity and sharpness the square roots of amplitude and frequency, and an envelope 20 % lower at a
 // transient (facebook/meta-haptics-sdk, core/haptic_data, MIT).
 #include "clip_formats.hpp"
@@ -82,7 +82,7 @@ ClipText writeAhap (const Clip& clip)
                   + " transients too, and the envelope is 20 % lower at each",
               "write two files with --split, and play them together");
     if (clip.voice != ClipVoice {})
-        lose (made.losses, "voice", "the frequencies of 0 and 1, and the ducking, are left out: the phone decides them", "nothing");
+        lose (made.losses, "voice", "the frequencies of 0 and 1, and the ducking, are left out: the phone chooses its own", "no action is needed");
 
     Json file { { "Version", 1.0 } };
     Json data = Json::object();

@@ -130,9 +130,9 @@ double readEmphasisEnd (ClipJson& file, const Spot& emphasis, std::string_view k
     constexpr double differs = 0.05;
     if (const auto length = file.find (end, "duration_ms"))
         if (const double cycles = 1e-3 * file.number (*length) * hertz; ! (std::abs (cycles - 2.0) < 2.0 * differs))
-            file.note (*length, "clip/changed", "the emphasis is " + std::to_string (cycles) + " cycles long; here it is always 2", "nothing");
+            file.note (*length, "clip/changed", "the emphasis is " + std::to_string (cycles) + " cycles long; here it is always 2", "no action is needed");
     if (const auto shape = file.find (end, "shape"); shape && ! file.isText (end, "shape", "sine"))
-        file.note (*shape, "clip/not_carried", "the shape is played as a sine", "nothing");
+        file.note (*shape, "clip/not_carried", "the shape is played as a sine", "no action is needed");
     return hertz;
 }
 }   // namespace
@@ -153,7 +153,7 @@ Result<Messages> readCalibration (std::string_view bytes, std::string_view name,
             if (const auto gain = file.find (*part, "gain"); gain && file.number (*gain) != 1.0)
                 file.note (*gain, "clip/not_carried", "the gain is left out", "set the gain of the node, and the levels of its tracks");
         if (const auto fade = file.find (emphasis, "fade_out_percent"); fade && file.number (*fade) != 0.0)
-            file.note (*fade, "clip/not_carried", "the fade of the emphasis is left out", "nothing");
+            file.note (*fade, "clip/not_carried", "the fade of the emphasis is left out", "no action is needed");
         voice = read;
         return std::move (file.notes);
     }

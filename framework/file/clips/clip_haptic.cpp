@@ -90,7 +90,7 @@ Clip readHaptic (ClipJson& file)
         }
         if (before > track.amplitude.back().time)
             file.note (*frequency, "clip/habit", "the frequencies outlast the amplitudes by " + numberText (before - track.amplitude.back().time) + " s",
-                       "nothing: the rest is not heard");
+                       "no action is needed: the rest is not heard");
     }
     readNotes (file, clip);
     return clip;

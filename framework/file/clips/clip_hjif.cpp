@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// MPEG HJIF (ISO/IEC 23090-31), read. Source: MPEGGroup/HapticReferenceSoftware, source/IOHaptics (its text licence is BSD-3; no code of it
-// is here). Drafts called channels tracks, and gave wave bands an encoding_modality.
+// Reads MPEG HJIF (ISO/IEC 23090-31). Source: MPEGGroup/HapticReferenceSoftware, source/IOHaptics (licensed under BSD-3; none of its code
+// is used here). Drafts called channels tracks, and gave wave bands an encoding_modality.
 #include "clip_formats.hpp"
 
 #include <tactus/text/number_text.hpp>
@@ -75,13 +75,13 @@ private:
                 file.note (*modality, "clip/not_carried", quote (name) + " is laid out along a path; its positions are read as times",
                            "play it with drive position, and set the length of the path");
             else if (name != "Vibrotactile" && name != "Vibration" && name != "Acceleration" && name != "Force" && name != "Kinesthetic" && name != "Other")
-                file.note (*modality, "clip/not_carried", quote (name) + " is read as a vibration", "nothing, or leave this perception out");
+                file.note (*modality, "clip/not_carried", quote (name) + " is read as a vibration", "no action is needed, or leave this perception out");
         }
         const double exponent = file.numberOr (spot, "perception_unit_exponent", 0.0, -12.0, 12.0);
         const auto library = file.find (spot, "effect_library");
         auto channels = file.find (spot, "channels");
         if (! channels && (channels = file.find (spot, "tracks")))
-            file.note (*channels, "clip/habit", "channels are called tracks, as in the drafts of the standard", "nothing");
+            file.note (*channels, "clip/habit", "channels are called tracks, as in the drafts of the standard", "no action is needed");
         if (! channels) file.refuse (spot, "clip/missing", "there is no 'channels'", "add it, or check its spelling");
         file.list (*channels);
         for (std::size_t i = 0; i < channels->json->size(); ++i)
@@ -114,7 +114,7 @@ private:
         if (name == "Transient") return Band::Kind::transient;
         if (name == "Wave")
         {
-            file.note (type, "clip/habit", "the band is a Wave with an encoding_modality, as in the drafts of the standard", "nothing");
+            file.note (type, "clip/habit", "the band is a Wave with an encoding_modality, as in the drafts of the standard", "no action is needed");
             if (! file.isText (spot, "encoding_modality", "Wavelet")) return Band::Kind::wave;
         }
         else if (name != "WaveletWave")
@@ -134,7 +134,7 @@ private:
         {
             band.is_smooth = file.isText (spot, "curve_type", "Cubic");
             if (! band.is_smooth && ! file.isText (spot, "curve_type", "Linear"))
-                file.note (*type, "clip/changed", "the curve is drawn with straight lines", "nothing, if its points are close together");
+                file.note (*type, "clip/changed", "the curve is drawn with straight lines", "no action is needed if its points are close together");
         }
         const auto effects = file.need (spot, "effects");
         file.list (effects);
@@ -172,7 +172,7 @@ private:
     void readKeyframes (const Spot& spot, double start, Band& band)
     {
         if (const auto base = file.find (spot, "base_signal"); base && ! file.isText (spot, "base_signal", "Sine"))
-            file.note (*base, "clip/not_carried", "the signal is played as a sine", "nothing");
+            file.note (*base, "clip/not_carried", "the signal is played as a sine", "no action is needed");
         const auto list = file.find (spot, "keyframes");
         if (! list) return file.note (spot, "clip/not_carried", "the effect has no keyframes", "remove it");
         file.list (*list);

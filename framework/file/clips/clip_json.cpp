@@ -32,7 +32,7 @@ ClipJson::ClipJson (std::string_view text, std::string_view name_) : name (name_
         const auto place = name + ":" + std::to_string (habit.first.line) + ":" + std::to_string (habit.first.column);
         const auto more = habit.count > 1 ? ", " + std::to_string (habit.count) + " times" : std::string {};
         notes.push_back (Message::warning ("clip/habit", place, "the file has " + habit.what + more + ", which plain JSON does not allow; they are accepted",
-                                           "nothing, or remove them for programs that are stricter"));
+                                           "no action is needed, or remove them for stricter programs"));
     }
     if (! read.json.root.is_object())
         throw ClipProblem { Message::error ("clip/kind", name + ":1:1", "the file is not a JSON object", "check that it is a clip") };

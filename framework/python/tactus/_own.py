@@ -152,7 +152,7 @@ def describe(kinds: Sequence[Type[Node]]) -> List[Dict[str, Any]]:
     """What the C++ side needs to know of node classes."""
     ids = [kind.id for kind in kinds]
     if twice := [id for id in ids if ids.count(id) > 1]:
-        fail("node/id_taken", twice[0], f"two nodes have the id '{twice[0]}'", "give each class an id of its own")
+        fail("node/id_taken", twice[0], f"two nodes have the id '{twice[0]}'", "give each class its own id")
     return [_describe(kind) for kind in kinds]
 
 

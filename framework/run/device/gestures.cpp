@@ -139,7 +139,7 @@ Vec3 cut (double t)
 constexpr Gesture list[] {
     { "stroke", "Back and forth over 60 mm, twice, pressed 2 mm into the surface.", 4.0, stroke },
     { "press", "Slowly 4 mm into the surface, held there, and slowly out.", 3.2, press },
-    { "touch", "A hand comes, rests 1 mm deep for a moment and leaves.", 2.0, touch },
+    { "touch", "A hand comes down, stays 1 mm deep for a moment, and leaves.", 2.0, touch },
     { "tap", "Five taps, each quicker than the one before.", 1.8, tap },
     { "circle", "Three circles, 30 mm across, pressed 2 mm into the surface.", 4.8, circle },
     { "sweep", "Strokes of 30 mm, with peak speeds that rise from 10 mm/s to 0.4 m/s.", 11.2, sweep },
