@@ -42,7 +42,7 @@
 #define TACTUS_API_C
 #endif
 
-/** Before each function of this interface. */
+/** Goes before each function of this interface. */
 #if defined(_WIN32)
 #define TACTUS_API TACTUS_API_C
 #else
@@ -107,8 +107,8 @@ TACTUS_API tactus_graph* tactus_graph_create (const char* name, double rate_hz, 
 /** Reads a graph file and the files that it includes. NULL if it has errors. [main thread] */
 TACTUS_API tactus_graph* tactus_graph_load (const char* path, tactus_messages*);
 
-/** Reads a graph from text. Files that the graph names are relative to `folder` (NULL: the current folder). Subgraphs in files of
- *  their own are not read. [main thread] */
+/** Reads a graph from text. Files that the graph names are relative to `folder` (NULL: the current folder). Subgraphs in separate
+ *  files are not read. [main thread] */
 TACTUS_API tactus_graph* tactus_graph_parse (const char* text, size_t length, const char* folder, tactus_messages*);
 
 TACTUS_API void tactus_graph_free (tactus_graph*); /**< [main thread] */
@@ -174,12 +174,12 @@ typedef enum tactus_asset_answer
 } tactus_asset_answer;
 
 /** Your function, asked about each file that a setting names, by tactus_run_create and tactus_run_edit. `path` begins with the folder of the
- *  graph. The asset is empty; what its pointers point to must stay valid until the next call of this function, or until the function of
- *  the library returns. [main thread] */
+ *  graph. The asset that it fills is empty at first. What its pointers point to must stay valid until the next call of this function, or
+ *  until the function of the library returns. [main thread] */
 typedef tactus_asset_answer (*tactus_asset_reader) (void* context, tactus_asset_kind kind, const char* path, tactus_asset* asset);
 
 /** Sets what files may cost, for all graphs of this process, as the option --limits of `tactus render` does: "points=1M,memory=2GB". Those
- *  that the text does not name have their defaults. Call it before a graph is loaded. [main thread] */
+ *  that the text does not name keep their defaults. Call it before a graph is loaded. [main thread] */
 TACTUS_API tactus_result tactus_set_limits (const char* limits, tactus_messages*);
 
 /* ============================================================================ Runs */
@@ -239,7 +239,7 @@ typedef struct tactus_reading
     double axes[TACTUS_CHANNELS], signals[TACTUS_CHANNELS];
 } tactus_reading;
 
-/** What a device should apply: after the guard. */
+/** What a device should apply, after the guard. */
 typedef struct tactus_effort
 {
     uint32_t size;
@@ -314,7 +314,7 @@ typedef struct tactus_start_options
         sizeof (tactus_start_options), -1, 0, 0 \
     }
 
-/** Ticks the run by a timer on a thread of its own. From now on, that is the tick thread. Real-time privileges that the system
+/** Ticks the run by a timer on its own thread. From now on, that is the tick thread. Real-time privileges that the system
  *  refuses are warnings. Call it once. [main thread] */
 TACTUS_API tactus_result tactus_run_start (tactus_run*, const tactus_start_options*, tactus_messages*);
 

@@ -65,7 +65,7 @@ NodeForces::NodeForces (const Plan& plan, std::size_t node)
 {
     const auto& type = *plan.flat().nodes[node].type;
     const auto& instance = plan.instances()[node];
-    if (instance.outputs == nullptr || type.effort != nullptr) return;   // the output of a sink is the force after the guard, not a force of its own
+    if (instance.outputs == nullptr || type.effort != nullptr) return;   // the output of a sink is the force after the guard, not its own force
     for (const auto& row : type.outputs)
         if (row.unit.kind == UnitRule::Kind::fixed && row.unit.unit.symbol == "N" && ! row.list)
         {

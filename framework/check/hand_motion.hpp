@@ -61,7 +61,7 @@ inline constexpr double farthest_m = 1.0;
 
 /// An error (check/diverged) for each role whose tool ran away while the motion was recorded: one of its positions is not finite,
 /// is further outside the role's reach than the diagonal of the reach, or, without a reach, is further from the start than
-/// farthest_m. The slopes along such a motion say nothing about the graph. [any thread]
+/// farthest_m. The slopes along such a motion mean nothing. [any thread]
 Messages divergence (const HandMotion&, std::span<const Reach> = {});
 
 /// Moves a tool through a box, for a device without a hand: a Lissajous curve that comes close to every point. It does not react to

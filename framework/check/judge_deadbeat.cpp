@@ -9,7 +9,7 @@ namespace tactus::check::judging
 
 namespace
 {
-constexpr double usual_error = 0.2;   // of the mass: a mass that is known is known to this fraction
+constexpr double usual_error = 0.2;   // of the mass: a known mass is assumed to be accurate to this fraction
 
 /// A wall of hold.deadbeat on a device whose mass and damping are known.
 struct Wall
@@ -27,7 +27,7 @@ struct Wall
         return late > 0.0 ? std::min (usual_error, damping * period_s / mass / (2.0 * late * late)) : usual_error;
     }
 
-    /// By how much M may be larger than assumed: any usual error, but nothing if the wall turns the tool back within a few ticks.
+    /// By how much M may be larger than assumed: any usual error, but 0 if the wall turns the tool back within a few ticks.
     double mayBeMore() const noexcept { return (1.0 + delay) * (1.0 + delay) * turn() <= 3.0 ? usual_error : 0.0; }
 
     bool isMassRight() const noexcept
@@ -40,7 +40,7 @@ struct Wall
     /// The stiffest wall that hides the steps of a sensor from the hand, in N/m.
     double stiffest() const noexcept { return mass / std::pow ((1.0 + delay) * period_s, 2.0); }
 
-    /// The stiffest wall whose mass may be off by the usual error, in N/m.
+    /// The stiffest wall that tolerates the usual error of the mass, in N/m.
     double forgiving() const noexcept
     {
         const double over = mass / (period_s * period_s) / (1.0 + 2.0 * delay) * std::sqrt (damping * period_s / mass / (2.0 * usual_error));

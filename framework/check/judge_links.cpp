@@ -93,7 +93,7 @@ private:
         auto& c = all.emplace_back (Condition {
             .id = "coupling", .role = nameOf (0), .law = "|(2d + 1) T K/2 + L|, each over B, <= 1", .unit = "1", .text = together });
         if (! know (&DeviceNumbers::damping)) return unknown (c, 0.0, "damping");
-        static constexpr double least = 1e-9;   // N s/m; stands for a damping of 0
+        static constexpr double least = 1e-9;   // N s/m; used in place of a damping of 0
         const VectorXd over = perAxis ([] (const DeviceNumbers& n) { return 1.0 / std::sqrt (std::max (+least, n.damping->value)); });
         const VectorXd hold = perAxis ([&] (const DeviceNumbers& n) { return (0.5 + delayOf (n)) * periodOf (demand, n); });
         double most = 0.0;

@@ -158,7 +158,7 @@ public:
 private:
     const Subject& subject;
     const HandMotion& motion;
-    std::shared_ptr<Plan> plan;   // never runs; each bench compiles a plan of its own
+    std::shared_ptr<Plan> plan;   // never runs; each bench compiles its own plan
     Demand demand {};
     Forces forces {};
     std::vector<TextureWatch> textures {};

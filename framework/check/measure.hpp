@@ -43,7 +43,7 @@ struct Linked
     bool is_smooth = true;            ///< true if opposite displacements have opposite responses; false for friction
 };
 
-/// A force that steps at a place, as that of a relay does.
+/// A force that steps at a place, like that of a relay.
 struct Jump
 {
     std::string role;                     ///< the role whose force steps most

@@ -10,7 +10,7 @@ namespace tactus::check
 
 namespace
 {
-/// The path of all tools together: finds the time at which a length of it has been passed.
+/// The path of all tools together: finds the time at which a given length has been travelled.
 class Way
 {
 public:
@@ -27,7 +27,7 @@ public:
 
     double length() const noexcept { return passed.empty() ? 0.0 : passed.back(); }
 
-    /// The time, in ticks, at which this length has been passed.
+    /// The time, in ticks, at which this length has been travelled.
     double tickAt (double wanted) const noexcept
     {
         const auto after = std::ranges::upper_bound (passed, wanted) - passed.begin();

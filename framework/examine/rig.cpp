@@ -11,7 +11,7 @@ namespace tactus::examine
 
 namespace
 {
-constexpr std::size_t guard = 64;   // bytes behind the outputs, which the node must not write
+constexpr std::size_t guard = 64;   // bytes after the outputs, which the node must not write
 constexpr std::byte untouched { 0xa5 };
 
 [[noreturn]] void missing (const std::string& owner, std::string_view id) { throw std::invalid_argument (owner + " has no " + quote (id)); }

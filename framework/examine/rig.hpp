@@ -63,7 +63,7 @@ public:
     std::vector<Component> inputs, outputs;   ///< what each entry of `in` and of outs() belongs to; valid after prepare
     double out (std::size_t output) const noexcept;
     std::vector<double> outs() const;
-    bool wroteTooFar() const noexcept;                        ///< true if the node has written behind its outputs
+    bool wroteTooFar() const noexcept;                        ///< true if the node has written past the end of its outputs
     double& paramAt (const PortSheet&, int index) noexcept;   ///< not for choices; call moved() after changing it
     void moved() noexcept { params_moved = true; }
     int entries() const noexcept { return list_size; }   ///< size of this node's lists

@@ -50,7 +50,7 @@ std::vector<double> run (const NodeType& type, unsigned seed, int ticks)
     return one.outputs();
 }
 
-constexpr unsigned other = 0x9e3779b9u;   // gives the second instance a seed of its own
+constexpr unsigned other = 0x9e3779b9u;   // gives the second instance a different seed
 }   // namespace
 
 bool sameBits (const std::vector<double>& a, const std::vector<double>& b)

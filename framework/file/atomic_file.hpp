@@ -18,7 +18,7 @@ namespace tactus
 enum class IfKilled
 {
     removed,   ///< the next process that writes into this folder removes it
-    kept       ///< it is beside the target, as NAME.partial.csv for NAME.csv (or NAME.partial-2.csv and so on if that exists)
+    kept       ///< it is next to the target, as NAME.partial.csv for NAME.csv (or NAME.partial-2.csv and so on if that exists)
 };
 
 /// A file that is written completely or not at all. The error of all functions is output/unwritable.

@@ -84,7 +84,7 @@ Result<double> evenStep (const std::vector<double>& time)
     const auto digits = lastDigits (time);
     for (std::size_t i = 1; i < time.size(); ++i)
     {
-        // Rounding makes even steps as long as the next smaller or larger number of units.
+        // Rounding changes each of a series of even steps to the next smaller or larger number of units.
         const double next = time[i] - time[i - 1], unit = std::max (digits[i], 1e-9 * step), units = step / unit;
         const bool is_even = next > unit * std::floor (units + nearly) - tolerance * step && next < unit * std::ceil (units - nearly) + tolerance * step;
         if (! is_even)

@@ -56,8 +56,8 @@ struct FitReport
 };
 
 /// Sets the verdict. It is poor if the recording is not explained (the residual is larger than `most` times its size), if the part that was left
-/// out is predicted much worse than the rest is fitted, if the interval of a main value is wider than +-25 %, or if something is lacking already.
-/// `record_more` says which data would help.
+/// out is predicted much worse than the rest is fitted, if the interval of a main value is wider than +-25 %, or if something is already
+/// missing. `record_more` says which data would help.
 void judge (FitReport&, const std::string& record_more, double most = 0.25);
 
 /// Lets another thread cancel a fit and read its progress.

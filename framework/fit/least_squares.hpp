@@ -30,7 +30,7 @@ struct LeastSquaresFit
 
     double sum() const { return residual.squaredNorm(); }
 
-    /// The sum, but not less than rounding leaves of a recording without noise. It decides between models.
+    /// The sum, but at least what rounding leaves in a recording without noise. Used to choose between models.
     double sumToCompare() const
     {
         constexpr double rounding = 1e-9;   // of the size

@@ -64,8 +64,8 @@ Result<> checkImpact (const RecordedLoop& loop)
     return {};
 }
 
-/// Adds the point between a row outside and a row inside at which the depth and the force are 0. `deeper` is the row beside
-/// `inside`: the time is extrapolated from these two rows, because the row outside may be much earlier or later.
+/// Adds the point between a row outside and a row inside at which the depth and the force are 0. `deeper` is the row next to `inside`:
+/// the time is extrapolated from these two rows, because the row outside may be much earlier or later.
 void addTouch (const RecordedLoop& loop, std::size_t outside, std::size_t inside, std::size_t deeper, Contact& contact)
 {
     contact.d.push_back (0.0);

@@ -182,7 +182,7 @@ void addModel (const Group& group, const detail::SpectrumModel& found, TextureFi
     values.push_back ({ name + " sensor noise", "m2/s4", found.floor, std::max (0.0, found.floor - half), found.floor + half, false });
 }
 
-/// Says so if the recorded spectrum differs from the model by more than about 2 dB and more than chance explains.
+/// Adds a note if the recorded spectrum differs from the model by more than about 2 dB and more than chance explains.
 void judgeSpectrum (const detail::Periodogram& data, const detail::SpectrumModel& model, TextureFit& result)
 {
     constexpr double of_noise = 2.0 * std::numbers::egamma, deviation = 1.607, clear = 0.3;   // of the deviance of a line

@@ -27,7 +27,7 @@ std::optional<Message> problemWith (const Control&, const Graph&);
 /// True if a control has two targets with the same path, or a node two overrides with the same key.
 bool anythingTwice (const Graph&);
 
-/// True if a node or wire has this id. To look for one id, this takes a fraction of the time of usedIds().
+/// True if a node or wire has this id. For a single id, this takes a fraction of the time of usedIds().
 bool isUsed (Id, const Graph&);
 
 /// The ids of all nodes and wires.

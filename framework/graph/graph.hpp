@@ -110,7 +110,7 @@ struct Graph
 
     std::string folder;                                          ///< base of relative paths; not saved
     std::map<std::string, std::shared_ptr<const Graph>> files;   ///< loaded "file:" subgraphs by path as written; not saved
-    Trail trail {};                                              ///< written by History; a copy gets one of its own
+    Trail trail {};                                              ///< written by History; a copy gets its own
 
     const Patch* find (std::string_view subgraph) const noexcept;
 

@@ -118,7 +118,7 @@ Result<> checkValue (const Json& value)
 
         static Result<> through (const Json& v, int depth)
         {
-            constexpr int deepest = deepest_nesting - 8;   // a value lies up to 8 levels deep in a file
+            constexpr int deepest = deepest_nesting - 8;   // a value is nested up to 8 levels deep in a file
             if (depth > deepest) return wrong ("a value is nested too deeply for a file");
             if (v.is_number_float() && ! std::isfinite (v.get<double>())) return wrong ("nan and inf are not valid values");
             if (v.is_object())

@@ -15,7 +15,7 @@ namespace
 {
 constexpr bool startsId (char c) noexcept { return c >= 'a' && c <= 'z'; }
 
-/// By character: true for those that an id may contain. A large graph has many ids.
+/// By character: true for those that an id may contain. A table, because a large graph has many ids.
 constexpr auto in_ids = [] {
     std::array<bool, 256> all {};
     for (const char c : std::string_view ("abcdefghijklmnopqrstuvwxyz0123456789_"))

@@ -14,7 +14,7 @@ namespace tactus::graph
 /// Ids of nodes, ports, params, controls, subgraphs and roles match [a-z][a-z0-9_]*.
 bool isId (std::string_view) noexcept;
 
-/// The longest delay of a wire, in ticks; it lasts minutes. A tick or two is enough to open a loop.
+/// The longest delay of a wire, in ticks: several minutes. A tick or two is enough to open a loop.
 inline constexpr int longest_delay = 1'000'000;
 
 /// Reads "hand.position.x", "mix.in[2]", "grain/wave.phase", "finger[3]/drag.mu". An error (port/syntax) has neither a location

@@ -11,7 +11,7 @@ namespace tactus::graph
 
 namespace
 {
-/// Adds what a command does to the wires of the graph itself. False if it does anything else that is compiled.
+/// Adds what a command does to the wires of the graph itself. False if it does anything else that affects compiling.
 struct Follow
 {
     std::vector<Trail::WireStep>& wires;

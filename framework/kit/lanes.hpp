@@ -6,9 +6,9 @@
 
 #include <type_traits>
 
-/// What a node is written with if it can compute several instances at once (docs/lanes.md). Such a node is a template over its scalar V: double,
-/// or a Pack of 2, 4 or 8 doubles, one for each instance (<pack.hpp>). A comparison of scalars gives a bool, or a mask with a bool for each
-/// instance; select() takes the place of `?:`, and where() that of `if`. With double, these functions are plain C++, and cost nothing.
+/// For nodes that can compute several instances at once (docs/lanes.md). Such a node is a template over its scalar V: double, or a Pack of 2,
+/// 4 or 8 doubles, one for each instance (<pack.hpp>). A comparison of scalars gives a bool, or a mask with a bool for each instance;
+/// select() takes the place of `?:`, and where() that of `if`. With double, these functions are plain C++, and cost nothing.
 namespace tactus
 {
 
@@ -132,7 +132,7 @@ inline V largest (const Vector<V>& v) noexcept
         return larger (larger (magnitude (v.x()), magnitude (v.y())), magnitude (v.z()));
 }
 
-/// Length 1, as Eigen's normalized(). A vector whose square is 0 stays as it is.
+/// Scales to length 1, like Eigen's normalized(). A vector whose square is 0 stays as it is.
 template <typename V>
 inline Vector<V> normalized (const Vector<V>& v) noexcept
 {
@@ -143,7 +143,7 @@ inline Vector<V> normalized (const Vector<V>& v) noexcept
     return select (has_length, Vector<V> { v / sqrt (square) }, v);
 }
 
-/// As direction() of <vec3.hpp>.
+/// Like direction() of <vec3.hpp>.
 template <typename V>
 inline Vector<V> directionOf (const Vector<V>& v) noexcept
 {

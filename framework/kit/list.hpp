@@ -58,8 +58,8 @@ class List
 public:
     List (double initial = 0.0) noexcept { values.fill (initial); }
 
-    /// Sets only the entries in use; no other entry is ever read. For outputs: to set all of them on each tick would cost more than many
-    /// nodes do.
+    /// Sets only the entries in use; no other entry is ever read. For outputs: setting all of them on each tick would cost more than
+    /// many nodes do.
     List (double initial, int used) noexcept { std::fill_n (values.begin(), used, initial); }
 
     double operator[] (int i) const noexcept { return values[at (i)]; }

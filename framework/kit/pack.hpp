@@ -119,7 +119,7 @@ struct Pack
     };
 };
 
-/// Plain numbers will do, too.
+/// Plain numbers are accepted, too.
 template <int W>
 TACTUS_INLINE Pack<W> select (Mask<W> where, std::type_identity_t<Pack<W>> yes, std::type_identity_t<Pack<W>> no) noexcept
 {
@@ -253,7 +253,7 @@ TACTUS_INLINE Mask<W> isFinite (Pack<W> x) noexcept
     return x - x == 0.0;
 }
 
-/// Of all three components at once: an infinity or NaN among them makes the sum NaN.
+/// Checks all three components at once: an infinity or NaN among them makes the sum NaN.
 template <int W>
 TACTUS_INLINE Mask<W> isFinite (const Vector<Pack<W>>& v) noexcept
 {

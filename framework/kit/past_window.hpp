@@ -79,7 +79,7 @@ public:
     /// True if the window is one tick long.
     bool isOneTick() const noexcept { return capacity() == 1; }
 
-    /// What a window of one tick knows.
+    /// The state of a window of one tick.
     struct Tick
     {
         T newest;

@@ -69,7 +69,7 @@ private:
     MeshWalk mesh_walk;
     std::vector<Mat3> frames, squared;   // by node, or by shape, then node: the frames as given; the same frames made orthonormal
     std::vector<Weights> feet;           // by triangle, then corner: where the foot of the centroid is on the edge opposite the corner, 0 to 1
-    std::vector<bool> even;              // by triangle: true if its corners have the same frame; empty if the shapes have frames of their own
+    std::vector<bool> even;              // by triangle: true if its corners have the same frame; empty if the shapes have their own frames
 };
 
 //==============================================================================
@@ -132,8 +132,8 @@ inline PlacedSurface::Felt PlacedSurface::feel (const Spot& spot, const Vec3& p,
     return felt;
 }
 
-/// Eq. (5). On a triangle whose corners have the same frame, such as a flat patch, nothing is interpolated. If the shapes have
-/// frames of their own, these are also interpolated by the shares of the shapes.
+/// Eq. (5). On a triangle whose corners have the same frame, such as a flat patch, nothing is interpolated. If the shapes have their
+/// own frames, these are also interpolated by the shares of the shapes.
 inline Mat3 PlacedSurface::frameAt (const Spot& spot, const Weights& n, const Tool& tool) const noexcept
 {
     const auto& corners = cornersAt (spot);

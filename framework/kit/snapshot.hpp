@@ -75,7 +75,7 @@ private:
                 put (i);
         }
 
-        /// Without a loop: a run publishes its status on every tick.
+        /// Written without a loop, because a run publishes its status on every tick.
         template <std::size_t bytes>
         void operator() (std::size_t begin, std::integral_constant<std::size_t, bytes>) const noexcept
         {

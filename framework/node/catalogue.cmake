@@ -8,8 +8,8 @@
 # multiply-adds, which AVX-512 has, too: no code asks for them, and -ffp-contract=off keeps the compiler from making any. To clang, -mno-fma
 # means that there is no AVX-512 either.
 #
-# The wide packs are for Release only. Without optimisation, a compiler emits small functions that it would inline, such as those of <cmath>,
-# also with AVX2 instructions, and the linker may keep that copy for all code. tests/rooms/lanes.py looks for such copies.
+# The wide packs are for Release only. Without optimisation, a compiler emits small functions that it would otherwise inline, such as those
+# of <cmath>, with AVX2 instructions too, and the linker may keep that copy for all code. tests/rooms/lanes.py looks for such copies.
 set (TACTUS_LANE_WIDTHS 2)
 set (TACTUS_LANES_2_FLAGS "")
 if (CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$" AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND CMAKE_BUILD_TYPE STREQUAL Release)
@@ -22,7 +22,7 @@ if (CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$" AND CMAKE_CXX_COMPIL
         list (APPEND TACTUS_LANES_8_FLAGS -mmove-max=512 -mstore-max=512)
     endif ()
     if (CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-        list (APPEND TACTUS_LANES_8_FLAGS -mno-fma -fno-tree-slp-vectorize -Wno-uninitialized -Wno-maybe-uninitialized)   # GCC 12 warns of its own header
+        list (APPEND TACTUS_LANES_8_FLAGS -mno-fma -fno-tree-slp-vectorize -Wno-uninitialized -Wno-maybe-uninitialized)   # GCC 12 warns about its own header
     endif ()
 endif ()
 
@@ -122,7 +122,7 @@ function (tactus_add_lanes target result)
     set (${target}_lane_objects ${objects} CACHE INTERNAL "what a library of the objects of ${target} needs, too")
 endfunction ()
 
-# tactus_add_nodes (PROGRAM FOLDER): adds the nodes of a folder to a program. Its catalogue contains them beside the nodes of Tactus.
+# tactus_add_nodes (PROGRAM FOLDER): adds the nodes of a folder to a program. Its catalogue contains them next to the nodes of Tactus.
 function (tactus_add_nodes program folder)
     get_filename_component (folder ${folder} ABSOLUTE)
     tactus_collect_nodes (sources ${folder} ${folder} "static const tactus::NodeLibrary library { nodeTypes };")

@@ -13,8 +13,8 @@
 namespace tactus::plan
 {
 
-/// What compiling has found out about a graph and an edit of a few wires does not change. Plans that differ only by such edits share
-/// it; see rewire.hpp. [main thread]
+/// What compiling has found out about a graph, and what stays true after an edit of a few wires. Plans that differ only by such
+/// edits share it; see rewire.hpp. [main thread]
 struct Background
 {
     std::vector<std::string> feeds, records;   ///< as in CompileOptions
@@ -24,11 +24,11 @@ struct Background
     FileChecks files;                          ///< the files that settings name, also those of unused subgraphs
     Names names;                               ///< of the nodes of the graph itself
     std::vector<int> nodes;                    ///< by name: number of the node; -1 for a subgraph or a placeholder
-    PortUnits units;                           ///< PortNumbers::flat is that of no plan
+    PortUnits units;                           ///< PortNumbers::flat belongs to no plan
     std::vector<int> rank;                     ///< by node: its rank in order of path, which decides ties in the running order
     std::vector<int> running, position;        ///< the nodes in running order; by node: its place in that order
     std::vector<bool> settled;                 ///< by node; see settled_nodes.hpp
-    std::vector<PortRef> tapped;               ///< by tap: the component that it reads; no node if it is that of a placeholder
+    std::vector<PortRef> tapped;               ///< by tap: the component that it reads; without a node if it belongs to a placeholder
 };
 
 /// A compact copy of the wires of a flat graph, by number, so that searches need not visit the wires themselves.

@@ -38,8 +38,8 @@ struct SectionSteps
 /// The nodes in running order, including those of inner sections.
 std::vector<int> inOrder (const Flat&, const Order&);
 
-/// Reserves room for the outputs of all nodes, side by side in this order. Returns by node the offset of its outputs; `size` is that of
-/// the whole.
+/// Reserves room for the outputs of all nodes, side by side in this order. Returns the offset of each node's outputs; `size` is the
+/// size of all of them.
 std::vector<std::size_t> outputOffsets (const Flat&, const LaneGroups&, const std::vector<int>& running, std::size_t& size);
 
 /// Keeps the running order for the next plan.

@@ -81,7 +81,7 @@ public:
         return (*mine)[i & within];
     }
 
-    /// A new element at the end, as T {} makes it.
+    /// Adds a new element at the end, initialised as by T {}.
     T& add()
     {
         if (count == all.size() << bits) all.push_back (newChunk());
@@ -109,7 +109,7 @@ public:
     }
 
 private:
-    /// With elements as T {} makes them. If T has a constructor, filling the chunk with zeros before is wasted.
+    /// With elements initialised as by T {}. If T has a constructor, there is no need to fill the chunk with zeros first.
     static std::shared_ptr<Chunk> newChunk()
     {
         if constexpr (std::is_trivially_default_constructible_v<T>)

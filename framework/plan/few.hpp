@@ -8,8 +8,8 @@
 namespace tactus::plan
 {
 
-/// A list that gets its size when it is made. Up to `few` elements are inside the list itself, so that they need no memory of their own.
-/// It cannot be copied or moved, and so may hold atomics.
+/// A list that gets its size when it is made. Up to `few` elements are inside the list itself, so that they need no extra memory. It
+/// cannot be copied or moved, and so may hold atomics.
 template <typename T, std::size_t few>
 class Few
 {

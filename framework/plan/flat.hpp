@@ -195,7 +195,7 @@ struct Flat
     /// True if the section, or one that encloses it, does not run on every tick.
     bool rests (int section) const;
 
-    /// How many ticks the sections that rest last, in ascending order, each once.
+    /// The periods, in ticks, of the sections that do not run on every tick: in rising order, each once.
     std::vector<std::uint64_t> restPeriods() const;
 
     /// True once there are too many problems to store more. Callers can then skip writing the message.
@@ -210,8 +210,8 @@ struct Flat
         return &places.emplace_back (Place { around, made_names.emplace_back (std::move (text)), 0, Place::Kind::as_is });
     }
 
-    /// Counts what follows toward the budgets `time` and `memory`. Call it before anything that multiplies. False if a budget is
-    /// exceeded; the first time, it reports this as an error.
+    /// Counts what follows toward the budgets `time` and `memory`. Call it before anything that multiplies the number of nodes,
+    /// wires or values. False if a budget is exceeded; the first time, it reports this as an error.
     bool spend (double work, double memory, Origin);
 
     /// Adds a message. A problem that several instances share is reported for the first one only.

@@ -64,7 +64,7 @@ private:
 /// Runs a group: copies what does not lie side by side, then ticks.
 struct LaneStep
 {
-    /// A value that must lie beside those of other lanes.
+    /// A value that must lie next to those of other lanes.
     struct Copy
     {
         const double* from;

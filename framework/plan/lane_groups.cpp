@@ -165,7 +165,7 @@ private:
         return true;
     }
 
-    /// Brings the groups together. Of the blocks that can run next, the one that came first before runs first.
+    /// Brings the groups together. Of the blocks that can run next, the one that came first in the old order runs first.
     void sort()
     {
         const auto next = successors();

@@ -29,7 +29,7 @@ struct Strike
     {
         auto& s = *static_cast<Strike*> (self);
         s.out = *s.from;
-        if (std::bit_cast<std::uint64_t> (s.pulse->pending) == 0) return;   // it is never -0, and doubles take two jumps to compare
+        if (std::bit_cast<std::uint64_t> (s.pulse->pending) == 0) return;   // compares bits, because it is never -0, and comparing doubles takes two branches
         s.out += s.pulse->pending;
         s.pulse->pending = 0.0;
     }

@@ -25,8 +25,8 @@ struct OwnedRecords
         owners.push_back (static_cast<std::uint32_t> (node));
     }
 
-    /// Adds the record of a sum. If it and the last two are sums of as many terms for the same node, such as those of a vector, they become
-    /// one record.
+    /// Adds the record of a sum. If it and the last two are sums with the same number of terms for the same node, such as those of a
+    /// vector, they become one record.
     void addSum (Sum& sum, int node, std::deque<VectorSum>& vectors)
     {
         add ({ stepOf (sum), &sum, nullptr, nullptr }, node);

@@ -91,7 +91,7 @@ struct PlanParts
     double rate_hz = 0.0;
     std::uint64_t number = 0;   ///< number of the next tick, counted across all plans
     std::vector<Record> records;
-    std::vector<Record> settled;                  ///< steps of a tick that need not run on each one; see settled_nodes.hpp
+    std::vector<Record> settled;                  ///< steps that need not run on every tick; see settled_nodes.hpp
     std::vector<std::uint32_t> owners;            ///< by record: the node it belongs to, as in flat.nodes; for a wire, the node where it ends
     std::vector<std::uint64_t> rests;             ///< periods, in ticks, of the sections that do not run on every tick; in rising order
     std::vector<RoleUse> roles;                   ///< sorted by name

@@ -43,7 +43,7 @@ void Ramps::look (Journal* journal) noexcept
     if (index == nullptr) return;
     for (const auto& [board, all] : index->boards())
     {
-        const auto& nodes = all;   // before version 16, clang captures no structured bindings
+        const auto& nodes = all;   // before version 16, clang cannot capture structured bindings
         board->take ([&] (std::uint32_t place) { return nodes[place] != KnobIndex::none; }, [&] (std::uint32_t place) { turn (nodes[place], journal); });
     }
 }

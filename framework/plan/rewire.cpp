@@ -166,7 +166,7 @@ private:
         if (std::ranges::count (ends_at, w.to.node) == 0) ends_at.push_back (w.to.node);
     }
 
-    /// The nodes that get other values. A wire that was replaced by one like it changes nothing.
+    /// The nodes that get other values. A wire that was replaced by an identical one changes nothing.
     std::vector<int> changedNodes() const
     {
         auto without = gone;

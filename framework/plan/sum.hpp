@@ -11,7 +11,7 @@
 /// Sums whose bits do not depend on the order of wires and the names of nodes: the values are added in order of value. If one of them is
 /// not a number, or if inf meets -inf, the sum is always the same NaN.
 ///
-/// Values that compare as equal are the same bits, or zeros. The order of zeros does not matter: a sum is -0 only if all values are.
+/// Values that compare as equal have the same bits, or are zeros. The order of zeros does not matter: a sum is -0 only if all values are.
 namespace tactus::plan
 {
 
@@ -19,7 +19,7 @@ namespace tactus::plan
 template <typename T>
 T withOneNan (T v) noexcept
 {
-    // A jump that is never taken costs less than a choice, for which the sum would have to be known first.
+    // A branch that is never taken costs less than a conditional move, which would have to wait for the sum.
     if (__builtin_expect_with_probability (v == v, 1, 1)) return v;
     return T (std::numeric_limits<double>::quiet_NaN());
 }

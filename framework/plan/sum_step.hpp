@@ -65,7 +65,7 @@ struct Sum
     }
 };
 
-/// Three sums of as many terms each: those of a vector.
+/// Three sums with the same number of terms: those of a vector.
 struct VectorSum
 {
     static constexpr std::size_t fewest_terms = 1;

@@ -22,7 +22,7 @@ public:
     {
     }
 
-    std::vector<PortRef> ports;   ///< by tap: the component that it reads; no node if it is that of a placeholder
+    std::vector<PortRef> ports;   ///< by tap: the component that it reads; without a node if it belongs to a placeholder
 
     /// Adds a tap for each component of the port, and for each entry if the port is an array. A port of a placeholder gets one tap.
     void add (const Outside::Read&);

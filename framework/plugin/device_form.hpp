@@ -13,7 +13,7 @@
 namespace tactus::plugin
 {
 
-/// The standard library, as far as it decides how strings and vectors lie in memory; empty if that is not known.
+/// The standard library, as far as it determines how strings and vectors are laid out in memory; empty if that is not known.
 inline std::string nameOfLibrary()
 {
 #if defined(_LIBCPP_ABI_VERSION)
@@ -27,8 +27,8 @@ inline std::string nameOfLibrary()
 #endif
 }
 
-/// How a DeviceState lies in memory: the library, the sizes of its parts, and the place of each member in the order of the C interface.
-/// If two programs give the same text, and it is not empty, one can read the other's DeviceState in place.
+/// How a DeviceState is laid out in memory: the library, the sizes of its parts, and the place of each member in the order of the C
+/// interface. If two programs give the same text, and it is not empty, one can read the other's DeviceState in place.
 inline std::string formOfDeviceState()
 {
     auto text = nameOfLibrary();

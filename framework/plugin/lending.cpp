@@ -26,7 +26,7 @@ private:
     tactus_plugin_query query;
 };
 
-/// No exception may go back into the plugin.
+/// No exception may propagate into the plugin.
 std::int32_t buildNearest (void* build, const tactus_plugin_mesh* mesh, tactus_plugin_nearest* made, const tactus_plugin_report*) noexcept
 {
     try

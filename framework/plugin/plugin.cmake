@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Writes NAME.tactus.build beside a plugin: how the plugin is built, for `tactus play --watch` and the host. This file is not installed.
+# Writes NAME.tactus.build next to a plugin: how the plugin is built, for `tactus play --watch` and
+# the host. This file is not installed.
 function (tactus_write_build_file name)
     set (text "compiler ${CMAKE_CXX_COMPILER}\n")
     foreach (file IN LISTS ARGN)

@@ -18,8 +18,8 @@ namespace tactus::plugin
 Result<NodeType> readNode (const tactus_plugin_node*, const std::string& file, std::shared_ptr<const void> library, std::string state_layout = {});
 
 /// True if a node of `now` may adopt a node of `then`: both types are from plugins, have the same id, and were read with the same
-/// `state_layout`, which is not empty. The caller of readNode thereby says that their nodes have the same layout in memory.
-/// [any thread]
+/// `state_layout`, which is not empty. In doing so, the caller of readNode states that their nodes have the same layout in memory. [any
+/// thread]
 bool sharesState (const NodeType& now, const NodeType& then);
 
 /// What is wrong with a node and its datasheet, as a sentence; empty if nothing is. [main thread]

@@ -70,7 +70,7 @@ private:
 
     Position position = Position::Zero();
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-    Vec3 measured = Vec3::Zero();   // what `rotation` was computed from; not a number if that is no rotation
+    Vec3 measured = Vec3::Zero();   // what `rotation` was computed from; not a number if that is not a rotation
     std::array<double, Channels::most> axes {};
     Fine before_at = 0.0;
     bool known = false, was_known = false;
@@ -138,7 +138,7 @@ private:
 /// How long a position, or a part of it along which a force pushes, has stayed the same, to the last bit. Also for a rotation and a
 /// torque.
 ///
-/// A hand that holds against a force never rests: it trembles at 8 to 12 Hz, by tens of micrometres. So a position that does not
+/// A hand that holds against a force never stays still: it trembles at 8 to 12 Hz, by tens of micrometres. So a position that does not
 /// change comes from a sensor that has stopped, if the sensor's quantum is finer than the tremor: at most about 10 um. If only one
 /// coordinate does not change, its sensor has stopped while the others work. A coordinate that has never changed is not measured.
 class StillWatch

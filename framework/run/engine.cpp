@@ -292,7 +292,7 @@ void Engine::afterPlan() noexcept
         auto& [reading, applied, layout] = *role.state;
         const auto& wanted = channel.bumpless (total (role, scratch));
         const auto events = channel.guard.events();
-        new (&applied) Effort (channel.guard (wanted, reading, lost_s));   // in place, as the reading
+        new (&applied) Effort (channel.guard (wanted, reading, lost_s));   // in place, like the reading
         if (channel.guard.stop() != Guard::Stop::none)
         {
             channel.bumpless.stop (applied);

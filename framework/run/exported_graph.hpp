@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What the code that `tactus export` writes is made with: the parts of a plan and of the engine that are not nodes. Each of them gives
-/// the same bits as its counterpart in framework/plan and framework/run/engine.cpp. Nothing here allocates, throws or locks, and all
+/// What the code that `tactus export` writes uses: the parts of a plan and of the engine that are not nodes. Each of them gives the
+/// same bits as its counterpart in framework/plan and framework/run/engine.cpp. Nothing here allocates, throws or locks, and all
 /// functions are for the thread that ticks the graph.
 
 #include "driven.hpp"
@@ -49,7 +49,7 @@ Effort total (const std::array<Effort, n>& efforts) noexcept
     return sumOfEfforts (efforts, numbers.data());
 }
 
-/// Makes a node as new.
+/// Puts a node into its initial state.
 template <typename N>
 void renew (N& node)
 {

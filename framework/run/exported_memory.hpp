@@ -90,7 +90,7 @@ public:
 protected:
     Memory() noexcept { block.use(); }
 
-    /// Makes these nodes as new.
+    /// Puts these nodes into their initial state.
     template <typename... N>
     void renewAll (N&... nodes) noexcept
     {
@@ -160,7 +160,7 @@ public:
     Vector (std::size_t n, const T& value) { assign (n, value); }
 #if defined(__GNUC__) && ! defined(__clang__) && __GNUC__ >= 12
 #pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wdangling-pointer"   // a false alarm of GCC 12 where a list is the default of a member
+#pragma GCC diagnostic ignored "-Wdangling-pointer"   // a false warning from GCC 12 where a list is the default of a member
 #endif
     Vector (std::initializer_list<T> values) : Vector (values.begin(), values.end())
     {
@@ -378,7 +378,7 @@ private:
     }
 };
 
-/// Names of axes or buttons. The texts must last, as those of literals do.
+/// Names of axes or buttons. The texts must stay valid, as string literals do.
 class NameList
 {
 public:

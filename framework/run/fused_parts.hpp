@@ -67,7 +67,7 @@ double sumOf (T... values) noexcept
 /// What reaches a hit input: the hits of wires, and those from outside.
 inline double struck (double by_wires, double& pending) noexcept
 {
-    if (std::bit_cast<std::uint64_t> (pending) == 0) return by_wires;   // it is never -0, and doubles take two jumps to compare
+    if (std::bit_cast<std::uint64_t> (pending) == 0) return by_wires;   // compares bits, because it is never -0, and comparing doubles takes two branches
     by_wires += pending;
     pending = 0.0;
     return by_wires;

@@ -263,7 +263,7 @@ void Guard::watch (const Reading& reading, bool is_usable, double elapsed_s) noe
     still_turn (reading.rotation, last.torque, limits.still_torque, dt);
 }
 
-/// A reading from the future comes from a clock that differs from ours, so no one can say how old it is.
+/// A reading from the future comes from a clock that differs from ours, so its age is unknown.
 bool Guard::isRecent (const Reading& reading) const noexcept
 {
     return reading.age <= limits.watchdog && (reading.age >= -dt || limits.watchdog == GuardLimits::none);

@@ -80,9 +80,9 @@ private:
     double look_s = 0.0, credit_s = 0.0, most_credit_s = 0.0, patience = 1.0;
     std::size_t next = 0;   // index of the next record to measure
 
-    // Follow from the number of records and from `patience`, so that a tick need not compute them.
+    // Computed in advance from the number of records and from `patience`, so that a tick need not compute them.
     std::size_t priced = none;   // for how many records
-    double wanted_s = 0.0;       // the credit from which on a tick measures
+    double wanted_s = 0.0;       // the credit that a tick needs before it measures
 
     SpscRing<Sample> samples { capacity };
 

@@ -80,7 +80,7 @@ double Durations::quantile (double part) const noexcept
     return 0.0;
 }
 
-/// With the code of what it calls, because it runs on every tick.
+/// Everything that it calls is inlined, because it runs on every tick.
 [[gnu::flatten]] void TickAccount::note (double late_s, double took_s) noexcept
 {
     late.note (late_s);

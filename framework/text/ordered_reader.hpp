@@ -31,8 +31,8 @@ enum class JsonKind
 
 bool matches (const Json&, JsonKind) noexcept;
 
-/// The JSON pointer to a value. It becomes text only where it is passed as a string: most files have no errors, so that nobody asks for it.
-/// What it is made from must outlive it.
+/// The JSON pointer to a value. It becomes text only where it is passed as a string: most files have no errors, so the text is rarely
+/// needed. What it is made from must outlive it.
 class Where
 {
 public:

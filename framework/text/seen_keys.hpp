@@ -44,7 +44,7 @@ private:
     std::size_t firstPlaceOf (std::uint32_t hash) const noexcept { return hash & (table.size() - 1); }
     std::size_t after (std::size_t place) const noexcept { return (place + 1) & (table.size() - 1); }
 
-    /// Makes room for three times as many members. Of a twin, which is complained of elsewhere, either entry will do.
+    /// Makes room for three times as many members. A duplicate key is reported elsewhere, so either of its entries will do.
     void grow (const Json::Object& members)
     {
         const auto old = std::exchange (table, std::vector<Entry> (std::bit_ceil (4 * members.size())));

@@ -26,7 +26,7 @@ struct Measure
 /// An error (unit/syntax) has neither a location nor a remedy.
 Result<Measure> parseMeasure (std::string_view text);
 
-/// The usual way to write a dimension in SI: "N/m", "m/s", or "kg*m2/s3" if the unit has no symbol of its own. parseMeasure can
+/// The usual way to write a dimension in SI: "N/m", "m/s", or "kg*m2/s3" if the unit does not have its own symbol. parseMeasure can
 /// read it.
 std::string symbolOf (Dimension);
 

@@ -203,7 +203,7 @@ private:
         return string (rare_key) ? std::optional<std::string_view> (rare_key) : std::nullopt;
     }
 
-    /// A string in which all characters stand for themselves, as in most. If it is another one, nothing is read.
+    /// A string in which all characters stand for themselves, as in most. For any other string, nothing is read.
     std::optional<std::string_view> plainString() noexcept
     {
         const auto* const begin = here++;

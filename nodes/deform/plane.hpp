@@ -22,8 +22,8 @@ namespace tactus::nodes
 ///     f     = N n                                             force on the tool
 ///
 /// K is `law`, or stiffness times depth if no law is given. `rate` is the change of the measured depth over `window` (0: one tick),
-/// divided by this time, even while apart: on the first sample inside it is the speed of the approach. While the depth changes in
-/// the other direction than over the window, `rate` is 0, so that the damping never drives the tool.
+/// divided by this time, even while apart: on the first sample inside it is the speed of the approach. While the depth changes in the
+/// opposite direction from that over the window, `rate` is 0, so that the damping never drives the tool.
 ///
 /// Damping acts from the first touch, so the force jumps there. Dissipation (Hunt and Crossley's lambda, section 6) grows with K
 /// and makes no jump. With dissipation alone, and any power law, a tool of any mass comes back with the fraction e = (1 + W (-(1 +
@@ -227,7 +227,7 @@ private:
 
     static constexpr double hard_hit = 2.0;   // m/s; the impact speed that `warning` assumes
 
-    /// What is known of the tool.
+    /// What is known about the tool.
     struct Tool
     {
         double mass = 0.0, damping = 0.0;   // kg, N s/m; mass 0: unknown

@@ -367,7 +367,7 @@ private:
     }
 
     /// Puts the contact point of a tool that entered through a triangle on that side of the body, even if another side is nearer. If
-    /// the tool is already outside again, this happens only if it is below that side, as behind a thin plate, and not beside it.
+    /// the tool is already outside again, this happens only if it is below that side, as behind a thin plate, and not off to its side.
     void belongTo (int entered, const Inputs& in, Spot& spot, Felt& felt) noexcept
     {
         const Spot there = body->walk().nearestFacing (entered, in.position, in.position - last.position);

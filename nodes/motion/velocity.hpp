@@ -151,7 +151,7 @@ private:
     {
         std::array<Fine, capacity> past {};   // ring of the last positions, in m
         double quantum = inf;                 // smallest step seen, m
-        int still = 0;                        // how many of the positions before the newest one have had its bits, up to the capacity
+        int still = 0;                        // how many positions before the newest one have the same bits, up to the capacity
     };
 
     Fine ago (const Axis& axis, int ticks) const noexcept
@@ -160,7 +160,7 @@ private:
         return axis.past[at (place >= 0 ? place : place + capacity)];
     }
 
-    /// To the bit: the difference of 0 and -0 has a sign.
+    /// Compares bits, because the difference of 0 and -0 has a sign.
     static bool isSame (Fine a, Fine b) noexcept { return std::bit_cast<std::uint64_t> (a) == std::bit_cast<std::uint64_t> (b); }
 
     void learn (Axis& axis) const noexcept

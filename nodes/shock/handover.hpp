@@ -10,7 +10,7 @@
 namespace tactus::nodes
 {
 
-/// One contact for the hand: the measured one while the tool rests or presses, the played shock while it bounces.
+/// One contact for the hand: the measured one while the tool lies still or presses, the played shock while it bounces.
 ///
 /// From a hit until the shock has ended, the measured position is ignored and only the played force acts. Then the contact takes
 /// over again. The force does not jump at either change:

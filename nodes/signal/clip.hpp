@@ -185,7 +185,7 @@ struct SignalClip
 
     Outputs tick (const Inputs& in) noexcept
     {
-        // At rest nothing but this is computed. Comparing bits is cheaper than comparing numbers; -0 and NaN just take the other way.
+        // At rest, this is all that is computed. Comparing bits is cheaper than comparing numbers; -0 and NaN just take the slow path.
         if ((math::wordOf (in.hit) | math::wordOf (in.gate) | busy) == 0) [[likely]]
             return {};
         return play (in.hit, in.gate, in.time, in.position);
@@ -282,7 +282,7 @@ inline void SignalClip::begin (double level) noexcept
     state.level = level;
 }
 
-/// True if the way from the previous time is far more than the usual one, or mutes the fastest tones at once.
+/// True if the distance from the previous time is much longer than usual, or mutes the fastest tones at once.
 inline bool SignalClip::isLeap (double way) const noexcept
 {
     constexpr double sudden = 8.0, small = 0.02, quieter = 0.1;

@@ -18,7 +18,7 @@ namespace tactus::nodes
 ///     gain = 1 up to f_max / 2, then half a cosine down to 0 at f_max
 ///
 /// A grating scanned above half the sampling rate would alias to a slower one, and above the first resonance of the device it
-/// would buzz. So f_max should be the lower of that resonance F_0 and 1 / (alpha T) with alpha >= 2, better 10 (Table 1).
+/// would buzz. So f_max should be the lower of that resonance F_0 and 1 / (alpha T) with alpha >= 2, preferably 10 (Table 1).
 ///
 /// m T is `window`, rounded to ticks. With `window` 0, m is 1.
 ///

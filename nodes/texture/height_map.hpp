@@ -25,8 +25,8 @@ namespace tactus::nodes
 /// A relief scanned fast would contain higher frequencies than the tick rate can carry. So h has levels, each with half the
 /// detail of the previous one, and the speed of the hand blends between two of them: nothing is left above f_max.
 ///
-/// By default f_max = 1 / (alpha T) with alpha = 4: 250 Hz at 1 kHz, where touch is most sensitive (Table 1: alpha >= 2, better 10).
-/// So a faster graph renders finer detail. The param `f_max` makes the relief the same at all rates above 2 f_max.
+/// By default f_max = 1 / (alpha T) with alpha = 4: 250 Hz at 1 kHz, where touch is most sensitive (Table 1: alpha >= 2, preferably
+/// 10). So a faster graph renders finer detail. The param `f_max` makes the relief the same at all rates above 2 f_max.
 ///
 /// A component (kx, ky) sounds at |kx vx + ky vy| <= k_max (|vx| + |vy|), and each level ends at a k_max in x and in y, so it is
 /// usable up to the speed at which this bound reaches f_max. From half of that speed up, the finest level gives way to the next.

@@ -99,7 +99,7 @@ struct Modal
         }
     }
 
-    /// A mode keeps ringing if the new list has a mode of the same frequency, at the same index or another one.
+    /// A mode keeps ringing if the new list has a mode of the same frequency, at the same index or a different one.
     void adopt (const Modal& old) noexcept
     {
         for (std::size_t i = 0; i < old.voices.size(); ++i)

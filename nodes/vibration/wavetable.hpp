@@ -203,7 +203,7 @@ private:
 //==============================================================================
 // Implementation below.
 
-/// A sample is the sum of all modes, or filtered.
+/// A sample is the sum of all modes, or comes from a filtered recording.
 inline Cost Wavetable::cost() const
 {
     constexpr double work_per_mode = 8.0, work_of_filter = 20.0;

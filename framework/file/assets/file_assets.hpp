@@ -32,10 +32,11 @@ public:
     Loaded<Mesh> mesh (const std::string& path) override;
 
 protected:
-    /// Decodes a recording. Here it is refused: asset/no_decoder. The file exists and is not too large; its size is charged already.
+    /// Decodes a recording. This class refuses it: asset/no_decoder. The file exists and is not too large; its size has already been
+    /// charged.
     virtual Result<Signal> readSignal (const std::string& path);
 
-    /// Decodes the bytes of a picture, whose path is for messages. Here it is refused: asset/no_decoder.
+    /// Decodes the bytes of a picture, whose path is for messages. This class refuses it: asset/no_decoder.
     virtual Result<Grid> readImage (std::string_view bytes, std::string_view path);
 
 private:

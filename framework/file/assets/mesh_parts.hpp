@@ -18,7 +18,7 @@ struct MeshProblem
 {
     std::string id, what;
     std::size_t line = 0;      ///< line number; 0 for a binary file
-    std::string remedy = {};   ///< "": that of a broken file
+    std::string remedy = {};   ///< "": the remedy for a broken file
 };
 
 /// Throws if this many points or triangles exceed their budget.

@@ -17,7 +17,7 @@ struct ChannelDifference
     double difference = 0.0;   ///< rms of the difference of the envelopes
     double frequency = 0.0;    ///< rms of the difference of the frequencies where both sound, Hz
 
-    /// The difference as a part of the first envelope; of 1 if that is silent.
+    /// The difference relative to the first envelope, or to 1 if that is silent.
     double part() const noexcept { return rms > 0.0 ? difference / rms : difference; }
 };
 

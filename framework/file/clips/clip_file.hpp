@@ -11,8 +11,8 @@
 namespace tactus::readers
 {
 
-/// A clip that was read. The warnings name contents that a clip cannot hold, and syntax that the format does not allow but is accepted.
-/// `where` is name:line:column.
+/// A clip that was read. The warnings name contents that a clip cannot hold, and syntax that is accepted although the format does not
+/// allow it. `where` is name:line:column.
 struct ClipFile
 {
     Clip clip;

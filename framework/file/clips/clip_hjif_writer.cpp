@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MPEG HJIF (ISO/IEC 23090-31), written as profile Main, level 1. Source: MPEGGroup/HapticReferenceSoftware, source/IOHaptics.
+// Writes MPEG HJIF (ISO/IEC 23090-31) as profile Main, level 1. Source: MPEGGroup/HapticReferenceSoftware, source/IOHaptics.
 #include "clip_formats.hpp"
 
 #include <tactus/text/json_writer.hpp>

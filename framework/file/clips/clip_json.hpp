@@ -24,7 +24,7 @@ struct Spot
     const Json* json;
     const Spot* up = nullptr;
     std::string_view key = {};
-    std::size_t index = 0;   ///< counts if there is no key
+    std::size_t index = 0;   ///< used if there is no key
 
     std::string pointer() const;
 };

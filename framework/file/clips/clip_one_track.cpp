@@ -63,7 +63,7 @@ ClipTrack envelopeOf (const ClipTrack& wave, const ClipVoice& voice)
     return made;
 }
 
-/// A reader of an envelope at times that do not go back.
+/// Reads an envelope at times that never decrease.
 struct EnvelopeReader
 {
     const std::vector<ClipPoint>& points;

@@ -51,7 +51,7 @@ private:
             ++column;
     }
 
-    /// Copies bytes; `columns` of them count, if it is not negative.
+    /// Copies bytes, and counts them as `columns` columns, unless that is negative.
     void copy (std::size_t bytes, int columns = -1)
     {
         const int before = column;

@@ -40,7 +40,7 @@ template <typename T>
     const double size = magnitude (x), by = magnitude (y);
     if (! (size < infinity) || ! (by > 0.0)) return not_a_number;
 
-    // As integers below 2^53 and powers of two; subnormal numbers have the same power as the smallest normal ones.
+    // Each number as an integer below 2^53 and a power of two; subnormal numbers have the same power as the smallest normal ones.
     const auto powerOf = [] (double v) { return std::max<std::uint64_t> (1, wordOf (v) >> 52); };
     const auto integerOf = [] (double v) {
         constexpr std::uint64_t one = std::uint64_t { 1 } << 52;
@@ -72,7 +72,7 @@ T fmod (T x, T y) noexcept
     return x;
 }
 
-/// x minus the multiple of y closest to x; of two, the even one. It is exact, and from -|y|/2 to |y|/2.
+/// x minus the multiple of y closest to x; if two are equally close, the even one. It is exact, and from -|y|/2 to |y|/2.
 inline double remainder (double x, double y) noexcept
 {
     const double by = magnitude (y);

@@ -40,7 +40,7 @@ T expBeyondLinear (T r) noexcept
     return r2 * 0.5 + r2 * r * ((a + r2 * b) + r4 * ((c + r2 * d) + r4 * e));
 }
 
-/// x 2^n for n from -2044 to 2046, also where 2^n is no number or x 2^n is subnormal: then it is rounded only once.
+/// x 2^n for n from -2044 to 2046, also where 2^n is out of range or x 2^n is subnormal: then it is rounded only once.
 template <typename T>
 T scaled (T x, WordOf<T> n) noexcept
 {
@@ -72,7 +72,7 @@ T expm1 (T x) noexcept
     const HalvedRange<T> in { select (x > 710.0, all<T> (710.0), select (x < -50.0, all<T> (-50.0), x)) };   // beyond: infinity and -1
     const T beyond = expBeyondLinear (in.r) + (in.rest + in.rest * in.r);
 
-    // 2^k - 1 + 2^k r + 2^k beyond. 2^1024 is no number, so the last factor of two comes at the end.
+    // 2^k - 1 + 2^k r + 2^k beyond. 2^1024 is out of range, so the last factor of two comes at the end.
     const auto is_last = in.k > 1023.0;
     const T k = select (is_last, in.k - 1.0, in.k);
     const T scale = powerOfTwo<T> (wordOf (k + rounder) - wordOf (rounder));

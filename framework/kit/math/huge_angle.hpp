@@ -46,7 +46,7 @@ inline std::uint64_t bitsOfTwoPerPi (int first) noexcept
 
 /// Reduces an angle of 2^15 rad or more with integers, so that no digit is lost (Payne & Hanek 1983). Not a number for infinity and NaN.
 ///
-/// T is the type of the angle that this is a part of: code for several lanes is compiled for another processor, and so has a copy of its own.
+/// T is the type of the angle that this is a part of: code for several lanes is compiled for another processor, and so has its own copy.
 ///
 /// With x = m 2^e, those bits of 2/pi that add whole turns to the product are left out, and so are those below 2^-137 quarter turns.
 template <typename T>

@@ -53,7 +53,7 @@ T all (double x) noexcept
 template <typename T>
 concept NotAClass = ! std::is_class_v<T>;
 
-/// Classes have a function of their own.
+/// Classes have their own function.
 template <typename Mask, NotAClass T>
 T select (Mask where, T yes, T no) noexcept
 {

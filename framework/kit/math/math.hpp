@@ -12,13 +12,13 @@
 
 /// All elementary functions: exp exp2 expm1 log log1p log2 log10 pow, sin cos sinCos tan, asin acos atan atan2, hypot fmod remainder. [any thread]
 ///
-/// Nodes call these instead of those of <cmath>, which have other bits in other C libraries, and even in the same library on another
-/// processor. The error is at most 2 ulp; infinities, NaN, subnormal numbers and zeros of both signs are treated as in C. Exact by
+/// Nodes call these instead of those of <cmath>, whose last bits differ between C libraries, and even within one library between
+/// processors. The error is at most 2 ulp; infinities, NaN, subnormal numbers and zeros of both signs are treated as in C. Exact by
 /// IEEE 754, and so allowed from <cmath>: sqrt, abs, floor, ceil, trunc, round, copysign and the like (tests/rooms/functions.py).
 namespace tactus::math
 {
 
-/// Changes whenever a function gives other bits than before. Run logs note it, as a replay repeats a run only with the same functions.
+/// Changes whenever a function gives different bits. Run logs note it, because a replay repeats a run only with the same functions.
 inline constexpr std::uint64_t revision = 1;
 
 inline float exp (float x) noexcept { return static_cast<float> (exp (static_cast<double> (x))); }

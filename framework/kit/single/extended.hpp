@@ -26,7 +26,7 @@ public:
     constexpr Extended (float v) noexcept : high (v) {}
     constexpr Extended (std::integral auto v) noexcept : high (static_cast<float> (v)), low (static_cast<float> (v - static_cast<decltype (v)> (high))) {}
 
-    /// Without a unit for doubles this is slow at run time; constants cost nothing.
+    /// On a processor without a unit for doubles, this is slow at run time; constants cost nothing.
     constexpr Extended (double v) noexcept : high (static_cast<float> (v)), low (static_cast<float> (v - static_cast<double> (high))) {}
 
     /// The sum of two floats, exactly, if the second one is much smaller.

@@ -23,7 +23,7 @@ inline float magnitude (float x) noexcept { return fromWord (wordOf (x) & 0x7fff
 /// The integer closest to x, for |x| below 2^22.
 inline float rounded (float x) noexcept { return x + 0x1.8p23f - 0x1.8p23f; }
 
-/// x 2^n, also where 2^n is no number.
+/// x 2^n, also where 2^n is out of range.
 inline float scaled (float x, int n) noexcept
 {
     const auto power = [] (int k) { return fromWord (static_cast<std::uint32_t> (k + 127) << 23); };
@@ -150,7 +150,7 @@ inline float pow (float x, float y) noexcept
 /// An angle as quarters pi/2 + y, with |y| <= pi/4 (and a little for rounding).
 ///
 /// The angle times 2/pi is computed with integers: 24 bits times the 96 bits of 2/pi that matter at this size (Payne & Hanek 1983).
-/// What is left after whole turns has 62 bits behind the point, so even close to a multiple of pi/2 it is exact to 2^-25.
+/// What is left after whole turns has 62 bits after the point, so even close to a multiple of pi/2 it is exact to 2^-25.
 struct ReducedAngle
 {
     explicit ReducedAngle (Extended x) noexcept
@@ -300,7 +300,7 @@ inline float fmod (float x, float y) noexcept
     return std::copysign (scaled (static_cast<float> (left), static_cast<int> (powerOf (by)) - 150), x);
 }
 
-/// x minus the multiple of y closest to x; of two, the even one. It is exact.
+/// x minus the multiple of y closest to x; if two are equally close, the even one. It is exact.
 inline float remainder (float x, float y) noexcept
 {
     const float by = magnitude (y), part = fmod (x, 2.0f * by);

@@ -32,7 +32,7 @@ Assets = Union[Mapping[str, Any], Callable[[str, str], Any]]
 
 def set_limits(limits: str) -> None:
     """Sets what files may cost, for all graphs of this process, as the option --limits of `tactus render` does: "points=1M,memory=2GB".
-    Those that the text does not name have their defaults."""
+    Limits that the text does not name keep their defaults."""
     _tactus.set_limits(limits)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An engine that Python ticks step by step, or that ticks live on a thread of its own."""
+"""An engine that Python ticks step by step, or that ticks live on its own thread."""
 
 from __future__ import annotations
 
@@ -80,8 +80,8 @@ class Engine:
         assets: what you supply instead of files that settings name. Tables and meshes are read from their files; pictures and
             recordings are not, so supply them. A dict by path, or by the last parts of a path: for a picture an array of shape
             (rows, columns) or (rows, columns, colours), of uint8, uint16, or floats from 0 (black) to 1 (white), top row first; for a
-            recording a tactus.Signal; for a table an array of shape (rows, columns); for a mesh a tactus.Mesh. Or a function of the kind
-            ("image", "signal", "table", "mesh") and the path that returns one of these, or None to read the file."""
+            recording a tactus.Signal; for a table an array of shape (rows, columns); for a mesh a tactus.Mesh. Or a function that gets the kind
+            ("image", "signal", "table", "mesh") and the path, and returns one of these, or None to read the file."""
         self._begin()
         self._fed: Dict[str, int] = {}
         self._values = np.zeros(0)
@@ -252,7 +252,7 @@ class Engine:
     # ------------------------------------------------------------------------ Live
 
     def start(self, duration: Optional[float] = None, core: Optional[int] = None, buffer: float = 10.0) -> None:
-        """Ticks in real time on a thread of its own, which Python never delays, until stop() or for `duration` in s.
+        """Ticks in real time on its own thread, which Python never delays, until stop() or for `duration` in s.
 
         core: the CPU core of the tick thread. buffer: how many s of records are kept until you collect them; 0 for none. Call collect()
         several times a second: it also frees memory that the tick thread no longer uses."""

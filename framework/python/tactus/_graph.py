@@ -35,7 +35,7 @@ class Graph:
 
     @classmethod
     def parse(cls, text: str, folder: Union[str, os.PathLike] = "") -> "Graph":
-        """Reads the text of a graph file. Files that it names are relative to `folder`; subgraphs in files of their own are not read."""
+        """Reads the text of a graph file. Files that it names are relative to `folder`; subgraphs in separate files are not read."""
         return cls._of(_tactus.Graph.parse(text, os.fspath(folder)))
 
     def __reduce__(self) -> Tuple[Any, ...]:
@@ -60,7 +60,7 @@ class Graph:
         return self._graph.text()
 
     def save(self, path: Union[str, os.PathLike]) -> None:
-        """Writes the graph file. After a crash, either the old file or the new one is there."""
+        """Writes the graph file. After a crash, either the old file or the new one exists."""
         self._graph.save(os.fspath(path))
 
     def add_node(self, name: str, type: str, params: Optional[Mapping[str, Any]] = None, settings: Optional[Mapping[str, Any]] = None,

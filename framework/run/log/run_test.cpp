@@ -38,7 +38,7 @@ Result<std::unique_ptr<std::ifstream>> opened (const std::string& path)
     return in;
 }
 
-/// Reads a line, which may be as long as a file may be. Empty at the end of the file, or if the line has no end.
+/// Reads a line, which may be as long as a whole file may be. Empty at the end of the file, or if the line has no end.
 std::optional<std::string> wholeLine (std::istream& in)
 {
     const double longest = budgets().file;
