@@ -82,7 +82,7 @@ void Listening::frame (std::span<const double> values)
     for (std::size_t i = 0; i < values.size(); ++i)
     {
         const auto tap = i % columns.size();
-        if (columns[tap].empty()) offsets[tap] = values[i];   // a force that is there from the start is no click
+        if (columns[tap].empty()) offsets[tap] = values[i];   // a force that is there from the start is not a click
         columns[tap].push_back (static_cast<float> (filters[tap](high_pass, values[i] - offsets[tap])));
     }
 }

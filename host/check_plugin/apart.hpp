@@ -7,7 +7,7 @@
 namespace tactus::check_plugin
 {
 
-/// How work in a process of its own ended.
+/// How work in a separate process ended.
 struct Ending
 {
     bool done = false;       ///< the work returned
@@ -16,9 +16,9 @@ struct Ending
     bool endless = false;    ///< the process had to be killed, because the work never finished
 };
 
-/// Runs `work` in a process of its own, and waits until that process has ended. Its standard output goes to standard error. The
-/// process is killed after `cpu_seconds` of CPU time, however long that takes in real time, or once all its threads have been
-/// waiting for a minute. So a busy machine does not change the result. [main thread, no other threads]
+/// Runs `work` in a separate process, and waits until that process has ended. Its standard output goes to standard error. The process
+/// is killed after `cpu_seconds` of CPU time, however long that takes in real time, or once all its threads have been waiting for a
+/// minute. So a busy machine does not change the result. [main thread, no other threads]
 Ending runApart (int cpu_seconds, const std::function<std::string()>& work);
 
 }   // namespace tactus::check_plugin

@@ -20,7 +20,7 @@ using examine::Stage;
 /// Makes text from a plugin valid UTF-8, because it becomes part of JSON.
 std::string textOf (const std::string& text) { return printable (text); }
 
-/// Loads the plugin, and returns a description of it as JSON. Runs in a process of its own.
+/// Loads the plugin, and returns a description of it as JSON. Runs in a separate process.
 std::string describe (const std::filesystem::path& file)
 {
     Json answer { { "messages", Json::array() }, { "nodes", Json::array() } };
@@ -41,7 +41,7 @@ std::string describe (const std::filesystem::path& file)
     return answer.dump();
 }
 
-/// Loads the plugin and examines one of its nodes. Runs in a process of its own, so each result is that of a freshly loaded plugin.
+/// Loads the plugin and examines one of its nodes. Runs in a separate process, so each result is that of a freshly loaded plugin.
 template <typename Ask>
 std::string askNode (const std::filesystem::path& file, const std::string& id, Ask&& ask)
 {

@@ -51,7 +51,7 @@ struct Report
     int failures() const;
 };
 
-/// Loads and examines a plugin in other processes, so this returns whatever the plugin does. [main thread, no other threads]
+/// Loads and examines a plugin in other processes, so this function returns, whatever the plugin does. [main thread, no other threads]
 Report checkPlugin (const Options&);
 
 /// The report for people, and for programs.

@@ -153,7 +153,7 @@ void CommandRun::decideClock()
 void CommandRun::load()
 {
     if (feed) running->add (*feed);
-    // First without the ports that the sound card plays: only if no ports are named does the plan tap the inputs of all sinks.
+    // First without the ports that the sound card plays, because the plan taps the inputs of all sinks only if no ports are named.
     auto messages = running->load (loaded.graph);
     if (running->hasEngine() && ! options.outputs.empty()) running->keepRecords();
     running->add (rig);

@@ -48,7 +48,7 @@ std::string bytesOf (const std::string& file)
     fail (Message::error (why.id, file, why.text, why.remedy.empty() ? "check the path and its permissions" : why.remedy));
 }
 
-/// Prints how far the written clip is from the one that was read. Never silent: it also says that nothing was lost.
+/// Prints how far the written clip is from the one that was read. Always prints something, even if nothing was lost.
 void report (const SavedClip& saved)
 {
     sayAll (saved.losses);
@@ -87,7 +87,8 @@ void writeFile (const std::string& out, const Clip& clip, double rate_hz)
     report (saved);
 }
 
-/// Continuous events into one file, transients into another: the engine of the phone then applies the curves of the one not to the other.
+/// Continuous events into one file, transients into another: the engine of the phone then does not apply the curves of one file to the
+/// events of the other.
 void writeSplit (const ConvertOptions& options, const Clip& clip)
 {
     const auto path = fs::path (options.out);

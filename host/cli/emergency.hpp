@@ -14,11 +14,11 @@ namespace tactus::host
 {
 
 /// The emergency stop of a run, while this object exists: the space bar in a terminal, SIGUSR1 from anywhere, press(), and an
-/// alarm of the failsafe. A thread of its own reads the keys and handles the signals. Its priority is above that of the tick thread
-/// if the system allows it. So a stop takes effect however long the main thread compiles, prints or waits, and however busy the tick
-/// thread is. For the signals, call holdEmergencySignals() before other threads are started. As a listener of the run, this object
-/// looks for alarms before every tick. R rearms if it comes alone (RearmKey), but not within a second of the stop, so that two keys pressed
-/// in a hurry do not undo the stop. Only one object of this class may exist at a time. [main thread]
+/// alarm of the failsafe. Its own thread reads the keys and handles the signals. Its priority is above that of the tick thread if the
+/// system allows it. So a stop takes effect however long the main thread compiles, prints or waits, and however busy the tick thread is.
+/// For the signals, call holdEmergencySignals() before other threads are started. As a listener of the run, this object looks for alarms
+/// before every tick. R rearms if it comes alone (RearmKey), but not within a second of the stop, so that two keys pressed in a hurry do
+/// not undo the stop. Only one object of this class may exist at a time. [main thread]
 class Emergency final : public RunListener
 {
 public:

@@ -14,8 +14,8 @@ namespace tactus::host
 {
 
 /// Records a run while it ticks, but not the ticks while it halts. The tick thread never waits for the files, and a full
-/// disk ends the recording but not the run. If the process is killed, the recording up to its last second is kept in a file
-/// beside the target (IfKilled::kept).
+/// disk ends the recording but not the run. If the process is killed, the recording up to its last second is kept in a file next to the
+/// target (IfKilled::kept).
 class LiveRecording final : public RunListener
 {
 public:

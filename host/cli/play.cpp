@@ -97,7 +97,7 @@ std::unique_ptr<LivePlugins> openLive (const PlayOptions& options)
     auto live = std::make_unique<LivePlugins> (std::move (sources));
     for (const auto& header : options.live)
         std::fprintf (stderr, "compiling %s\n", printableName (header).c_str());
-    if (! options.live.empty()) watchForStop();   // so that a stop also ends the compiler, which would otherwise go on without us
+    if (! options.live.empty()) watchForStop();   // so that a stop also ends the compiler, which would otherwise keep running without us
     auto built = live->buildHeaders (stopRequested);
     if (stopRequested()) throw Stop {};
     for (auto& news : built)
@@ -112,7 +112,7 @@ std::unique_ptr<LivePlugins> openLive (const PlayOptions& options)
 /// Seconds since some moment.
 double seconds() { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-constexpr double look_apart_s = 0.02;   // between two looks at the run
+constexpr double look_apart_s = 0.02;   // interval between two checks of the run
 
 /// A play command, from its first tick to its last.
 class Playing
@@ -293,7 +293,7 @@ private:
     const bool terminal = stderrIsTerminal();
 
     std::uint64_t last_ticks = 0;
-    int looks_without_tick = 0;   // counted in looks and not in seconds, so that a suspended program does not count
+    int looks_without_tick = 0;   // counted in checks and not in seconds, so that a suspended program does not count
 };
 
 void run (const PlayOptions& options)

@@ -22,7 +22,7 @@ std::string placeOf (const Message& m, const LoadedGraph& loaded, const std::str
     return file + ":" + std::to_string (at.line) + ":" + std::to_string (at.column);
 }
 
-/// Cuts what a name of a megabyte would make of a message. Long enough for the chain of a loop through many nodes.
+/// Shortens messages, because a file may contain a name of a megabyte. Long enough for the chain of a loop through many nodes.
 std::string cut (std::string text)
 {
     constexpr std::size_t longest = 10'000;

@@ -110,7 +110,8 @@ struct PlainText
     }
 };
 
-/// Replaces the line in the place of a message, name:line:column, by that in the file. The column may be another there, so it is left out.
+/// Replaces the line number in the place of a message, name:line:column, by that in the file. The column may differ there, so it is left
+/// out.
 Message inFile (Message message, const std::string& name, const PlainText& plain)
 {
     if (! message.where.starts_with (name + ":")) return message;

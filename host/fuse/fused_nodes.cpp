@@ -94,7 +94,7 @@ void CodeWriter::drive (const std::string& wires, const plan::DrivenNode::Drive&
           + literal (d.hard.min) + ", " + literal (d.hard.max) + ");");
 }
 
-/// A variable with the parameters of a node as they are without the wires.
+/// A variable with the parameters of a node, with the values that they have without the wires.
 std::string CodeWriter::stored (const Known& n, const plan::DrivenNode& d)
 {
     const auto name = nodeName (n) + "_stored";

@@ -102,7 +102,7 @@ bool FusedValues::isConstant (const double* value) const
     return isFinite (*value);   // checked last: the checks above exclude the values that the tick thread writes
 }
 
-/// The variable that has a value, if one is in sight.
+/// The variable that has a value, if one is in scope.
 std::optional<FusedValues::Place> FusedValues::variableOf (const double* value) const
 {
     const auto output = outputAt (value);

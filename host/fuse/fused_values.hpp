@@ -23,8 +23,8 @@ namespace tactus::host
 /// Where the values of a plan are while fused code runs: in local variables where possible, else in the memory where the plan has them.
 /// [main thread]
 ///
-/// Code that reads a value needs it in memory unless it can see a variable with the value. This may be known only after the code for the
-/// value has been written, so the code is written again until nothing new is needed; see settled().
+/// Code that reads a value needs it in memory unless a variable with the value is in scope. This may be known only after the code for
+/// the value has been written, so the code is written again until nothing new is needed; see settled().
 class FusedValues
 {
 public:
@@ -36,7 +36,7 @@ public:
     /// The number of an object in FusedTick::objects.
     std::string number (const void*);
 
-    /// The numbers of these objects, one after another; returns the first.
+    /// Gives these objects consecutive numbers; returns the first one.
     std::string numbers (std::initializer_list<const void*>);
 
     const std::vector<void*>& objects() const noexcept { return all; }
@@ -58,7 +58,7 @@ public:
         int slot = 0;                       ///< the component of the member
     };
 
-    /// Finds a value. Notes that it must be in memory if no variable with it is in sight.
+    /// Finds a value. Notes that it must be in memory if no variable with it is in scope.
     Place find (const double*);
 
     /// Notes that a value must be in memory, because something other than fused code reads it.
@@ -103,9 +103,9 @@ private:
     std::vector<Scope> scopes { 1 };
     std::vector<void*> all;
     std::unordered_map<const void*, std::size_t> by_object;
-    std::unordered_map<const void*, std::size_t> by_node;   // the number of an instance by its node
-    std::map<const std::byte*, std::size_t> by_outputs;     // the number of an instance by where its outputs begin
-    std::map<const std::byte*, std::size_t> by_params;      // by where its params begin
+    std::unordered_map<const void*, std::size_t> by_node;   // the number of an instance, by its node
+    std::map<const std::byte*, std::size_t> by_outputs;     // the number of an instance, by the address of its outputs
+    std::map<const std::byte*, std::size_t> by_params;      // by the address of its params
     std::unordered_set<const double*> changing;             // what sums, hits, delays and rate converters write
     bool has_unknown = false;                               // the plan has records of an unknown kind, which may read and write anything
     std::set<const double*> needed;

@@ -56,7 +56,7 @@ void Digest::add (std::string_view text)
         for (auto& n : numbers)
             n = (n ^ static_cast<unsigned char> (c)) * 0x100000001b3u;
     for (auto& n : numbers)
-        n = (n ^ 0x1ffu) * 0x100000001b3u;   // a value that is no byte, so that the end of each text changes the result
+        n = (n ^ 0x1ffu) * 0x100000001b3u;   // a value that is not a byte, so that the end of each text changes the result
 }
 
 std::string Digest::text() const

@@ -25,7 +25,7 @@ public:
     struct Options
     {
         std::string compiler {};             ///< empty: CXX from the environment, or else `c++`
-        std::string llvm {};                 ///< the program tactus-fuse-llvm; empty: TACTUS_FUSE_LLVM from the environment, or else beside this program
+        std::string llvm {};                 ///< the program tactus-fuse-llvm; empty: TACTUS_FUSE_LLVM from the environment, or else next to this program
         std::string optimisation = "-O3";    ///< of the compiler; the bits are the same for each
         std::filesystem::path cache {};      ///< the folder of the cache; empty: nothing is kept
         unsigned cpu_seconds = 120;          ///< after which the system ends the compiler or LLVM

@@ -13,7 +13,7 @@
 namespace tactus::host
 {
 
-/// Goes through the records of a plan and writes what they do in one tick. The language is left to the class that inherits. [main thread]
+/// Goes through the records of a plan and writes what they do in one tick. The language is up to the derived class. [main thread]
 class PlanWriter
 {
 public:

@@ -84,7 +84,7 @@ std::string WiringWriter::drive (const plan::DrivenNode& d)
     return flags;
 }
 
-/// A copy of the parameters of a node as they are without the wires.
+/// A copy of the parameters of a node, with the values that they have without the wires.
 std::string WiringWriter::stored (const plan::DrivenNode& d)
 {
     const auto* own = static_cast<const std::byte*> (d.type->paramsOf (d.node));

@@ -64,7 +64,7 @@ std::string WiringWriter::end (const std::vector<const Known*>&)
 std::string WiringWriter::room (const std::string& type)
 {
     const auto name = "%r" + std::to_string (++names);
-    rooms += "  " + name + " = alloca " + type + ", align 16\n";   // at the begin of the function, because one in a loop would grow the stack
+    rooms += "  " + name + " = alloca " + type + ", align 16\n";   // at the beginning of the function, because one in a loop would grow the stack
     return name;
 }
 

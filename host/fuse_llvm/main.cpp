@@ -2,7 +2,7 @@
 /// tactus-fuse-llvm FUNCTION OUTPUT.so WIRING.ll BITCODE...
 ///
 /// Makes a shared object from the code of a graph (host/fuse): optimises its wiring together with the bitcode of its nodes, by LLVM, and
-/// links the result. A program of its own, because LLVM is large and may crash or hang.
+/// links the result. A separate program, because LLVM is large and may crash or hang.
 
 #include "llvm.hpp"
 

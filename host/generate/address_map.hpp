@@ -9,7 +9,7 @@ namespace tactus::host
 
 inline const std::byte* bytes (const void* p) { return static_cast<const std::byte*> (p); }
 
-/// The entry of a map of ranges, ordered by where they begin, that begins last before this address.
+/// In a map of ranges, ordered by their beginnings: the last range that begins at or before this address.
 template <typename Map>
 auto lastBefore (const Map& map, const void* address)
 {

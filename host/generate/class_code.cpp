@@ -246,7 +246,7 @@ std::string header (const Exported& e)
     return text + functions (e) + rolesOf (e) + members (e) + "};\n";
 }
 
-/// Where the patch says that a number comes from, as a comment.
+/// A comment with the source that the patch states for a number.
 std::string sourceOf (const Exported& e, const ExportedParameter& p)
 {
     const auto ui = e.graph.extra.find ("ui");
@@ -257,7 +257,7 @@ std::string sourceOf (const Exported& e, const ExportedParameter& p)
     return source != sources->end() && source->is_string() ? "   // " + comment (source->get<std::string>()) : std::string {};
 }
 
-/// The notes that the author has put beside the nodes of a patch.
+/// The notes that the author has put next to the nodes of a patch.
 void addNotes (std::string& text, const Json& extra)
 {
     if (! extra.is_object() || ! extra.contains ("ui") || ! extra.at ("ui").is_object() || ! extra.at ("ui").contains ("notes")) return;
@@ -308,7 +308,7 @@ std::string prepareNode (const Exported& e, const ExportedNode& n, SettingCode& 
     return text;
 }
 
-/// Introduces a node to the device of its role, if it wants to know it.
+/// Tells a node about the device of its role, if it has the hook for that.
 std::string meet (const Exported& e, const ExportedNode& n)
 {
     const auto& type = e.wiring.type (n);

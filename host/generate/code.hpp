@@ -34,20 +34,20 @@ std::string listed (const std::vector<std::string>&, std::string_view between = 
 /// Members of a struct, which come with their offsets, in the order in which an initializer lists them.
 std::vector<std::string> inOrder (std::vector<std::pair<std::size_t, std::string>> members);
 
-/// What begins with `head` and has these parts: on one line if it fits, else with each part on a line of its own. `end` closes it.
+/// Code that begins with `head` and has these parts: on one line if it fits, else with one part per line. `end` closes it.
 std::string wrapped (std::string_view indent, const std::string& head, const std::vector<std::string>& parts, std::string_view end);
 
 /// A text in which each mark, such as @STEM@, is replaced by what belongs there.
 std::string filled (std::string text, const std::vector<std::pair<std::string, std::string>>& marks);
 
-/// Gives out names that are unique in their scope and are no words of C++.
+/// Gives out names that are unique in their scope and are not words of C++.
 class Names
 {
 public:
     /// These names are taken.
     explicit Names (std::set<std::string> taken = {}) : used (std::move (taken)) {}
 
-    /// The identifier of this text, with a number if it is taken. The names that these endings make of it are taken, too.
+    /// The identifier of this text, with a number if it is taken. The names that it forms with these endings are reserved, too.
     std::string make (std::string_view text, const std::vector<std::string>& endings = {});
 
 private:

@@ -9,11 +9,11 @@ namespace tactus::host
 
 /// Counts the bytes that the nodes of an exported graph need. While an object exists, every call of operator new on this thread adds to
 /// it as it would to a tactus::exported::MemoryBlock: only what was allocated last can be given back. A program that links this class
-/// has an operator new of its own.
+/// has its own operator new.
 class CountedMemory
 {
 public:
-    /// False under sanitizers, which have an operator new of their own. Then nothing is counted.
+    /// False under sanitizers, which have their own operator new. Then nothing is counted.
     static const bool counts;
 
     CountedMemory() noexcept;

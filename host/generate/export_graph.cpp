@@ -120,7 +120,7 @@ std::vector<std::optional<double>> targets (const Wiring& wiring, const std::vec
     return all;
 }
 
-/// Finds out what a control does by turning it on another plan of the same graph, with its ends one way round and then the other: at 0 a
+/// Finds out what a control does by turning it on another plan of the same graph, first as it is, then with its two ends swapped: at 0 a
 /// parameter gets exactly the first of its two values.
 std::vector<ExportedControl> controlsOf (const graph::Graph& graph, const Wiring& wiring, const std::vector<ExportedParameter>& parameters,
                                          const std::shared_ptr<Plan>& same)
@@ -299,7 +299,7 @@ Result<> writeFiles (const ExportedFolder& folder, const fs::path& path)
     return writeTextFile (path / manifest, list);
 }
 
-/// Removes the files of an earlier export that this one does not have. Files of others stay.
+/// Removes the files of an earlier export that this one does not have. Other files stay.
 void removeOld (const ExportedFolder& folder, const fs::path& path, const std::string& list)
 {
     std::set<std::string> names;

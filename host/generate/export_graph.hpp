@@ -39,8 +39,8 @@ struct ExportedFolder
     Messages messages;
 };
 
-/// Turns a graph into C++ code that computes the same bits, with a self-test. Ids of its own: export/plugin (a node whose code is not part
-/// of the program), export/role (an Arduino library needs a device), export/float (what has no single-precision export). [main thread]
+/// Turns a graph into C++ code that computes the same bits, with a self-test. Its own ids: export/plugin (a node whose code is not part of
+/// the program), export/role (an Arduino library needs a device), export/float (what has no single-precision export). [main thread]
 ExportedFolder exportGraph (const graph::Graph&, const ExportOptions&);
 
 /// Writes the files into a folder that is new or empty, or holds an earlier export, whose files are replaced. Errors: output/exists,

@@ -11,7 +11,7 @@ namespace tactus::host
 /// Opens the devices that the graph describes. Those that are real are simulated.
 Run::OpenDevice simulatedDevices();
 
-/// Devices that repeat what the devices of this run report around the first effort that they get. Ticks the run.
+/// Devices that replay the readings of this run's devices, from around the first effort that those get. Ticks the run.
 Run::OpenDevice repeatedDevices (Run&);
 
 /// Runs the graph with the engine of this program, turns its controls and parameters, hits its inputs, and keeps all inputs and outputs.

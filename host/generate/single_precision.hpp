@@ -14,7 +14,7 @@ namespace tactus::host
 /// near to the end of the range of float.
 std::string inSinglePrecision (std::string_view code, std::vector<std::string>* outside = nullptr);
 
-/// The source files that a folder in single precision has in place of these. Elementary functions and positions have files of their own
+/// The source files that a folder in single precision has in place of these. Elementary functions and positions have their own files
 /// (framework/kit/single/).
 std::set<std::string> inSinglePrecision (const std::set<std::string>& paths);
 

@@ -10,8 +10,8 @@ namespace tactus::host
 
 namespace
 {
-/// The path of the file that this line includes, if it is one of ours: between <> by its full path, between quotation marks beside
-/// the file that includes it.
+/// The path of the file that this line includes, if it is one of ours: between <> by its full path, between quotation marks next to the
+/// file that includes it.
 std::string includedBy (std::string_view line, const std::string& from)
 {
     constexpr std::string_view directive = "#include ";
@@ -48,7 +48,7 @@ std::string_view valueAfter (std::string_view text, std::string_view key, std::s
 /// Code that only checks a graph before it is exported.
 bool isOnlyForChecks (std::string_view path) { return path == "tactus/node/device_parts.cpp"; }
 
-/// True if this file has code of the header: guard.cpp and guard_event.cpp of guard.hpp.
+/// True if this file belongs to the header: guard.cpp and guard_event.cpp of guard.hpp.
 bool isCodeOf (std::string_view file, std::string_view header)
 {
     constexpr std::string_view code = ".cpp", declarations = ".hpp";

@@ -8,7 +8,7 @@ namespace tactus::host
 
 std::string TickCode::write()
 {
-    // What is not read is left out, and then perhaps nothing reads what it read.
+    // A value that is not read is left out. What it was computed from may then be unread, too.
     do
     {
         code.clear();
@@ -73,7 +73,7 @@ std::string TickCode::sumOf (const plan::Sum& sum)
     return "sumOf (" + listed (terms) + ")";
 }
 
-/// The members of a node's Inputs, in the order of the struct. Array ports get lists of their own first. `driven` is the variable that
+/// The members of a node's Inputs, in the order of the struct. Array ports first get their own lists. `driven` is the variable that
 /// knows whether a wire into a parameter is a fault; empty if there is none.
 std::vector<std::string> TickCode::inputs (const ExportedNode& n, const std::string& driven, const std::string& indent)
 {

@@ -62,8 +62,8 @@ public:
     /// Three pointers as a vector. `type` comes before a list in braces.
     std::string valueAt (const double* const* three, const std::string& type = {});
 
-    /// Begins to note again what is read. From now on, is_read and isRead tell what was read since the last call; before the second call,
-    /// everything. Returns false if nothing has changed.
+    /// Starts a new record of what is read. From now on, is_read and isRead report what was read between the last call and this one;
+    /// until the second call, everything counts as read. Returns false if nothing has changed.
     bool noteReads();
 
     /// True if something reads a value that is a local variable.
@@ -119,10 +119,10 @@ private:
     std::unordered_map<const double*, std::string> consumers;   // the input or parameter that reads a value: "motor_force_x"
     std::unordered_map<const double*, std::string> values;      // how to read a value
     std::unordered_map<const void*, std::string> objects;
-    std::unordered_map<const void*, std::size_t> by_address;    // the number in `nodes` of a node
-    std::map<const std::byte*, std::size_t> by_outputs;         // the number of an instance by where its outputs begin
-    std::map<const std::byte*, std::size_t> by_params;          // the number in `nodes` by where the params begin
-    std::unordered_map<std::size_t, std::size_t> by_instance;   // the number in `nodes` by that of the instance
+    std::unordered_map<const void*, std::size_t> by_address;    // the number in `nodes`, by the address of the node
+    std::map<const std::byte*, std::size_t> by_outputs;         // the number of an instance, by the address of its outputs
+    std::map<const std::byte*, std::size_t> by_params;          // the number in `nodes`, by the address of the params
+    std::unordered_map<std::size_t, std::size_t> by_instance;   // the number in `nodes`, by the number of the instance
     std::map<const plan::Pulse*, std::size_t> by_pulse;
 };
 

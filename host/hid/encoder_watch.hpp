@@ -14,7 +14,7 @@ namespace tactus::host::hid
 ///
 /// A value has stopped if it is the same to the last bit although the tool is further than `most` from where the value last changed. No hand
 /// keeps to the line or surface on which one joint does not turn at all: over 10 cm it strays by millimetres, and an encoder sees
-/// far less than that. A value that has never changed is not measured, as the height of a device that moves in a plane.
+/// far less than that. A value that has never changed is not measured, such as the height of a device that moves in a plane.
 class EncoderWatch
 {
 public:

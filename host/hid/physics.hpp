@@ -12,8 +12,8 @@ namespace tactus::host::hid
 ///     {"mass": "75 g", "first_mode": {"value": "30 Hz", "source": "…"}, "damping": {"value": "0.1 N*s/m", "guess": true},
 ///      "workspace": {"min": ["-5 cm", 0, 0], "max": ["5 cm", "6 cm", 0], "source": "…"}}
 ///
-/// A number without a source of its own comes from the `sources` of the profile. Ids: profile/kind, profile/unit,
-/// profile/out_of_range, profile/missing, profile/unknown_key. [main thread]
+/// A number without its own source comes from the `sources` of the profile. Ids: profile/kind, profile/unit, profile/out_of_range,
+/// profile/missing, profile/unknown_key. [main thread]
 DeviceNumbers readPhysics (ProfileFields& profile);
 
 /// The numbers of a device, from "physics". Numbers that are missing there come from the limits and the rate of the profile.

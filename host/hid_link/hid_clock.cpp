@@ -30,7 +30,7 @@ void HidClock::drive (Ticked& ticked) noexcept
         replaced.store (! came && (! port.isConnected() || now - heard > loss), std::memory_order_relaxed);
         if (! came) timed.fetch_add (1, std::memory_order_relaxed);
 
-        // It is not known when a report arrived that this thread came too late for.
+        // If this thread came too late for a report, it is not known when the report arrived.
         if (came) due = port.wasLate() ? expected : Clock::time_point (std::chrono::nanoseconds (port.lastArrival()));
         const auto since = now - due;
         if (! ticked.tick (std::max (0.0, std::chrono::duration<double> (since).count()))) break;

@@ -76,7 +76,7 @@ public:
     const HidModel& model() const noexcept { return values; }
 
     /// The values of all efforts as last offered to the device, after all limits, in the order of HidModel::effortNames(). 0 while it
-    /// rests. [tick thread]
+    /// is at rest. [tick thread]
     const EffortValues& effortsNow() const noexcept { return driven; }
 
     ReadingCounts counts() const noexcept { return published.load(); }   // [any thread]
@@ -106,7 +106,7 @@ private:
     std::unique_ptr<HidPort> link;
     HidModel values;
     const bool only_changes;      // true if the device sends only when something moves, so its reading does not age while it is silent
-    const double expected_rate;   // of reports without numbers, in Hz; 0: their loss cannot be told
+    const double expected_rate;   // of reports without numbers, in Hz; 0: their loss cannot be detected
     double dt = 1e-3;
 
     // [tick thread]

@@ -121,8 +121,9 @@ public:
     //==========================================================================
     // For a clock. [tick thread]
 
-    /// Asks to read the device on this thread, in waitForReport(). The reading thread lends it as soon as its own read is over, and
-    /// again after it has opened the device again. It never does if the system can only read elsewhere (Transport::canReadUntil).
+    /// Asks to read the device on this thread, in waitForReport(). The reading thread lends the device as soon as its own read has
+    /// returned, and lends it again each time it has reopened the device. If this thread cannot read it on this system
+    /// (Transport::canReadUntil), the device is never lent.
     void readHere() noexcept;
     void readElsewhere() noexcept;   ///< gives the device back; to be called before this thread ends
 

@@ -15,10 +15,11 @@ std::filesystem::path profileFolder();
 /// The folder of the user's own profiles: TACTUS_PROFILES in the environment, else ~/.config/tactus/profiles. It may not exist.
 std::filesystem::path ownProfileFolder();
 
-/// The user's profiles and those that come with Tactus. A user's one may exceed the limits of a shipped one only if its `replaces`
-/// names that one, which is then not used; this gives a warning. Otherwise, a user's one with the id of a shipped one is not used, and
-/// one that can fit the same device is used only if it drives nothing or drives the device as the shipped one does (driveDifference);
-/// it has the limits of both. Ids: the errors profile/shadows and profile/competes, the warnings profile/replaces and profile/competes.
+/// The user's profiles and those that come with Tactus. A user's profile may exceed the limits of a shipped one only if its `replaces`
+/// names that one, which is then not used; this gives a warning. Otherwise, a user's profile with the id of a shipped one is not used,
+/// and one that can fit the same device is used only if it drives nothing or drives the device as the shipped one does
+/// (driveDifference); it has the limits of both. Ids: the errors profile/shadows and profile/competes, the warnings profile/replaces
+/// and profile/competes.
 LoadedProfiles joined (LoadedProfiles own, LoadedProfiles shipped);
 
 /// All profiles in both folders, joined. [main thread]

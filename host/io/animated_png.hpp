@@ -14,7 +14,7 @@ namespace tactus::host
 class AnimatedPng
 {
 public:
-    /// A pixel stays as it is shown while its red, green and blue differ by at most `tolerance` (0 to 255) from those of the frame.
+    /// A pixel is not redrawn as long as its red, green and blue are within `tolerance` (0 to 255) of those of the new frame.
     explicit AnimatedPng (int t = 0) noexcept : tolerance (t) {}
 
     /// Adds a frame that is shown for this time. All frames must be opaque, and have the size of the first one. False if it cannot be encoded.

@@ -20,7 +20,7 @@ enum class Align
 };
 
 /// A typeface at one height, drawn as outlines. All digits are laid out with the same width, so that columns of numbers line
-/// up: Inter has such digits of its own, but JUCE 7 cannot select them.
+/// up: Inter has such digits, but JUCE 7 cannot select them.
 class Lettering
 {
 public:

@@ -23,7 +23,7 @@ std::string number (double value, int decimals = 2)
 
 std::string pair (double x, double y) { return number (x) + ' ' + number (y); }
 
-/// Writes the outline in the letters of SVG.
+/// Writes the outline as SVG path commands.
 std::string pathData (const juce::Path& path)
 {
     std::string out;
@@ -136,7 +136,7 @@ std::string compressed (const std::string& text)
 {
     juce::MemoryOutputStream out;
     {
-        juce::GZIPCompressorOutputStream zip (out, 9);   // zlib's format, as PDF wants it
+        juce::GZIPCompressorOutputStream zip (out, 9);   // zlib's format, as PDF requires
         zip.write (text.data(), text.size());
     }
     return { static_cast<const char*> (out.getData()), out.getDataSize() };

@@ -171,7 +171,7 @@ def zsh_action(item):
     value = value_of(item)
     if value.startswith("{"):
         return "(" + " ".join(item.alternatives) + ")"
-    # _arguments adds arguments of its own to an action, unless the action begins with a space.
+    # _arguments adds its own arguments to an action, unless the action begins with a space.
     return {"": " ", "file": "_files", "graph": " _tactus_graphs"}.get(value, f" _tactus_names {value}")
 
 

@@ -74,7 +74,7 @@ std::unique_ptr<BackgroundProgram> BackgroundProgram::start (const std::vector<s
     posix_spawn_file_actions_destroy (&files);
     if (refused != 0) return nullptr;
 #if defined(__linux__)
-    // Holds for each process that the program starts, also if this program is killed first.
+    // Applies to each process that the program starts, even if this program is killed first.
     const rlimit most { cpu_seconds, cpu_seconds };
     ::prlimit (child, RLIMIT_CPU, &most, nullptr);
 #endif

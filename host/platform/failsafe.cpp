@@ -44,8 +44,8 @@ struct Entry
 std::array<Entry, Failsafe::most_devices> armed;
 static_assert (std::atomic<int>::is_always_lock_free, "a signal handler reads it");
 
-constexpr std::int64_t shortest_sleep = 50'000'000;           // ns; far longer than the two readings of hasSleptFor() are apart
-constexpr int look_apart_ms = 100, looks_until_frozen = 20;   // at the guardian: 2 s, so that a busy computer does not look like a frozen guardian
+constexpr std::int64_t shortest_sleep = 50'000'000;           // ns; far longer than the time between the two readings of hasSleptFor()
+constexpr int look_apart_ms = 100, looks_until_frozen = 20;   // at the guardian; 2 s, so that a busy computer does not look like a frozen guardian
 constexpr std::int64_t longest_pause = 1'000'000'000;         // ns between two beats; longer than `patience`: the guardian must have been frozen too
 
 std::mutex changing;

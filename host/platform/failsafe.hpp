@@ -26,7 +26,7 @@ namespace tactus::host
 /// Good to know
 ///  - After a fault both the handler and the guardian write, so the device must tolerate receiving the reports twice.
 ///  - After a stack overflow the handler has no stack, so only the guardian writes.
-///  - The guardian is forked when the first failsafe is armed, and ends with this process. It has a session of its own and ignores all
+///  - The guardian is forked when the first failsafe is armed, and ends with this process. It has its own session and ignores all
 ///    signals but KILL, STOP and faults, so nothing that is sent to the group or the terminal of this process reaches it. If it is
 ///    killed, a thread of this process forks another one at once; if it is frozen, within about 2 s.
 ///  - The guardian counts its own looks at the beats and reads no clock, so it takes no device when the whole computer pauses.

@@ -113,8 +113,8 @@ bool send (int to, const FinalReports& reports, int file) noexcept
 
 [[noreturn]] void guard (int socket, Shared& shared) noexcept
 {
-    // Ctrl-C, Ctrl-Z and every signal to the process group, even SIGSTOP, are meant for the other process: a session of its own keeps
-    // them away. The handlers of the other process must not run here, since they write to its files.
+    // Ctrl-C, Ctrl-Z and every signal to the process group, even SIGSTOP, are meant for the other process: its own session keeps them
+    // away. The handlers of the other process must not run here, since they write to its files.
     ::setsid();
     for (int signal = 1; signal <= SIGRTMAX; ++signal)
         ::signal (signal, SIG_IGN);

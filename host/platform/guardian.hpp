@@ -36,7 +36,7 @@ struct Shared
 
     /// When the latest beat of each device came, in ns of the steady clock, or at_rest, or taken.
     std::array<std::atomic<std::int64_t>, Failsafe::most_devices> beats {};
-    std::atomic<std::uint32_t> looks { 0 };   ///< the guardian's own sign of life: it counts on, many times a second
+    std::atomic<std::uint32_t> looks { 0 };   ///< the guardian's own sign of life: a counter that it increases many times a second
     std::atomic<std::int64_t> asleep { 0 };   ///< how long the computer has slept, in ns, as far as anyone has noticed
 
     /// The latest alarm. The detail is, if frozen: the last beat; unguarded: an errno, or 0; slept: for how long, in ns.

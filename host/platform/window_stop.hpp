@@ -15,8 +15,8 @@
 namespace tactus::host
 {
 
-/// Receives the stop keys and clicks on a part of a window directly from the X server, on a connection and a thread of its own, so
-/// a stop does not wait for the thread that draws the window.
+/// Receives the stop keys and clicks on a part of a window directly from the X server, on its own connection and thread, so a stop does
+/// not wait for the thread that draws the window.
 ///
 /// Keys: a second client may select the key presses of a window. Both clients then receive each of them. A key press goes to the
 /// window with the keyboard focus, so all windows of the program that can get the focus must be watched.

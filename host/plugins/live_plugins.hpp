@@ -41,8 +41,8 @@ public:
     /// Starts to make the precompiled header, in the background. Ids: those of LiveCompiler::prepareFor.
     Result<> prepare();
 
-    /// Compiles the sources that are only a header, because no plugin contains their nodes yet, and waits until that is done. For the
-    /// start of a program. Returns the news of each header. Ends early once `stop_wanted` returns true.
+    /// Compiles the sources that are only a header, because no plugin contains their nodes yet, and waits until that is done. To be
+    /// called when a program starts. Returns the result for each header. Ends early once `stop_wanted` returns true.
     std::vector<News> buildHeaders (const std::function<bool()>& stop_wanted = {});
 
     std::size_t count() const noexcept { return all.size(); }

@@ -29,7 +29,7 @@ struct LiveSource
 /// The code of a node that is only a header. Ids: live/no_header.
 Result<LiveSource> liveHeader (const std::filesystem::path&);
 
-/// What tactus_add_plugin has written beside a plugin about how to build it. Ids: live/no_build_file.
+/// What tactus_add_plugin has written next to a plugin about how to build it. Ids: live/no_build_file.
 Result<LiveSource> liveBuild (const std::filesystem::path& plugin);
 
 /// The plugins in this catalogue that have been built on this machine, so that their code can be watched.

@@ -76,7 +76,7 @@ std::vector<int> columnsOf (std::size_t size, const Wires& wires)
             if (--waiting[at (to)] == 0) ready.push_back (to);
         }
 
-    // Move a source next to its nearest destination.
+    // Moves a source next to its nearest destination.
     for (auto box = ready.rbegin(); box != ready.rend(); ++box)
     {
         const bool is_source = std::ranges::none_of (wires, [&] (const auto& w) { return w.second == *box; });

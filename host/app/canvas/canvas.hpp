@@ -43,7 +43,7 @@ struct NodeRequest
 class Canvas final : public juce::Component, public juce::TooltipClient, public juce::FileDragAndDropTarget, private Document::Listener
 {
 public:
-    static constexpr float socket_reach = 9.0f, wire_reach = 6.0f;   ///< pixels that the pointer may be away from a port or a wire to hit it
+    static constexpr float socket_reach = 9.0f, wire_reach = 6.0f;   ///< how many pixels the pointer may be from a port or a wire
 
     Canvas (Document&, const Catalogue&);
     ~Canvas() override;

@@ -287,7 +287,7 @@ public:
     }
 
 private:
-    /// The port at a place; elsewhere on a node, the first one that fits, best one that has no wire yet.
+    /// The port at a place; elsewhere on a node, the first one that fits, preferably one that has no wire yet.
     SceneSocket targetAt (juce::Point<float> at) const
     {
         const auto& scene = canvas.scene();

@@ -151,7 +151,7 @@ bool isStraight (const PlotData& plot)
     return true;
 }
 
-/// The output over the only input. Empty if the output depends on anything that was before, or is a straight line.
+/// The output over the only input. Empty if the output depends on anything earlier, or is a straight line.
 std::optional<PlotData> characteristic (TrialNode& trial, const NodeType& type)
 {
     if (type.inputs.size() != 1 || type.inputs.front().width != 1 || type.outputs.empty() || type.outputs.front().width != 1) return std::nullopt;

@@ -18,7 +18,7 @@ namespace
 {
 constexpr float corner = 5.0f, socket_radius = 4.0f;
 constexpr float too_small_to_read = 0.35f;   // zoom below which text is too small to read
-constexpr float labels_too_small = 0.44f;    // zoom below which the labels of ports are: they have less than 5.3 pixels
+constexpr float labels_too_small = 0.44f;    // zoom below which the labels of ports are too small: less than 5.3 pixels
 constexpr float least_title = 10.0f;         // pixels
 
 class NodePainter
@@ -84,7 +84,7 @@ private:
         const auto beside_glyph = area.withTrimmedLeft (Box::padding + 22.0f).withTrimmedRight (4.0f);
         const bool has_glyph = zoom >= least_title / Box::title_size || font.getStringWidthFloat (node.name) <= beside_glyph.getWidth();
         g.setColour (glyphColour (theme, family).withMultipliedAlpha (alpha));
-        if (has_glyph)   // a title that is enlarged may need its place
+        if (has_glyph)   // an enlarged title may need its space
             g.strokePath (glyphOf (family), juce::PathStrokeType (1.3f, juce::PathStrokeType::curved, juce::PathStrokeType::rounded),
                           juce::AffineTransform::translation (area.getX() + Box::padding, area.getCentreY() - 7.0f));
         g.setColour (theme.text.withMultipliedAlpha (alpha));

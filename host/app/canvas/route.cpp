@@ -96,8 +96,8 @@ std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Poin
         return { { from.x, low + 2 * clearance }, { to.x, low + 2 * clearance } };
     }
 
-    // A bend around one box may lead through another, which is then met, too. A box above or below one of the two nodes cannot be gone around
-    // there: the wire runs level past it.
+    // A bend around one box may lead through another one, which then counts as met, too. A box above or below one of the two nodes cannot be
+    // avoided there: the wire runs straight past it.
     constexpr int most_looks = 3;
     std::vector<juce::Rectangle<float>> met;
     std::vector<juce::Point<float>> by;

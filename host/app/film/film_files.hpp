@@ -38,7 +38,8 @@ std::optional<std::filesystem::path> fileInTheWay (const std::filesystem::path& 
 /// How long each picture is shown, in ms.
 inline constexpr int film_picture_ms = 40;
 
-/// By how much of 255 a colour may be off. One does not see it, and the smooth shading of a surface no longer changes all over in each picture.
+/// By how much of 255 a colour may be off. The eye does not notice it, and the smooth shading of a surface no longer changes all over in
+/// each picture.
 inline constexpr int film_tolerance = 3;
 
 }   // namespace tactus::host

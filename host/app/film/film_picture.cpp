@@ -13,7 +13,7 @@ FilmPicture::FilmPicture (const Theme& theme, juce::Rectangle<int> view, int wid
 {
     area.setSize (std::max (area.getWidth(), 16.0f), std::max (area.getHeight(), 16.0f));
     const int height = juce::roundToInt (static_cast<float> (across) * area.getHeight() / area.getWidth());
-    down = std::clamp (height - height % 2, 16, 2 * across);   // even, as video formats want it
+    down = std::clamp (height - height % 2, 16, 2 * across);   // even, as video formats require
 }
 
 juce::Image FilmPicture::draw (const FilmState& state)

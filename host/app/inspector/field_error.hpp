@@ -38,7 +38,7 @@ public:
         fold();
     }
 
-    /// Takes it off the window, but keeps the text.
+    /// Removes it from the window, but keeps the text.
     void fold()
     {
         if (auto* parent = getParentComponent()) parent->removeChildComponent (this);

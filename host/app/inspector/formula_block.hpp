@@ -13,8 +13,8 @@
 namespace tactus::host
 {
 
-/// Lines of formulas, typeset. Parts that are below one another in the source (after two spaces or more) are so here, numbers of equations
-/// are at the right, and what does not fit continues below.
+/// Lines of formulas, typeset. Parts that are aligned in the source (after two spaces or more) are aligned here, too. The numbers of
+/// equations are at the right, and what does not fit continues on the next line.
 class FormulaBlock final : public Block
 {
 public:
@@ -61,7 +61,7 @@ private:
     std::vector<std::vector<Part>> lines;
     bool is_text = false;   // a paragraph
 
-    // As placed last, because measuring text takes long.
+    // The latest layout, kept because measuring text is slow.
     float placed_for = -1.0f, placed_height = 0.0f;
     std::vector<Placed> placed;
 };

@@ -21,7 +21,7 @@ namespace
 {
 constexpr double fine = 0.1;
 
-/// What a screen reader says of a field, and how it sets it.
+/// What a screen reader says about a field, and how it sets the value.
 class FieldValue final : public juce::AccessibilityTextValueInterface
 {
 public:
@@ -173,7 +173,7 @@ void NumberField::apply (bool by_return)
     const bool is_accepted = text.trim().toStdString() == value.toText() || type (text);
     if (is_accepted) accept();
     if (by_return && ! is_accepted) return;   // stays open, for another try
-    error.fold();                             // from now on, the tooltip says it
+    error.fold();                             // from now on, the tooltip shows it
     closeEditor();
     if (by_return) takeFocus (*this);
 }

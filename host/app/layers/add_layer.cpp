@@ -22,7 +22,7 @@ struct LayerOutput
     bool is_vector = false;
 };
 
-/// The output of a type that can be a layer of a mixer: for a mixer of vectors, best a vector.
+/// The output of a type that can be a layer of a mixer: for a mixer of vectors, preferably a vector.
 std::optional<LayerOutput> layerOutput (const NodeType& type, bool vectors)
 {
     if (type.info.id == clip_type) return LayerOutput { "value", false };
@@ -40,12 +40,13 @@ std::optional<LayerOutput> layerOutput (const NodeType& type, bool vectors)
 
 bool isTexture (std::string_view type) { return type.starts_with ("texture."); }
 
-/// Values of a new layer that differ from the defaults of its type: what one feels well, and what breaks no limit of a usual device.
+/// Values of a new layer that differ from the defaults of its type: values that are easy to feel, and that break no limit of a typical
+/// device.
 Json firstParams (std::string_view type)
 {
     auto params = Json::object();
     if (type == clip_type) params["gain"] = "0.2 N";
-    if (type == "texture.noise") params["gain"] = 0.1;   // at 1, its noise changes so fast with speed and depth that a usual device buzzes
+    if (type == "texture.noise") params["gain"] = 0.1;   // at 1, its noise changes so fast with speed and depth that a typical device buzzes
     return params;
 }
 

@@ -16,7 +16,7 @@ constexpr double fine = 0.1;
 
 /// Rounds a gain to the precision with which a drag sets it.
 double roundedGain (double gain) { return gain < 0.1 ? std::round (gain * 1e4) * 1e-4 : std::round (gain * 1e3) * 1e-3; }
-/// What a screen reader says of a fader, in dB.
+/// What a screen reader says about a fader, in dB.
 class FaderValue final : public juce::AccessibilityValueInterface
 {
 public:

@@ -362,7 +362,7 @@ void LayersPanel::resized()
     if (total) total->setBounds (area.removeFromRight (MixStrip::width));
     scroll.setBounds (area);
     const int width = static_cast<int> (strips.size()) * LayerStrip::width;
-    const int bar = width > scroll.getWidth() ? scroll.getScrollBarThickness() : 0;   // the bar itself may still be that of another width
+    const int bar = width > scroll.getWidth() ? scroll.getScrollBarThickness() : 0;   // the bar itself may still have its old width
     row.setSize (width, scroll.getHeight() - bar);
     for (std::size_t i = 0; i < strips.size(); ++i)
         strips[i]->setBounds (static_cast<int> (i) * LayerStrip::width, 0, LayerStrip::width, row.getHeight());

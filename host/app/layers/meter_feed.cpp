@@ -17,7 +17,7 @@ namespace
 constexpr double rms_s = 0.1, spectrum_s = 0.5;
 constexpr std::size_t longest_spectrum = 4096;
 
-/// The latest samples of a port: of a number with its sign, of a vector its length.
+/// The latest samples of a port: for a number with its sign, for a vector its length.
 void latestLevels (const PortTraces& traces, std::size_t n, double factor, std::vector<double>& into)
 {
     latestOf (*traces.front(), n, factor, into);

@@ -18,7 +18,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> send_sink
     { "device.signal_out", "in" },
 } };
 
-/// The input of an output node that takes its signal; empty if the node is no output.
+/// The input of an output node that takes its signal; empty if the node is not an output.
 std::string_view inputOf (const graph::Node& n)
 {
     const auto at = std::ranges::find (send_sinks, std::string_view (n.type), [] (const auto& s) { return s.first; });
@@ -55,7 +55,7 @@ void wireSend (const graph::Wire& layer, bool is_vector, const MixerPlace& bus, 
     }
 }
 
-/// As addSend(), into an output that may only be added by an earlier command of the batch.
+/// Like addSend(), but an earlier command of the batch may have to add the output first.
 Result<graph::Command> sendInto (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer, const graph::Node& sink,
                                  graph::Batch batch)
 {

@@ -343,7 +343,7 @@ void LayerStrip::resized()
     fader.setBounds (area.reduced (4, 0));
 }
 
-/// The gain of the layer, with the button for sends next to it. A layer that is sent has a line more, with the gain of the send.
+/// The gain of the layer, with the button for sends next to it. A layer that is sent has one more line, with the gain of the send.
 void LayerStrip::placeGains (juce::Rectangle<int>& area)
 {
     send.setVisible (area.getHeight() >= 100);

@@ -28,7 +28,7 @@ struct ShownValue
     std::string text() const { return unit.empty() ? number : number + ' ' + unit; }
 };
 
-/// Empty if the value is no number.
+/// Empty if the value is not a number.
 std::optional<ShownValue> shownValue (const Json& value, const PortSheet& sheet)
 {
     if (! sheet.choices.empty()) return value.is_string() ? std::optional (ShownValue { value.get<std::string>(), {} }) : std::nullopt;

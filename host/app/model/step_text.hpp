@@ -10,7 +10,8 @@
 namespace tactus::host
 {
 
-/// What a command does, as graph::nameOf, in the language of the user. The names of batches are in English in the history, and translated here.
+/// What a command does, like graph::nameOf, in the language of the user. The names of batches are in English in the history, and translated
+/// here.
 std::string stepName (const graph::Command&);
 
 /// The names of the steps of a history in the language of the user, oldest first. If a step changes only one value, its name contains the

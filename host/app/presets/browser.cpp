@@ -216,7 +216,7 @@ void PresetBrowser::resized()
     const int wanted = chips.heightFor (area.getWidth(), is_low ? 1 : 3);
     chips.setBounds (area.removeFromTop (std::min (wanted, area.getHeight() / 2)));
     area.removeFromTop (4);
-    int below = is_low ? 88 : 176;   // what is known of a preset gives way to the list of presets
+    int below = is_low ? 88 : 176;   // the description of a preset gives way to the list of presets
     if (area.getHeight() - below < 4 * row_height) below = area.getHeight() - 44 < 3 * row_height ? 0 : 44;
     footer = area.removeFromBottom (below);
     area.removeFromBottom (4);

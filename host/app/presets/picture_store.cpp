@@ -46,7 +46,7 @@ void PictureStore::run()
         {
             const std::scoped_lock guard (lock);
             if (! wanted.empty()) file = wanted.front();
-            types = file.empty() ? Catalogue {} : catalogue;   // a thread that waits keeps no types loaded
+            types = file.empty() ? Catalogue {} : catalogue;   // while the thread waits, it keeps no types loaded
         }
         if (file.empty())
         {
@@ -63,7 +63,7 @@ void PictureStore::run()
 
 namespace
 {
-/// Takes the place of the picture of the material from the area. As wide as the picture is, but never more than a third.
+/// Draws the picture of the material, and cuts its place off the area. As wide as the picture is, but never more than a third.
 void drawMaterial (juce::Graphics& g, const Theme& theme, juce::Rectangle<float>& area, const MaterialPicture& material)
 {
     const float full = area.getHeight() * MaterialPicture::width / MaterialPicture::height;
@@ -94,7 +94,7 @@ void drawPicture (juce::Graphics& g, const Look& look, juce::Rectangle<float> ar
         g.drawFittedText (text, area.reduced (8.0f, 2.0f).toNearestInt(), juce::Justification::centredLeft, 2);
         return;
     }
-    // The label goes above the plot, or beside it if there is no room above.
+    // The label goes above the plot, or next to it if there is no room above.
     auto peak = juce::String (picture->peak, picture->peak < 0.1 ? 3 : 2) + " " + picture->unit;
     auto plot = area.reduced (6.0f, 4.0f);
     const bool is_low = area.getHeight() < 44.0f;

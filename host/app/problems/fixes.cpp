@@ -60,7 +60,7 @@ std::string likelyType (const std::string& unknown)
     return std::string (ids[static_cast<std::size_t> (std::ranges::find (ends, end) - ends.begin())]);
 }
 
-/// A node of this type beside the others: on their left if it is a hand, on their right if it is a motor.
+/// A node of this type next to the others: on their left if it is a hand, on their right if it is a motor.
 Fix add (const graph::Graph& g, const std::string& type, const juce::String& label, bool on_the_left)
 {
     constexpr float distance = 240.0f;

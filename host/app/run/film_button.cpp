@@ -44,7 +44,7 @@ void FilmButton::label (const juce::String& text)
 
 void FilmButton::refresh()
 {
-    tape().keep (isFilming() ? FilmTape::longest_s : length_s);   // the tape of a preview is another one
+    tape().keep (isFilming() ? FilmTape::longest_s : length_s);   // a preview has its own tape
     if (job)
     {
         label (savingText (juce::roundToInt (std::floor (99.0 * job->progress()))));

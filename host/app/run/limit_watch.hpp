@@ -16,8 +16,8 @@ namespace tactus::host
 
 class DeviceSetup;
 
-/// Checks the graph of a document on its devices after each edit, on a thread of its own with a low priority. A series of edits, such
-/// as the drag of a knob, is checked when it pauses, and about once a second until then. [message thread]
+/// Checks the graph of a document on its devices after each edit, on its own thread with a low priority. A series of edits, such as the
+/// drag of a knob, is checked when it pauses, and about once a second until then. [message thread]
 class LimitWatch final : private Document::Listener, private juce::Thread
 {
 public:

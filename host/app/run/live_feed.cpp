@@ -23,8 +23,8 @@ LiveFeed::LiveFeed (Canvas& c, LiveRun& r) : canvas (c), live_run (r), probes (r
 
 LiveFeed::~LiveFeed() { live_run.portFeed().portsNow = {}; }
 
-/// The ports where the wires of the patch begin, and the port that the pointer rests on. From the document and not from the canvas: the
-/// run compiles an edit before the canvas shows it.
+/// The ports where the wires of the patch begin, and the port that the pointer rests on. They come from the document and not from the
+/// canvas, because the run compiles an edit before the canvas shows it.
 std::vector<std::string> LiveFeed::portsNow() const
 {
     std::vector<std::string> ports;

@@ -31,7 +31,7 @@ LiveNodes::LiveNodes (std::vector<LiveSource> sources) : plugins (std::move (sou
 bool LiveNodes::attend()
 {
     const auto now = std::chrono::steady_clock::now();
-    if (now - looked < std::chrono::milliseconds (25)) return false;   // code is compiled once it is the same in two looks
+    if (now - looked < std::chrono::milliseconds (25)) return false;   // code is compiled once two looks in a row find it unchanged
     looked = now;
     auto news = plugins.look();
     if (! news) return false;

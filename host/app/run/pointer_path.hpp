@@ -16,8 +16,8 @@ public:
     /// How fast the hand follows: it almost arrives within a twentieth of a second.
     static constexpr double follow_rate = 80.0;   // 1/s
 
-    /// How fast the hand moves at most. A mouse can leave the surface and enter it at the far side. This must not look like a tool torn away: the guards
-    /// of presets stop a tool at 2 m/s.
+    /// How fast the hand moves at most. A mouse can leave the surface and enter it at the far side. This must not look as if the tool were
+    /// torn away: the guards of presets stop a tool at 2 m/s.
     static constexpr double top_speed = 1.0;   // m/s
 
     explicit PointerPath (const Vec3& start) : target (Target { { start.x(), start.y(), start.z() } }), goal (start), now { start, Vec3::Zero() } {}

@@ -157,7 +157,7 @@ void SceneView::resized()
 /// Draws all surfaces into the image, with as many samples as there is time for.
 void SceneView::drawSurfaces (float pixels_per_unit)
 {
-    constexpr float most_pixels = 2.1e6f;   // as a window of 1920 x 1080; larger pictures are scaled up
+    constexpr float most_pixels = 2.1e6f;   // as large as a window of 1920 x 1080; larger pictures are scaled up
     pixels_per_unit = std::min (pixels_per_unit, std::sqrt (most_pixels / static_cast<float> (getWidth() * getHeight())));
     const auto inPixels = [pixels_per_unit] (int units) { return juce::roundToInt (static_cast<float> (units) * pixels_per_unit); };
     const int width = inPixels (getWidth()), height = inPixels (getHeight());

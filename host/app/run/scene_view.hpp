@@ -68,7 +68,7 @@ private:
         frame_button { TRANS ("Frame"), TRANS ("Shows the whole scene (F, or double-click)") };
     std::uint64_t shown_version = 0;
     bool is_watched = false, is_dirty = true, is_framed = false, is_slow = false, is_coarse = false;
-    int still_for = 0;   // calls to refresh() without news
+    int still_for = 0;   // calls to refresh() since something changed
     double took_s = 0.0, painted_ms = 0.0;
 
     enum class Drag

@@ -93,7 +93,7 @@ void Overlay::drawForce (const Tool& tool, bool names_role)
     if (length > 4.0f)
     {
         const float head = std::min (11.0f, 0.6f * length);
-        graphics.setColour (look.theme().canvas.withAlpha (0.55f));   // a rim, so that the arrow is seen on any surface
+        graphics.setColour (look.theme().canvas.withAlpha (0.55f));   // a rim, so that the arrow is visible on any surface
         graphics.drawArrow ({ from, to }, 5.5f, head + 3.0f, head + 3.0f);
         graphics.setColour (colour);
         graphics.drawArrow ({ from, to }, 3.0f, head, head);

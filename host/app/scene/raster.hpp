@@ -14,7 +14,7 @@ namespace tactus::host::scene
 {
 
 /// Fills triangles into a picture, with a depth for each pixel, so that what is nearer covers what is farther. All in software: no
-/// graphics card is needed. The picture may be computed finer than it is shown, which smooths its edges.
+/// graphics card is needed. The picture may be computed at a higher resolution than it is shown, which smooths its edges.
 class Raster
 {
 public:

@@ -23,7 +23,8 @@ std::optional<Sheet3D> planeOf (const Body& b)
     return sheet;
 }
 
-/// The sheet that a texture of this role is on: of those that the same tool touches, or else of all, the nearest to the tool.
+/// The sheet that a texture of this role is on: the one nearest to the tool, among those that the same tool touches, or among all if it
+/// touches none.
 Sheet3D& nearestTo (const std::string& role, const Tool* tool, std::vector<Sheet3D>& sheets)
 {
     const auto away = [&] (const Sheet3D& s) {
@@ -102,7 +103,7 @@ Vec3 Scene::originOf (std::size_t body, const Now& now) const
     const auto there = now.of (body, &Appearance::tool);
     if (tool == nullptr || ! there || ! isFinite (*there)) return Vec3::Zero();
     const Vec3 from = tool->position - *there;
-    return from.norm() < 1e-4 ? Vec3 (Vec3::Zero()) : from;   // the two are not of the same tick
+    return from.norm() < 1e-4 ? Vec3 (Vec3::Zero()) : from;   // the two are not from the same tick
 }
 
 std::vector<Sheet3D> Scene::sheetsOf (const Now& now) const

@@ -282,7 +282,7 @@ void ScopePanel::resized()
     repaint();
 }
 
-/// Equally wide, but none narrower than one can read.
+/// Equally wide, but none too narrow to read.
 void ScopePanel::layOutScopes()
 {
     const int count = static_cast<int> (views.size()), width = std::max (scroll.getWidth(), count * least_scope_width);

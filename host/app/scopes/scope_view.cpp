@@ -150,7 +150,7 @@ void ScopeView::add (Chip c)
     auto& chip = *chips.emplace_back (std::make_unique<FlatButton> (is_gone ? filled (TRANS ("%1 no longer exists"), c.port) : c.text));
     chip.dot = c.dot;
     chip.is_wrong = is_gone;
-    if (c.text.length() < 2) chip.setTitle (c.about);   // a sign says nothing to a screen reader
+    if (c.text.length() < 2) chip.setTitle (c.about);   // a symbol means nothing to a screen reader
     chip.setTooltip (c.about);
     // Asynchronous, because the action may delete the chip.
     (c.is_removable ? chip.onCross : chip.onClick) = [safe = juce::Component::SafePointer (this), act = std::move (c.onClick)] {

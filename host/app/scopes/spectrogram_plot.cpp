@@ -39,7 +39,7 @@ void SpectrogramPlot::show (const Signals& signals)
     lane.y = frequencies (traces.front()->rate());
     const auto before = scrolling.columns();
     scrolling.update (traces, { juce::roundToInt (lane.area.getWidth()), juce::roundToInt (lane.area.getHeight()), spec.seconds, lane.y });
-    if (scrolling.columns() == before) return;   // nothing new, as while it is frozen; a change of the size repaints by itself
+    if (scrolling.columns() == before) return;   // nothing new, for example while it is frozen; a change of size repaints anyway
     describe (unit);
     repaint();
 }

@@ -45,7 +45,7 @@ void ToolPlot::show (const Signals& signals)
         anchor_trail.pop_front();
     }
 
-    // Keeps the anchor in the centre: it rests while the tool sticks, and the ground moves past while the tool slides.
+    // Keeps the anchor in the centre: it stays still while the tool sticks, and the ground moves past while the tool slides.
     const Vec3 wanted = now->touches() ? now->anchor() : now->tool;
     const double radius = std::max ({ now->d_stick, now->deflection.norm(), 1e-7 });
     const bool is_first = half_width == 0.0;

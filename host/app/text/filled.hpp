@@ -8,9 +8,9 @@
 
 #include <juce_core/juce_core.h>
 
-// All texts of the window are in English in the sources, in TRANS or NEEDS_TRANS, from where collect.py takes them to en.txt.
-// TRANS ("Save") is the text in the language of the user. NEEDS_TRANS ("Save") is the English text, such as in a table, for
-// juce::translate where it is shown.
+// All texts of the window are in English in the sources, in TRANS or NEEDS_TRANS, and collect.py copies them to en.txt. TRANS ("Save")
+// is the text in the language of the user. NEEDS_TRANS ("Save") is the English text, such as in a table, for juce::translate where it
+// is shown.
 
 namespace tactus::host
 {
@@ -31,7 +31,7 @@ juce::String valueText (const std::convertible_to<std::string_view> auto& s)
     return juce::String::fromUTF8 (text.data(), static_cast<int> (text.size()));
 }
 
-/// As filledWith: filled (TRANS ("Stopped after %1 ticks"), n).
+/// Like filledWith: filled (TRANS ("Stopped after %1 ticks"), n).
 template <typename... Values>
 juce::String filled (const juce::String& text, const Values&... values)
 {

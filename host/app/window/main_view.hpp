@@ -187,7 +187,7 @@ private:
     std::unique_ptr<juce::FileChooser> chooser;
     juce::File recordings;                                   // the folder of the last recording that was chosen
     juce::Component::SafePointer<juce::Component> focused;   // the component with the focus, whose keys are listened to
-    Messages missing;                                        // what the graph lacks to be felt
+    Messages missing;                                        // what the graph needs before it can be felt
     const void* shown_identity = nullptr;                    // identity of the document that is shown
     int ticks_to_save = 0;                                   // timer ticks until the settings are saved; 0: nothing to save
     juce::TooltipWindow tooltips { this, 600 };

@@ -36,7 +36,7 @@ void MainView::connectPresets()
 {
     presets.onOpen = [this] (const Preset& p, bool is_own) {
         is_own ? files.open (p.file) : files.openCopy (p.file, false);
-        if (! question.isOpen()) takeFocus (patching);   // what one types next is for the graph, not for the search
+        if (! question.isOpen()) takeFocus (patching);   // what the user types next is for the graph, not for the search
     };
     presets.onSettings = [this] { saveSettingsSoon(); };
     presets.onPreview = [this] (const std::filesystem::path& file) { preview (file); };

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-/// The classes that `tactus export` writes, behind functions. They bring node headers of their own, adapted to run without a heap, and
+/// The classes that `tactus export` writes, behind functions. They bring their own node headers, adapted to run without a heap, and
 /// these would clash with the project's. So the exported code is compiled with another name for the namespace `tactus`, and this header
 /// does not mention that namespace.
 namespace exported_code

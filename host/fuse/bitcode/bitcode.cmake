@@ -6,7 +6,7 @@ find_program (TACTUS_CLANG NAMES clang++-14 clang++-15 clang++-16 clang++-17 cla
     DOC "clang for the bitcode of nodes, with which LLVM fuses graphs; OFF: only a compiler fuses graphs")
 
 set (clang_flags -std=c++20 -O3 -DNDEBUG -w -fPIC -fvisibility=hidden -fvisibility-inlines-hidden ${TACTUS_SAME_BITS})
-string (REGEX MATCHALL "(^| )-m[^ ]+" machine "${CMAKE_CXX_FLAGS}")   # these can change how a struct lies in memory
+string (REGEX MATCHALL "(^| )-m[^ ]+" machine "${CMAKE_CXX_FLAGS}")   # these can change how a struct is laid out in memory
 foreach (flag IN LISTS machine)
     string (STRIP ${flag} flag)
     list (APPEND clang_flags ${flag})
