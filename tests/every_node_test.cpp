@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every node promises. These tests cover a new node too, even if it has no test of its own. The promises are a list in
+// What every node promises. These tests cover a new node too, even if it does not have its own test. The promises are a list in
 // framework/examine, which `tactus check-plugin` shares.
 
 #include "support/tested_types.hpp"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Compiles tests in batches, which takes half the time of compiling them one by one: a batch reads the headers once and
-# instantiates their templates once. Each file is included inside a namespace of its own, so two files may use the same names for
-# their helpers. All headers must therefore be included first, so this file also runs as a script that writes a batch.
+# instantiates their templates once. Each file is included inside its own namespace, so two files may use the same names for their
+# helpers. All headers must therefore be included first, so this file also runs as a script that writes a batch.
 
 if (CMAKE_SCRIPT_MODE_FILE)   # cmake -D batch=FILE.cpp -D files=A.cpp;B.cpp… -P join.cmake
     set (headers)

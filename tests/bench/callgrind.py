@@ -12,7 +12,7 @@ SKIPPED = 77
 
 
 def is_missing():
-    """Says so if callgrind is not installed."""
+    """Prints a message if callgrind is not installed."""
     missing = shutil.which("valgrind") is None
     if missing:
         print("skipped: valgrind is not installed")

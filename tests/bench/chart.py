@@ -16,7 +16,7 @@ ROWS = [   # key, first, yardstick
     ("export/faust_chain100", "exported chain of 100", "Faust"), ("plan/faust_chain100", "chain of 100", "Faust"),
     ("juce/plan", "reference graph in JUCE", "plan"), ("juce_tree100/plan", "tree of 100 in JUCE", "plan"),
 ]
-LEFT, WIDTH, STEP, TOP, MOST = 300, 420, 28, 34, 32.0   # in px; MOST is the largest ratio with a place on the axis
+LEFT, WIDTH, STEP, TOP, MOST = 300, 420, 28, 34, 32.0   # in px; MOST is the largest ratio that the axis shows
 
 
 def x(ratio):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Does what must not cost as much as a graph is large, so that callgrind can count (scale.py):
+// Does things whose cost must not grow with the size of the graph, so that callgrind can count (scale.py):
 //
 //     scale NODES
 //
@@ -42,7 +42,7 @@ std::string nameOf (int node)
     return "p" + std::string (6 - std::min<std::size_t> (6, digits.size()), '0') + digits;
 }
 
-/// A tree in which each node feeds two others, beside a wall that a hand feels.
+/// A tree in which each node feeds two others, next to a wall that a hand feels.
 graph::Graph tree (int n)
 {
     graph::Graph g;

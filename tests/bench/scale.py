@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks with callgrind that what changes little in a large graph costs little. No clock is involved, so the result is reproducible.
+"""Checks with callgrind that a small change of a large graph costs little. No clock is involved, so the result is reproducible.
 
     scale.py PROGRAM [NODES]     PROGRAM is build/release/bin/scale
 

@@ -27,8 +27,8 @@ extern "C"
 
 namespace
 {
-/// A clock whose time advances by one period a tick. While it drives a run it counts as a real one, so that lost time is looked for;
-/// before, it does not, so that the run asks the system for nothing.
+/// A clock whose time advances by one period a tick. While it drives a run it counts as a real one, so that lost time is detected;
+/// before that it does not, so that the run makes no requests to the system.
 class Counted final : public TickClock
 {
 public:

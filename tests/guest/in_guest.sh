@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Runs in the guest, with devices from guest_device and the programs built on this computer. Results go to /run/results, where
-# check.py reads them. All times are of the guest's clock, which does not depend on how busy this computer is, but runs ahead while
-# files of this computer are read. So each program runs once before any device is there, and waits are long: they cost little.
+# check.py reads them. All times are those of the guest's clock. It does not depend on how busy this computer is, but it runs fast while
+# files of this computer are read. So each program runs once before a device exists, and waits are long: they cost little.
 cd "$(dirname "$0")/../.."
 work=$(mktemp -d -p "${TMPDIR:-/var/tmp}")   # in memory; it disappears with the guest
 chmod a+rx "$work"
@@ -14,7 +14,7 @@ mkdir -p $work/profiles
 sed -e 's/"max_speed": "2 m\/s"/"max_speed": "100 m\/s"/' \
     -e 's/"id": "tactus_board",/&\n  "replaces": "tactus_board",/' host/profiles/tactus_board.json >$work/profiles/tactus_board.json
 export TACTUS_PROFILES=$work/profiles
-sed 's/"max_speed": "2 m\/s"/"max_speed": "100 m\/s"/' graphs/dry_wood.json >$work/dry_wood.json   # limits only tighten, so the graph's counts too
+sed 's/"max_speed": "2 m\/s"/"max_speed": "100 m\/s"/' graphs/dry_wood.json >$work/dry_wood.json   # limits can only be tightened, so the graph's limit applies too
 failures=0
 say () { echo "== $*"; echo "$SECONDS $*" >>/run/results/times.txt; }
 fail () { echo "FAILED: $*"; failures=$((failures + 1)); }

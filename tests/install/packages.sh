@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes the Debian packages twice, checks them with lintian, and installs, uses and removes them in a root file system of its own:
+# Makes the Debian packages twice, checks them with lintian, and installs, uses and removes them in a separate root file system:
 #   tests/install/packages.sh BUILD
 # Needs root, for chroot. The root file system is made by mmdebstrap and kept in BUILD/packages/root.tar; the packages that it downloads
 # later are kept in BUILD/packages/downloads.

@@ -89,7 +89,7 @@ TEST_CASE ("a header is made into a plugin by its TACTUS_NODE line", "[plugins][
     CHECK (host::liveHeader (folder / "c.hpp").error().id == "live/no_header");
 }
 
-TEST_CASE ("what CMake writes beside a plugin says how to compile it", "[plugins][live]")
+TEST_CASE ("what CMake writes next to a plugin says how to compile it", "[plugins][live]")
 {
     TemporaryFolder folder;
     const auto plugin = folder / "p.tactus";

@@ -84,7 +84,7 @@ graph::Graph growing()
     return s.wire ("hand.position -> grow.position").wire ("grow.force -> motor.force").graph;
 }
 
-/// A copy of a plugin, loaded as live C++ loads a new version: a file of its own, which is removed immediately.
+/// A copy of a plugin, loaded as live C++ loads a new version: a separate file, which is removed immediately.
 std::vector<NodeType> version (const TemporaryFolder& folder, int number, const std::string& layout, const std::string& plugin = "live_node")
 {
     const auto file = folder / (std::to_string (number) + ".tactus");

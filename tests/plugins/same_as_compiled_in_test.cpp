@@ -47,7 +47,7 @@ void checkPorts (const std::vector<PortSheet>& a, const std::vector<PortSheet>& 
     }
 }
 
-/// The outputs of a node while its inputs oscillate, each with a phase of its own.
+/// The outputs of a node while its inputs oscillate, each with its own phase.
 std::vector<double> play (Rig& rig)
 {
     std::vector<double> all;

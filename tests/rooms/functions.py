@@ -4,7 +4,8 @@
 
 Usage: functions.py [SOURCE_FOLDER]. Prints FILE:LINE for each problem. Exit status 1 if there are any.
 
-These functions have other last bits in each library, and in glibc even on each kind of processor. Those of framework/kit/math/math.hpp have
+The last bits of these functions differ between libraries, and in glibc even between kinds of processor. Those of
+framework/kit/math/math.hpp have
 the same bits everywhere. Allowed are the functions of <cmath> that are not in INEXACT: IEEE 754 defines their results exactly."""
 
 import pathlib

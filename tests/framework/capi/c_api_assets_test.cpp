@@ -158,7 +158,7 @@ double loudest (const GraphHandle& g, Supplier& supplier, const MessageList& m)
 bool contains (const std::string& text, const std::string& part) { return text.find (part) != std::string::npos; }
 }   // namespace
 
-TEST_CASE ("C API: a mesh beside the graph gives the bits of the same mesh in the graph, and of one that the caller supplies", "[c_api][assets]")
+TEST_CASE ("C API: a mesh next to the graph gives the bits of the same mesh in the graph, and of one that the caller supplies", "[c_api][assets]")
 {
     const TemporaryFolder folder;
     folder.write ("square.obj", square);
@@ -174,7 +174,7 @@ TEST_CASE ("C API: a mesh beside the graph gives the bits of the same mesh in th
     CHECK (felt (file, &supplier, m) == inside);
 }
 
-TEST_CASE ("C API: a table beside the graph gives the bits of one that the caller supplies", "[c_api][assets]")
+TEST_CASE ("C API: a table next to the graph gives the bits of one that the caller supplies", "[c_api][assets]")
 {
     const TemporaryFolder folder;
     folder.write ("scan.csv", "0,0.25,0.5\n0.25,1,0.75\n");

@@ -21,7 +21,7 @@ TEST_CASE ("C API: while a run ticks itself, one thread edits, and others push r
     const GraphHandle g { tactus_graph_load (TACTUS_SOURCE_DIR "/graphs/dry_wood.json", m.get()) };
     REQUIRE (g);
     tactus_run_options options = TACTUS_RUN_OPTIONS;
-    options.rate_hz = 200.0;   // so that there is time for ticks beside busy threads, even under TSan
+    options.rate_hz = 200.0;   // so that the ticks get time next to busy threads, even under TSan
     const RunHandle run { tactus_run_create (g.get(), &options, m.get()) };
     REQUIRE (run);
     tactus_device_options device = TACTUS_DEVICE_OPTIONS;

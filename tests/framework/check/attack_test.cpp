@@ -153,7 +153,8 @@ TEST_CASE ("no wall, friction or texture on which a tool that is let go never re
     rc::prop ("random contacts", [] {
         const auto loops = randomContacts();
         if (loops.pushesAwayFromOrigin()) return;
-        // The tool starts 1 um beside its rest. A contact bounds how far it swings, so a swing that does not die counts, too.
+        // The tool starts 1 um away from its position of rest. A contact bounds how far it swings, so a swing that does not die counts,
+        // too.
         const auto [first, last] = loops.swings (10'000);
         const bool unstable = last > 1e-6 && (last > 1.5 * first || (last > 1e-5 && last > 0.9 * first));
         RC_TAG (std::string (unstable ? "unstable" : "stable"));

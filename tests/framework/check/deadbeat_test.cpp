@@ -141,7 +141,7 @@ TEST_CASE ("a deadbeat wall within 'deadbeat' comes to rest in spite of the step
         const auto row = t.judged();
         RC_TAG (std::string (check::nameOf (row.verdict)));
         if (row.verdict == check::Verdict::broken) return;
-        // It rests within what the dry friction and a step of the sensor hide.
+        // It stays within what the dry friction and a step of the sensor hide.
         const double hidden = t.coulomb + t.quantum * t.stiffness();
         RC_LOG() << t << ": " << t.unrest (0.5) << '\n';
         RC_ASSERT (t.unrest (0.5) < hidden + 0.02);

@@ -162,7 +162,7 @@ struct Loops
         }
     };
 
-    /// As pushesAway(), but with any nodes: the stiffness is that of the graph with the tools at the origin.
+    /// Like pushesAway(), but with any nodes: the stiffness is that of the graph with the tools at the origin.
     bool pushesAwayFromOrigin() const
     {
         constexpr double step = 1e-7;   // m
@@ -243,8 +243,8 @@ struct Loops
         return stays ? last / first : 1e9;
     }
 
-    /// How far the tools swing in the second and in the last quarter of a run, in m. They are let go 1 um beside the origin, and each hand
-    /// holds its tool against the force that it feels at the origin.
+    /// How far the tools swing in the second and in the last quarter of a run, in m. They are let go 1 um away from the origin, and each
+    /// hand holds its tool against the force that it feels at the origin.
     std::pair<double, double> swings (int ticks) const
     {
         using Box = std::array<Eigen::AlignedBox3d, 2>;

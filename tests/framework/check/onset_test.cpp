@@ -27,7 +27,7 @@ graph::Graph wall (double stiffness, double rate_hz)
 
 constexpr double push = 1.0;   // N
 
-/// A tool that rests in the wall, a little off its equilibrium.
+/// A tool at rest in the wall, a little off its equilibrium.
 Simulation resting (Simulation sim, double stiffness)
 {
     sim.hand_force = { 0, 0, -push };

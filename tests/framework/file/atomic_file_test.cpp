@@ -166,7 +166,7 @@ TEST_CASE ("atomic file: what a killed process leaves is removed by the next one
     CHECK (filesIn (folder) == 4);
 }
 
-TEST_CASE ("atomic file: what a killed process leaves is kept beside the target on request, and never overwritten", "[host][io]")
+TEST_CASE ("atomic file: what a killed process leaves is kept next to the target on request, and never overwritten", "[host][io]")
 {
     const TemporaryFolder folder;
     const auto target = folder / "out.csv";

@@ -102,7 +102,7 @@ struct Dice
     std::size_t operator() (std::size_t n) { return random() % n; }
 };
 
-/// Nodes with ports of many kinds. Sorted by name, they run in another order than they are written in.
+/// Nodes with ports of many kinds. Sorted by name, they run in a different order from the one in the file.
 graph::Graph someNodes (Dice& dice, int n)
 {
     static const std::vector<std::string> types { "signal.add", "signal.gain", "signal.abs", "signal.constant", "filter.one_pole", "signal.multiply",
@@ -281,7 +281,7 @@ TEST_CASE ("a graph that was changed without its history is compiled as it is", 
         g.root.nodes[0].params["value"] = 5.0;
         CHECK (sumOf (g, engine) == 10.0);
     }
-    SECTION ("a copy that was moved and became a history of its own")
+    SECTION ("a copy that was moved and became its own history")
     {
         graph::History history (sketch.graph);
         Engine engine { compile (history.graph(), catalogue(), options).plan };

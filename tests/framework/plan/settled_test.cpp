@@ -68,7 +68,7 @@ std::string difference (const Player& a, const Player& b)
     return {};
 }
 
-/// "push" and "half" never change by themselves, nor does what they add up to; "hand" does.
+/// "push" and "half" never change by themselves, nor does their sum; "hand" does.
 Sketch constants()
 {
     auto s = Sketch {}
@@ -149,7 +149,7 @@ TEST_CASE ("settled nodes run on the first tick and while a parameter moves, and
     CHECK (settled.value (2) == 7.0);
 
     auto& out = *const_cast<double*> (settled.plan->taps()[1].value);
-    out = 7.0;   // what does not run leaves it
+    out = 7.0;   // a node that does not run leaves the value as it is
     each.tick (now);
     settled.tick (now++);
     CHECK (out == 7.0);

@@ -42,7 +42,7 @@ rc::Gen<double> anyNumber()
     const auto special = rc::gen::element (0.0, -0.0, 1.0, -1.0, 1e-16, 3.0, -3.0, 1e300, -1e300, 5e-324, inf, -inf, std::nan (""), -std::nan ("7"));
     return rc::gen::oneOf (special, rc::gen::arbitrary<double>(), rc::gen::map (rc::gen::inRange (-3, 4), [] (int n) { return 0.1 * n; }));
 }
-/// Of the w-th wire. With gains, it is never 1: a single wire without a gain needs no sum.
+/// The gain of the w-th wire. With gains, it is never 1: a single wire without a gain needs no sum.
 double gainOf (std::size_t w, bool with_gains) { return with_gains ? 0.7 + 0.4 * static_cast<double> (w) : 1.0; }
 }   // namespace
 

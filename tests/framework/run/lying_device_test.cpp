@@ -256,7 +256,7 @@ TEST_CASE ("while a reading stays bad, the stop names the reason that holds now,
     CHECK (guard.latest().fault == ReadingFault::too_hot);
 }
 
-TEST_CASE ("every fault of a reading has an id and words of its own", "[framework][guard][safety]")
+TEST_CASE ("every fault of a reading has its own id and words", "[framework][guard][safety]")
 {
     std::set<std::string_view> ids, words;
     for (const auto& fault : reading_faults)

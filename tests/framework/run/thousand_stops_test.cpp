@@ -44,7 +44,7 @@ public:
         ended = tick + 1;
     }
 
-    /// The number of ticks that have begun. What this thread did before this call, all later ticks see.
+    /// The number of ticks that have begun. All later ticks see what this thread did before this call.
     std::uint64_t ticksBegun() noexcept { return begun.fetch_add (0); }
 
     std::atomic<std::uint64_t> begun = 0, ended = 0;   ///< number of ticks

@@ -64,8 +64,7 @@ def bound(now, stored, sigma):
 
 
 def slip(now, r):
-    """What is left of a stretch r that exceeds d_stick. With stick-slip it is
-    what a slow hand would find at the same place."""
+    """What is left of a stretch r that exceeds d_stick. With stick-slip, it is the stretch that a slow hand would have at the same place."""
     d_max, d_stick = now["d_max"], now["static_ratio"] * now["d_max"]
     if now["static_ratio"] <= 1.0 + EPS_SLIP:
         return d_max

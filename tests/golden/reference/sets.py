@@ -568,8 +568,7 @@ def wall_set(rng):
 
 
 def past_tie(positions, quantum, rows):
-    """The rows from a value on that is so close to half a quantum that the last bit decides how it
-    is rounded."""
+    """The rows from the first value on that is so close to half a quantum that the last bit decides how it is rounded."""
     if not quantum:
         return ()
     for k, p in enumerate(positions):

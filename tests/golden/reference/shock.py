@@ -18,7 +18,7 @@ DEFAULTS = {"hit": 0.0, "mass": 0.05, "gain": 1.0,
 
 
 FEW = 4   # ticks
-USUAL_MASS = 0.05   # kg, for a mass of 0 where no device tells its own
+USUAL_MASS = 0.05   # kg, for a mass of 0 if no device gives its own
 
 
 def push(now, d, v):

@@ -21,7 +21,7 @@ DEVICE = {"mass": 0.05, "damping": 0.0, "quantum": 0.0, "delay": 0,
 
 
 def lost(now, law, start, end, rate):
-    """What the damping takes on a straight way; a wall that does not pull takes at
+    """What the damping takes along a straight path; a wall that does not pull takes at
     most what its spring gives back."""
     start, end = max(0.0, start), max(0.0, end)
     stored = laws.energy(law, end) - laws.energy(law, start)

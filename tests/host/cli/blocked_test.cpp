@@ -109,7 +109,7 @@ private:
     int reader = -1;
 };
 
-/// A program with a terminal of its own, on which the test types. Its messages go to the terminal or to a file.
+/// A program with its own terminal, on which the test types. Its messages go to the terminal or to a file.
 class OnTerminal
 {
 public:

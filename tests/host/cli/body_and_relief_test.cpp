@@ -123,7 +123,7 @@ TEST_CASE ("a published liver mesh is pressed and stroked live, with the search 
     const test::Scratch scratch;
     const auto tip = strokeOver (body, top + Vec3 (-0.006, 0.0, 0.0), Vec3 (0.016, 0.0, 0.0));
     for (std::size_t k = 1; k < tip.size(); ++k)
-        REQUIRE ((tip[k] - tip[k - 1]).norm() < 1e-4);   // otherwise the nearest point, and thus the hand, has jumped
+        REQUIRE ((tip[k] - tip[k - 1]).norm() < 1e-4);   // otherwise the nearest point, and so the hand, has jumped
     writeTrace (scratch.path ("stroke.csv"), tip);
     const std::string records = "liver.force,liver.depth,liver.triangle,liver.state,liver.stored_energy,liver.dissipated_energy,hand.position";
     const auto arguments = [&] (const std::string& command, int search_ticks, const std::string& out) -> std::vector<std::string> {

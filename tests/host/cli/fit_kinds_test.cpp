@@ -194,7 +194,7 @@ TEST_CASE ("fit: columns have units in their names, may be separated in other wa
            == Approx (1e-3 * plain).epsilon (1e-6));
 }
 
-TEST_CASE ("fit: a recording with too little information gets a poor verdict that says what is lacking", "[cli][fit]")
+TEST_CASE ("fit: a recording with too little information gets a poor verdict that says what is missing", "[cli][fit]")
 {
     const Scratch scratch;
     auto text = cut();

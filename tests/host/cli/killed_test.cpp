@@ -112,7 +112,7 @@ TEST_CASE ("a recording and a log survive kill -9 up to their last second, and t
     CHECK_FALSE (std::filesystem::exists (scratch.path ("run.partial-2.csv")));
 }
 
-TEST_CASE ("the recording of a run that is still going is not reported as left over, and a second run records beside it", "[cli][safety]")
+TEST_CASE ("the recording of a run that is still going is not reported as left over, and a second run records next to it", "[cli][safety]")
 {
     const Scratch scratch;
     const auto graph = scratch.write ("g.json", counter);

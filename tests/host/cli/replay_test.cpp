@@ -212,7 +212,7 @@ TEST_CASE ("a damaged log is replayed as far as possible, even with another grap
     other_program.replace (other_program.find ("tactus 9"), 8, "x\\nforged: error: \\u001b");
     CHECK (replay (other_program).err.find ("recorded by 'x\\x0Aforged: error: \\x1B") != std::string::npos);
 
-    auto other_functions = log;   // as written before Tactus had functions of its own
+    auto other_functions = log;   // as written before Tactus had its own functions
     const std::string key = "\"functions\":1,";
     REQUIRE (other_functions.find (key) != std::string::npos);
     other_functions.erase (other_functions.find (key), key.size());

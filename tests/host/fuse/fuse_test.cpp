@@ -130,7 +130,7 @@ private:
     std::size_t values = 0;
 };
 
-/// Records every output, or only some: what nothing outside reads may be in no memory.
+/// Records every output, or only some: a value that nothing outside reads need not be in memory.
 std::unique_ptr<Twins> randomTwins (unsigned seed, bool records_all)
 {
     const auto graph = test::randomGraph (seed, 14);

@@ -74,7 +74,7 @@ private:
     Fuser::Options how;
 };
 
-/// Looks until the fuser has finished what it does.
+/// Looks again and again until the fuser has finished.
 std::optional<Message> finish (Fuser& fuser, const std::shared_ptr<Plan>& plan, double now_s)
 {
     for (;;)

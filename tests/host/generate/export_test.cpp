@@ -154,7 +154,7 @@ TEST_CASE ("presets give the bits of the engine on a Cortex-M7", "[.export_m7]")
     CHECK (static_cast<int> (compared.size()) == program.graphCount());
     CHECK (linesWith (said, ", 0 differ") == compared);
 
-    // What a small board has, less some for the stack and for everything else. See docs/export.md for the one that does not fit.
+    // The memory of a small board, minus some for the stack and everything else. See docs/export.md for the one that does not fit.
     constexpr unsigned long memory = 512 * 1024 - 32 * 1024;
     int fitting = 0;
     for (const auto& line : linesWith (said, " bytes, "))
@@ -184,7 +184,7 @@ TEST_CASE ("presets in single precision are close to the engine, and have the sa
 
 TEST_CASE ("random graphs in single precision have the same bits with each compiler and on a Cortex-M4", "[.export_m4]")
 {
-    // Their hands jump, so a rounding error may become any difference from double precision.
+    // Their hands jump, so a rounding error may grow into any difference from double precision.
     ExportedProgram program;
     for (unsigned seed = 1; program.graphCount() < 12; ++seed)
         if (const auto exported = test::exportedRandomGraph (seed, 4 + static_cast<int> (seed % 25), true); ! exported.files.empty()) program.add (exported);

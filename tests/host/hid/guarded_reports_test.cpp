@@ -21,7 +21,7 @@ Effort anyEffort (const HidModel& model)
 {
     const auto any = [] (double size) { return *rc::gen::map (rc::gen::inRange (-1000, 1001), [=] (int i) { return size * i / 1000.0; }); };
     Effort e { { any (50.0), any (50.0), any (50.0) }, { any (5.0), any (5.0), any (5.0) } };
-    for (std::size_t i = 0; i < model.effortNames().size(); ++i)   // more entries than the device has efforts of its own
+    for (std::size_t i = 0; i < model.effortNames().size(); ++i)   // more entries than the number of the device's own efforts
         if (*rc::gen::arbitrary<bool>()) e.axes.set (static_cast<int> (i), any (*rc::gen::element (1.0, 1e3, 1e12)));
     return e;
 }

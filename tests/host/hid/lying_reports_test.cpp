@@ -199,10 +199,10 @@ TEST_CASE ("an encoder that stops while the tool moves on makes the reading inva
     CHECK ((reading.position - last_turned).norm() == Approx (0.1).margin (1e-4));
     CHECK_FALSE (at (1, ++k, 0).valid);
 
-    CHECK (at (2, k, 0).valid);   // the third one has never turned, so it may be none
+    CHECK (at (2, k, 0).valid);   // the third one has never turned, so there may be no encoder
     arm.reset();
     CHECK (at (1, 0, 0).valid);
-    CHECK (at (1, k, 0).valid);   // after a new start nothing is known of the first one
+    CHECK (at (1, k, 0).valid);   // after a new start nothing is known about the first one
 }
 
 TEST_CASE ("encoders that count now and then are not taken for stopped, and neither are those of a profile without still_travel", "[hid][safety]")

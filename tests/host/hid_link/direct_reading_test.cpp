@@ -61,7 +61,7 @@ struct Driven final : Ticked
         }
     }
 
-    /// As a board that waits for each answer.
+    /// Like a board that waits for each answer.
     void answer()
     {
         if (has_come) send();
@@ -95,7 +95,7 @@ TEST_CASE ("the thread that a board ticks reads the board itself until the run e
     CHECK_FALSE (driven.was_early);
     CHECK_FALSE (driven.device->port().isReadByTick());
 
-    // The reading thread takes at most the report before the request, and the one that its read waits for at that time. Nobody has
+    // The reading thread takes at most the report before the request, and the one that its read waits for at that time. No thread has
     // read the last report when the run ends.
     const auto readers = board.readers();
     REQUIRE (readers.size() >= 199);
@@ -115,7 +115,7 @@ TEST_CASE ("the thread that a board ticks reads the board itself until the run e
     CHECK (std::ranges::count (other.readers(), std::this_thread::get_id()) == 0);
 }
 
-TEST_CASE ("a board that only a thread of its own can read ticks a run too", "[hid][threads]")
+TEST_CASE ("a board that only its own thread can read ticks a run too", "[hid][threads]")
 {
     FakeBoard board;
     Driven driven { board, false };

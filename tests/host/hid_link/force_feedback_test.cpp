@@ -41,7 +41,7 @@ public:
     ConnectedDevice what;
     Bytes descriptor = test::wheel();
     std::uint8_t free_block = 5;              // assigned to the next effect; 0: no room
-    int busy = 0;                             // how many more requests stay without an answer
+    int busy = 0;                             // how many more requests remain unanswered
     std::optional<std::uint8_t> refused {};   // id of a report that it rejects
 
     struct Told

@@ -164,7 +164,7 @@ TEST_CASE ("a report reaches the tick thread without a stop at another thread, a
     CHECK (directly.read_by_tick >= static_cast<std::uint64_t> (reports) + 20 - 2);   // the reading thread may have read the first two
     CHECK (directly.allocations == 0);
     CHECK (directly.locks == 0);
-    // The reading thread looks once a second whether it has to read again.
+    // The reading thread checks once a second whether it has to read again.
     CHECK (directly.sleeps_of_reader >= 0);
     CHECK (static_cast<double> (directly.sleeps_of_reader) <= 2.0 * directly.seconds + 5.0);
 }

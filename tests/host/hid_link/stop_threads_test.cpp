@@ -63,7 +63,7 @@ struct Alarmed final : TickHooks
     std::uint32_t seen = Failsafe::alarms();
 };
 
-/// Calls a function again and again on threads of its own.
+/// Calls a function again and again on its own threads.
 class Beside
 {
 public:

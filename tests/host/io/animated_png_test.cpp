@@ -61,7 +61,7 @@ TEST_CASE ("an animated PNG keeps only what changes, and refuses a frame of anot
     CHECK (made.file().size() < one + 10 * 150);
     CHECK (made.frames() == 11);
 
-    // A moving line in noise costs its own pixels, not those of the rectangle around what it leaves and where it goes.
+    // A moving line in noise costs its own pixels, not the whole rectangle around its old and new places.
     AnimatedPng moves;
     std::size_t still = 0;
     for (int i = 0; i < 10; ++i)

@@ -43,7 +43,7 @@ std::string inflated (const std::string& data)
 
 TEST_CASE ("vector canvas: an SVG has the size on paper\\, each shape, its colour and its clip", "[host][io][plot]")
 {
-    const juce::ScopedJuceInitialiser_GUI juce_is_up;   // its fonts exist only meanwhile
+    const juce::ScopedJuceInitialiser_GUI juce_is_up;   // JUCE's fonts exist only while this does
     VectorCanvas canvas (200.0f, 100.0f);
     drawOn (canvas);
     const auto text = canvas.svg ("a < b & c", 96.0);
@@ -75,7 +75,7 @@ TEST_CASE ("vector canvas: an SVG has the size on paper\\, each shape, its colou
 
 TEST_CASE ("vector canvas: the table of a PDF points to its objects\\, and the page has the same shapes", "[host][io][plot]")
 {
-    const juce::ScopedJuceInitialiser_GUI juce_is_up;   // its fonts exist only meanwhile
+    const juce::ScopedJuceInitialiser_GUI juce_is_up;   // JUCE's fonts exist only while this does
     VectorCanvas canvas (200.0f, 100.0f);
     drawOn (canvas);
     const auto file = canvas.pdf ("Größe", 96.0);

@@ -68,7 +68,7 @@ void freezeUntil (
     freezeDuring (freeze, [&] { until ([&] { return contentOf (file) == content; }); });
 }
 
-/// Lets the child processes of this one live in a world in which the computer has slept for 100 s. False if the system refuses.
+/// Makes it look to the child processes of this one as if the computer had slept for 100 s. False if the system refuses.
 bool letChildrenSleep()
 {
     constexpr int new_time = 0x80;   // CLONE_NEWTIME, which older headers lack
@@ -149,7 +149,7 @@ TEST_CASE ("the guardian brings the device of a frozen process to rest, and the 
         if (Failsafe::alarms() != 1 || Failsafe::alarm().id != "run/frozen") return 3;
         if (driven->beat (true) || driven->beat (false) || driven->beat (true)) return 4;
         if (! resting->beat (false)) return 5;
-        driven = Failsafe::arm (file, rest());   // opened again, the device is this process's
+        driven = Failsafe::arm (file, rest());   // now the device belongs to this process again
         if (! driven || ! driven->beat (false) || Failsafe::alarms() != 1) return 6;
         return 0;
     });

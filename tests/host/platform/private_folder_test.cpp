@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What live C++ leaves to the system: a folder of its own, and a limit on the compiler.
+// What live C++ leaves to the system: a private folder, and a limit on the compiler.
 #include "support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>

@@ -87,7 +87,7 @@ private:
 const Edge::Params skinless { .rupture_force = 4.0 };
 constexpr double toughness = 200.0, width = 0.02;
 
-/// A smooth random path through and beside the body. It is closed: s = 1 is the start again.
+/// A smooth random path through and around the body. It is closed: s = 1 is the start again.
 class Walk
 {
 public:
@@ -205,7 +205,7 @@ TEST_CASE ("edge: tilted, its force ramps over width times sine of the angle, up
     }
 }
 
-TEST_CASE ("edge: cut, withdraw, move aside, press: a second rupture; back in the old cut there is none", "[nodes][cut]")
+TEST_CASE ("edge: cut, pull out, move aside, press: a second rupture; back in the old cut there is none", "[nodes][cut]")
 {
     Bench bench;
     const auto stroke = [&] (double x, double y, double yaw) {
@@ -235,7 +235,7 @@ TEST_CASE ("edge: cut, withdraw, move aside, press: a second rupture; back in th
     CHECK (bench.ruptures == 0);
 }
 
-TEST_CASE ("edge: half beside its cut, it breaks through on the other half alone, and feels a torque", "[nodes][cut]")
+TEST_CASE ("edge: half outside its cut, it breaks through on the other half alone, and feels a torque", "[nodes][cut]")
 {
     Bench bench;
     bench.move ({ 0.0, 0.0, -0.01 }, 1000);

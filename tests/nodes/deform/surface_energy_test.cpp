@@ -187,7 +187,7 @@ TEST_CASE ("surface: the energy of the first touch vanishes as the path gets fin
             };
             const double coarse = begun (200);
             CHECK (coarse > 0.0);
-            CHECK (begun (6400) < 0.03 * coarse);   // proportional to the square of the step, but for where the samples fall
+            CHECK (begun (6400) < 0.03 * coarse);   // proportional to the square of the step, apart from where the samples fall
         }
 }
 

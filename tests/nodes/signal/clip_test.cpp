@@ -44,7 +44,7 @@ Clip tone (double seconds, double amplitude = 1.0, double sharpness = 0.5)
     return ofTrack ({ .amplitude = { { 0.0, amplitude }, { seconds, amplitude } }, .sharpness = { { 0.0, sharpness } } });
 }
 
-/// An envelope, asked at times that do not go back: it walks from point to point.
+/// An envelope, read at times that never decrease: it walks from point to point.
 struct Walk
 {
     const std::vector<ClipPoint>& points;
@@ -327,7 +327,7 @@ TEST_CASE ("clip: the envelope ducks under a transient", "[nodes][signal][clip]"
     for (int k = 0; k < 1600; ++k)
         amplitudes.push_back (node.tick ({}).amplitude);
     CHECK (amplitudes[790] == Approx (0.5));
-    CHECK (amplitudes[800 + 145] == Approx (0.25));   // in the middle of 36.4 ms
+    CHECK (amplitudes[800 + 145] == Approx (0.25));   // halfway through the transient of 36.4 ms
     CHECK (amplitudes[1100] == Approx (0.5));
 }
 

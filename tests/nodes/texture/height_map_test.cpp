@@ -389,7 +389,7 @@ TEST_CASE ("height map: a picture lies as it is seen from above, a table as its 
 TEST_CASE ("height map: a quantised position makes the detail coarse, but nothing flutters", "[nodes][texture]")
 {
     // A step of one quantum (10 um) in a tick counts as at least 0.04 m/s. At this speed the finest detail of a map with a pitch
-    // of 10 um is left out, and it must not return while the position rests between two steps.
+    // of 10 um is left out, and it must not return while the position stays between two steps.
     HeightMap node;
     node.settings.map = { .csv = { rough (10) }, .pitch = 1e-5 };
     node.prepare ({ .rate_hz = 4000.0 });

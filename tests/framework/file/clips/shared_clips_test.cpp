@@ -74,7 +74,8 @@ void checkOut (const Clip& clip)
                 CHECK ((d.part() < 0.01 || ! made->losses.empty()));
         else if (std::ranges::all_of (clip.tracks, [] (const ClipTrack& t) { return t.taps.empty(); }))
         {
-            // An AHAP is straight in the square root, which `tactus convert` measures; what it plays then stays.
+            // An AHAP is straight in the square root, so the clip changes once, which `tactus convert` measures. Further conversions change
+            // nothing more.
             const auto again = readers::readClip (readers::writeClip (back->clip, name)->text, name);
             REQUIRE (again);
             CHECK (readers::compareClips (back->clip, again->clip, true)[0].part() < 0.01);

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes reference.csv beside this file: values of elementary functions, for math_test.cpp.
+"""Writes reference.csv next to this file: values of elementary functions, for math_test.cpp.
 
     reference.py           needs mpmath (Debian: python3-mpmath)
 
-Each row has a function, its arguments, the double that is closest to the exact value, and what is missing to the exact value, in units of
+Each row has a function, its arguments, the double that is closest to the exact value, and the difference from the exact value, in units of
 the last place of that double."""
 
 import math

@@ -62,7 +62,7 @@ TEST_CASE ("a wire glows by how much it carries, and only that wire", "[app][can
     CHECK (differing (still, picture(), all) == 0);
 }
 
-TEST_CASE ("a card is inside the canvas and beside its port, wherever the port is", "[app][canvas]")
+TEST_CASE ("a card is inside the canvas and next to its port, wherever the port is", "[app][canvas]")
 {
     const juce::Rectangle<int> canvas (0, 0, 600, 400);
     using Side = PointedPort::Side;

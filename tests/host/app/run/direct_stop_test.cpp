@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The keys and the STOP button of the window stop the forces while the message thread is busy, as docs/safety.md claims.
 //
-// JUCE opens its display once per process. So each test runs again in a process of its own, on a virtual screen. In that process,
-// the thread of the test is the message thread: while it waits for xdotool or for the force, it handles no message.
+// JUCE opens its display once per process. So each test runs again in its own process, on a virtual screen. In that process, the thread
+// of the test is the message thread: while it waits for xdotool or for the force, it handles no message.
 
 #include "host/app/support/canvas_rig.hpp"
 

@@ -23,7 +23,7 @@ using host::test::CanvasRig;
 
 namespace
 {
-/// Attends to a run until the condition holds. A compiler of low priority may take long on a busy machine.
+/// Attends to a run until the condition holds. A compiler of low priority may take a long time on a busy machine.
 template <typename F>
 bool until (LiveRun& p, F&& isSo)
 {
@@ -79,7 +79,7 @@ TEST_CASE ("the window fuses what runs, an edit runs by the plan at once, and is
     REQUIRE (rig.document.perform (graph::SetParam { "", "drag", "mu", Json (0.5) }));
     p.attend();
     CHECK (p.fusion() == "plan");
-    CHECK (until (p, [&] { return isFused (p); }));   // from the cache: the value of a parameter is no part of the code
+    CHECK (until (p, [&] { return isFused (p); }));   // from the cache: the value of a parameter is not part of the code
 
     p.fuse (std::nullopt);
     CHECK (p.fusion().empty());
@@ -112,7 +112,7 @@ TEST_CASE ("switching the fusion on and off in the window does not change the fo
     int swaps = 0;
     const auto got = play (changing, [&] (std::uint64_t ticks) {
         const bool is_on = isFused (changing);
-        if (is_on || changing.fusion().empty())   // it takes two looks to fuse
+        if (is_on || changing.fusion().empty())   // fusing takes two looks
         {
             ++swaps;
             changing.fuse (is_on ? std::nullopt : std::optional (how));

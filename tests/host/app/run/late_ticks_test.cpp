@@ -84,7 +84,7 @@ TEST_CASE ("a window that shows scopes, the scene and a film takes no lock and n
     all.read();
     CHECK (locks == 0);
     CHECK (allocations == 0);
-    CHECK (all.film.end() > 7000);   // they were all at work
+    CHECK (all.film.end() > 7000);   // all of them were active
     CHECK (client.of ("drag.force").size() == 3);
     CHECK (client.of ("drag.force").front()->end() > 7000);
     CHECK (all.scene.now().tools.size() == 1);

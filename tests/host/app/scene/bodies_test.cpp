@@ -47,7 +47,7 @@ TEST_CASE ("ridges have a place only if the position of a tool reaches them", "[
     REQUIRE (wood.size() == 2);
     CHECK (wood[0].is_placed);
     CHECK (wood[0].number (&Appearance::frequency, 0.0) == 200.0);
-    const auto threads = ofKind (bodiesIn ("scissors_cloth"), Kind::ridges);   // along the crack, not along the way of the hand
+    const auto threads = ofKind (bodiesIn ("scissors_cloth"), Kind::ridges);   // along the crack, not along the path of the hand
     REQUIRE (threads.size() == 1);
     CHECK_FALSE (threads[0].is_placed);
 }

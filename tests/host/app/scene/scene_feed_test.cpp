@@ -46,7 +46,7 @@ struct Watched
 };
 }   // namespace
 
-TEST_CASE ("the scene takes values as often at a new rate of the graph", "[app][scene]")
+TEST_CASE ("the scene takes values equally often at a new rate of the graph", "[app][scene]")
 {
     Watched w { "liver" };
     w.graph.rate_hz = 1000.0;

@@ -44,8 +44,8 @@ struct KeepsJuce final : Catch::TestEventListenerBase
     }
     void testRunEnded (const Catch::TestRunStats&) override { gui.reset(); }
 
-    /// As JUCE does in a program, but not in a test: without a handler, Xlib ends the process. It complains about a Stage, which is no window of
-    /// the X server and gets a cursor all the same.
+    /// As JUCE does in a program, but not in a test: without a handler, Xlib ends the process. It complains about a Stage, which is not a
+    /// window of the X server but gets a cursor anyway.
     void ignoreXErrors()
     {
         using Handler = int (*) (void* display, void* error);

@@ -19,7 +19,7 @@ std::string disagreementWithCompile (MainView&, FileAssets&);
 /// Between a graph and the same graph after it was written and read again.
 std::string instability (const graph::Graph&);
 
-/// Between the graph as it is and after jumps through its history and back.
+/// Between the graph now and the same graph after jumps through its history and back.
 std::string historyFault (Document&);
 
 }   // namespace tactus::host::test

@@ -9,7 +9,7 @@
 namespace tactus::host::test
 {
 
-/// The contrast of two colours after WCAG 2.1: 1 to 21.
+/// The contrast of two colours according to WCAG 2.1: 1 to 21.
 inline double contrast (juce::Colour a, juce::Colour b)
 {
     const auto light = [] (juce::Colour c) {

@@ -39,7 +39,7 @@ class Reader final : public juce::LowLevelGraphicsSoftwareRenderer
 public:
     using LowLevelGraphicsSoftwareRenderer::LowLevelGraphicsSoftwareRenderer;
 
-    // A layer would have coordinates of its own.
+    // A layer would have its own coordinates.
     void beginTransparencyLayer (float) override { saveState(); }
     void endTransparencyLayer() override { restoreState(); }
 

@@ -23,7 +23,7 @@ std::vector<SeenText> readTexts (juce::Component&);
 /// visible ones in it.
 juce::StringArray toldTexts (juce::Component&);
 
-/// The pairs of texts that lie on each other in an area, each as "A | B".
+/// The pairs of texts that overlap in an area, each as "A | B".
 juce::StringArray overlaps (const std::vector<SeenText>&, juce::Rectangle<float> area);
 
 /// The texts in an area of which a part could not be painted.

@@ -135,7 +135,7 @@ public:
             key (juce::KeyPress (static_cast<int> (*c), {}, *c));
     }
 
-    /// What is on the screen: like a window manager, it has only those places painted that asked for it.
+    /// What is on the screen: like a window manager, it repaints only the places that asked for it.
     const juce::Image& screen()
     {
         auto* peer = static_cast<Peer*> (getPeer());

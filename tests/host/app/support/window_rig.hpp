@@ -89,7 +89,7 @@ struct WindowRig
     void key (const juce::String& described)
     {
         stage->key (described);
-        settle (2);   // JUCE tells of the focus, and of Enter in a field, later
+        settle (2);   // JUCE reports the focus, and Enter in a field, later
     }
 
     static juce::Component* focused() { return juce::Component::getCurrentlyFocusedComponent(); }

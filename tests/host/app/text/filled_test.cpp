@@ -15,7 +15,7 @@ using namespace tactus::host;
 using tactus::host::test::pseudoTranslation;
 using tactus::host::test::templateTexts;
 
-TEST_CASE ("a text is filled with its values in any order, as often as it has them", "[app][text]")
+TEST_CASE ("a text is filled with its values in any order, each as many times as it occurs", "[app][text]")
 {
     CHECK (filled ("%1 of %2", 3, "rail") == "3 of rail");
     CHECK (filled ("%2: %1", 3, std::string ("rail")) == "rail: 3");

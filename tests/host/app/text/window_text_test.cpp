@@ -49,7 +49,7 @@ struct PseudoWindow
             checkOne (t, where);
     }
 
-    /// Checks that no texts lie on each other in a component, and none is cut off.
+    /// Checks that no texts overlap in a component, and that none is cut off.
     void checkLayout (juce::Component& c, juce::Rectangle<int> area, const char* where)
     {
         const auto texts = app_test::readTexts (c);

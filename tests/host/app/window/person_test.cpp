@@ -30,7 +30,7 @@ struct Person
         return w.stage->getLocalPoint (&canvas(), pixel);
     }
 
-    /// A visible place near a node, in pixels from its middle, as far as it takes to be on no node.
+    /// A visible place near a node, in pixels from its middle, just far enough away not to be on any node.
     juce::Point<float> near (const std::string& node, juce::Point<float> way)
     {
         const auto& nodes = canvas().scene().nodes();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What the sketch of an exported Arduino library uses of a board, simulated: a sensor that moves into the object, motors, a clock, and
-// RawHID. simulated_board.cpp is its program.
+// Simulates the parts of a board that the sketch of an exported Arduino library uses: a sensor that moves into the object, motors, a
+// clock, and RawHID. simulated_board.cpp is its program.
 
 #include <array>
 #include <cstdint>
