@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A program that uses a node of its own in a graph built in code.
+// A program that uses its own node in a graph built in code.
 #include <tactus/graph/edit.hpp>
 #include <tactus/graph/history.hpp>
 #include <tactus/graph/text.hpp>

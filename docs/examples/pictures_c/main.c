@@ -16,7 +16,7 @@ static tactus_asset_answer readPicture (void* context, tactus_asset_kind kind, c
     FILE* file;
     if (kind != TACTUS_ASSET_IMAGE) return TACTUS_ASSET_FROM_FILE; /* the library reads tables and meshes */
     snprintf (name, sizeof name, "%.*s.pgm", (int)(dot != NULL ? dot - path : (long)strlen (path)), path);
-    asset->problem = "there is no such file with 8 bits per pixel: save the picture as .pgm beside it";
+    asset->problem = "there is no such file with 8 bits per pixel: save the picture as .pgm next to it";
     file = fopen (name, "rb");
     if (file == NULL) return TACTUS_ASSET_REFUSED;
     if (fscanf (file, "P5 %u %u 255%*c", &columns, &rows) == 2 && columns > 0 && columns < 10000 && rows > 0 && rows < 10000)

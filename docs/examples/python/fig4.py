@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws Fig. 4 of Hayward, "Physically-Based Haptic Synthesis" (2007): a tool led over a surface, and the leash to its contact point.
+"""Draws Fig. 4 of Hayward, "Physically-Based Haptic Synthesis" (2007): a tool moved over a surface, and the leash to its contact point.
 
     fig4.py [PICTURE.png]     the notebook fig4.ipynb does the same step by step
 """
