@@ -239,7 +239,8 @@ std::unique_ptr<Column> DevicesPanel::clockCard()
         [this] (const std::string& to) { edit ([&] (DeviceSession& s) { s.setClock (clockLabelled (to)); }); },
         TRANS ("What ticks the run: the reports of a role's device, the blocks of the sound card, or a timer at the rate of the graph")));
     card->add (remark ([this] { return clockRemark(); }));
-    card->add (filled (TRANS ("Saved in %1, not in the graph."), setup.session().file.string()), TextBlock::Kind::small);
+    const auto saved_in = setup.session().file.string();
+    card->add (filled (TRANS ("Saved in %1, not in the graph."), saved_in), TextBlock::Kind::small, fromUtf8 (saved_in));
     return card;
 }
 

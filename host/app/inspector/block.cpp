@@ -8,7 +8,11 @@
 namespace tactus::host
 {
 
-TextBlock::TextBlock (juce::String t, Kind k) : text (std::move (t)), kind (k) { setInterceptsMouseClicks (false, false); }
+TextBlock::TextBlock (juce::String t, Kind k, const juce::String& tooltip) : text (std::move (t)), kind (k)
+{
+    setTooltip (tooltip);
+    setInterceptsMouseClicks (tooltip.isNotEmpty(), false);
+}
 
 int TextBlock::heightFor (int width) { return static_cast<int> (std::ceil (layout (width).getHeight())) + (kind == Kind::heading ? 14 : 6); }
 
@@ -38,9 +42,9 @@ void Column::add (std::unique_ptr<Block> b)
     blocks.push_back (std::move (b));
 }
 
-void Column::add (const juce::String& text, TextBlock::Kind kind)
+void Column::add (const juce::String& text, TextBlock::Kind kind, const juce::String& tooltip)
 {
-    if (text.isNotEmpty()) add (std::make_unique<TextBlock> (text, kind));
+    if (text.isNotEmpty()) add (std::make_unique<TextBlock> (text, kind, tooltip));
 }
 
 void Column::refresh (const graph::Node* node)

@@ -20,8 +20,8 @@ public:
     std::function<void()> onHeight;   ///< called when its height has changed
 };
 
-/// Wrapped text.
-class TextBlock final : public Block
+/// Wrapped text, perhaps with a tooltip.
+class TextBlock final : public Block, public juce::SettableTooltipClient
 {
 public:
     enum class Kind
@@ -32,7 +32,7 @@ public:
         heading
     };
 
-    TextBlock (juce::String, Kind);
+    TextBlock (juce::String, Kind, const juce::String& tooltip = {});
 
     int heightFor (int width) override;
     void paint (juce::Graphics&) override;
@@ -56,7 +56,7 @@ public:
     explicit Column (Margins m = { 16, 16, 16 }) : margins (m) {}
 
     void add (std::unique_ptr<Block>);
-    void add (const juce::String& text, TextBlock::Kind);   ///< no effect if the text is empty
+    void add (const juce::String& text, TextBlock::Kind, const juce::String& tooltip = {});   ///< no effect if the text is empty
 
     int heightFor (int width) override;
     void refresh (const graph::Node*) override;

@@ -44,10 +44,9 @@ const char* patternsOf (SettingSheet::Kind kind)
 class FileRow final : public Block, public juce::FileDragAndDropTarget
 {
 public:
-    FileRow (juce::String l, SettingSheet::Kind k, Binding s, const EditorContext& c, const juce::String& about)
-        : label (std::move (l)), kind (k), binding (std::move (s)), context (c)
+    FileRow (juce::String l, SettingSheet::Kind k, Binding s, const EditorContext& c, juce::String about_it)
+        : label (std::move (l)), about (std::move (about_it)), kind (k), binding (std::move (s)), context (c)
     {
-        field.setTooltip (about);
         field.setTitle (label);
         field.onApply = [this] (const juce::String& text) {
             const auto path = text.trim();
@@ -68,9 +67,11 @@ public:
         const auto now = binding.get();
         const auto written = now.is_string() ? now.get<std::string>() : std::string();
         field.show (written);
+        showEnd();
         // Called after every edit of the graph: read the file again only if it is a different one or was modified.
         std::error_code problem;
         const auto path = resolved (written, context.folder());
+        field.setTooltip (about + (written.empty() ? juce::String() : "\n" + fromUtf8 (path)));
         const auto as_of = std::make_pair (path, std::filesystem::last_write_time (path, problem));
         if (as_of == read_as_of && ! info.text.empty()) return;
         read_as_of = as_of;
@@ -113,6 +114,7 @@ public:
         auto line = getLocalBounds().withTrimmedTop (20).removeFromTop (28).reduced (0, 2);
         browse.setBounds (line.removeFromRight (76));
         field.setBounds (line.withTrimmedRight (4));
+        showEnd();
     }
 
 private:
@@ -121,6 +123,12 @@ private:
         const auto& look = lookOf (*this);
         const auto colour = info.is_problem ? look.theme().warning : look.theme().dim;
         return wrapText (fromUtf8 (info.text), look.font (11.0f), colour, static_cast<float> (width - (picture.isValid() ? 64 : 0)));
+    }
+
+    /// Of a long path, the end says more than the beginning.
+    void showEnd()
+    {
+        if (! field.hasKeyboardFocus (true)) field.setCaretPosition (field.getText().length());
     }
 
     void hover (bool now)
@@ -143,7 +151,7 @@ private:
         chooser->launchAsync (juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, chosen);
     }
 
-    juce::String label;
+    juce::String label, about;
     SettingSheet::Kind kind;
     Binding binding;
     EditorContext context;

@@ -11,14 +11,14 @@ namespace tactus::host
 
 inline juce::String fromUtf8 (std::string_view s) { return juce::String::fromUTF8 (s.data(), static_cast<int> (s.size())); }
 
-/// Wraps text to a width.
-inline juce::TextLayout wrapText (const juce::String& text, const juce::Font& font, juce::Colour colour, float width)
-{
-    juce::AttributedString s;
-    s.append (text, font, colour);
-    juce::TextLayout layout;
-    layout.createLayout (s, width);
-    return layout;
-}
+/// A path that is at most `room` pixels wide. Folders in the middle are left out first: "/home/â¦/session.json". The name of the file is
+/// shortened only if it does not fit alone.
+juce::String fittedPath (const juce::String& path, const juce::Font&, float room);
+
+/// One line of text that is at most `room` pixels wide, if shortening the path in it is enough; else the text with the shortest path.
+juce::String withFittedPath (const juce::String& text, const juce::Font&, float room);
+
+/// Wraps text to a width. A word that is wider, such as a path, is shortened in the middle.
+juce::TextLayout wrapText (const juce::String& text, const juce::Font&, juce::Colour, float width);
 
 }   // namespace tactus::host

@@ -5,6 +5,7 @@
 
 #include <host/app/look/focus.hpp>
 #include <host/app/look/key_text.hpp>
+#include <host/app/look/text.hpp>
 #include <host/app/storage/language.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/app/welcome/example.hpp>
@@ -22,6 +23,13 @@ namespace
 {
 constexpr int ticks_before_saving = 15;   // timer ticks; half a second, so that a drag writes the settings only once
 constexpr std::array scales { 1.0, 1.25, 1.5, 2.0 };
+
+/// The folder of a file, from ~ on if it is in the home folder of the user.
+juce::String folderText (const std::filesystem::path& file)
+{
+    const auto folder = fromUtf8 (file.parent_path().string()), home = juce::File::getSpecialLocation (juce::File::userHomeDirectory).getFullPathName();
+    return folder == home || folder.startsWith (home + "/") ? "~" + folder.substring (home.length()) : folder;
+}
 
 /// The title of a dialog and the files that it shows. What is saved follows from the proposed name.
 std::pair<juce::String, juce::String> wordsFor (bool saves, const std::filesystem::path& begin)
@@ -222,9 +230,12 @@ juce::PopupMenu MainView::languageMenu()
 
 void MainView::openMenu (juce::Component& at)
 {
+    constexpr float widest = 280.0f;   // of a part of an entry, in pixels
+    const auto font = lookOf (*this).getPopupMenuFont();
     juce::PopupMenu menu, recent, size;
     for (const auto& file : settings.recent)
-        recent.addItem (menuItem (file.filename().string(), file.parent_path().string(), [this, file] { files.open (file); }));
+        recent.addItem (menuItem (fittedPath (fromUtf8 (file.filename().string()), font, widest), fittedPath (folderText (file), font, widest),
+                                  [this, file] { files.open (file); }));
     const auto addSize = [&] (const juce::String& name, double scale) {
         size.addItem (menuItem (
             name, {}, [this, scale] {

@@ -2,6 +2,7 @@
 #include "question.hpp"
 
 #include <host/app/look/focus.hpp>
+#include <host/app/look/text.hpp>
 
 #include <cmath>
 
@@ -69,11 +70,7 @@ void Question::mark (std::size_t choice)
 juce::TextLayout Question::layout (int w) const
 {
     const auto& look = lookOf (*this);
-    juce::AttributedString s;
-    s.append (body, look.font (13.0f), look.theme().text);
-    juce::TextLayout l;
-    l.createLayout (s, static_cast<float> (w));
-    return l;
+    return wrapText (body, look.font (13.0f), look.theme().text, static_cast<float> (w));
 }
 
 void Question::resized()

@@ -2,18 +2,18 @@
 #pragma once
 
 #include <host/app/look/look.hpp>
+#include <host/app/look/text.hpp>
 #include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
 
-/// The line at the bottom of the window. Shows a hint about what is under the pointer, or the latest notice if there is no hint.
-class StatusLine final : public juce::Component
+/// The line at the bottom of the window. Shows a hint about what is under the pointer, or the latest notice if there is no hint. A text that
+/// is too long is shown in full in the tooltip.
+class StatusLine final : public juce::Component, public juce::TooltipClient
 {
 public:
     static constexpr int height = 26;
-
-    StatusLine() { setInterceptsMouseClicks (false, false); }
 
     void hint (const juce::String& text) { show (text, notice); }   ///< empty: no hint
     void notify (const juce::String& text) { show ({}, text); }     ///< empty: like clearNotice(), and also removes the hint
@@ -25,17 +25,22 @@ public:
         return notice.isNotEmpty() ? notice : TRANS ("Space: add a node   F: frame   G: group   B: bypass   Ctrl+Z: undo   F1: help");
     }
 
+    juce::String getTooltip() override { return lineFont().getStringWidthFloat (text()) > static_cast<float> (line().getWidth()) ? text() : juce::String(); }
+
     void paint (juce::Graphics& g) override
     {
         const auto& look = lookOf (*this);
         g.setColour (look.theme().hairline);
         g.drawHorizontalLine (0, 0.0f, static_cast<float> (getWidth()));
-        g.setFont (look.font (12.0f));
+        g.setFont (lineFont());
         g.setColour (look.theme().dim);
-        g.drawText (text(), getLocalBounds().reduced (16, 0), juce::Justification::centredLeft, true);
+        g.drawText (withFittedPath (text(), lineFont(), static_cast<float> (line().getWidth())), line(), juce::Justification::centredLeft, true);
     }
 
 private:
+    juce::Font lineFont() const { return lookOf (*this).font (12.0f); }
+    juce::Rectangle<int> line() const { return getLocalBounds().reduced (16, 0); }
+
     void show (const juce::String& hint_text, const juce::String& notice_text)
     {
         if (hint_text == hinted && notice_text == notice) return;

@@ -5,6 +5,7 @@
 
 #include <host/app/inspector/formula_block.hpp>
 #include <host/app/limits/limit_light.hpp>
+#include <host/app/look/text.hpp>
 
 #include <algorithm>
 #include <fstream>
@@ -30,6 +31,9 @@ struct PseudoWindow
     explicit PseudoWindow (const std::string& preset = {}, int width = 1280, int height = 720) : rig (preset, width, height)
     {
         data.add (juce::String (rig.home.path().string()));
+        const auto session = juce::String ((rig.home.path() / "session.json").string());
+        for (float room = 60.0f; room < 600.0f; room += 4.0f)   // as it is shown where there is less room
+            data.add (fittedPath (session, rig.look.font (12.0f), room));
         data.add ("Tactus\nEnglish\nJSON\nRate hz\nsim\ntrace\ngesture\nhid\naudio");
         // What the framework says about devices.
         data.add ("sim with a hand that follows\nA simulated tool of\nwith a damping of\nposition, force");
