@@ -73,10 +73,16 @@ void Look::drawScrollbar (juce::Graphics& g, juce::ScrollBar&, int x, int y, int
     g.fillRoundedRectangle (thumb.reduced (2).toFloat(), 3.0f);
 }
 
-void Look::fillTextEditorBackground (juce::Graphics& g, int width, int height, juce::TextEditor&)
+void Look::fillTextEditorBackground (juce::Graphics& g, int width, int height, juce::TextEditor& editor)
 {
     g.setColour (theme().raised);
     g.fillRoundedRectangle (juce::Rectangle<int> (width, height).toFloat(), 4.0f);
+    // JUCE hides the hint once the field has the focus, and the palette always has it.
+    if (! editor.hasKeyboardFocus (false) || ! editor.isEmpty() || editor.getTextToShowWhenEmpty().isEmpty()) return;
+    g.setColour (theme().dim);
+    g.setFont (editor.getFont());
+    const juce::Rectangle<int> area (editor.getLeftIndent(), editor.getTopIndent(), width - editor.getLeftIndent(), height - editor.getTopIndent());
+    g.drawText (editor.getTextToShowWhenEmpty(), area, editor.getJustificationType(), true);
 }
 
 void Look::drawTextEditorOutline (juce::Graphics& g, int width, int height, juce::TextEditor& editor)
@@ -104,7 +110,16 @@ void Look::drawComboBox (juce::Graphics& g, int width, int height, bool, int, in
 void Look::positionComboBoxText (juce::ComboBox& box, juce::Label& label)
 {
     label.setBounds (box.getLocalBounds().withTrimmedLeft (4).withTrimmedRight (22));
+    label.setBorderSize ({ 1, 4, 1, 2 });
     label.setFont (getComboBoxFont (box));
+    label.setMinimumHorizontalScale (1.0f);   // a text that is too long ends with an ellipsis; narrow letters look broken
+}
+
+void Look::drawPopupMenuBackground (juce::Graphics& g, int width, int height)
+{
+    g.fillAll (theme().raised);
+    g.setColour (theme().hairline.interpolatedWith (theme().dim, 0.4f));
+    g.drawRect (0, 0, width, height);
 }
 
 void Look::drawLinearSlider (juce::Graphics& g, int x, int y, int width, int height, float at, float, float, juce::Slider::SliderStyle,
@@ -145,10 +160,12 @@ void drawNumber (juce::Graphics& g, const juce::String& text, juce::Rectangle<fl
     }
 }
 
+void dimWindow (juce::Graphics& g, const Theme& theme) { g.fillAll (juce::Colours::black.withAlpha (theme.is_dark ? 0.55f : 0.35f)); }
+
 void drawDialog (juce::Graphics& g, const Theme& theme, juce::Rectangle<int> box)
 {
     constexpr float corner = 8.0f;
-    g.fillAll (juce::Colours::black.withAlpha (theme.is_dark ? 0.55f : 0.35f));
+    dimWindow (g, theme);
     g.setColour (theme.panel);
     g.fillRoundedRectangle (box.toFloat(), corner);
     g.setColour (theme.hairline);

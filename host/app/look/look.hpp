@@ -30,7 +30,17 @@ public:
     void drawTextEditorOutline (juce::Graphics&, int width, int height, juce::TextEditor&) override;
     void drawComboBox (juce::Graphics&, int width, int height, bool down, int, int, int, int, juce::ComboBox&) override;
     juce::Font getComboBoxFont (juce::ComboBox&) override { return font (12.0f); }
+
+    // The dialog for files, see file_dialog.cpp.
+    void drawResizableWindowBorder (juce::Graphics&, int width, int height, const juce::BorderSize<int>&, juce::ResizableWindow&) override;
+    void drawCornerResizer (juce::Graphics&, int width, int height, bool over, bool dragging) override;
+    void layoutFileBrowserComponent (juce::FileBrowserComponent&, juce::DirectoryContentsDisplayComponent* list, juce::FilePreviewComponent*,
+                                     juce::ComboBox* folder, juce::TextEditor* name, juce::Button* up) override;
+    void drawFileBrowserRow (juce::Graphics&, int width, int height, const juce::File&, const juce::String& name, juce::Image* icon,
+                             const juce::String& size, const juce::String& time, bool is_folder, bool is_selected, int row,
+                             juce::DirectoryContentsDisplayComponent&) override;
     juce::Font getPopupMenuFont() override { return font (13.0f); }
+    void drawPopupMenuBackground (juce::Graphics&, int width, int height) override;
 
     /// Menus open inside the window, so they need no window manager and cannot end up behind it.
     juce::Component* getParentComponentForMenuOptions (const juce::PopupMenu::Options&) override;
@@ -51,6 +61,9 @@ inline const Theme& themeOf (const juce::Component& c) { return lookOf (c).theme
 
 /// Draws a number right-aligned with tabular digits, so that it does not jitter while it changes.
 void drawNumber (juce::Graphics&, const juce::String&, juce::Rectangle<float>);
+
+/// Dims what is behind a dialog.
+void dimWindow (juce::Graphics&, const Theme&);
 
 /// Dims the window, and draws the box of a dialog over it.
 void drawDialog (juce::Graphics&, const Theme&, juce::Rectangle<int> box);

@@ -79,7 +79,7 @@ void MainView::addPanels()
         };
         addAndMakeVisible (*edge);
     }
-    for (auto* over : std::initializer_list<juce::Component*> { &palette, &welcome, &help, &fitting, &question })
+    for (auto* over : std::initializer_list<juce::Component*> { &palette, &welcome, &help, &fitting, &question, &shade })
         addChildComponent (over);
     resized();
 }
@@ -187,6 +187,7 @@ void MainView::timerCallback()
     if (fitting.isOpen()) over = &fitting;
     if (question.isOpen()) over = &question;
     if (over != nullptr && ! over->hasKeyboardFocus (true) && juce::Component::getNumCurrentlyModalComponents() == 0) takeFocus (*over);
+    shade.follow();
     if (osc_server) osc_server->attend();
     strip.refresh();
     if (direct_stop)
@@ -280,6 +281,7 @@ void MainView::resized()
     help.setArea (area.withRight (getWidth()).withBottom (hand.getBottom()).reduced (16));
     fitting.setBounds (getLocalBounds().withTrimmedTop (SafetyStrip::height));
     question.setBounds (getLocalBounds().withTrimmedTop (SafetyStrip::height));   // STOP stays within reach
+    shade.setBounds (question.getBounds());
 }
 
 }   // namespace tactus::host

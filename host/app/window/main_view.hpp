@@ -4,6 +4,7 @@
 #include "files.hpp"
 #include "node_palette.hpp"
 #include "question.hpp"
+#include "shade.hpp"
 #include "splitter.hpp"
 #include "status_line.hpp"
 #include "tabs.hpp"
@@ -184,6 +185,7 @@ private:
     WelcomePage welcome { pictures };
     HelpPanel help;
     FitPanel fitting;
+    Shade shade;
     std::unique_ptr<juce::FileChooser> chooser;
     juce::File recordings;                                   // the folder of the last recording that was chosen
     juce::Component::SafePointer<juce::Component> focused;   // the component with the focus, whose keys are listened to
