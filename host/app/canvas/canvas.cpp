@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace tactus::host
 {
@@ -87,7 +88,13 @@ void Canvas::documentChanged()
         return ! before.contains (n.id)
                && ! getLocalBounds().toFloat().contains (juce::Rectangle<float> (window.toPixels (b.getTopLeft()), window.toPixels (b.getBottomRight())));
     };
-    if (framed && *framed == window && ! drag && std::ranges::any_of (shown->nodes(), isOut)) frameAll();
+    if (framed && *framed == window && ! drag)
+    {
+        juce::Rectangle<float> out;
+        for (const auto& n : shown->nodes())
+            if (isOut (n)) out = out.isEmpty() ? n.bounds() : out.getUnion (n.bounds());
+        if (! out.isEmpty()) framed_around.isEmpty() ? frameAll() : frameAround (out);
+    }
     std::erase_if (highlights.selected, [this] (graph::Id id) {
         if (isNote (id)) return noteOf (id) >= shown->notes().size();
         return shown->find (id) == nullptr && shown->findWire (id) == nullptr;
@@ -201,7 +208,7 @@ void Canvas::breadcrumbsChanged()
     point ({});
     closeEditor (false);
     rebuild();
-    frameAll();
+    frameStart();
     if (onBreadcrumbs) onBreadcrumbs();
     if (onSelection) onSelection();
 }
@@ -245,6 +252,22 @@ void Canvas::frameAll()
 {
     window.frame (shown->bounds(), getLocalBounds().toFloat());
     framed = window;
+    framed_around = {};
+    repaint();
+}
+
+void Canvas::frameStart()
+{
+    const auto isDevice = [] (const SceneNode& n) { return n.type.starts_with ("device."); };
+    const auto first = std::ranges::min_element (shown->nodes(), {}, [&] (const SceneNode& n) { return std::pair (! isDevice (n), n.at.x); });
+    frameAround (first == shown->nodes().end() ? shown->bounds() : first->bounds());
+}
+
+void Canvas::frameAround (juce::Rectangle<float> focus)
+{
+    window.frameReadably (shown->bounds(), focus, getLocalBounds().toFloat());
+    framed = window;
+    framed_around = focus;
     repaint();
 }
 
@@ -311,8 +334,10 @@ void Canvas::resized()
 {
     const auto now = getLocalBounds().toFloat();
     if (now.getWidth() < 50.0f || now.getHeight() < 50.0f) return;
-    if (! framed || *framed == window)
-        frameAll();
+    if (! framed)
+        frameStart();
+    else if (*framed == window)
+        framed_around.isEmpty() ? frameAll() : frameAround (framed_around);
     else
         window.origin += now.getCentre() - laid_out.getCentre();
     laid_out = now;

@@ -89,6 +89,7 @@ public:
     }
 
     void frameAll();
+    void frameStart();   ///< as frameAll(), but labels stay readable: of a large patch, it shows the part around the hand, or around the first node
     void frameSelection();
     void zoomBy (float factor);
     void toggleMap();
@@ -189,6 +190,7 @@ private:
         curves.clear();
     }
     void rebuild();
+    void frameAround (juce::Rectangle<float> focus);
     std::optional<Instance> instanceOf (const graph::Node&, const std::string& names) const;
     void breadcrumbsChanged();
     /// What is under the pointer: its id, a description, and the cursor to show.
@@ -227,6 +229,7 @@ private:
     std::function<void (const juce::String&)> on_edited;
     std::optional<juce::Point<int>> file_over;   // where a file is being dragged over the canvas
     std::optional<View> framed;                  // the view when it was last fitted to the patch: at the first layout with enough room, or on request
+    juce::Rectangle<float> framed_around;        // what the fitted view shows if it cannot show the whole patch readably; empty: it shows all
     juce::Rectangle<float> laid_out;             // of the last layout; the view stays fitted until the user moves it, then keeps its centre
     bool with_map = true;
 };

@@ -9,14 +9,17 @@ namespace tactus::host
 namespace
 {
 constexpr float map_width = 168.0f, map_height = 112.0f, margin = 12.0f, padding = 6.0f;
-}
+constexpr float widest = 0.25f, highest = 0.3f;   // parts of the canvas
+constexpr float least_size = 0.5f;
+}   // namespace
 
 Minimap::Minimap (const Scene& s, const View& view, juce::Rectangle<int> window) : scene (s)
 {
     const auto pixels = window.toFloat();
     seen = { view.toCanvas (pixels.getTopLeft()), view.toCanvas (pixels.getBottomRight()) };
-    if (scene.nodes().empty() || seen.contains (scene.bounds()) || pixels.getWidth() < 3 * map_width || pixels.getHeight() < 2 * map_height) return;
-    area = { pixels.getRight() - map_width - margin, pixels.getBottom() - map_height - margin, map_width, map_height };
+    const float size = std::min ({ 1.0f, widest * pixels.getWidth() / map_width, highest * pixels.getHeight() / map_height });
+    if (scene.nodes().empty() || seen.contains (scene.bounds()) || size < least_size) return;
+    area = juce::Rectangle<float> (size * map_width, size * map_height).withBottomY (pixels.getBottom() - margin).withRightX (pixels.getRight() - margin);
     world = scene.bounds().getUnion (seen);
     const auto room = area.reduced (padding);
     scale = std::min (room.getWidth() / world.getWidth(), room.getHeight() / world.getHeight());

@@ -222,20 +222,16 @@ void paintDelay (juce::Graphics& g, const SceneWire& w, const Look& look)
 /// Paints an exposed port: its outer name, on the side where wires connect.
 void paintExposed (juce::Graphics& g, const Scene::Exposed& e, const Look& look)
 {
-    constexpr float height = 18.0f, stem = 14.0f;
-    const auto font = look.font (11.0f, true);
-    const float width = font.getStringWidthFloat (e.name) + 14.0f;
-    const bool goes_out = e.role == Role::output;
-    const auto edge = e.at.translated (goes_out ? stem : -stem, 0.0f);
-    const auto box = juce::Rectangle<float> (width, height).withCentre (edge.translated (goes_out ? width / 2 : -width / 2, 0.0f));
+    const auto& box = e.label;
+    const auto edge = e.at.withX (e.role == Role::output ? box.getX() : box.getRight());
     const auto colour = look.theme().of (e.quantity);
     g.setColour (colour);
     g.drawLine ({ e.at, edge }, 1.5f);
     g.setColour (look.theme().canvas);
-    g.fillRoundedRectangle (box, height / 2);
+    g.fillRoundedRectangle (box, box.getHeight() / 2);
     g.setColour (colour);
-    g.drawRoundedRectangle (box.reduced (0.5f), height / 2, 1.2f);
-    g.setFont (font);
+    g.drawRoundedRectangle (box.reduced (0.5f), box.getHeight() / 2, 1.2f);
+    g.setFont (look.font (11.0f, true));
     g.setColour (look.theme().text);
     g.drawText (e.name, box, juce::Justification::centred, false);
 }

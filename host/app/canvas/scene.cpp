@@ -44,7 +44,7 @@ Scene::Scene (const graph::Graph& graph, const std::string& name, const Catalogu
     findQuantities (*patch, Quantities (graph, catalogue));
     addWires (*patch);
     routeWires();
-    addExposed (*patch);
+    addExposed (*patch, widthOf);
     all_notes = notesOf (graph, name);
 }
 
@@ -162,8 +162,9 @@ void Scene::addWires (const graph::Patch& patch)
     }
 }
 
-void Scene::addExposed (const graph::Patch& patch)
+void Scene::addExposed (const graph::Patch& patch, const TextWidth& widthOf)
 {
+    constexpr float height = 18.0f, stem = 14.0f, padding = 14.0f, text_size = 11.0f;
     const auto add = [&] (const std::vector<std::pair<std::string, graph::Endpoint>>& ports, Role role) {
         for (const auto& [name, end] : ports)
         {
@@ -172,7 +173,10 @@ void Scene::addExposed (const graph::Patch& patch)
             const auto& node = all_nodes[at (n)];
             const auto* port = role == Role::output ? node.face->startOf (end) : node.face->endOf (end);
             const auto* socket = port == nullptr ? nullptr : node.box.find (port->role, port->id);
-            if (socket != nullptr) all_exposed.push_back ({ node.placeOf (*socket), role, name, node.quantityOf (*port) });
+            if (socket == nullptr) continue;
+            const auto place = node.placeOf (*socket);
+            const float width = widthOf (name, text_size, true) + padding, x = role == Role::output ? place.x + stem : place.x - stem - width;
+            all_exposed.push_back ({ place, role, name, node.quantityOf (*port), { x, place.y - height / 2, width, height } });
         }
     };
     add (patch.expose.inputs, Role::input);
@@ -225,6 +229,8 @@ juce::Rectangle<float> Scene::bounds() const noexcept
     juce::Rectangle<float> all;
     for (const auto& n : all_nodes)
         all = all.isEmpty() ? n.bounds() : all.getUnion (n.bounds());
+    for (const auto& e : all_exposed)
+        all = all.getUnion (e.label);
     for (const auto& n : all_notes)
         all = all.isEmpty() ? n.area : all.getUnion (n.area);
     return all;

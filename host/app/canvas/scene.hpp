@@ -97,6 +97,7 @@ public:
         Role role = Role::input;
         std::string name;
         Quantity quantity = Quantity::any;
+        juce::Rectangle<float> label {};   ///< the place of the name, beside the port
     };
     const std::vector<Exposed>& exposed() const noexcept { return all_exposed; }
 
@@ -127,7 +128,7 @@ private:
     void findQuantities (const graph::Patch&, const Quantities&);
     void addWires (const graph::Patch&);
     void routeWires();
-    void addExposed (const graph::Patch&);
+    void addExposed (const graph::Patch&, const TextWidth&);
     int indexOf (const std::string& name) const noexcept;   ///< -1 if there is no such node
 
     std::vector<SceneNode> all_nodes;

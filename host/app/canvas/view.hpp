@@ -12,6 +12,7 @@ namespace tactus::host
 struct View
 {
     static constexpr float smallest = 0.1f, largest = 4.0f;
+    static constexpr float readable = 0.5f;   ///< the zoom from which on the labels of ports can be read: they have 6 pixels
 
     float zoom = 1.0f;
     juce::Point<float> origin;   ///< where the canvas has its origin, in pixels of the component
@@ -36,10 +37,32 @@ struct View
     void frame (juce::Rectangle<float> area, juce::Rectangle<float> window) noexcept
     {
         if (area.isEmpty() || window.isEmpty()) return;
-        constexpr float margin = 48.0f, share = 0.06f;   // of a small window
-        const auto inside = window.reduced (std::min (margin, share * window.getWidth()), std::min (margin, share * window.getHeight()));
+        const auto inside = withoutMargin (window);
         zoom = std::clamp (std::min ({ 1.0f, inside.getWidth() / area.getWidth(), inside.getHeight() / area.getHeight() }), smallest, largest);
         origin = inside.getCentre() - area.getCentre() * zoom;
+    }
+
+    /// As frame(), but never smaller than readable. If the area is larger than the window then, the window shows the part of it around `focus`.
+    void frameReadably (juce::Rectangle<float> area, juce::Rectangle<float> focus, juce::Rectangle<float> window) noexcept
+    {
+        frame (area, window);
+        if (area.isEmpty() || window.isEmpty() || zoom >= readable) return;
+        zoom = 1.1f * readable;   // as it does not fit anyway
+        const auto inside = withoutMargin (window);
+        const auto along = [this] (juce::Range<float> all, float middle, juce::Range<float> seen) {
+            const float centred = (seen.getStart() + seen.getEnd()) / 2.0f;
+            if (all.getLength() * zoom <= seen.getLength()) return centred - zoom * (all.getStart() + all.getEnd()) / 2.0f;
+            return std::clamp (centred - zoom * middle, seen.getEnd() - zoom * all.getEnd(), seen.getStart() - zoom * all.getStart());
+        };
+        origin = { along (area.getHorizontalRange(), focus.getCentreX(), inside.getHorizontalRange()),
+                   along (area.getVerticalRange(), focus.getCentreY(), inside.getVerticalRange()) };
+    }
+
+private:
+    static juce::Rectangle<float> withoutMargin (juce::Rectangle<float> window) noexcept
+    {
+        constexpr float margin = 48.0f, share = 0.06f;   // of a small window
+        return window.reduced (std::min (margin, share * window.getWidth()), std::min (margin, share * window.getHeight()));
     }
 };
 

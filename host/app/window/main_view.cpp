@@ -246,7 +246,7 @@ void MainView::documentChanged()
         shown_identity = edited.identity();
         patching.leaveTo (0);
         patching.select ({});
-        patching.frameAll();
+        patching.frameStart();
         scopes.suggest();
         presets.showOpen (edited.file().empty() ? edited.preset() : edited.file());
     }

@@ -362,6 +362,7 @@ TEST_CASE ("a canvas that gets larger keeps its centre, and stays fitted to the 
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     const auto centre = [&] { return rig.canvas->view().toCanvas (rig.canvas->getLocalBounds().toFloat().getCentre()); };
     const auto shownOf = [&] { return rig.canvas->getLocalBounds().toFloat(); };
+    rig.canvas->frameAll();
     rig.canvas->setSize (500, 300);
     for (const auto& n : rig.canvas->scene().nodes())
         CHECK (shownOf().contains (rig.canvas->view().toPixels (n.bounds().getCentre())));

@@ -193,7 +193,7 @@ def walk(w):
     w.key("Return")
     w.wait(lambda: "grating" in w.places(), "the node grating")
     w.shot("node-added")
-    w.key("ctrl+z")
+    w.key("ctrl+z", "Home")   # in a small window, the view follows a new node
 
     # Make a loop, read the problem, fix it.
     w.drag("drag.deflection", "board.position")
@@ -215,6 +215,7 @@ def walk(w):
     w.key("Down", "Down", "Return")
     w.wait(lambda: w.has("desk.in[3]"), "another layer")
     w.shot("layers")
+    w.key("Home")
 
     # Group two nodes into a subgraph, and enter it.
     w.click("grain")
