@@ -5,19 +5,26 @@
 #include <host/app/look/glyph.hpp>
 #include <host/app/text/filled.hpp>
 
+#include <algorithm>
+
 namespace tactus::host
 {
+
+namespace
+{
+constexpr int margin = 8, purpose_height = 20, query_height = 32, gap = 6, row_height = 40, no_match_height = 64;
+}
 
 Palette::Palette()
 {
     setTitle (TRANS ("Palette"));
     query.setFont (lookOf (*this).font (14.0f));
-    query.setIndents (10, 6);
+    query.setIndents (10, 8);
     query.setTitle (TRANS ("Search"));
     list.setTitle (TRANS ("Results"));
     query.addListener (this);
     query.addKeyListener (this);
-    list.setRowHeight (40);
+    list.setRowHeight (row_height);
     list.setColour (juce::ListBox::backgroundColourId, juce::Colours::transparentBlack);
     list.setWantsKeyboardFocus (false);
     addAndMakeVisible (query);
@@ -25,8 +32,10 @@ Palette::Palette()
     setVisible (false);
 }
 
-void Palette::open (std::function<std::vector<PaletteEntry> (const std::string&)> s, const juce::String& p, std::function<void (const std::string&)> c)
+void Palette::open (juce::Point<int> at, std::function<std::vector<PaletteEntry> (const std::string&)> s, const juce::String& p,
+                    std::function<void (const std::string&)> c)
 {
+    setTopLeftPosition (at);
     search = std::move (s);
     purpose = p;
     on_chosen = std::move (c);
@@ -49,10 +58,19 @@ void Palette::update()
 {
     found = search (query.getText().toStdString());
     list.updateContent();
+    fit();
     list.scrollToEnsureRowIsOnscreen (0);
     selectNear (0, 1);
     list.repaint();
     repaint();
+}
+
+void Palette::fit()
+{
+    const int listed = found.empty() ? no_match_height : row_height * getNumRows();
+    auto area = getBounds().withSize (width, std::min (highest, 2 * margin + purpose_height + query_height + gap + listed));
+    if (const auto* parent = getParentComponent()) area = area.constrainedWithin (parent->getLocalBounds().reduced (margin));
+    setBounds (area);
 }
 
 void Palette::choose (int row)
@@ -108,16 +126,17 @@ void Palette::paint (juce::Graphics& g)
     g.setColour (theme.dim);
     g.drawText (purpose, getLocalBounds().reduced (12, 8).removeFromTop (16), juce::Justification::centredLeft, true);
     if (! found.empty()) return;
-    const auto area_below = getLocalBounds().withTrimmedTop (80).reduced (24);
-    g.drawFittedText (TRANS ("No match. Try a family such as friction or vibration, or a unit such as N."), area_below, juce::Justification::centredTop, 2);
+    const auto area_below = getLocalBounds().withTrimmedTop (margin + purpose_height + query_height + gap).reduced (12, 10);
+    g.drawFittedText (TRANS ("No match. Try a family such as friction or vibration, or a unit such as N."), area_below, juce::Justification::centredTop, 2,
+                      1.0f);
 }
 
 void Palette::resized()
 {
-    auto area = getLocalBounds().reduced (8);
-    area.removeFromTop (20);
-    query.setBounds (area.removeFromTop (32));
-    area.removeFromTop (6);
+    auto area = getLocalBounds().reduced (margin);
+    area.removeFromTop (purpose_height);
+    query.setBounds (area.removeFromTop (query_height));
+    area.removeFromTop (gap);
     list.setBounds (area);
 }
 

@@ -14,12 +14,13 @@ namespace tactus::host
 class Palette final : public juce::Component, private juce::ListBoxModel, private juce::TextEditor::Listener, private juce::KeyListener
 {
 public:
-    static constexpr int width = 420, height = 400;
+    static constexpr int width = 420, highest = 400;
 
     Palette();
 
-    /// Opens the palette with an empty query. `search` returns the entries for a query, and titles between them.
-    void open (std::function<std::vector<PaletteEntry> (const std::string&)> search, const juce::String& purpose,
+    /// Opens the palette at a point of its parent, with an empty query. `search` returns the entries for a query, and titles between them. The
+    /// palette is as high as what it lists, up to `highest`.
+    void open (juce::Point<int> at, std::function<std::vector<PaletteEntry> (const std::string&)> search, const juce::String& purpose,
                std::function<void (const std::string& type)> chosen);
     void close();
 
@@ -39,6 +40,7 @@ private:
     void textEditorFocusLost (juce::TextEditor&) override;
     bool keyPressed (const juce::KeyPress&, juce::Component*) override;
     void update();
+    void fit();   ///< makes the palette as high as its entries
     void choose (int row);
     bool isEntry (int row) const;          ///< false for titles
     void selectNear (int row, int step);   ///< selects the first entry from this row on, in this direction

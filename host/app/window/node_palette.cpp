@@ -25,12 +25,6 @@ std::vector<WireEnd> endsOf (const NodeRequest& request, const Scene& scene)
     }
     return found;
 }
-
-void place (Palette& palette, juce::Point<int> at)
-{
-    const auto window = palette.getParentComponent()->getLocalBounds().reduced (8);
-    palette.setBounds (juce::Rectangle<int> (Palette::width, Palette::height).withPosition (at).constrainedWithin (window));
-}
 }   // namespace
 
 void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalogue, const NodeRequest& request, const std::vector<std::string>& recent,
@@ -41,11 +35,11 @@ void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalog
         purpose = TRANS ("Insert into wire");
     else if (request.start)
         purpose = filled (TRANS ("Connect %1 to"), request.start->port);
-    place (palette, canvas.view().toPixels (request.at).toInt() + canvas.getPosition());
+    const auto at = canvas.view().toPixels (request.at).toInt() + canvas.getPosition();
     const auto search = [&canvas, &catalogue, recent, request] (const std::string& query) {
         return searchPalette (query, canvas.edited().graph(), catalogue, endsOf (request, canvas.scene()), recent);
     };
-    palette.open (search, purpose, [&canvas, request, onAdded = std::move (onAdded)] (const std::string& type) {
+    palette.open (at, search, purpose, [&canvas, request, onAdded = std::move (onAdded)] (const std::string& type) {
         canvas.addNodeAt (type, request);
         onAdded (type);
         takeFocus (canvas);
@@ -55,11 +49,11 @@ void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalog
 void openPalette (Palette& palette, Canvas& canvas, const juce::String& purpose, std::vector<PaletteEntry> entries,
                   std::function<void (const std::string&)> chosen)
 {
-    place (palette, palette.getParentComponent()->getMouseXYRelative());
-    palette.open ([all = std::move (entries)] (const std::string& query) { return matching (all, query); },
-                  purpose, [&canvas, chosen = std::move (chosen)] (const std::string& type) {
+    const auto search = [all = std::move (entries)] (const std::string& query) { return matching (all, query); };
+    palette.open (palette.getParentComponent()->getMouseXYRelative(), search, purpose, [&canvas, chosen = std::move (chosen)] (const std::string& type) {
         chosen (type);
-        takeFocus (canvas); });
+        takeFocus (canvas);
+    });
 }
 
 }   // namespace tactus::host
