@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace tactus::host
@@ -33,6 +34,20 @@ void latestLevels (const PortTraces& traces, std::size_t n, double factor, std::
     }
     for (auto& v : into)
         v = std::sqrt (v);
+}
+
+/// The marks of a scale, from the top: "10 N", "1 N", "0.1 N", "10 mN". If one of them does not fit with its unit, only the first one has it: "10 rad/s", "1".
+std::array<std::pair<double, juce::String>, 5> scaleMarks (const std::string& unit, const std::function<bool (const juce::String&)>& fits)
+{
+    std::array<std::pair<double, juce::String>, 5> marks { { { 10.0, "10" }, { 1.0, "1" }, { 0.1, "0.1" }, { 0.01, "0.01" }, { 0.001, "0.001" } } };
+    if (unit.empty() || unit == "1") return marks;
+    auto whole = marks;
+    for (auto& [level, text] : whole)
+        text = level < 0.05 ? fromUtf8 (withPrefix (level, unit, level < 0.005 ? 1 : 2)) : text + " " + fromUtf8 (unit);
+    const auto isTooWide = [&] (const auto& mark) { return ! fits (mark.second); };
+    if (std::ranges::none_of (whole, isTooWide)) return whole;
+    marks.front().second << " " << fromUtf8 (unit);
+    return marks;
 }
 }   // namespace
 
@@ -87,7 +102,7 @@ juce::String levelText (double level, const std::string& unit)
     return fromUtf8 (withPrefix (level, unit.empty() ? "1" : unit));
 }
 
-void paintMeter (juce::Graphics& g, juce::Rectangle<float> area, const Meter& meter, juce::Colour colour, const Look& look, bool with_scale)
+void paintMeter (juce::Graphics& g, juce::Rectangle<float> area, const Meter& meter, juce::Colour colour, const Look& look, const std::string& unit)
 {
     const auto& theme = look.theme();
     const auto bar = area.removeFromLeft (10.0f);
@@ -99,10 +114,11 @@ void paintMeter (juce::Graphics& g, juce::Rectangle<float> area, const Meter& me
     g.setColour (colour);
     g.fillRoundedRectangle (bar.reduced (1.5f, 1.0f).withTop (std::min (bar.getBottom() - 1.0f, yOf (meter.rms()))), 1.5f);
     if (meter.peak() > 1e-3) g.fillRect (bar.withHeight (2.0f).withCentre ({ bar.getCentreX(), std::max (bar.getY() + 1.0f, yOf (meter.peak())) }));
-    if (! with_scale) return;
 
-    static constexpr std::array<std::pair<double, const char*>, 5> marks { { { 10.0, "10" }, { 1.0, "1" }, { 0.1, "0.1" }, { 0.01, "10m" }, { 0.001, "1m" } } };
-    g.setFont (look.font (11.0f));
+    const auto font = look.font (11.0f);
+    const float room = area.getWidth() - 8.0f;
+    const auto marks = scaleMarks (unit, [&] (const juce::String& text) { return font.getStringWidthFloat (text) <= room; });
+    g.setFont (font);
     float last = -100.0f;
     for (const auto& [level, text] : marks)
     {
@@ -112,7 +128,7 @@ void paintMeter (juce::Graphics& g, juce::Rectangle<float> area, const Meter& me
         g.setColour (theme.hairline);
         g.fillRect (area.getX() + 2.0f, yOf (level) - 0.5f, 4.0f, 1.0f);
         g.setColour (theme.dim);
-        g.drawText (text, juce::Rectangle<float> (area.getX() + 8.0f, y - 7.0f, area.getWidth() - 8.0f, 14.0f), juce::Justification::centredLeft, false);
+        g.drawText (text, juce::Rectangle<float> (area.getX() + 8.0f, y - 7.0f, room, 14.0f), juce::Justification::centredLeft, false);
     }
 }
 

@@ -17,7 +17,7 @@ using PortTraces = std::vector<std::shared_ptr<const Trace>>;
 struct MeterFeed
 {
     Meter meter;
-    std::string unit;
+    std::string unit;   ///< symbol in SI; empty: not known
     Quantity quantity = Quantity::any;
 
     /// Returns true if there is a trace. `factor` scales the level.
@@ -28,8 +28,9 @@ private:
     std::vector<double> latest;
 };
 
-/// Paints a level as a bar with its peak as a line, on a scale of four decades, from 0.001 to 10.
-void paintMeter (juce::Graphics&, juce::Rectangle<float>, const Meter&, juce::Colour, const Look&, bool with_scale);
+/// Paints a level as a bar with its peak as a line, on a scale of four decades, from 0.001 to 10. The marks of the scale have the unit with its
+/// prefix: "10 mN". If they are too wide, only the first one has it. An empty unit is not known.
+void paintMeter (juce::Graphics&, juce::Rectangle<float>, const Meter&, juce::Colour, const Look&, const std::string& unit);
 
 /// "0.42 N", or "–" for silence.
 juce::String levelText (double level, const std::string& unit);

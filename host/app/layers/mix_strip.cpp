@@ -40,6 +40,8 @@ void MixStrip::show()
     ceiling.show (value ("ceiling"));
     ceiling.setBold (node->params.contains ("ceiling"));
     limits = ceiling.shown().si() > 0.0;
+    for (int i = 0; feed.unit.empty() && i < layersOf (*node, context->catalogue); ++i)
+        feed.unit = unitOfLayer (context->document.graph(), context->place, context->catalogue, i);
     repaint();
 }
 
@@ -70,7 +72,7 @@ void MixStrip::paint (juce::Graphics& g)
     g.setColour (theme.text);
     g.drawText (TRANS ("Mix"), area.removeFromTop (24.0f), juce::Justification::centredLeft, false);
     const bool over = over_db > 0.05;
-    paintMeter (g, meter_area.toFloat(), feed.meter, over ? theme.warning : inkOf (feed.quantity, theme), look, true);
+    paintMeter (g, meter_area.toFloat(), feed.meter, over ? theme.warning : inkOf (feed.quantity, theme), look, feed.unit);
     g.setFont (look.font (12.0f));
     g.setColour (theme.dim);
     g.drawText (TRANS ("ducking"), duck_label, juce::Justification::centredLeft, false);
@@ -87,7 +89,7 @@ void MixStrip::paint (juce::Graphics& g)
 void MixStrip::resized()
 {
     auto area = getLocalBounds().reduced (12, 4).withTrimmedTop (28);
-    meter_area = area.removeFromLeft (46);
+    meter_area = area.removeFromLeft (60);
     area.removeFromLeft (4);
     const bool tall = area.getHeight() >= 148;
     duck_label = tall ? area.removeFromTop (16) : juce::Rectangle<int>();

@@ -2,6 +2,7 @@
 #include "mixer.hpp"
 #include "mixer_parts.hpp"
 
+#include <host/app/model/face.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <tactus/graph/endpoints.hpp>
@@ -177,6 +178,18 @@ const graph::Wire* wireInto (const graph::Graph& g, const MixerPlace& at, int la
         for (const auto& w : patch->wires)
             if (w.to.node == at.node && w.to.port == "in" && w.to.index == layer) return &w;
     return nullptr;
+}
+
+std::string_view unitOfLayer (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer)
+{
+    if (at.vectors) return unit::newton.symbol;
+    const auto* patch = mixing::patchOf (g, at.patch);
+    const auto* w = wireInto (g, at, layer);
+    const auto* from = w == nullptr ? nullptr : patch->find (graph::firstNameOf (w->from.node));
+    if (from == nullptr) return {};
+    const auto face = faceOf (g, *patch, *from, catalogue);
+    const auto* port = face.startOf (w->from);
+    return port != nullptr && port->quantity() != Quantity::any ? port->unit.unit.symbol : std::string_view();
 }
 
 graph::Command setLayerValue (const graph::Node& node, const MixerPlace& at, const Catalogue& catalogue, const std::string& param, int layer,

@@ -43,6 +43,9 @@ Json layerValue (const graph::Node&, const Catalogue&, const std::string& param,
 /// The first wire into a layer; null if there is none.
 const graph::Wire* wireInto (const graph::Graph&, const MixerPlace&, int layer);
 
+/// The symbol of the unit of a layer, as far as it is known without a run: "N"; "" if it is not. A mixer of vectors has only forces.
+std::string_view unitOfLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, int layer);
+
 /// Without a value: resets to the default.
 graph::Command setLayerValue (const graph::Node&, const MixerPlace&, const Catalogue&, const std::string& param, int layer, const std::optional<Json>&);
 

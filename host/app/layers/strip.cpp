@@ -144,7 +144,9 @@ void LayerStrip::showSource()
     const auto input = w->to.component < 0 ? TRANS ("Input: %1; click to select it") : TRANS ("Input: %1 along %2; click to select it");
     source.setTooltip (filled (input, graph::toText (w->from), axes[static_cast<std::size_t> (std::max (0, w->to.component))]));
     const auto face = faceOf (graph, *patch, *from, context->catalogue);
-    if (const auto* port = face.startOf (w->from); port != nullptr && port->quantity() != Quantity::any) feed.quantity = port->quantity();
+    const auto* port = face.startOf (w->from);
+    if (port != nullptr && port->quantity() != Quantity::any) feed.quantity = port->quantity();
+    if (feed.unit.empty()) feed.unit = unitOfLayer (graph, context->place, context->catalogue, layer);
 }
 
 void LayerStrip::showSends()
@@ -309,7 +311,7 @@ void LayerStrip::paint (juce::Graphics& g)
             g.fillRect (box.getX() + 2.0f + each * static_cast<float> (b), box.getBottom() - 2.0f - h, each - 0.8f, h);
         }
     }
-    paintMeter (g, meter_area.toFloat(), feed.meter, colour, look, true);
+    paintMeter (g, meter_area.toFloat(), feed.meter, colour, look, feed.unit);
     g.setFont (look.font (11.0f));
     g.setColour (theme.dim);
     drawNumber (g, levelText (feed.meter.peak(), feed.unit), peak_area.toFloat());
@@ -337,8 +339,8 @@ void LayerStrip::resized()
     spectrum_area = area.getHeight() >= 92 ? area.removeFromTop (24) : juce::Rectangle<int>();
     if (! spectrum_area.isEmpty()) area.removeFromTop (4);
     fader.setVisible (area.getHeight() >= 40);
-    auto right = area.removeFromRight (50);
-    peak_area = area.getHeight() >= 60 ? right.removeFromBottom (14) : juce::Rectangle<int>();
+    auto right = area.removeFromRight (60);
+    peak_area = area.getHeight() >= 60 ? right.removeFromBottom (16).withTrimmedTop (2) : juce::Rectangle<int>();
     meter_area = right.withTrimmedLeft (4);
     fader.setBounds (area.reduced (4, 0));
 }

@@ -4,6 +4,7 @@
 
 #include <tactus/file/graph_file.hpp>
 
+#include "host/app/support/seen_text.hpp"
 #include "support/sketch.hpp"
 
 #include <catch2/catch.hpp>
@@ -247,4 +248,20 @@ TEST_CASE ("a clip dropped on the desk becomes a layer; without a mixer, the sam
         rig.panel->filesDropped ({ juce::String (TACTUS_SOURCE_DIR "/README.md") }, 10, 10);
         CHECK (writeGraph (rig.document->graph()) == before);
     }
+}
+
+TEST_CASE ("the scales of the meters have units, also before the first run", "[layers]")
+{
+    Rig rig ("bronze_bell.json");
+    rig.panel->setBounds (0, 0, 1400, 320);
+    const auto check = [] (juce::Component& strip) {
+        const auto texts = tactus::host::test::readTexts (strip);
+        for (const char* mark : { "10 N", "1 N", "0.1 N", "10 mN", "1 mN" })
+        {
+            INFO (mark);
+            CHECK (std::ranges::any_of (texts, [&] (const auto& t) { return t.text == mark && ! t.is_cut; }));
+        }
+    };
+    check (rig.panel->layer (0));
+    check (*rig.panel->mix());
 }
