@@ -22,7 +22,6 @@ FilmButton::FilmButton (Playback& p, SceneView& s) : playback (p), space (s)
     setLength (length_s);
 }
 
-/// The same for every label, so that the buttons next to it stay in place.
 int FilmButton::wantedWidth() const
 {
     const auto width = [font = lookOf (*this).font (12.0f)] (const juce::String& text) { return font.getStringWidthFloat (text); };

@@ -16,8 +16,9 @@ class FilmButton final : public juce::Component
 public:
     FilmButton (Playback&, SceneView&);
 
-    void refresh();   ///< call many times a second
-    int wantedWidth() const;
+    void refresh();                                           ///< call many times a second
+    int wantedWidth() const;                                  ///< the same for every label, so that what is next to the button stays in place
+    int leastWidth() const { return button.wantedWidth(); }   ///< for the label that it has now
 
     /// How many seconds are kept and saved.
     void setLength (double seconds);

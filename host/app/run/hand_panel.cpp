@@ -7,6 +7,9 @@
 #include <host/app/text/filled.hpp>
 #include <tactus/run/device/gestures.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 namespace tactus::host
 {
 
@@ -192,6 +195,7 @@ void HandPanel::refresh()
     watchScene();
     space.refresh();
     film_button.refresh();
+    if (film_button.leastWidth() != film_width) resized();
     listen->setToggleState (sound.isOn(), juce::dontSendNotification);
     showSource (run.hand());
     showTransport (run);
@@ -222,6 +226,7 @@ void HandPanel::showTransport (const LiveRun& run)
 {
     const auto now = run.isRunning() ? run.transport() : nullptr;
     const bool is_new = now != transport;
+    if ((now == nullptr) != (transport == nullptr)) repaint();   // the note appears or disappears, also between the controls
     transport = now;
     for (auto* c : std::initializer_list<juce::Component*> { play.get(), &position, &speed })
         c->setVisible (transport != nullptr);
@@ -238,7 +243,7 @@ void HandPanel::showTransport (const LiveRun& run)
 
 juce::String HandPanel::noteFor (const LiveRun& run) const
 {
-    if (! run.isRunning()) return TRANS ("Not running. Press START at the top right.");
+    if (! run.isRunning()) return hasErrors (run.messages()) ? TRANS ("Cannot run: see Problems.") : TRANS ("Not running. Press START at the top right.");
     if (run.hand().kind != LiveRun::Hand::Kind::pointer)
         return is_scene ? TRANS ("Drag: turn. Shift+drag: move. Wheel: zoom.") : TRANS ("The tool follows its device.");
     if (is_scene && ! showsBoth()) return TRANS ("Drag the tool to press. Elsewhere: turn; Shift: move; wheel: zoom.");
@@ -266,6 +271,17 @@ void HandPanel::paint (juce::Graphics& g)
     g.drawText (note, getLocalBounds().removeFromBottom (bar_height).reduced (margin, 0), juce::Justification::centredLeft, true);
 }
 
+/// The width at which each of the usual sources can be read.
+int HandPanel::wantedSourceWidth() const
+{
+    constexpr int around_text = 32;   // the border and the arrow
+    const auto font = lookOf (*this).font (12.0f);
+    float widest = 0.0f;
+    for (int i = 0; i < source.getNumItems(); ++i)
+        if (source.getItemId (i) != by_recording) widest = std::max (widest, font.getStringWidthFloat (source.getItemText (i)));
+    return static_cast<int> (std::ceil (widest)) + around_text;
+}
+
 void HandPanel::resized()
 {
     auto area = getLocalBounds();
@@ -278,9 +294,11 @@ void HandPanel::resized()
         b->setBounds (head.removeFromLeft (b->wantedWidth()));
         head.removeFromLeft (b == &in_space ? 8 : 2);
     }
-    film_button.setBounds (head.removeFromLeft (film_button.wantedWidth()));
+    film_width = film_button.leastWidth();
+    const int room_for_film = head.getWidth() - 6 - wantedSourceWidth();
+    film_button.setBounds (head.removeFromLeft (std::clamp (room_for_film, film_width, std::max (film_width, film_button.wantedWidth()))));
     head.removeFromLeft (2);
-    source.setBounds (head.removeFromRight (std::min (200, head.getWidth() - 4)));
+    source.setBounds (head.removeFromRight (std::min (std::max (200, wantedSourceWidth()), head.getWidth() - 4)));
     auto low = area.removeFromBottom (bar_height).reduced (margin, 4);
     play->setBounds (low.removeFromLeft (24));
     low.removeFromLeft (4);

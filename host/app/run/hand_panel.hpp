@@ -52,6 +52,7 @@ private:
     bool showsBoth() const noexcept { return is_large && getWidth() >= least_width_for_both; }
     void connectScene();
     void watchScene();
+    int wantedSourceWidth() const;
 
     static constexpr int least_width_for_both = 760;
 
@@ -63,6 +64,7 @@ private:
     LabelButton larger { TRANS ("Enlarge"), TRANS ("Shows the scene in place of the canvas") };
     FilmButton film_button { playback, space };
     bool is_scene = false, is_large = false, is_seen = true, is_watching = false;
+    int film_width = 0;   // that the label of the button needed at the last layout
     juce::ComboBox source;
     std::unique_ptr<juce::Button> play, listen;
     juce::Slider position, speed;

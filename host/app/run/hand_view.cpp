@@ -185,11 +185,11 @@ void HandView::paintHeight (juce::Graphics& g) const
     g.fillRect (bar.withTop (heightOf (0.0)));
     g.setFont (look.font (11.0f));
     g.setColour (theme.dim);
-    g.drawText ("z = 0", bar.withTop (heightOf (0.0)).withHeight (16.0f), juce::Justification::centred, false);
+    g.drawText ("z = 0", bar.withTop (heightOf (0.0)).withHeight (16.0f).withTrimmedLeft (4.0f), juce::Justification::centredLeft, false);
     if (! tool) return;
     const float z = heightOf (tool->position.z());
     g.setColour (tool->force.norm() > 1e-6 ? theme.of (Quantity::force) : theme.of (Quantity::length));
-    g.fillEllipse (juce::Rectangle<float> (9.0f, 9.0f).withCentre ({ bar.getCentreX(), z }));
+    g.fillEllipse (juce::Rectangle<float> (9.0f, 9.0f).withCentre ({ bar.getRight() - 12.0f, z }));   // beside "z = 0"
     g.setColour (theme.text);
     constexpr double least_shown = 0.5e-6;   // m; below, the digits only flicker
     const double height = tool->position.z();

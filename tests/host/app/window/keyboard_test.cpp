@@ -124,3 +124,15 @@ TEST_CASE ("an opened subgraph with several instances shows the values of the ch
     canvas.chooseInstance (99);   // at most the last one
     CHECK (canvas.instance()->number == canvas.instance()->count - 1);
 }
+
+TEST_CASE ("a click on a tab shows its panel, and leaves the keyboard to the canvas", "[app][keyboard]")
+{
+    WindowRig w ("dry_wood.json");
+    w.view->canvas().grabKeyboardFocus();
+    for (const char* tab : { "History", "Presets", "Take", "Devices", "Layers", "Problems", "Scopes" })
+    {
+        INFO (tab);
+        w.click (tab);
+        CHECK (WindowRig::focused() == &w.view->canvas());
+    }
+}
