@@ -218,6 +218,12 @@ Result<Ring> ringOf (const RecordedRing& recorded)
     ring.largest = ring.value.cwiseAbs().maxCoeff();
     if (! (ring.largest > 0.0)) return fitError ("fit/silent", "the fitted part is 0 throughout", "choose another part of the recording");
     ring.value /= ring.largest;
+    const double earliest = recorded.time.front() - (recorded.time.back() - recorded.time.front());
+    if (recorded.blow && ! (*recorded.blow >= earliest && *recorded.blow <= ring.start))
+        return fitError ("fit/blow",
+                         "the blow at " + roundedText (*recorded.blow, 4) + " s is "
+                             + (*recorded.blow > ring.start ? "after the start of the fitted part" : "long before the recording"),
+                         "give a time from " + roundedText (earliest, 4) + " s to " + roundedText (ring.start, 4) + " s, in the times of the recording");
     ring.blow = std::min (ring.start, recorded.blow.value_or (blowBefore (recorded, from, to)));
     return ring;
 }

@@ -35,7 +35,8 @@ struct ModesFit
 /// Fits decaying tones and a slow drift of the sensor. For each number of tones, the matrix pencil method gives start values, and
 /// least squares refines them. BIC selects the number. The cross-validation divides the rows into 50 blocks and leaves out every fifth block.
 ///
-/// Errors: fit/too_short, fit/not_finite, fit/time, fit/uneven, fit/silent, fit/no_ring, fit/cancelled. [any thread]
+/// Errors: fit/too_short, fit/not_finite, fit/time, fit/uneven, fit/silent, fit/blow (a blow after the start of the
+/// fitted part, or more than the length of the recording before it), fit/no_ring, fit/cancelled. [any thread]
 ///
 /// Source of the start values: Hua & Sarkar 1990, matrix pencil.
 Result<ModesFit> fitModes (const RecordedRing&, FitCourse* = nullptr);

@@ -21,8 +21,9 @@ constexpr int fit_margin = 24, widest_box = 1240, highest_box = 720, field_heigh
 struct Amount
 {
     const char *label, *unit, *usual;
-    double FitSettings::*member;
-    bool is_above_0 = true;   ///< otherwise it may have any value
+    void (*set) (FitSettings&, double);
+    bool is_above_0 = true;      ///< otherwise it may have any value
+    const char* if_empty = "";   ///< what is used then
 };
 
 std::optional<Amount> amountOf (FitKind kind)
@@ -31,17 +32,17 @@ std::optional<Amount> amountOf (FitKind kind)
     {
     case FitKind::friction:
     case FitKind::grating:
-        return Amount { NEEDS_TRANS ("Normal force"), "N", "1 N", &FitSettings::load };
+        return Amount { NEEDS_TRANS ("Normal force"), "N", "1 N", [] (FitSettings& s, double v) { s.load = v; } };
     case FitKind::texture:
-        return Amount { NEEDS_TRANS ("Mass of the tip"), "kg", "10 g", &FitSettings::mass };
+        return Amount { NEEDS_TRANS ("Mass of the tip"), "kg", "10 g", [] (FitSettings& s, double v) { s.mass = v; } };
     case FitKind::blade:
-        return Amount { NEEDS_TRANS ("Width of the cut"), "m", "20 mm", &FitSettings::width };
+        return Amount { NEEDS_TRANS ("Width of the cut"), "m", "20 mm", [] (FitSettings& s, double v) { s.width = v; } };
     case FitKind::shock:
-        return Amount { NEEDS_TRANS ("Mass"), "kg", "", &FitSettings::mass };
+        return Amount { NEEDS_TRANS ("Mass"), "kg", "", [] (FitSettings& s, double v) { s.mass = v; }, true, NEEDS_TRANS ("from the times") };
     case FitKind::curve:
-        return Amount { NEEDS_TRANS ("Depth at the touch"), "m", "0 mm", &FitSettings::touch, false };
+        return Amount { NEEDS_TRANS ("Depth at the touch"), "m", "0 mm", [] (FitSettings& s, double v) { s.touch = v; }, false };
     case FitKind::modes:
-        break;
+        return Amount { NEEDS_TRANS ("Time of the blow"), "s", "", [] (FitSettings& s, double v) { s.blow = v; }, false, NEEDS_TRANS ("from the ring") };
     }
     return {};
 }
@@ -128,7 +129,7 @@ void FitPanel::choose (FitKind kind)
     amount.setText (wanted ? wanted->usual : "", false);
     amount_label.setText (wanted ? juce::translate (wanted->label) : juce::String(), juce::dontSendNotification);
     amount.setTitle (wanted ? juce::translate (wanted->label) : juce::String());
-    amount.setTextToShowWhenEmpty (TRANS ("from the times"), themeOf (*this).dim);
+    amount.setTextToShowWhenEmpty (wanted && *wanted->if_empty != 0 ? juce::translate (wanted->if_empty) : juce::String(), themeOf (*this).dim);
     if (table) which.show (*table, kind);
     fit();
 }
@@ -167,7 +168,7 @@ void FitPanel::fit()
                                                     : TRANS ("%1: %2 does not fit. Type a number with its unit, such as 1.5 %3."),
                                  juce::translate (wanted->label), amount.getText().quoted(), wanted->unit)
                              .toStdString());
-        settings.*(wanted->member) = typed->value;
+        wanted->set (settings, typed->value);
     }
     job.start (*chosen, table, file.string(), settings);
     showResult();
@@ -234,6 +235,13 @@ bool FitPanel::keyPressed (const juce::KeyPress& key)
     return true;
 }
 
+juce::Rectangle<int> FitPanel::headingArea() const { return box.reduced (fit_margin, 20).removeFromTop (24); }
+
+juce::String FitPanel::getTooltip()
+{
+    return headingArea().contains (getMouseXYRelative()) ? fromUtf8 (printableName (file.string())) : juce::String();
+}
+
 void FitPanel::resized()
 {
     box = getLocalBounds().withSizeKeepingCentre (std::min (widest_box, getWidth() - 32), std::min (highest_box, getHeight() - 24));
@@ -244,6 +252,7 @@ void FitPanel::resized()
     {
         amount.setBounds (row.removeFromRight (120));
         amount_label.setBounds (row.removeFromRight (130));
+        row.removeFromRight (12);
     }
     kinds.setBounds (row.removeFromLeft (std::min (row.getWidth(), 460)));
     area.removeFromTop (10);
@@ -271,8 +280,12 @@ void FitPanel::paint (juce::Graphics& g)
     drawDialog (g, theme, box);
     g.setColour (theme.text);
     g.setFont (look.font (16.0f, true));
-    const auto heading = box.reduced (fit_margin, 20).removeFromTop (24);
-    g.drawText (filled (TRANS ("Fit %1"), printableName (file.filename().string())), heading, juce::Justification::centredLeft, true);
+    const auto heading = headingArea();
+    constexpr int room_for_rows = 100;
+    const auto font = look.font (16.0f, true);
+    const float room = static_cast<float> (heading.getWidth() - room_for_rows) - font.getStringWidthFloat (filled (TRANS ("Fit %1"), ""));
+    const auto name = fittedPath (fromUtf8 (printableName (file.filename().string())), font, room);
+    g.drawText (filled (TRANS ("Fit %1"), name), heading, juce::Justification::centredLeft, true);
     if (table)
     {
         g.setColour (theme.dim);

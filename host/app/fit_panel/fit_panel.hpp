@@ -16,7 +16,7 @@ namespace tactus::host
 
 /// A panel over the window that shows a recording and a model fitted to it: the kind of recording, a plot of both, the parameters with intervals,
 /// and the verdict. Nothing changes until the user accepts the fit. [main thread]
-class FitPanel final : public juce::Component
+class FitPanel final : public juce::Component, public juce::TooltipClient
 {
 public:
     FitPanel();
@@ -44,8 +44,10 @@ public:
     void paint (juce::Graphics&) override;
     void resized() override;
     bool keyPressed (const juce::KeyPress&) override;
+    juce::String getTooltip() override;   ///< the path of the recording, over the heading
 
 private:
+    juce::Rectangle<int> headingArea() const;
     void fit();
     void fail (const std::string&);
     void readAmount();

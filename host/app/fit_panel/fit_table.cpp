@@ -89,6 +89,20 @@ int FitTable::heightFor (int width) const
     return verdict_height + header_height + row_height * static_cast<int> (rows.size()) + gap + static_cast<int> (std::ceil (remarks (width).getHeight())) + 4;
 }
 
+/// Those of the columns of the value and the interval, with the gap to the left of each.
+std::pair<int, int> FitTable::widths() const
+{
+    constexpr int apart = 16;
+    const auto font = lookOf (*this).font (12.5f);
+    float value = font.getStringWidthFloat (TRANS ("Value")), interval = font.getStringWidthFloat (TRANS ("95 % interval"));
+    for (const auto& row : rows)
+    {
+        value = std::max (value, font.getStringWidthFloat (row.value));
+        interval = std::max (interval, font.getStringWidthFloat (row.interval));
+    }
+    return { static_cast<int> (std::ceil (value)) + apart, static_cast<int> (std::ceil (interval)) + apart };
+}
+
 void FitTable::paint (juce::Graphics& g)
 {
     if (rows.empty()) return;
@@ -103,7 +117,9 @@ void FitTable::paint (juce::Graphics& g)
     g.setColour (theme.text);
     g.drawText (report.is_good ? TRANS ("Good fit") : TRANS ("Poor fit"), verdict.withTrimmedLeft (8), juce::Justification::centredLeft, false);
 
-    const int width = area.getWidth(), name_width = width * 38 / 100, value_width = width * 27 / 100;
+    const int width = area.getWidth();
+    const auto [value_width, interval_width] = widths();
+    const int name_width = std::max (width * 25 / 100, width - value_width - interval_width);
     const auto cells = [&] (juce::Rectangle<int> line, const juce::String& name, const juce::String& value, const juce::String& interval) {
         g.drawText (name, line.removeFromLeft (name_width), juce::Justification::centredLeft, true);
         g.drawText (value, line.removeFromLeft (value_width), juce::Justification::centredRight, true);

@@ -31,6 +31,7 @@ private:
     };
 
     juce::TextLayout remarks (int width) const;
+    std::pair<int, int> widths() const;
 
     FitReport report;
     Messages warnings;

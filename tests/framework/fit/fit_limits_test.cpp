@@ -240,6 +240,14 @@ TEST_CASE ("fit of modes: amplitudes are those at the blow, wherever the fitted 
     const auto earlier = fitModes (ring);
     REQUIRE (earlier);
     CHECK (earlier->tones[0].amplitude == Approx (100.0 * std::exp (1.0)).epsilon (0.02));
+    for (const double wrong : { 0.04, 100.0, -100.0, std::nan ("") })
+    {
+        CAPTURE (wrong);
+        ring.blow = wrong;
+        const auto refused = fitModes (ring);
+        REQUIRE_FALSE (refused);
+        CHECK (refused.error().id == "fit/blow");
+    }
 }
 
 TEST_CASE ("fit of modes: an earlier and stronger blow does not count", "[fit]")

@@ -223,6 +223,41 @@ TEST_CASE ("fit panel: a press that snaps is said, and the depth of the touch ca
     CHECK (rig.panel().fitted()->report.picture.curves.front().x.back() == Approx (whole - 5e-4));
 }
 
+TEST_CASE ("fit panel: the time of the blow can be given for a ring, and a time that cannot be is refused with the times that can", "[app][fit]")
+{
+    FitRig rig;
+    std::ostringstream text;
+    text << "t,value\n";
+    for (int i = 0; i < 1600; ++i)
+    {
+        const double t = i / 8000.0 - 0.01;
+        text << t + 0.01 << "," << (t < 0.0 ? 0.0 : std::exp (-30.0 * t) * std::sin (2.0 * 3.14159265358979 * 220.0 * t)) << "\n";
+    }
+    rig.view.fitRecordingIn (rig.write ("ring.csv", text.str()));
+    rig.finish();
+    auto& panel = rig.panel();
+    REQUIRE (panel.kind() == FitKind::modes);
+    REQUIRE (panel.fitted());
+    const double found = panel.fitted()->report.at ("mode 1 amplitude").value;
+    CHECK (found == Approx (1.0).epsilon (0.02));
+    panel.setAmount ("5 ms");   // 5 ms before the blow, the ring would have been larger
+    rig.finish();
+    REQUIRE (panel.fitted());
+    CHECK (panel.fitted()->report.at ("mode 1 amplitude").value == Approx (found * std::exp (30.0 * 0.005)).epsilon (0.02));
+    for (const char* wrong : { "1 s", "-1 s", "2 mm", "soon" })
+    {
+        INFO (wrong);
+        panel.setAmount (wrong);
+        rig.finish();
+        CHECK_FALSE (panel.fitted());
+        CHECK (panel.problem().contains (juce::String (wrong).endsWith (" s") ? "give a time from" : "Time of the blow"));
+    }
+    panel.setAmount ({});
+    rig.finish();
+    REQUIRE (panel.fitted());
+    CHECK (panel.fitted()->report.at ("mode 1 amplitude").value == Approx (found));
+}
+
 TEST_CASE ("fit panel: a CSV file that is dropped on the window opens the panel, other files do not", "[app][fit]")
 {
     FitRig rig;
