@@ -52,7 +52,7 @@ void HistoryPanel::paint (juce::Graphics& g)
     g.setColour (look.theme().dim);
     g.setFont (look.font (13.0f));
     const auto hint = TRANS ("Your edits are listed here. Click a step to undo or redo up to it; Ctrl+Z and Ctrl+Y go one step at a time.");
-    g.drawFittedText (hint, getLocalBounds().reduced (16).withTrimmedTop (32), juce::Justification::topLeft, 8);
+    g.drawFittedText (hint, getLocalBounds().reduced (16).withTrimmedTop (32), juce::Justification::topLeft, 8, 1.0f);
 }
 
 void HistoryPanel::resized() { list.setBounds (getLocalBounds().withTrimmedRight (1).reduced (8)); }

@@ -30,7 +30,7 @@ PresetBrowser::PresetBrowser (const Catalogue& c, Settings& s, PictureStore& p)
     setTitle (TRANS ("Presets"));
     const auto& look = lookOf (*this);
     query.setFont (look.font (13.0f));
-    query.setIndents (8, 4);
+    query.setIndents (8, 6);
     query.setTitle (TRANS ("Search presets"));
     query.setTextToShowWhenEmpty (TRANS ("Search presets"), look.theme().dim);
     query.onTextChange = [this] { update(); };
@@ -231,12 +231,11 @@ void PresetBrowser::paint (juce::Graphics& g)
     g.drawVerticalLine (getWidth() - 1, 0.0f, static_cast<float> (getHeight()));
     if (shown.empty())
     {
-        g.setColour (look.theme().dim);
-        g.setFont (look.font (13.0f));
         auto text = filled (TRANS ("No presets in %1."), folder.string());
         if (folder.empty()) text = TRANS ("No preset folder found. Set TACTUS_PRESETS to its path.");
         if (! presets.empty()) text = TRANS ("No match. Remove a word or a tag.");
-        g.drawFittedText (text, list.getBounds().reduced (8), juce::Justification::topLeft, 6);
+        const auto area = list.getBounds().reduced (8).toFloat();
+        wrapText (text, look.font (13.0f), look.theme().dim, area.getWidth()).draw (g, area);
     }
     if (footer.isEmpty()) return;
     g.setColour (look.theme().hairline);

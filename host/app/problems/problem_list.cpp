@@ -4,6 +4,10 @@
 #include <host/app/look/text.hpp>
 #include <host/app/text/filled.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 namespace tactus::host
 {
 
@@ -20,7 +24,7 @@ public:
     Row (ProblemList& l, Message m) : list (l), message (std::move (m))
     {
         setMouseCursor (juce::MouseCursor::PointingHandCursor);
-        setTooltip (fromUtf8 (message.text + (message.remedy.empty() ? "" : "\n" + message.remedy)));   // a row may be too short for its text
+        setTooltip (fromUtf8 (message.text + (message.remedy.empty() ? "" : "\n" + message.remedy)));   // with the whole of a shortened path
         const auto fix = fixOf (list.document.graph(), message);
         if (! fix) return;
         button = std::make_unique<juce::TextButton> (fromUtf8 (fix->label));
@@ -41,14 +45,19 @@ public:
         const bool is_error = message.severity == Message::Severity::error;
         g.setColour (is_error ? theme.stop : theme.warning);
         g.fillEllipse (area.removeFromLeft (20).withSizeKeepingCentre (8, 8).translated (-6, 0).toFloat());
-        g.setColour (theme.text);
-        g.setFont (look.font (13.0f));
-        g.drawText (fromUtf8 (message.text), area.removeFromTop (area.getHeight() / 2), juce::Justification::centredLeft, true);
-        g.setColour (theme.dim);
-        g.setFont (look.font (12.0f));
-        g.drawText (fromUtf8 (message.remedy), area, juce::Justification::centredLeft, true);
+        const auto [what, remedy] = texts (area.getWidth());
+        const auto height = what.getHeight() + remedy.getHeight();
+        auto place = area.toFloat().withSizeKeepingCentre (static_cast<float> (area.getWidth()), height);
+        what.draw (g, place.removeFromTop (what.getHeight()));
+        remedy.draw (g, place);
         g.setColour (theme.hairline);
         g.drawHorizontalLine (getHeight() - 1, 16.0f, static_cast<float> (getWidth() - 16));
+    }
+
+    int heightFor (int width) const
+    {
+        const auto [what, remedy] = texts (width - 2 * 16 - 20 - (button ? button_width + 8 : 0));
+        return std::max (problem_height, static_cast<int> (std::ceil (what.getHeight() + remedy.getHeight())) + 12);
     }
 
     void resized() override
@@ -62,6 +71,14 @@ public:
     }
 
 private:
+    std::pair<juce::TextLayout, juce::TextLayout> texts (int width) const
+    {
+        const auto& look = lookOf (*this);
+        const auto w = static_cast<float> (width);
+        return { wrapText (fromUtf8 (message.text), look.font (13.0f), look.theme().text, w),
+                 wrapText (fromUtf8 (message.remedy), look.font (12.0f), look.theme().dim, w) };
+    }
+
     ProblemList& list;
     const Message message;
     std::unique_ptr<juce::TextButton> button;
@@ -108,9 +125,17 @@ void ProblemList::paint (juce::Graphics& g)
 void ProblemList::resized()
 {
     scroll.setBounds (getLocalBounds());
-    column.setSize (scroll.getMaximumVisibleWidth(), problem_height * static_cast<int> (rows.size()));
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        rows[i]->setBounds (0, problem_height * static_cast<int> (i), column.getWidth(), problem_height);
+    const auto layOut = [&] (int width) {
+        int y = 0;
+        for (auto& row : rows)
+        {
+            row->setBounds (0, y, width, row->heightFor (width));
+            y = row->getBottom();
+        }
+        column.setSize (width, y);
+    };
+    layOut (scroll.getWidth());
+    if (column.getHeight() > scroll.getHeight()) layOut (scroll.getWidth() - scroll.getScrollBarThickness());
 }
 
 }   // namespace tactus::host

@@ -247,7 +247,7 @@ void ScopePanel::paint (juce::Graphics& g)
     g.setColour (theme.dim);
     const auto text = suggestion.isVisible() ? TRANS ("No scopes. Select a wire and press P, add a scope above, or start with this port:")
                                              : TRANS ("No scopes. Add nodes to the graph, select a wire, and press P");
-    g.drawFittedText (text, emptyArea().reduced (24, 16).withTrimmedBottom (32), juce::Justification::centred, 2);
+    g.drawFittedText (text, emptyArea().reduced (24, 16).withTrimmedBottom (32), juce::Justification::centred, 2, 1.0f);
 }
 
 void ScopePanel::resized()

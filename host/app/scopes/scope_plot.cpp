@@ -6,6 +6,7 @@
 
 #include <host/io/colours.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tactus::host
@@ -77,7 +78,7 @@ void ScopePlot::paint (juce::Graphics& g)
     {
         g.setFont (look.font (12.0f));
         g.setColour (theme().dim);
-        g.drawFittedText (emptyText(), getLocalBounds().reduced (16, 8), juce::Justification::centred, 4);
+        g.drawFittedText (emptyText(), getLocalBounds().reduced (16, 8), juce::Justification::centred, 4, 1.0f);
         return;
     }
     for (std::size_t i = 0; i < lanes.size(); ++i)
@@ -197,6 +198,8 @@ void ScopePlot::paintLegend (juce::Graphics& g, juce::Rectangle<float> line, con
     float width = 0.0f;
     for (const auto& e : entries)
         width += font.getStringWidthFloat (e.text) + 22.0f;
+    if (width + 2.0f > line.getWidth())   // the plot is too narrow: over the scale, but not over its unit
+        line = line.withLeft (std::max (2.0f, line.getRight() - width - 2.0f)).withTrimmedBottom (4.0f);
     auto box = at_right ? line.removeFromRight (width + 2.0f) : line.removeFromLeft (width + 2.0f);
     g.setColour (theme().canvas.withAlpha (0.8f));
     g.fillRoundedRectangle (box, 3.0f);

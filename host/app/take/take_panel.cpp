@@ -233,10 +233,13 @@ void TakePanel::resized()
     from.setBounds (foot.removeFromLeft (60));
     foot.removeFromLeft (44);
     until.setBounds (foot.removeFromLeft (60));
+    foot.removeFromLeft (20);   // the unit
+    constexpr int gap = 6;
+    const int wanted = test.bestWidth() + gesture.bestWidth() + clip.bestWidth(), room = std::max (0, foot.getWidth() - 2 * gap);
     for (auto* b : { &test, &gesture, &clip })
     {
-        b->setBounds (foot.removeFromRight (b->bestWidth()));
-        foot.removeFromRight (6);
+        b->setBounds (foot.removeFromRight (b->bestWidth() * std::min (wanted, room) / std::max (1, wanted)));
+        foot.removeFromRight (gap);
     }
     curve.setBounds (rest.withTrimmedTop (6).withTrimmedBottom (4));
 }

@@ -175,7 +175,7 @@ void TakePlot::paint (juce::Graphics& g)
     {
         g.setColour (theme.dim);
         g.setFont (look.font (13.0f));
-        g.drawFittedText (text, area().reduced (16.0f, 8.0f).toNearestInt(), juce::Justification::centred, 5);
+        g.drawFittedText (text, area().reduced (16.0f, 8.0f).toNearestInt(), juce::Justification::centred, 5, 1.0f);
     }
     else
     {
