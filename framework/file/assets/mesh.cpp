@@ -3,6 +3,7 @@
 #include "mesh_parts.hpp"
 
 #include <tactus/text/budget.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <Eigen/Geometry>
 
@@ -138,7 +139,7 @@ Vec3 takePoint (std::string_view& line, std::size_t number)
     {
         const auto word = takeWord (line);
         const auto value = numberIn<double> (word);
-        if (! value) throw MeshProblem { "mesh/syntax", "a point needs three numbers; found '" + std::string (word.substr (0, 40)) + "'", number };
+        if (! value) throw MeshProblem { "mesh/syntax", "a point needs three numbers; found " + quote (word), number };
         coordinate = *value;
     }
     return at;
@@ -147,7 +148,7 @@ Vec3 takePoint (std::string_view& line, std::size_t number)
 long long wholeNumber (std::string_view word, std::size_t line)
 {
     const auto value = numberIn<long long> (word);
-    if (! value) throw MeshProblem { "mesh/syntax", "'" + std::string (word.substr (0, 40)) + "' is not a whole number", line };
+    if (! value) throw MeshProblem { "mesh/syntax", quote (word) + " is not a whole number", line };
     return *value;
 }
 

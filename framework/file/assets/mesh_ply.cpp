@@ -2,6 +2,8 @@
 #include "binary.hpp"
 #include "mesh_parts.hpp"
 
+#include <tactus/text/quote.hpp>
+
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -61,7 +63,7 @@ struct Header
 Take typeNamed (std::string_view name, std::size_t line)
 {
     const auto found = std::ranges::find_if (types, [&] (const Type& t) { return t.names[0] == name || t.names[1] == name; });
-    if (found == std::end (types)) throw MeshProblem { "mesh/syntax", "'" + std::string (name.substr (0, 40)) + "' is not a number type", line };
+    if (found == std::end (types)) throw MeshProblem { "mesh/syntax", quote (name) + " is not a number type", line };
     return found->take;
 }
 

@@ -4,6 +4,7 @@
 
 #include <tactus/text/budget.hpp>
 #include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <cmath>
 #include <string>
@@ -92,7 +93,7 @@ private:
             if (! value && columns == 0 && grid.rows == 0) return {};   // a header line
             if (! value || ! std::isfinite (*value))
                 return fail (
-                    "table/not_a_number", field.empty() ? "a number is missing" : "'" + std::string (field.substr (0, 40)) + "' is not a finite number",
+                    "table/not_a_number", field.empty() ? "a number is missing" : quote (field) + " is not a finite number",
                     field.find (',') == std::string_view::npos ? "fill in missing numbers, and remove other text" : "write decimal points instead of commas");
             if (const auto numbers = static_cast<double> (grid.values.size()) + 1.0; numbers > budgets().numbers)
             {
