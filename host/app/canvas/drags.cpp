@@ -6,6 +6,7 @@
 #include <host/app/model/patch.hpp>
 #include <host/app/model/wire_rules.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/app/text/translated.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/run/turn.hpp>
 
@@ -239,7 +240,7 @@ public:
         if (over && over.node->id != start.node)
         {
             const auto fits = check (*over.node, *over.socket->port);
-            problem = fits ? juce::String() : juce::String (fits.error().text);
+            problem = fits ? juce::String() : translated (fits.error().text);
             canvas.hint (juce::String (over.node->name + "." + over.socket->port->id) + (fits ? juce::String() : ": " + problem));
             if (fits) end_at = over.node->placeOf (*over.socket);
         }

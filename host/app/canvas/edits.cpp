@@ -12,6 +12,7 @@
 #include <host/app/model/step_text.hpp>
 #include <host/app/model/wire_rules.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/app/text/translated.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/graph/text.hpp>
 #include <tactus/run/turn.hpp>
@@ -100,7 +101,7 @@ void Canvas::pasteText()
     Selection made;
     auto command = paste (document.graph(), patch(), text, offset, made);
     if (! command)
-        notice (filled (TRANS ("Nothing to paste: %1"), command.error().text));
+        notice (filled (TRANS ("Nothing to paste: %1"), translated (command.error().text)));
     else if (! made.empty() && perform (*std::move (command)))
         select (made);
 }
@@ -269,7 +270,7 @@ void Canvas::editParam (const SceneNode& node, const Socket& socket)
         const auto param = shown->findPort (id);
         if (! param || param.port->sheet == nullptr) return;
         const auto read = readQuantity (readValue (text.trim().toStdString()), *param.port->sheet);
-        if (! read) return notice (juce::String (param.node->name + '.' + id.port + ": " + read.error().text));
+        if (! read) return notice (juce::String (param.node->name + '.' + id.port + ": ") + translated (read.error().text));
         setParam (*param.node, *param.port, read->toJson());
     });
 }

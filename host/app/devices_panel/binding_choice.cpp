@@ -2,6 +2,7 @@
 #include "binding_choice.hpp"
 
 #include <host/app/text/filled.hpp>
+#include <host/app/text/translated.hpp>
 #include <host/audio/audio_settings.hpp>
 #include <host/hid/physics.hpp>
 #include <host/sessions/numbers_device.hpp>
@@ -55,7 +56,7 @@ std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<cons
     {
         const auto now = deviceOfBinding (*bound_now);
         if (std::ranges::none_of (all, [&] (const auto& c) { return c.description == now; }))
-            all.push_back ({ nameOf (now), now });
+            all.push_back ({ translated (nameOf (now)).toStdString(), now });
     }
     return all;
 }

@@ -4,6 +4,7 @@
 #include <host/app/look/look.hpp>
 #include <host/app/look/text.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/app/text/translated.hpp>
 
 #include <algorithm>
 
@@ -14,6 +15,8 @@ namespace
 {
 constexpr int label_height = 18, cell_gap = 12, unit_width = 64, unit_gap = 4;
 constexpr int not_recorded = 1, first_column = 2;   // ids in the list
+
+juce::String roleName (const FitColumn& column) { return translated (column.role == "t" ? "time" : column.role); }
 }   // namespace
 
 void FitColumns::clear()
@@ -30,9 +33,9 @@ void FitColumns::show (const Table& table, FitKind kind)
     {
         auto& cell = *cells.emplace_back (std::make_unique<Cell>());
         cell.wanted = wanted;
-        const auto role = fromUtf8 (wanted.role);
+        const auto role = roleName (wanted);
         cell.column.setTitle (filled (TRANS ("Column of %1"), role));
-        cell.column.setTooltip (filled (TRANS ("The column with the %1"), fromUtf8 (wanted.about)));
+        cell.column.setTooltip (filled (TRANS ("The column with the %1"), translated (wanted.about)));
         cell.column.setTextWhenNothingSelected (TRANS ("Choose"));
         if (! wanted.required) cell.column.addItem (TRANS ("not recorded"), not_recorded);
         for (std::size_t i = 0; i < names.size(); ++i)
@@ -110,13 +113,13 @@ juce::String FitColumns::problem() const
 {
     juce::StringArray missing;
     for (const auto& cell : cells)
-        if (cell->column.getSelectedId() == 0) missing.add (fromUtf8 (cell->wanted.role));
+        if (cell->column.getSelectedId() == 0) missing.add (roleName (cell->wanted));
     if (! missing.isEmpty())
         return filled (TRANS ("The names of the columns do not say which is which. Choose the column of: %1."), missing.joinIntoString (", "));
     for (const auto& cell : cells)
         if (cell->column.getSelectedId() >= first_column && ! cell->wanted.unit.empty()
             && ! factorOf (cell->unit.getText().toStdString(), cell->wanted.unit))
-            return filled (TRANS ("Unit of %1: %2 does not fit. Type a unit like %3, with its prefix."), cell->wanted.role, cell->unit.getText().quoted(),
+            return filled (TRANS ("Unit of %1: %2 does not fit. Type a unit like %3, with its prefix."), roleName (cell->wanted), cell->unit.getText().quoted(),
                            cell->wanted.unit);
     return {};
 }
@@ -128,7 +131,7 @@ void FitColumns::paint (juce::Graphics& g)
     g.setFont (look.font (12.0f));
     for (const auto& cell : cells)
     {
-        const auto role = fromUtf8 (cell->wanted.role == "t" ? "time" : cell->wanted.role);
+        const auto role = roleName (cell->wanted);
         g.drawText (cell->wanted.required ? role : filled (TRANS ("%1, if recorded"), role), cell->column.getX(), 0,
                     cell->unit.getRight() - cell->column.getX(), label_height - 4, juce::Justification::centredLeft, true);
     }

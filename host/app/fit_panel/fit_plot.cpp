@@ -4,6 +4,7 @@
 #include <host/app/look/look.hpp>
 #include <host/app/look/text.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/app/text/translated.hpp>
 #include <host/io/axis.hpp>
 
 #include <algorithm>
@@ -44,7 +45,11 @@ FitAxes fitAxes (const FitPicture& picture)
     }
     x = widened (x, 0.02);
     y = widened (y, 0.06);
-    FitAxes axes { axisScale (x, picture.x_name, picture.x_unit), axisScale (y, picture.y_name, picture.y_unit), {}, {}, {} };
+    FitAxes axes { axisScale (x, translated (picture.x_name).toStdString(), picture.x_unit),
+                   axisScale (y, translated (picture.y_name).toStdString(), picture.y_unit),
+                   {},
+                   {},
+                   {} };
     axes.xs = axes.along.shown (x);
     axes.ys = axes.up.shown (y);
     return axes;
@@ -121,7 +126,7 @@ void paintLegend (juce::Graphics& g, juce::Rectangle<int> area, const FitPicture
     auto line = area.removeFromTop (row);
     for (std::size_t i = picture.curves.size(); i-- > 0;)
     {
-        const auto label = fromUtf8 (picture.curves[i].label);
+        const auto label = translated (picture.curves[i].label);
         const int width = juce::roundToInt (g.getCurrentFont().getStringWidthFloat (label)) + 1;
         g.setColour (theme.text);
         g.drawText (label, line.removeFromRight (width), juce::Justification::centredLeft, false);
@@ -144,7 +149,7 @@ void FitPlot::show (FitPicture p)
     picture = std::move (p);
     juce::StringArray names;
     for (const auto& curve : picture.curves)
-        names.add (fromUtf8 (curve.label));
+        names.add (translated (curve.label));
     setDescription (names.joinIntoString (", "));
     repaint();
 }

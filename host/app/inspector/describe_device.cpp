@@ -3,7 +3,9 @@
 
 #include <host/app/look/text.hpp>
 #include <host/app/model/device_profiles.hpp>
+#include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/app/text/translated.hpp>
 #include <host/audio/audio_settings.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/sessions/role_fits.hpp>
@@ -39,7 +41,7 @@ Remark describeRole (const Document& d, const std::string& role)
     const auto append = [&] (const Messages& messages) {
         for (const auto& m : messages)
         {
-            r.text << (r.text.isEmpty() ? "" : "\n") << fromUtf8 (m.where + ": " + m.text + (m.remedy.empty() ? "" : "; " + m.remedy));
+            r.text << (r.text.isEmpty() ? "" : "\n") << fromUtf8 (m.where + ": " + messageText (m));
             r.is_problem = true;
         }
     };
@@ -50,7 +52,7 @@ Remark describeRole (const Document& d, const std::string& role)
         return r;
     }
     const auto made = makeDevice (description, d.graph().folder);
-    r.text = fromUtf8 (made.about);
+    r.text = translated (made.about);
     append (made.messages);
     return r;
 }

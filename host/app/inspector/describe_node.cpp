@@ -4,6 +4,7 @@
 #include "header.hpp"
 
 #include <host/app/look/text.hpp>
+#include <host/app/model/message_text.hpp>
 #include <host/app/model/node_doc.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
@@ -40,7 +41,7 @@ Remark problemsOf (const Inspected& at, const std::string& name)
     for (const auto& m : at.messages())
     {
         if (! m.where.starts_with (place) || (m.where.size() > place.size() && m.where[place.size()] != '/')) continue;
-        r.text << (r.text.isEmpty() ? "" : "\n") << fromUtf8 (m.text) << (m.remedy.empty() ? juce::String() : "; " + fromUtf8 (m.remedy));
+        r.text << (r.text.isEmpty() ? "" : "\n") << messageText (m);
         r.is_problem = true;
     }
     return r;

@@ -3,6 +3,7 @@
 
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/app/text/translated.hpp>
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>
@@ -39,7 +40,7 @@ FileText describe (const Mesh& m)
 template <typename T, typename F>
 FileText read (const Assets::Loaded<T>& loaded, F&& f)
 {
-    if (! loaded) return FileText { sentence (loaded.error()), true };
+    if (! loaded) return FileText { translated (sentence (loaded.error())).toStdString(), true };
     return f (*loaded);
 }
 }   // namespace

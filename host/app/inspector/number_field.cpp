@@ -6,6 +6,7 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/app/text/translated.hpp>
 
 #include <tactus/text/number_text.hpp>
 
@@ -227,7 +228,7 @@ bool NumberField::type (const juce::String& text)
     const auto taken = readQuantity (wanted, sheet);
     if (! taken)
     {
-        refuse (text, taken.error().text);
+        refuse (text, translated (taken.error().text));
         return false;
     }
     value = *taken;

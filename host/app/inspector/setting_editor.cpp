@@ -5,6 +5,7 @@
 #include <host/app/look/text.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/app/text/translated.hpp>
 
 #include <tactus/plan/settings.hpp>
 
@@ -228,7 +229,7 @@ public:
             std::string where;
             if (is_set)
                 if (const auto read = plan::readSetting (now, sheet, { assets, folder() }, where); ! read)
-                    problem = fromUtf8 (where.empty() ? read.error().text : where + ": " + read.error().text);
+                    problem = fromUtf8 (where.empty() ? "" : where + ": ") + translated (read.error().text);
         }
         body->refresh (node);
         text.refresh (node);

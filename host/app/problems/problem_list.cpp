@@ -3,6 +3,7 @@
 
 #include <host/app/look/text.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/app/text/translated.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -21,10 +22,10 @@ bool isSame (const Message& a, const Message& b) { return a.id == b.id && a.wher
 class ProblemList::Row final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
-    Row (ProblemList& l, Message m) : list (l), message (std::move (m))
+    Row (ProblemList& l, Message m) : list (l), message (std::move (m)), text (translated (message.text)), remedy (translated (message.remedy))
     {
         setMouseCursor (juce::MouseCursor::PointingHandCursor);
-        setTooltip (fromUtf8 (message.text + (message.remedy.empty() ? "" : "\n" + message.remedy)));   // with the whole of a shortened path
+        setTooltip (text + (remedy.isEmpty() ? "" : "\n" + remedy));   // with the whole of a shortened path
         const auto fix = fixOf (list.document.graph(), message);
         if (! fix) return;
         button = std::make_unique<juce::TextButton> (fromUtf8 (fix->label));
@@ -45,19 +46,19 @@ public:
         const bool is_error = message.severity == Message::Severity::error;
         g.setColour (is_error ? theme.stop : theme.warning);
         g.fillEllipse (area.removeFromLeft (20).withSizeKeepingCentre (8, 8).translated (-6, 0).toFloat());
-        const auto [what, remedy] = texts (area.getWidth());
-        const auto height = what.getHeight() + remedy.getHeight();
+        const auto [what, help] = texts (area.getWidth());
+        const auto height = what.getHeight() + help.getHeight();
         auto place = area.toFloat().withSizeKeepingCentre (static_cast<float> (area.getWidth()), height);
         what.draw (g, place.removeFromTop (what.getHeight()));
-        remedy.draw (g, place);
+        help.draw (g, place);
         g.setColour (theme.hairline);
         g.drawHorizontalLine (getHeight() - 1, 16.0f, static_cast<float> (getWidth() - 16));
     }
 
     int heightFor (int width) const
     {
-        const auto [what, remedy] = texts (width - 2 * 16 - 20 - (button ? button_width + 8 : 0));
-        return std::max (problem_height, static_cast<int> (std::ceil (what.getHeight() + remedy.getHeight())) + 12);
+        const auto [what, help] = texts (width - 2 * 16 - 20 - (button ? button_width + 8 : 0));
+        return std::max (problem_height, static_cast<int> (std::ceil (what.getHeight() + help.getHeight())) + 12);
     }
 
     void resized() override
@@ -75,12 +76,13 @@ private:
     {
         const auto& look = lookOf (*this);
         const auto w = static_cast<float> (width);
-        return { wrapText (fromUtf8 (message.text), look.font (13.0f), look.theme().text, w),
-                 wrapText (fromUtf8 (message.remedy), look.font (12.0f), look.theme().dim, w) };
+        return { wrapText (text, look.font (13.0f), look.theme().text, w),
+                 wrapText (remedy, look.font (12.0f), look.theme().dim, w) };
     }
 
     ProblemList& list;
     const Message message;
+    const juce::String text, remedy;
     std::unique_ptr<juce::TextButton> button;
     int button_width = 0;
 };

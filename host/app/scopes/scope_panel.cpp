@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scope_panel.hpp"
 
+#include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <array>
@@ -215,7 +216,7 @@ void ScopePanel::save (ScopeView& view, juce::Component& below)
 
 void ScopePanel::report (const Result<>& written, const juce::File& file)
 {
-    if (onHint) onHint (written ? filled (TRANS ("Saved %1"), file.getFullPathName()) : juce::String (describe (written.error())));
+    if (onHint) onHint (written ? filled (TRANS ("Saved %1"), file.getFullPathName()) : juce::String (messageText (written.error())));
 }
 
 juce::Rectangle<int> ScopePanel::emptyArea() const { return getLocalBounds().withTrimmedTop (row_height); }

@@ -2,6 +2,7 @@
 #include "language.hpp"
 #include "settings.hpp"
 
+#include <host/app/text/translated.hpp>
 #include <tactus/file/text_file.hpp>
 
 #include <algorithm>
@@ -47,7 +48,7 @@ fs::path translationFor (const std::string& language, const fs::path& home)
 
 void useTranslation (const fs::path& file)
 {
-    juce::LocalisedStrings::setCurrentMappings (file.empty() ? nullptr : std::make_unique<juce::LocalisedStrings> (read (file)).release());
+    useTexts (file.empty() ? nullptr : std::make_unique<juce::LocalisedStrings> (read (file)));
 }
 
 std::string languageSetIn (const fs::path& home)

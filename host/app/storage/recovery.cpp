@@ -2,6 +2,7 @@
 #include "recovery.hpp"
 
 #include <host/app/text/filled.hpp>
+#include <host/app/text/translated.hpp>
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/file/text_file.hpp>
@@ -82,7 +83,7 @@ RestoredGraph restore (const AutosavedDocument& d)
     RestoredGraph restored;
     auto read = readGraph (d.graph);
     const auto error = std::ranges::find (read.messages, Message::Severity::error, &Message::severity);
-    if (error != read.messages.end()) restored.problem = error->text;
+    if (error != read.messages.end()) restored.problem = translated (error->text).toStdString();
     auto& graph = restored.graph = std::move (read.graph);
     graph.folder = (d.file.empty() ? d.preset : d.file).parent_path().string();
     const auto include = [&] (const graph::Patch& patch) {
@@ -174,7 +175,7 @@ std::vector<CrashedSession> findCrashedSessions (const fs::path& home)
             s.wrong = restore (s.saved).problem;
         }
         else
-            s.wrong = read.error().text;
+            s.wrong = translated (read.error().text).toStdString();
         if (s.wrong.empty() && ! s.saved.changed && ! s.in_trial)
             s.discard();
         else

@@ -7,7 +7,7 @@
 namespace tactus::host
 {
 
-juce::String filledWith (const juce::String& text, std::initializer_list<juce::String> values)
+juce::String filledWith (const juce::String& text, std::span<const juce::String> values)
 {
     juce::String all;
     for (int at = 0;;)
@@ -17,7 +17,7 @@ juce::String filledWith (const juce::String& text, std::initializer_list<juce::S
         const bool is_place = n >= 1 && n <= static_cast<int> (values.size());
         all << text.substring (at, sign < 0 ? text.length() : sign + (is_place ? 0 : 1));
         if (sign < 0) return all;
-        if (is_place) all << values.begin()[n - 1];
+        if (is_place) all << values[static_cast<std::size_t> (n - 1)];
         at = sign + (is_place ? 2 : 1);
     }
 }

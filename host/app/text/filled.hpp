@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <concepts>
-#include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -10,14 +11,14 @@
 
 // All texts of the window are in English in the sources, in TRANS or NEEDS_TRANS, and collect.py copies them to en.txt. TRANS ("Save")
 // is the text in the language of the user. NEEDS_TRANS ("Save") is the English text, such as in a table, for juce::translate where it
-// is shown.
+// is shown. Texts from other code, such as messages of the framework: see translated.hpp.
 
 namespace tactus::host
 {
 
 /// A text in which %1 is replaced by the first value, %2 by the second, and so on. A translation may change their order, and may use a
 /// value more than once. What is in the values stays as it is. A % without a value stays, too. [any thread]
-juce::String filledWith (const juce::String& text, std::initializer_list<juce::String> values);
+juce::String filledWith (const juce::String& text, std::span<const juce::String> values);
 
 /// A value as filled() writes it. Text is UTF-8.
 inline juce::String valueText (const juce::String& s) { return s; }
@@ -35,7 +36,8 @@ juce::String valueText (const std::convertible_to<std::string_view> auto& s)
 template <typename... Values>
 juce::String filled (const juce::String& text, const Values&... values)
 {
-    return filledWith (text, { valueText (values)... });
+    const std::array<juce::String, sizeof...(Values)> all { valueText (values)... };
+    return filledWith (text, all);
 }
 
 /// The same text, kept until the program ends: for sheets of numbers, which only refer to their texts. [any thread]

@@ -6,6 +6,7 @@
 #include <host/app/presets/preset_list.hpp>
 #include <host/app/storage/carry_files.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/app/text/translated.hpp>
 #include <host/io/clip_io.hpp>
 
 #include <tactus/file/graph_file.hpp>
@@ -261,7 +262,7 @@ bool Files::autosave()
     if (! session) return false;
     unsaved_since.reset();
     const auto saved = session->autosave ({ document.file(), document.preset(), document.isChanged(), clock(), writeGraph (document.graph()) });
-    if (! saved) callbacks.notify (filled (TRANS ("Autosave failed: %1. Save often."), saved.error().text));
+    if (! saved) callbacks.notify (filled (TRANS ("Autosave failed: %1. Save often."), translated (saved.error().text)));
     return saved.has_value();
 }
 

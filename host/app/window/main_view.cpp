@@ -6,6 +6,7 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/storage/language.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/app/text/translated.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
@@ -207,7 +208,8 @@ void MainView::timerCallback()
     if (welcome.isVisible()) welcome.refresh();
     fitting.attend();
     if (ticks_to_save > 0 && --ticks_to_save == 0)
-        if (const auto saved = saveSettings (settings, home); ! saved) status.notify (filled (TRANS ("Could not save the settings: %1"), saved.error().text));
+        if (const auto saved = saveSettings (settings, home); ! saved)
+            status.notify (filled (TRANS ("Could not save the settings: %1"), translated (saved.error().text)));
     if (scopes.isVisible()) scopes.refresh();
     takes.refresh();
     layers.refresh();

@@ -20,7 +20,7 @@ juce::String lossText (const SavedClip& saved, const Messages& notes)
     constexpr std::size_t most = 8;
     std::vector<std::string> lines;
     for (const auto& m : notes)
-        lines.push_back (m.text + (m.remedy.empty() ? "" : "; " + m.remedy));
+        lines.push_back (messageText (m));
     std::ranges::move (lossReport (saved), std::back_inserter (lines));
     if (lines.back().starts_with ("none")) lines.pop_back();
     if (lines.empty()) return TRANS ("The file holds the whole clip. Rendered, it is the same.");

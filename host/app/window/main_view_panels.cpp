@@ -4,7 +4,9 @@
 
 #include <host/app/look/focus.hpp>
 #include <host/app/model/fragment.hpp>
+#include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/app/text/translated.hpp>
 
 #include <algorithm>
 
@@ -118,7 +120,7 @@ void MainView::connectFitPanel()
         }
         Selection added;
         auto command = paste (edited.graph(), patching.patch(), copyText (source, {}, ids), {}, added);
-        if (! command) return status.notify (juce::String (command.error().text));
+        if (! command) return status.notify (translated (command.error().text));
         if (! patching.perform (*std::move (command))) return;
         patching.select (added);
         status.notify (TRANS ("Added the fitted node. Wire it to feel it."));
@@ -128,7 +130,7 @@ void MainView::connectFitPanel()
 void MainView::openOscPort (const OscListen& where)
 {
     auto opened = OscPort::open (where);
-    if (! opened) return status.notify (juce::String (describe (opened.error())));
+    if (! opened) return status.notify (juce::String (opened.error().where + ": " + messageText (opened.error())));
     osc_server = std::make_unique<OscServer> (std::move (*opened), playback, edited);
 }
 

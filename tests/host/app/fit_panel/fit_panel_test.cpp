@@ -148,7 +148,7 @@ TEST_CASE ("fit panel: another kind or amount starts a new fit, and the panel sh
     rig.panel().choose (FitKind::texture);
     rig.finish();
     CHECK_FALSE (rig.panel().fitted());
-    CHECK (rig.panel().problem().contains ("Choose the column of: t, acceleration"));
+    CHECK (rig.panel().problem().contains ("Choose the column of: time, acceleration"));
 }
 
 TEST_CASE ("fit panel: the panel reports a file that is not a recording, or whose columns suggest no kind", "[app][fit]")

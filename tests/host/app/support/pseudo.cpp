@@ -3,7 +3,6 @@
 
 #include <host/app/model/node_doc.hpp>
 #include <host/app/model/readable.hpp>
-#include <host/fitting/fitting.hpp>
 
 #include <tactus/node/catalogue.hpp>
 #include <tactus/run/device/gestures.hpp>
@@ -39,7 +38,7 @@ bool hasLetters (const juce::String& s, int in_a_row)
 /// "0.3", "N/mm", "drag.force.x", "stored_energy", "graphs/dry_wood.json"
 bool isNumberOrId (const juce::String& word)
 {
-    static const std::regex number (R"(\W*[\d.,+-]*(k|m|\xc2\xb5|n|M)?(N|m|s|g|Hz|J|W|Pa|rad|dB|min|x)?([/*^][\w/*^]+)?\W*|[xyz])");
+    static const std::regex number (R"(\W*[\d.,+-]*(e[+-]\d+)?(k|m|\xc2\xb5|n|M)?(N|m|s|g|Hz|J|W|Pa|rad|dB|min|x)?([/*^][\w/*^]+)?\W*|[xyz])");
     static const std::regex id (R"(\W*\w+(\.\w+|\[\d+\]|/\w+|_\w+)+(\[|=).*|\W*\w*(\.\w+|\[\d+\]|/[\w.-]+|_\w*)+\W*)");
     const auto text = word.toStdString();
     return std::regex_match (text, number) || std::regex_match (text, id);
@@ -104,7 +103,7 @@ juce::String pseudoTranslation()
         auto words = juce::StringArray::fromTokens (text, " ", {});
         for (auto& w : words)
             if (hasLetters (w, 1)) w << juce::String::repeatedString (mark, static_cast<int> (std::ceil (0.3 * w.length())));
-        const auto quoted = [] (const juce::String& s) { return s.replace ("\"", "\\\"").quoted(); };
+        const auto quoted = [] (const juce::String& s) { return "\"" + s.replace ("\"", "\\\"") + "\""; };
         all << quoted (text) << " = " << quoted (words.joinIntoString (" ")) << "\n";
     }
     return all;
@@ -139,8 +138,6 @@ Data::Data()
         addStrings (Json::tryParse (file.loadFileAsString().toStdString()).value_or (Json()), *this);
     for (const auto& g : gestures())
         add ("in a hand that follows " + str (g.id));
-    for (const auto& kind : fitKinds())
-        add (str (kind.name) + " - " + str (kind.about));
 }
 
 void Data::add (const juce::String& s)

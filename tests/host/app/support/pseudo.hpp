@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <juce_core/juce_core.h>
+#include <host/app/text/translated.hpp>
 
 #include <string>
 #include <vector>
@@ -18,8 +18,8 @@ juce::String pseudoTranslation();
 /// While this lives, all texts are in the pseudo-translation.
 struct InPseudo
 {
-    InPseudo() { juce::LocalisedStrings::setCurrentMappings (new juce::LocalisedStrings (pseudoTranslation(), false)); }
-    ~InPseudo() { juce::LocalisedStrings::setCurrentMappings (nullptr); }
+    InPseudo() { useTexts (std::make_unique<juce::LocalisedStrings> (pseudoTranslation(), false)); }
+    ~InPseudo() { useTexts (nullptr); }
 };
 
 /// What need not be translated: names, ids and sentences of nodes, everything in the preset files, units, and what is added.

@@ -53,9 +53,9 @@ TEST_CASE ("JUCE reads every entry of the template for translations", "[app][tex
         INFO (text);
         CHECK (read.translate (text, {}) == text);
         const auto other = pseudo.translate (text, {});
-        CHECK (other.removeCharacters ("~") == text);
-        const auto words = text.removeCharacters ("%123456789 ");
-        if (words.containsAnyOf ("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ")) CHECK (other.length() >= text.length() + 0.2 * words.length());
+        CHECK (other.removeCharacters ("~") == text.removeCharacters ("~"));
+        const auto letters = text.retainCharacters ("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
+        CHECK (other.length() >= text.length() + 0.2 * letters.length());
     }
 }
 

@@ -6,6 +6,7 @@
 #include <host/app/inspector/formula_block.hpp>
 #include <host/app/limits/limit_light.hpp>
 #include <host/app/look/text.hpp>
+#include <host/fitting/fitting.hpp>
 
 #include <algorithm>
 #include <fstream>
@@ -35,14 +36,10 @@ struct PseudoWindow
         for (float room = 60.0f; room < 600.0f; room += 4.0f)   // as it is shown where there is less room
             data.add (fittedPath (session, rig.look.font (12.0f), room));
         data.add ("Tactus\nEnglish\nJSON\nRate hz\nsim\ntrace\ngesture\nhid\naudio");
-        // What the framework says about devices.
-        data.add ("sim with a hand that follows\nA simulated tool of\nwith a damping of\nposition, force");
+        data.add ("alpha\nbeta\ngamma\ndelta\nsigma");   // in formulas
         FileAssets assets;
         for (const auto& l : limitsOf ({ rig.graph(), 0.0, limitRolesOf (rig.graph(), {}, {}) }, catalogue(), assets).limits)
-        {
-            data.add (juce::String (l.text).fromLastOccurrenceOf ("~", false, false));   // the reason, which tactus check prints, too
-            data.add (juce::String (l.remedy));
-        }
+            data.add (juce::String (l.text).fromLastOccurrenceOf (";", false, false));   // the law
     }
 
     void check (const char* where)
@@ -245,6 +242,49 @@ TEST_CASE ("no text of the window is left untranslated: limits and problems", "[
     WindowRig::settle (100);
     w.check ("list of problems");
     CHECK (w.sees ("Add a hand"));
+    std::ofstream (w.rig.home / "wrong.json") << R"({ "format": "tactus-graph", "version": 1, "nodes": {
+        "hand": { "type": "device.position" }, "wal": { "type": "deform.plan" },
+        "wall": { "type": "deform.plane", "params": { "stiffness": "2 kg", "stifness": 1, "friction": -1 } },
+        "drag": { "type": "friction.elasto_plastic", "params": { "mu": 1e99 }, "count": 3 } },
+        "wires": [ "hand.position -> wall.position", "hand.position -> wall.position", "wall.force -> wall.position", "wall.nothing -> drag.position" ] })";
+    w.data.add ("stifness");
+    w.rig.view->open (w.rig.home / "wrong.json");
+    WindowRig::settle (100);
+    w.check ("many problems");
+}
+
+TEST_CASE ("no text of the window is left untranslated: fits of all kinds", "[app][text]")
+{
+    PseudoWindow w ("dry_wood.json");
+    auto& panel = w.rig.view->fitPanel();
+    int fitted = 0;
+    for (const auto& info : fitKinds())
+    {
+        const auto file = w.rig.home / (info.id + ".csv");
+        std::filesystem::copy_file (std::filesystem::path (TACTUS_SOURCE_DIR "/tests/fuzz/corpus/recording") / info.id, file);
+        w.data.add (juce::String (file.filename().string()));
+        if (const auto table = readRecording (file))
+            for (const auto& column : table->columns)
+                w.data.add (juce::String (column));
+        w.rig.view->fitRecordingIn (file);
+        panel.choose (info.kind);
+        for (int i = 0; i < 2000 && panel.isFitting(); ++i)
+            WindowRig::settle (20);
+        REQUIRE_FALSE (panel.isFitting());
+        if (panel.fitted())
+        {
+            ++fitted;
+            for (const auto& v : panel.fitted()->report.values)
+                if (v.name.find (' ') == v.name.npos) w.data.add (juce::String (v.name));   // a parameter
+        }
+        INFO (info.id);
+        CHECK (w.sees ("Cancel"));
+        w.check (info.id.c_str());
+    }
+    CHECK (fitted >= 5);
+    w.rig.view->fitRecordingIn (w.rig.home / "nowhere.csv");
+    w.data.add ("No such file or directory");   // the system says so
+    w.check ("no recording");
 }
 
 TEST_CASE ("a text that is not translated is seen, and so are texts on each other", "[app][text]")
