@@ -37,7 +37,7 @@ void Canvas::fileDragMove (const juce::StringArray& files, int x, int y)
     else if (node->type == clip_type)
         hint (filled (TRANS ("Drop %1 to let %2 play it."), name, node->name));
     else
-        hint (filled (TRANS ("%1 plays no clips. Drop %2 on empty canvas, or on a clip node."), node->name, name));
+        hint (filled (TRANS ("%1 does not play clips. Drop %2 on empty canvas, or on a clip node."), node->name, name));
     repaint();
 }
 
@@ -62,7 +62,7 @@ void Canvas::dropClip (const fs::path& file, juce::Point<float> pixel)
     const auto written = pathFrom (file, document.graph().folder);
     const auto* node = shown->nodeAt (at);
     if (node != nullptr && node->type != clip_type)
-        return notice (filled (TRANS ("%1 plays no clips. Drop the file on empty canvas, or on a clip node."), node->name));
+        return notice (filled (TRANS ("%1 does not play clips. Drop the file on empty canvas, or on a clip node."), node->name));
     if (node != nullptr)
     {
         const auto name = node->name;

@@ -343,7 +343,7 @@ std::unique_ptr<Column> DevicesPanel::soundCard()
     for (const auto& list : lists_of_card)
         card->add (cardRow (list.pointer, list.label, list.about));
     card->add (buttonRow (
-        TRANS ("Look for sound cards"), [this] { listSoundCards(); }, TRANS ("Lists the sound cards again, such as one that you have just plugged in")));
+        TRANS ("Look for sound cards"), [this] { listSoundCards(); }, TRANS ("Lists the sound cards again, including one that you have just plugged in")));
     for (const auto& part : parts_of_card)
         card->add (textRow (
             juce::translate (part.label), [this, at = JsonPointer (part.pointer)] {

@@ -120,7 +120,7 @@ protected:
         }
         if (kind == "dissipation") number ("a", numbers, UnitRule (UnitRule::Kind::open), TRANS ("factor of the stiffness law"), { .hard = { 0, inf } });
         if (kind == "table") addPoints (numbers, sheet, context, *this);
-        if (kind != "none") add (plot<Law> (sheet, binding, TRANS ("A factor of the stiffness law; it has no curve of its own.").toStdString()));
+        if (kind != "none") add (plot<Law> (sheet, binding, TRANS ("A factor of the stiffness law, without its own curve.").toStdString()));
     }
 
 private:

@@ -142,7 +142,7 @@ void ToolPlot::paintOver (juce::Graphics& g)
     else if (p.state == 0)
         draw (TRANS ("no contact"), theme().dim);
     else if (p.state == 1)
-        draw (TRANS ("stuck: the anchor rests"), theme().of (Quantity::length));
+        draw (TRANS ("stuck: the anchor does not move"), theme().of (Quantity::length));
     else
         draw (TRANS ("sliding: the anchor is dragged"), theme().of (Quantity::force));
 

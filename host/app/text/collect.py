@@ -162,10 +162,10 @@ def main(arguments):
         problems += [f"en.txt lacks {line}" for line in now if line not in before]
         problems += [f"en.txt has {line}, which the sources no longer have" for line in before if line not in now]
         if not problems and before != now:
-            problems.append("en.txt has another order")
+            problems.append("en.txt is in a different order")
         print("\n".join(problems) or f"{len(entries(TEMPLATE)[0])} texts, all in en.txt")
         if problems:
-            print("python3 host/app/text/collect.py renews en.txt")
+            print("python3 host/app/text/collect.py updates en.txt")
         return 1 if problems else 0
     if arguments and arguments[0].startswith("-"):
         print(__doc__)

@@ -23,7 +23,7 @@ juce::String lossText (const SavedClip& saved, const Messages& notes)
         lines.push_back (messageText (m));
     std::ranges::move (lossReport (saved), std::back_inserter (lines));
     if (lines.back().starts_with ("none")) lines.pop_back();
-    if (lines.empty()) return TRANS ("The file holds the whole clip. Rendered, it is the same.");
+    if (lines.empty()) return TRANS ("The file holds the whole clip, and renders to the same signal.");
     auto text = TRANS ("What the file does not hold, or holds differently:") + "\n";
     for (std::size_t i = 0; i < std::min (most, lines.size()); ++i)
         text << "\n- " << juce::String (lines[i]) << ".";

@@ -69,7 +69,7 @@ TEST_CASE ("a clip dropped on a clip node replaces its file, and a clip dropped 
     const auto before = rig.text();
     dropOn (*rig.canvas, heart, rig.title ("motor"));
     CHECK (rig.text() == before);
-    CHECK (rig.hint.contains ("plays no clips"));
+    CHECK (rig.hint.contains ("does not play clips"));
 }
 
 TEST_CASE ("the canvas passes on a dropped graph, and refuses other files", "[app][canvas][clips]")

@@ -64,7 +64,7 @@ struct Rub
 };
 }   // namespace
 
-TEST_CASE ("scopes: the anchor rests while stuck, and is dragged while sliding, within d_stick and against the force", "[app][scopes]")
+TEST_CASE ("scopes: the anchor does not move while stuck, and is dragged while sliding, within d_stick and against the force", "[app][scopes]")
 {
     Rub rub;
     CHECK_FALSE (rub.picture());
