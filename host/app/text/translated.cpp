@@ -154,7 +154,8 @@ juce::String translated (std::string_view english)
         const std::scoped_lock guard (phrases_lock);
         return phrases_in_use;
     }();
-    return phrases ? Translator (*phrases) (english) : valueText (english);
+    constexpr std::size_t longest = 2000;   // the output of a compiler would take seconds
+    return phrases && english.size() <= longest ? Translator (*phrases) (english) : valueText (english);
 }
 
 void useTexts (std::unique_ptr<juce::LocalisedStrings> texts)
