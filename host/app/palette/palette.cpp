@@ -12,7 +12,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr int margin = 8, purpose_height = 20, query_height = 32, gap = 6, row_height = 40, no_match_height = 64;
+constexpr int margin = 8, purpose_height = 20, query_height = 32, gap = 6, entry_height = 40, space_above_title = entry_height / 3, no_match_height = 64;
 }
 
 Palette::Palette()
@@ -24,7 +24,7 @@ Palette::Palette()
     list.setTitle (TRANS ("Results"));
     query.addListener (this);
     query.addKeyListener (this);
-    list.setRowHeight (row_height);
+    list.setRowHeight (entry_height);
     list.setColour (juce::ListBox::backgroundColourId, juce::Colours::transparentBlack);
     list.setWantsKeyboardFocus (false);
     addAndMakeVisible (query);
@@ -59,7 +59,7 @@ void Palette::update()
     found = search (query.getText().toStdString());
     list.updateContent();
     fit();
-    list.scrollToEnsureRowIsOnscreen (0);
+    showFrom (0);
     selectNear (0, 1);
     list.repaint();
     repaint();
@@ -67,10 +67,19 @@ void Palette::update()
 
 void Palette::fit()
 {
-    const int listed = found.empty() ? no_match_height : row_height * getNumRows();
+    const int listed = found.empty() ? no_match_height : entry_height * getNumRows() - spaceAtTop();
     auto area = getBounds().withSize (width, std::min (highest, 2 * margin + purpose_height + query_height + gap + listed));
     if (const auto* parent = getParentComponent()) area = area.constrainedWithin (parent->getLocalBounds().reduced (margin));
     setBounds (area);
+}
+
+int Palette::spaceAtTop() const { return ! found.empty() && found.front().isTitle() ? space_above_title : 0; }
+
+void Palette::showFrom (int row)
+{
+    list.scrollToEnsureRowIsOnscreen (row);
+    auto& view = *list.getViewport();
+    if (row == 0) view.setViewPosition (0, spaceAtTop());
 }
 
 void Palette::choose (int row)
@@ -109,7 +118,7 @@ void Palette::selectNear (int row, int step)
     while (row >= 0 && row < getNumRows() && ! isEntry (row))
         row += step;
     if (! isEntry (row)) return;
-    if (row > 0 && ! isEntry (row - 1)) list.scrollToEnsureRowIsOnscreen (row - 1);
+    if (row > 0 && ! isEntry (row - 1)) showFrom (row - 1);
     list.selectRow (row);
 }
 
@@ -151,7 +160,7 @@ void Palette::paintListBoxItem (int row, juce::Graphics& g, int w, int h, bool s
     {
         g.setColour (theme.dim);
         g.setFont (look.font (12.0f, true));
-        g.drawText (entry.name, area.withTrimmedLeft (10).withTrimmedTop (h / 3), juce::Justification::centredLeft, true);
+        g.drawText (entry.name, area.withTrimmedLeft (10).withTrimmedTop (space_above_title), juce::Justification::centredLeft, true);
         return;
     }
     if (selected)

@@ -40,7 +40,9 @@ private:
     void textEditorFocusLost (juce::TextEditor&) override;
     bool keyPressed (const juce::KeyPress&, juce::Component*) override;
     void update();
-    void fit();   ///< makes the palette as high as its entries
+    void fit();                ///< makes the palette as high as its entries
+    int spaceAtTop() const;    ///< the space above the heading in the first row, which is scrolled out of view
+    void showFrom (int row);   ///< scrolls so that this row is in view
     void choose (int row);
     bool isEntry (int row) const;          ///< false for titles
     void selectNear (int row, int step);   ///< selects the first entry from this row on, in this direction

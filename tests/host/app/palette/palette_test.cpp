@@ -92,3 +92,22 @@ TEST_CASE ("while one types, the palette shrinks to the hits, and its field stay
     CHECK (std::ranges::any_of (texts, [] (const auto& t) { return t.text.startsWith ("No match"); }));
     CHECK (tactus::host::test::cutOff (texts, r.palette->getLocalBounds().toFloat()).isEmpty());
 }
+
+TEST_CASE ("the first heading of the palette is just below the field", "[app][palette]")
+{
+    PaletteRig r;
+    const int entries = GENERATE (2, 30);
+    std::vector<PaletteEntry> all { { .type = {}, .name = "Contact", .summary = {} } };
+    for (int i = 0; i < entries; ++i)
+        all.push_back ({ .type = "contact.n" + std::to_string (i), .name = "Node " + std::to_string (i), .summary = "It does something." });
+    REQUIRE (all.front().isTitle());
+    r.palette->open (
+        { 100, 100 }, [all] (const std::string&) { return all; }, "Add node", [] (const std::string&) {});
+    const auto spaceAbove = [&] {
+        for (const auto& t : readTexts (*r.palette))
+            if (t.text == "Contact") return t.place.getY() - static_cast<float> (r.query().getBottom());
+        return 1000.0f;
+    };
+    CHECK (spaceAbove() < 18.0f);
+    CHECK (r.list().getHeight() <= static_cast<int> (all.size()) * r.list().getRowHeight());
+}
