@@ -13,7 +13,8 @@ namespace tactus::host
 namespace
 {
 constexpr int row_height = 36, star_width = 28, play_width = 28, most_recent_shown = 4;
-constexpr int low = 420;   // pixels; a lower panel shows a compact layout
+constexpr int low = 420;                               // pixels; a lower panel shows a compact layout
+constexpr int two_lines = 44, picture_and_text = 88;   // heights of the description of a preset
 
 juce::String joined (const std::vector<std::string>& tags)
 {
@@ -21,6 +22,14 @@ juce::String joined (const std::vector<std::string>& tags)
     for (const auto& t : tags)
         all.add (t);
     return all.joinIntoString (", ");
+}
+
+/// What a preset feels like, or why it cannot be opened as it is.
+juce::String descriptionOf (const Preset& p)
+{
+    if (! p.problem.empty()) return p.problem;
+    const auto placeholders = placeholderText (p);
+    return placeholders.empty() ? juce::String (p.about) : juce::String (placeholders) + ". " + TRANS ("Their outputs are 0.") + " " + p.about;
 }
 }   // namespace
 
@@ -134,6 +143,13 @@ juce::String PresetBrowser::getNameForRow (int row)
     return r->preset != nullptr ? juce::String (r->preset->name) : juce::String (r->heading);
 }
 
+/// The description, where there is no room for all of it below the list.
+juce::String PresetBrowser::getTooltipForRow (int row)
+{
+    const auto* r = rowAt (row);
+    return r == nullptr || r->preset == nullptr || footer.getHeight() > two_lines ? juce::String() : descriptionOf (*r->preset);
+}
+
 void PresetBrowser::openRow (int row)
 {
     const auto* r = rowAt (row);
@@ -216,8 +232,8 @@ void PresetBrowser::resized()
     const int wanted = chips.heightFor (area.getWidth(), is_low ? 1 : 3);
     chips.setBounds (area.removeFromTop (std::min (wanted, area.getHeight() / 2)));
     area.removeFromTop (4);
-    int below = is_low ? 88 : 176;   // the description of a preset gives way to the list of presets
-    if (area.getHeight() - below < 4 * row_height) below = area.getHeight() - 44 < 3 * row_height ? 0 : 44;
+    int below = is_low ? picture_and_text : 176;   // the description of a preset gives way to the list of presets
+    if (area.getHeight() - below < 4 * row_height) below = area.getHeight() - two_lines < 3 * row_height ? 0 : two_lines;
     footer = area.removeFromBottom (below);
     area.removeFromBottom (4);
     list.setBounds (area);
@@ -250,19 +266,19 @@ void PresetBrowser::paintFooter (juce::Graphics& g, const Preset& p)
     const auto& look = lookOf (*this);
     auto area = footer.withTrimmedTop (8);
     const bool has_room = area.getHeight() > 120;
-    if (p.problem.empty()) drawPicture (g, look, area.removeFromBottom (has_room ? 56 : 32).toFloat(), pictures.get (p.file).get());
-    area.removeFromBottom (4);
+    if (p.problem.empty() && footer.getHeight() >= picture_and_text)
+    {
+        drawPicture (g, look, area.removeFromBottom (has_room ? 56 : 32).toFloat(), pictures.get (p.file).get());
+        area.removeFromBottom (4);
+    }
     if (has_room)
     {
         g.setColour (look.theme().text);
         g.setFont (look.font (13.0f, true));
         g.drawText (p.name, area.removeFromTop (18), juce::Justification::centredLeft, true);
     }
-    const auto placeholders = placeholderText (p);
-    const bool is_fine = p.problem.empty() && placeholders.empty();
-    auto text = is_fine ? p.about : placeholders + ". " + TRANS ("Their outputs are 0.").toStdString() + " " + p.about;
-    if (! p.problem.empty()) text = p.problem;
-    drawFittedText (g, text, look.font (12.0f), is_fine ? look.theme().dim : look.theme().warning, area);
+    const bool is_fine = p.problem.empty() && placeholderText (p).empty();
+    drawFittedText (g, descriptionOf (p), look.font (12.0f), is_fine ? look.theme().dim : look.theme().warning, area);
 }
 
 void PresetBrowser::paintIcons (juce::Graphics& g, const Row& row, bool is_hovered, juce::Rectangle<int>& area) const

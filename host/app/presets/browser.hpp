@@ -51,6 +51,7 @@ public:
 private:
     int getNumRows() override { return static_cast<int> (shown.size()); }
     juce::String getNameForRow (int) override;
+    juce::String getTooltipForRow (int) override;
     void paintListBoxItem (int row, juce::Graphics&, int w, int h, bool selected) override;
     void listBoxItemClicked (int row, const juce::MouseEvent&) override;
     void returnKeyPressed (int row) override { openRow (row); }

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "host/app/support/seen_text.hpp"
+#include "support/temporary_folder.hpp"
+
+#include <host/app/presets/browser.hpp>
+
+#include <cstdlib>
+
+using namespace tactus;
+using namespace tactus::host;
+
+TEST_CASE ("the description of a preset has two lines below the list, or is a tooltip, however low the panel is", "[app][presets]")
+{
+    juce::ScopedJuceInitialiser_GUI gui;
+    Look look;
+    juce::LookAndFeel::setDefaultLookAndFeel (&look);
+    setenv ("TACTUS_PRESETS", TACTUS_SOURCE_DIR "/graphs", 1);
+    {
+        Settings settings;
+        PictureStore pictures (catalogue());
+        PresetBrowser browser (catalogue(), settings, pictures);
+        browser.showOpen (std::filesystem::path (TACTUS_SOURCE_DIR "/graphs/dry_wood.json"));
+        const auto wood = std::ranges::find (browser.shipped(), std::string ("Dry wood"), &Preset::name);
+        REQUIRE (wood != browser.shipped().end());
+        const juce::String about (wood->about);
+        juce::ListBox* list = nullptr;
+        for (auto* child : browser.getChildren())
+            if (auto* box = dynamic_cast<juce::ListBox*> (child)) list = box;
+        REQUIRE (list != nullptr);
+        for (int height = 120; height <= 900; height += 20)
+        {
+            browser.setBounds (0, 0, 232, height);
+            int lines = 0;
+            bool is_described = false;
+            for (const auto& t : tactus::host::test::readTexts (browser))
+            {
+                const auto line = t.text.trimCharactersAtEnd (juce::String::fromUTF8 (" \xe2\x80\xa6"));
+                if (t.place.getY() < static_cast<float> (list->getBottom()) || ! line.containsChar (' ') || ! about.contains (line)) continue;
+                ++lines;
+                is_described = is_described || about.startsWith (line);
+            }
+            const bool has_tooltip = list->getModel()->getTooltipForRow (0).length() > 40;
+            INFO (height << " high: " << lines << " lines");
+            CHECK (((is_described && lines >= 2) || has_tooltip));
+            if (height >= 280) CHECK ((is_described && lines >= 2));
+        }
+    }
+    juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
+}
