@@ -43,6 +43,8 @@ juce::Path bars()
     }
     return p;
 }
+
+juce::String captionText() { return TRANS ("Snapshots"); }
 }   // namespace
 
 /// A snapshot button, filled if the snapshot has been stored.
@@ -150,7 +152,15 @@ void TopBar::resized()
     for (auto s = slots.rbegin(); s != slots.rend(); ++s)
         put (**s, 26, 0);
     if (instance.isVisible()) instance.setBounds (area.removeFromRight (instance.bestWidth()).withSizeKeepingCentre (instance.bestWidth(), 24));
-    room = area.getWidth() - 8;
+    placeCaption (area);
+    room = (caption.isEmpty() ? area.getRight() : caption.getX()) - 8;
+}
+
+void TopBar::placeCaption (juce::Rectangle<int> area)
+{
+    constexpr int for_trail = 300;   // the trail comes first
+    const int width = juce::roundToInt (std::ceil (lookOf (*this).font (12.0f).getStringWidthFloat (captionText()))) + 2;
+    caption = area.getWidth() - width - 8 < for_trail ? juce::Rectangle<int>() : area.removeFromRight (width + 8).withTrimmedRight (8);
 }
 
 void TopBar::openInstances()
@@ -199,6 +209,9 @@ void TopBar::paint (juce::Graphics& g)
         arrow.lineTo (at.translated (0.0f, 4.0f));
         g.strokePath (arrow, juce::PathStrokeType (1.3f));
     }
+    g.setFont (look.font (12.0f));
+    g.setColour (theme.dim);
+    g.drawText (captionText(), caption, juce::Justification::centredRight, false);
     if (! document.isChanged() || all.empty()) return;
     g.setFont (look.font (12.0f));
     g.setColour (theme.dim);

@@ -50,6 +50,7 @@ public:
 private:
     class Slot;
     std::vector<juce::Rectangle<float>> places() const;
+    void placeCaption (juce::Rectangle<int>);
 
     void openInstances();
 
@@ -57,7 +58,8 @@ private:
     std::optional<Instance> shown;
     ToolButton instance { "", ToolButton::Kind::framed, TRANS ("Choose the instance of this subgraph whose values are shown") };
     std::vector<juce::String> trail;
-    int room = 0;   // width available for the trail, in pixels
+    int room = 0;                   // width available for the trail, in pixels
+    juce::Rectangle<int> caption;   // of the snapshots; empty if there is no room for it
     std::array<std::unique_ptr<Slot>, snapshot_count> slots;
     std::unique_ptr<IconButton> undo, redo, help, menu;
 };
