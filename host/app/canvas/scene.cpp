@@ -79,38 +79,57 @@ void Scene::place (const graph::Patch& patch)
     for (const auto& w : patch.wires)
         if (const int from = indexOf (w.from.node), to = indexOf (w.to.node); from >= 0 && to >= 0 && w.delay == 0) wires.emplace_back (from, to);
     const auto places = arrange (sizes, wires);
-    std::vector<std::size_t> unplaced;
+    std::vector<bool> placed (all_nodes.size());
     for (std::size_t i = 0; i < all_nodes.size(); ++i)
     {
         const auto stored = positionOf (patch.nodes[i]);
         all_nodes[i].at = stored ? stored->toFloat() : places[i];
-        if (! stored) unplaced.push_back (i);
+        placed[i] = stored.has_value();
     }
-    if (unplaced.size() == all_nodes.size()) return;
-    for (const auto i : unplaced)
+    if (std::ranges::count (placed, true) > 0) placeAmong (std::move (placed), wires);
+}
+
+/// Places the other nodes among those that are placed: left of what they feed, else right of what feeds them. Their neighbours come first.
+void Scene::placeAmong (std::vector<bool> placed, const std::vector<std::pair<int, int>>& wires)
+{
+    constexpr float gap = 64.0f;
+    const auto placeOne = [&] {
+        for (const auto& [from, to] : wires)
+            if (auto& node = all_nodes[at (from)]; ! placed[at (from)] && placed[at (to)])
+            {
+                node.at = all_nodes[at (to)].at.translated (-gap - node.box.width, 0.0f);
+                return at (from);
+            }
+        for (const auto& [from, to] : wires)
+            if (placed[at (from)] && ! placed[at (to)])
+            {
+                all_nodes[at (to)].at = all_nodes[at (from)].bounds().getTopRight().translated (gap, 0.0f);
+                return at (to);
+            }
+        return static_cast<std::size_t> (std::ranges::find (placed, false) - placed.begin());
+    };
+    for (auto left = std::ranges::count (placed, false); left > 0; --left)
     {
-        if (const auto beside = besideNeighbour (i, unplaced, wires)) all_nodes[i].at = *beside;
-        const auto isFree = [&] {
-            for (std::size_t k = 0; k < all_nodes.size(); ++k)
-                if (k != i && all_nodes[k].bounds().expanded (Box::grid).intersects (all_nodes[i].bounds())) return false;
-            return true;
-        };
-        while (! isFree())
-            all_nodes[i].at.y += Box::grid;
+        const auto i = placeOne();
+        all_nodes[i].at = freePlaceNear (i, placed);
+        placed[i] = true;
     }
 }
 
-/// A position left of the node's destination if that has a position, else right of its source if that has one.
-std::optional<juce::Point<float>> Scene::besideNeighbour (std::size_t i, const std::vector<std::size_t>& unplaced,
-                                                          const std::vector<std::pair<int, int>>& wires) const
+/// The nearest place above or below where a node is, with room to all placed nodes.
+juce::Point<float> Scene::freePlaceNear (std::size_t i, const std::vector<bool>& placed) const
 {
-    constexpr float gap = 64.0f;
-    const auto isPlaced = [&] (int node) { return at (node) != i && std::ranges::count (unplaced, at (node)) == 0; };
-    for (const auto& [from, to] : wires)
-        if (at (from) == i && isPlaced (to)) return all_nodes[at (to)].at.translated (-gap - all_nodes[i].box.width, 0.0f);
-    for (const auto& [from, to] : wires)
-        if (at (to) == i && isPlaced (from)) return all_nodes[at (from)].at.translated (gap + all_nodes[at (from)].box.width, 0.0f);
-    return std::nullopt;
+    constexpr float room = 3 * Box::grid;
+    const auto isFree = [&] (juce::Point<float> p) {
+        const auto area = all_nodes[i].bounds().withPosition (p).expanded (room);
+        for (std::size_t k = 0; k < all_nodes.size(); ++k)
+            if (placed[k] && all_nodes[k].bounds().intersects (area)) return false;
+        return true;
+    };
+    const auto from = all_nodes[i].at;
+    for (float way = 0.0f;; way += Box::grid)   // ends, because there are nodes only in a finite area
+        for (const float y : { from.y + way, from.y - way })
+            if (isFree ({ from.x, y })) return { from.x, y };
 }
 
 /// A generic port takes on the quantity wired to it.

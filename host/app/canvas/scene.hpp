@@ -123,8 +123,8 @@ public:
 private:
     void addNodes (const graph::Graph&, const std::string& name, const graph::Patch&, const Catalogue&, NodeCurves&, const TextWidth&);
     void place (const graph::Patch&);
-    std::optional<juce::Point<float>> besideNeighbour (std::size_t node, const std::vector<std::size_t>& unplaced,
-                                                       const std::vector<std::pair<int, int>>& wires) const;
+    void placeAmong (std::vector<bool> placed, const std::vector<std::pair<int, int>>& wires);
+    juce::Point<float> freePlaceNear (std::size_t node, const std::vector<bool>& placed) const;
     void findQuantities (const graph::Patch&, const Quantities&);
     void addWires (const graph::Patch&);
     void routeWires();

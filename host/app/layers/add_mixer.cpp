@@ -2,7 +2,9 @@
 #include "mixer.hpp"
 #include "mixer_parts.hpp"
 
+#include <host/app/canvas/notes.hpp>
 #include <host/app/model/fragment.hpp>
+#include <host/app/model/patch.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/graph/text.hpp>
@@ -91,6 +93,37 @@ Stream streamOf (const graph::Patch& patch, const graph::Node*& motor, bool& vec
     }
     return found;
 }
+
+/// Moves the destination of a stream, with all that is right of it, so far to the right that a mixer fits before it. Nodes without a stored position
+/// stay without one: the canvas arranges them.
+void makeRoom (const graph::Graph& g, const Stream& stream, graph::Batch& batch)
+{
+    constexpr double room = 448.0, reach = 48.0;   // two gaps, the mixer, and the node on its left; the margin of a region around a node
+    const auto* motor = g.root.find (stream.to.node);
+    const auto to = motor == nullptr ? std::nullopt : positionOf (*motor);
+    if (! to) return;
+    double by = 0.0;
+    for (const auto* w : stream.wires)
+        if (const auto* from = g.root.find (graph::firstNameOf (w->from.node)))
+            if (const auto at = positionOf (*from); at && at->x < to->x) by = std::max (by, at->x + room - to->x);
+    if (by <= 0.0) return;
+    for (const auto& n : g.root.nodes)
+    {
+        const auto at = positionOf (n);
+        if (! at || at->x < to->x) continue;
+        auto ui = n.extra.at ("ui");
+        ui["at"] = Json::array ({ at->x + by, at->y });
+        batch.commands.push_back (graph::SetNodeKey { {}, n.name, "ui", std::move (ui) });
+    }
+    auto notes = notesOf (g, {});
+    const auto way = static_cast<float> (by);
+    for (auto& note : notes)
+        if (note.area.getX() >= static_cast<float> (to->x - reach))
+            note.area.translate (way, 0.0f);
+        else if (note.isRegion() && note.area.contains (to->toFloat()))
+            note.area.setWidth (note.area.getWidth() + way);
+    if (! notes.empty()) batch.commands.push_back (setNotes (g, {}, notes, batch.name));
+}
 }   // namespace
 
 Result<AddedMixer> addMixer (const graph::Graph& g, const Catalogue&)
@@ -114,6 +147,7 @@ Result<AddedMixer> addMixer (const graph::Graph& g, const Catalogue&)
     mixer.settings["inputs"] = std::max<std::size_t> (1, names.size());
     if (! names.empty()) mixer.settings["names"] = mixing::joined (names);
     graph::Batch batch { NEEDS_TRANS ("add a layer mixer"), { graph::AddNode { {}, std::move (mixer) } } };
+    makeRoom (g, stream, batch);
     for (std::size_t i = 0; i < stream.wires.size(); ++i)
     {
         auto to = *stream.wires[i];
