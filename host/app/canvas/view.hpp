@@ -47,6 +47,12 @@ struct View
     {
         frame (area, window);
         if (area.isEmpty() || window.isEmpty() || zoom >= readable) return;
+        constexpr float least_margin = 4.0f;
+        if (const auto all = window.reduced (least_margin); area.getWidth() * readable <= all.getWidth() && area.getHeight() * readable <= all.getHeight())
+        {
+            zoom = readable;
+            return centreOn (area.getCentre(), window);
+        }
         zoom = 1.1f * readable;   // as it does not fit anyway
         const auto inside = withoutMargin (window);
         const auto along = [this] (juce::Range<float> all, float middle, juce::Range<float> seen) {
