@@ -65,7 +65,7 @@ void updateBreadcrumbs (Canvas::Breadcrumbs& path, const graph::Graph& g)
 }
 }   // namespace
 
-Canvas::Canvas (Document& d, const Catalogue& c) : document (d), catalogue (c)
+Canvas::Canvas (Document& d, const Catalogue& c) : document (d), catalogue (c), seen_position (d.history().position())
 {
     setWantsKeyboardFocus (true);
     setTitle (TRANS ("Canvas"));
@@ -80,21 +80,25 @@ void Canvas::documentChanged()
     std::set<graph::Id> before;
     for (const auto& n : shown->nodes())
         before.insert (n.id);
+    if (! document.isStepping()) beginEdit();
+    const auto previous = std::move (shown);
     updateBreadcrumbs (entered, document.graph());
     rebuild();
+    if (document.isStepping()) followStep (*previous);
     // A view that the user has not moved stays fitted when a node appears outside of it, such as by a click in another panel.
     const auto isOut = [&] (const SceneNode& n) {
         const auto b = n.bounds();
         return ! before.contains (n.id)
                && ! getLocalBounds().toFloat().contains (juce::Rectangle<float> (window.toPixels (b.getTopLeft()), window.toPixels (b.getBottomRight())));
     };
-    if (framed && *framed == window && ! drag)
+    if (framed && *framed == window && ! drag && ! document.isStepping())
     {
         juce::Rectangle<float> out;
         for (const auto& n : shown->nodes())
             if (isOut (n)) out = out.isEmpty() ? n.bounds() : out.getUnion (n.bounds());
         if (! out.isEmpty()) framed_around.isEmpty() ? frameAll() : frameAround (out);
     }
+    endEdit();
     std::erase_if (highlights.selected, [this] (graph::Id id) {
         if (isNote (id)) return noteOf (id) >= shown->notes().size();
         return shown->find (id) == nullptr && shown->findWire (id) == nullptr;

@@ -69,6 +69,9 @@ public:
     /// Goes to a patch, then selects a node or wire in it and scrolls to it. No effect if the patch cannot be reached from the root.
     void show (const std::string& patch, graph::Id);
 
+    /// As show(), for the node of the latest edit: undoing the edit brings back the view from before.
+    void showEdited (const std::string& patch, graph::Id);
+
     /// The full path of a port in the current patch: "grain/wave.value"; with the numbers of the chosen instances: "finger[2]/drag.force".
     std::string address (const std::string& port) const;
 
@@ -189,6 +192,18 @@ private:
         drag.reset();   // a drag may hold a row of a datasheet, so it ends where it is
         curves.clear();
     }
+    /// The view, and whether it is fitted to the patch.
+    struct Sight
+    {
+        std::string patch;
+        View window;
+        std::optional<View> framed;
+        juce::Rectangle<float> framed_around;
+    };
+    Sight sight() const { return { patch(), window, framed, framed_around }; }
+    void beginEdit();   ///< call before the view follows an edit
+    void endEdit();     ///< call after the view has followed an edit
+    void followStep (const Scene& before);
     void rebuild();
     void frameAround (juce::Rectangle<float> focus);
     std::optional<Instance> instanceOf (const graph::Node&, const std::string& names) const;
@@ -230,7 +245,14 @@ private:
     std::optional<juce::Point<int>> file_over;   // where a file is being dragged over the canvas
     std::optional<View> framed;                  // the view when it was last fitted to the patch: at the first layout with enough room, or on request
     juce::Rectangle<float> framed_around;        // what the fitted view shows if it cannot show the whole patch readably; empty: it shows all
-    juce::Rectangle<float> laid_out;             // of the last layout; the view stays fitted until the user moves it, then keeps its centre
+    /// The view before and after each step of the history that was made with this canvas.
+    struct Sights
+    {
+        Sight before, after;
+    };
+    std::vector<Sights> sights;
+    std::size_t seen_position;         // of the history
+    juce::Rectangle<float> laid_out;   // of the last layout; the view stays fitted until the user moves it, then keeps its centre
     bool with_map = true;
 };
 

@@ -159,6 +159,7 @@ void Canvas::arrangeAll()
     std::get<graph::Batch> (command.edit).name = NEEDS_TRANS ("arrange");
     perform (std::move (command));
     frameAll();
+    endEdit();
 }
 
 void Canvas::nudgeSelection (juce::Point<float> by)

@@ -191,7 +191,7 @@ void LayersPanel::add (const std::string& type)
     batch.commands.push_back (std::move (added->command));
     chosen = place;
     if (! document.perform (std::move (batch))) return;
-    if (added->node != 0 && onSelect) onSelect (place.patch, added->node);
+    if (added->node != 0 && onAdded) onAdded (place.patch, added->node);
     if (onHint && ! added->missing.empty()) onHint (juce::String (added->missing));
     scroll.setViewPosition (row.getWidth(), 0);
 }

@@ -21,6 +21,7 @@ public:
     void refresh();   ///< call many times a second; does nothing while hidden
 
     std::function<void (const std::string& patch, graph::Id node)> onSelect;
+    std::function<void (const std::string& patch, graph::Id node)> onAdded;   ///< receives the node of a layer that the user has just added
     std::function<void (const juce::String&)> onHint;
 
     void choose (std::size_t mixer);   ///< selects the mixer to show, if there are several

@@ -44,7 +44,10 @@ void Document::goTo (std::size_t position)
     while (edits.position() < position && edits.redo())
     {
     }
-    if (edits.position() != before) notifyChanged();
+    if (edits.position() == before) return;
+    is_stepping = true;
+    notifyChanged();
+    is_stepping = false;
 }
 
 bool Document::isChanged() const { return writeGraph (edits.graph()) != origin().saved; }

@@ -58,6 +58,9 @@ public:
     void redo() { goTo (edits.position() + 1); }
     void goTo (std::size_t position);   ///< undoes or redoes up to that position of the history
 
+    /// True while the listeners are told about an undo or a redo.
+    bool isStepping() const noexcept { return is_stepping; }
+
     /// Replaces the graph as one undo step of that name.
     void open (graph::Graph, Source, const std::string& step);
 
@@ -103,6 +106,7 @@ private:
     graph::History edits;
     std::vector<std::shared_ptr<Origin>> origins;   // one per position of the history
     std::vector<Listener*> listeners;
+    bool is_stepping = false;
 };
 
 }   // namespace tactus::host

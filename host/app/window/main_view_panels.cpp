@@ -72,6 +72,7 @@ void MainView::connectCanvas()
     patching.onSaveClip = [this] (const std::filesystem::path& file) { saveClipAs (file); };
     inspector.messagesNow = [this] { return run().messages(); };
     layers.onSelect = [this] (const std::string& patch, graph::Id node) { patching.show (patch, node); };
+    layers.onAdded = [this] (const std::string& patch, graph::Id node) { patching.showEdited (patch, node); };
     live.limits = &limits;
     devices.onTry = [this] (const std::string& role) { return playback.tryDevice (role); };
     strip.onProblems = [this] { bottom.show (problems); };

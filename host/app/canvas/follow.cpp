@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How the view of the canvas follows undo and redo.
+#include "canvas.hpp"
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+namespace
+{
+bool isSame (const SceneNode& a, const SceneNode& b)
+{
+    const auto sameSocket = [] (const Socket& x, const Socket& y) { return x.value == y.value && x.label == y.label; };
+    return a.name == b.name && a.type == b.type && a.at == b.at && a.bypass == b.bypass
+           && std::ranges::equal (a.box.sockets, b.box.sockets, sameSocket);
+}
+
+/// What is in one scene, and not or different in another one.
+void collectChanges (const Scene& scene, const Scene& other, std::vector<juce::Rectangle<float>>& changed)
+{
+    for (const auto& n : scene.nodes())
+        if (const auto* same = other.find (n.id); same == nullptr || ! isSame (n, *same)) changed.push_back (n.bounds());
+    for (const auto& w : scene.wires())
+    {
+        const auto* same = other.findWire (w.id);
+        if (same == nullptr || same->text != w.text || same->enabled != w.enabled)
+            changed.push_back (juce::Rectangle<float> (w.from, w.to).withSizeKeepingCentre (1.0f, 1.0f));
+    }
+    for (std::size_t i = 0; i < scene.notes().size(); ++i)
+    {
+        const auto& note = scene.notes()[i];
+        const bool has = i < other.notes().size();
+        if (! has || other.notes()[i].area != note.area || other.notes()[i].text != note.text) changed.push_back (note.area);
+    }
+}
+}   // namespace
+
+void Canvas::beginEdit()
+{
+    const auto position = document.history().position();
+    if (position == seen_position) return;   // it continues the latest step, or a file was saved
+    sights.resize (position > 0 ? position - 1 : 0, { sight(), sight() });
+    if (position > 0) sights.push_back ({ sight(), sight() });
+    seen_position = position;
+}
+
+void Canvas::endEdit()
+{
+    if (! document.isStepping() && seen_position > 0 && seen_position <= sights.size()) sights[seen_position - 1].after = sight();
+}
+
+void Canvas::showEdited (const std::string& patch_name, graph::Id id)
+{
+    show (patch_name, id);
+    endEdit();
+}
+
+/// If an edit moved the view and the user has not moved it since, undoing the edit moves it back. Otherwise, the view stays where something that has
+/// changed is in view, and else goes to what has changed.
+void Canvas::followStep (const Scene& before)
+{
+    const auto from = seen_position, to = document.history().position();
+    seen_position = to;
+    const auto isHere = [this] (const Sight& s) { return s.patch == patch() && s.window == window; };
+    const bool is_known = std::max (from, to) <= sights.size() && from != to;
+    if (is_known)
+    {
+        const bool undone = to < from;
+        const auto& left = undone ? sights[from - 1].after : sights[from].before;
+        const auto& reached = undone ? sights[to].before : sights[to - 1].after;
+        if (isHere (left) && reached.patch == patch() && reached.window != left.window)
+        {
+            window = reached.window;
+            framed = reached.framed;
+            framed_around = reached.framed_around;
+            return repaint();
+        }
+    }
+    std::vector<juce::Rectangle<float>> changed;
+    collectChanges (*shown, before, changed);
+    collectChanges (before, *shown, changed);
+    const auto canvas = getLocalBounds().toFloat();
+    const auto isSeen = [&] (const juce::Rectangle<float>& r) { return canvas.contains (window.toPixels (r.getCentre())); };
+    if (changed.empty() || canvas.isEmpty() || std::ranges::any_of (changed, isSeen)) return;
+    window.centreOn (changed.front().getCentre(), canvas);
+    repaint();
+}
+
+}   // namespace tactus::host
