@@ -3,7 +3,9 @@
 #include "host/app/support/canvas_rig.hpp"
 #include "host/app/support/seen_text.hpp"
 
+#include <host/app/canvas/actions.hpp>
 #include <host/app/canvas/minimap.hpp>
+#include <host/app/layers/mixer.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -14,7 +16,7 @@ using host::test::CanvasRig;
 namespace
 {
 /// The canvas in a window of 1920x1080 at 200 %, 1024x700, 1280x720, 1920x1080 and 2560x1440.
-constexpr std::pair<int, int> sizes[] { { 424, 240 }, { 488, 326 }, { 744, 346 }, { 1384, 706 }, { 2024, 1066 } };
+constexpr std::pair<int, int> sizes[] { { 424, 200 }, { 488, 326 }, { 744, 346 }, { 1384, 706 }, { 2024, 1066 } };
 
 /// The first device, from the left; the first node if all devices are in subgraphs.
 const SceneNode& handIn (const Scene& scene)
@@ -58,7 +60,7 @@ TEST_CASE ("every preset opens so that its labels can be read, with the hand in 
 TEST_CASE ("in the smallest window, Dry wood opens with labels at its ports; Home shows all of it", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
-    rig.canvas->setSize (424, 240);
+    rig.canvas->setSize (424, 200);
     CHECK (shows (host::test::readTexts (*rig.canvas), "Position"));
     rig.hand().key ("home");
     for (const auto& n : rig.canvas->scene().nodes())
@@ -98,4 +100,73 @@ TEST_CASE ("inside a subgraph, the names of the exposed ports are in view", "[ap
         CHECK (rig.canvas->getLocalBounds().toFloat().contains (rig.canvas->view().toPixels (e.label.getTopLeft())));
         CHECK (rig.canvas->getLocalBounds().toFloat().contains (rig.canvas->view().toPixels (e.label.getBottomRight())));
     }
+}
+
+TEST_CASE ("undoing an edit that moved the view moves it back, and redoing it moves it again", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    rig.canvas->setSize (424, 200);
+    rig.canvas->frameStart();
+    const auto before = rig.canvas->view();
+    rig.canvas->addNodeAt ("signal.lfo", { .at = rig.canvas->scene().bounds().getTopRight() + juce::Point<float> (300.0f, 200.0f) });
+    const auto after = rig.canvas->view();
+    REQUIRE_FALSE (after == before);
+    rig.document.undo();
+    CHECK (rig.canvas->view() == before);
+    rig.document.redo();
+    CHECK (rig.canvas->view() == after);
+}
+
+TEST_CASE ("after the user has moved the view, an undo moves it only if nothing that has changed is in view", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto change = [&] (const char* value) { REQUIRE (rig.document.perform (graph::SetParam { {}, "drag", "d_max", Json (value) })); };
+    const auto isSeen = [&] { return rig.canvas->getLocalBounds().toFloat().contains (rig.canvas->view().toPixels (rig.node ("drag").bounds().getCentre())); };
+    change ("0.5 mm");
+    rig.canvas->view().origin += juce::Point<float> (30.0f, 10.0f);
+    const auto moved = rig.canvas->view();
+    rig.document.undo();
+    CHECK (rig.canvas->view() == moved);
+    rig.document.redo();
+    CHECK (rig.canvas->view() == moved);
+
+    rig.canvas->view().origin += juce::Point<float> (9000.0f, 0.0f);
+    REQUIRE_FALSE (isSeen());
+    change ("0.6 mm");
+    CHECK_FALSE (isSeen());   // an edit in another panel leaves the view alone
+    rig.document.undo();
+    CHECK (isSeen());
+    const auto shown = rig.canvas->view();
+    rig.document.redo();
+    CHECK (rig.canvas->view() == shown);
+}
+
+TEST_CASE ("a mixer is placed left of what it feeds and right of what it mixes, with room around it", "[app][canvas][layers]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    REQUIRE (rig.canvas->perform (placeNodes (rig.graph(), {}, { { rig.node ("motor").id, rig.node ("motor").at } })));   // stores all positions
+    const auto text = rig.text();
+    auto mixer = addMixer (rig.graph(), catalogue());
+    REQUIRE (mixer);
+    REQUIRE (rig.document.perform (std::move (mixer->command)));
+    const auto desk = mixer->place.node;
+    auto layer = addLayer (rig.graph(), mixer->place, catalogue(), "texture.grating");
+    REQUIRE (layer);
+    REQUIRE (rig.document.perform (std::move (layer->command)));
+    const auto& scene = rig.canvas->scene();
+    for (const auto& w : scene.wires())
+    {
+        INFO (w.text);
+        const auto &from = scene.nodes()[static_cast<std::size_t> (w.start)], &to = scene.nodes()[static_cast<std::size_t> (w.end)];
+        if (from.name == desk || to.name == desk || from.name == "grating") CHECK (from.bounds().getRight() + 48.0f <= to.at.x);
+    }
+    for (const auto& a : scene.nodes())
+        for (const auto& b : scene.nodes())
+        {
+            INFO (a.name << ", " << b.name);
+            if (a.id != b.id) CHECK_FALSE (a.bounds().expanded (16.0f).intersects (b.bounds()));
+        }
+    rig.document.undo();
+    rig.document.undo();
+    CHECK (rig.text() == text);
 }
