@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "layers_panel.hpp"
 
+#include <host/app/look/size_in_view.hpp>
 #include <host/app/model/file_path.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
@@ -41,7 +42,7 @@ LayersPanel::LayersPanel (Document& d, Traces& t, const Catalogue& c) : document
     more.onClick = [this] { openMenu(); };
     first.onClick = [this] { addMixerNow(); };
     scroll.setViewedComponent (&row, false);
-    scroll.setScrollBarsShown (false, true);
+    scroll.setScrollBarsShown (true, true);
     scroll.setScrollBarThickness (8);
     scroll.setWantsKeyboardFocus (false);   // the keys are for the strips
     addAndMakeVisible (scroll);
@@ -193,7 +194,7 @@ void LayersPanel::add (const std::string& type)
     if (! document.perform (std::move (batch))) return;
     if (added->node != 0 && onAdded) onAdded (place.patch, added->node);
     if (onHint && ! added->missing.empty()) onHint (juce::String (added->missing));
-    scroll.setViewPosition (row.getWidth(), 0);
+    scroll.setViewPosition (row.getWidth(), scroll.getViewPositionY());
 }
 
 void LayersPanel::addMixerNow()
@@ -228,7 +229,7 @@ void LayersPanel::addClip (const std::filesystem::path& file)
     batch.commands.push_back (std::move (layer->command));
     if (! document.perform (std::move (batch))) return;
     say (filled (TRANS ("%1 is a layer now. It plays over and over."), printableName (file.filename().string())));
-    scroll.setViewPosition (row.getWidth(), 0);
+    scroll.setViewPosition (row.getWidth(), scroll.getViewPositionY());
 }
 
 bool LayersPanel::isInterestedInFileDrag (const juce::StringArray& files)
@@ -361,9 +362,11 @@ void LayersPanel::resized()
     layOutHead (area.removeFromLeft (head_width).reduced (12, 4));
     if (total) total->setBounds (area.removeFromRight (MixStrip::width));
     scroll.setBounds (area);
-    const int width = static_cast<int> (strips.size()) * LayerStrip::width;
-    const int bar = width > scroll.getWidth() ? scroll.getScrollBarThickness() : 0;   // the bar itself may still have its old width
-    row.setSize (width, scroll.getHeight() - bar);
+    const int width = static_cast<int> (strips.size()) * LayerStrip::width, bar = scroll.getScrollBarThickness();
+    const auto size = sizeInView (area, { width, LayerStrip::least_height }, bar);
+    // The row is so wide that, scrolled to its end, the first strip in view is whole.
+    const int hidden = std::max (0, width - size.seen_width), whole = (hidden + LayerStrip::width - 1) / LayerStrip::width * LayerStrip::width;
+    row.setSize (hidden == 0 ? width : whole + size.seen_width, size.height);
     for (std::size_t i = 0; i < strips.size(); ++i)
         strips[i]->setBounds (static_cast<int> (i) * LayerStrip::width, 0, LayerStrip::width, row.getHeight());
 }

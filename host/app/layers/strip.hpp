@@ -43,7 +43,7 @@ public:
 class LayerStrip final : public juce::Component
 {
 public:
-    static constexpr int width = 120;
+    static constexpr int width = 120, least_height = 180;   ///< a lower strip would have a fader that is too short to set
 
     LayerStrip (std::shared_ptr<const MixerContext>, int layer);
 

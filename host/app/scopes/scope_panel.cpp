@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scope_panel.hpp"
 
+#include <host/app/look/size_in_view.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -29,7 +30,7 @@ ScopePanel::ScopePanel (Document& d, Traces& t, const Catalogue& c) : document (
     more.onClick = [this] { openAdders(); };
     addChildComponent (more);
     scroll.setViewedComponent (&shelf, false);
-    scroll.setScrollBarsShown (false, true);
+    scroll.setScrollBarsShown (true, true);
     scroll.setScrollBarThickness (8);
     scroll.setWantsKeyboardFocus (false);
     addAndMakeVisible (scroll);
@@ -123,8 +124,8 @@ void ScopePanel::showView (ScopeSpec& s)
 void ScopePanel::reveal (const ScopeView& v)
 {
     const int left = scroll.getViewPositionX(), right = left + scroll.getViewWidth();
-    if (v.getX() < left) scroll.setViewPosition (v.getX(), 0);
-    if (v.getRight() > right) scroll.setViewPosition (v.getRight() - scroll.getViewWidth(), 0);
+    if (v.getX() < left) scroll.setViewPosition (v.getX(), scroll.getViewPositionY());
+    if (v.getRight() > right) scroll.setViewPosition (v.getRight() - scroll.getViewWidth(), scroll.getViewPositionY());
 }
 
 ScopeView& ScopePanel::add (ScopeKind kind)
@@ -246,8 +247,11 @@ void ScopePanel::paint (juce::Graphics& g)
     if (! views.empty()) return;
     g.setFont (look.font (13.0f));
     g.setColour (theme.dim);
-    const auto text = suggestion.isVisible() ? TRANS ("No scopes. Select a wire and press P, add a scope above, or start with this port:")
-                                             : TRANS ("No scopes. Add nodes to the graph, select a wire, and press P");
+    auto text = TRANS ("Scopes plot what the wires of a graph carry. Open a preset to see some.");
+    if (suggestion.isVisible())
+        text = TRANS ("No scopes. Select a wire and press P, add a scope above, or start with this port:");
+    else if (! context.ports.empty())
+        text = TRANS ("No scopes. Select a wire and press P, or add a scope above.");
     g.drawFittedText (text, emptyArea().reduced (24, 16).withTrimmedBottom (32), juce::Justification::centred, 2, 1.0f);
 }
 
@@ -283,12 +287,12 @@ void ScopePanel::resized()
     repaint();
 }
 
-/// Equally wide, but none too narrow to read.
+/// Equally wide, but none too narrow or too low to read.
 void ScopePanel::layOutScopes()
 {
-    const int count = static_cast<int> (views.size()), width = std::max (scroll.getWidth(), count * least_scope_width);
-    const int bar = width > scroll.getWidth() ? scroll.getScrollBarThickness() : 0;
-    shelf.setSize (width, std::max (0, scroll.getHeight() - bar));
+    const int count = static_cast<int> (views.size()), bar = scroll.getScrollBarThickness();
+    const auto size = sizeInView (scroll.getLocalBounds(), { count * least_scope_width, least_scope_height }, bar);
+    shelf.setSize (size.width, size.height);
     auto area = shelf.getLocalBounds();
     for (int i = 0; i < count; ++i)
         views[static_cast<std::size_t> (i)]->setBounds (area.removeFromLeft (area.getWidth() / (count - i)).withTrimmedLeft (i == 0 ? 0 : 1));

@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// Scopes next to one another, with a row of buttons to add more. Where they are too many for the width, they keep a readable width and scroll.
+/// Scopes next to one another, with a row of buttons to add more. Where they do not fit, they keep a readable size and scroll.
 class ScopePanel final : public juce::Component, private Document::Listener
 {
 public:
@@ -44,7 +44,7 @@ public:
     void mouseDown (const juce::MouseEvent&) override;
 
 private:
-    static constexpr int row_height = 30, least_scope_width = 200;   // in units of the window
+    static constexpr int row_height = 30, least_scope_width = 200, least_scope_height = 144;   // in units of the window
     static constexpr std::size_t most_scopes = 8;
 
     /// The row of scopes, which may be wider than the panel.

@@ -14,7 +14,7 @@ namespace tactus::host
 namespace
 {
 constexpr std::size_t most_cards = 6, most_files = 4;
-constexpr int margin = 32, gap = 12, line_height = 15, low = 420;
+constexpr int margin = 32, gap = 12, line_height = 15, low = 420, lowest = 224;   // of the page, in pixels
 
 /// The first sentence.
 juce::String firstSentence (const std::string& about)
@@ -154,7 +154,9 @@ void WelcomePage::resized()
     auto area = getLocalBounds().reduced (margin, is_low ? 12 : margin);
     area = area.withSizeKeepingCentre (std::min (area.getWidth(), 1040), std::min (area.getHeight(), 560));
     title = area.removeFromTop (is_low ? 56 : 64);
-    auto low_row = area.removeFromBottom (32);
+    const bool is_lowest = getHeight() < lowest;
+    const int heading_width = juce::roundToInt (lookOf (*this).font (20.0f, true).getStringWidthFloat (TRANS ("Feel something"))) + 24;
+    auto low_row = is_lowest ? title.withHeight (28).withTrimmedLeft (heading_width) : area.removeFromBottom (32);
     create.setBounds (low_row.removeFromLeft (create.widthFor()));
     low_row.removeFromLeft (8);
     open.setBounds (low_row.removeFromLeft (open.widthFor()));
@@ -166,7 +168,7 @@ void WelcomePage::resized()
         f->setVisible (w <= low_row.getWidth());
         f->setBounds (low_row.removeFromLeft (w));
     }
-    area.removeFromBottom (is_low ? gap : 24);
+    if (! is_lowest) area.removeFromBottom (is_low ? gap : 24);
     const int columns = 3, rows = std::max (1, (static_cast<int> (all.size()) + columns - 1) / columns);
     const int w = (area.getWidth() - (columns - 1) * gap) / columns, h = (area.getHeight() - (rows - 1) * gap) / rows;
     for (std::size_t i = 0; i < all.size(); ++i)

@@ -17,7 +17,7 @@ namespace tactus::host
 namespace
 {
 constexpr int hand_width = 420, refreshes_per_second = 30;
-constexpr int least_canvas = 240;   // smallest width and height of the canvas, in pixels
+constexpr int least_canvas_width = 240, least_canvas_height = 200;   // in pixels
 }   // namespace
 
 MainView::MainView (const Catalogue& c)
@@ -271,9 +271,9 @@ void MainView::resized()
     strip.setBounds (area.removeFromTop (SafetyStrip::height));
     top.setBounds (area.removeFromTop (TopBar::height));
     status.setBounds (area.removeFromBottom (StatusLine::height));
-    auto low = bottom_edge.take (area, least_canvas);
-    left.setBounds (left_edge.take (area, least_canvas));
-    inspector.setBounds (right_edge.take (area, least_canvas));
+    auto low = bottom_edge.take (area, least_canvas_height);
+    left.setBounds (left_edge.take (area, least_canvas_width));
+    inspector.setBounds (right_edge.take (area, least_canvas_width));
     if (! hand.isEnlarged()) hand.setBounds (low.removeFromLeft (std::min (hand_width, low.getWidth() / 2)));
     bottom.setBounds (low);
     patching.setBounds (area);

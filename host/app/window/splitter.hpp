@@ -11,7 +11,7 @@ namespace tactus::host
 {
 
 /// The draggable edge of a panel: drawn as a hairline, but wider for the mouse. A double click folds or unfolds the panel. A panel has
-/// its initial size until it is dragged; from then on, it keeps its share of the window.
+/// its initial size until it is dragged, at the bottom of a high window a larger one; from then on, it keeps its share of the window.
 class Splitter final : public juce::Component
 {
 public:
@@ -102,7 +102,9 @@ private:
     int extent() const
     {
         if (is_folded) return 0;
-        return dragged ? std::max (juce::roundToInt (*dragged * whole()), least_extent) : initial_extent;
+        if (dragged) return std::max (juce::roundToInt (*dragged * whole()), least_extent);
+        constexpr double least_share = 0.24;   // of a high window, for a panel at the bottom
+        return edge == Edge::top ? std::max (initial_extent, juce::roundToInt (least_share * whole())) : initial_extent;
     }
 
     const Edge edge;

@@ -265,3 +265,46 @@ TEST_CASE ("the scales of the meters have units, also before the first run", "[l
     check (rig.panel->layer (0));
     check (*rig.panel->mix());
 }
+
+TEST_CASE ("in a low panel, the strips scroll and their faders stay long enough to set", "[layers]")
+{
+    Rig rig ("bronze_bell.json");
+    for (const int height : { 60, 108, 158, 200, 232, 400 })
+        for (const int width : { 420, 540, 900 })
+        {
+            INFO (width << " x " << height);
+            rig.panel->setSize (width, height);
+            for (std::size_t i = 0; i < rig.panel->layers(); ++i)
+            {
+                auto& strip = rig.panel->layer (i);
+                auto* row = strip.getParentComponent();
+                CHECK (row->getLocalBounds().contains (strip.getBounds()));
+                int faders = 0;
+                for (auto* part : strip.getChildren())
+                    if (dynamic_cast<Fader*> (part) != nullptr && part->isVisible() && part->getHeight() >= 64) ++faders;
+                CHECK (faders == 1);
+            }
+            // All of the row can be scrolled to, and no more.
+            auto* view = rig.panel->layer (0).findParentComponentOfClass<juce::Viewport>();
+            CHECK (view->getViewedComponent()->getWidth() < static_cast<int> (rig.panel->layers() + 1) * LayerStrip::width + view->getViewWidth());
+            if (height >= 232) CHECK (view->getViewHeight() == view->getViewedComponent()->getHeight());
+        }
+}
+
+TEST_CASE ("a new layer is in view, and the first strip in view is whole", "[layers]")
+{
+    for (const int width : { 480, 540, 604, 700, 860 })
+    {
+        Rig rig ("bronze_bell.json");
+        rig.panel->setSize (width, 232);
+        for (int i = 0; i < 4; ++i)
+        {
+            rig.panel->add ("");
+            INFO (width << " wide, " << rig.panel->layers() << " layers");
+            auto& last = rig.panel->layer (rig.panel->layers() - 1);
+            auto* view = last.findParentComponentOfClass<juce::Viewport>();
+            CHECK (view->getViewPositionX() % LayerStrip::width == 0);
+            CHECK (view->getViewArea().contains (last.getBounds()));
+        }
+    }
+}

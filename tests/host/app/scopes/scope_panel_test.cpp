@@ -2,6 +2,7 @@
 #include <host/app/run/live_run.hpp>
 #include <host/app/scopes/scope_panel.hpp>
 
+#include "host/app/support/seen_text.hpp"
 #include <host/app/scopes/energy_plot.hpp>
 #include <host/app/scopes/spectrogram_plot.hpp>
 #include <host/app/scopes/time_plot.hpp>
@@ -485,4 +486,32 @@ TEST_CASE ("scopes: for a slow stroke over a preset, the nodes account for all w
         CHECK (balance.gaps == 0);
         CHECK (std::abs (balance.elsewhere()) < 0.05 * balance.work);
     }
+}
+
+TEST_CASE ("scopes in a low panel keep a readable height, and scroll", "[app][scopes]")
+{
+    Bench b;
+    for (const int height : { 40, 76, 126, 166, 232, 400 })
+        for (const int width : { 320, 1600 })
+        {
+            INFO (width << " x " << height);
+            b.panel->setSize (width, height);
+            for (const auto& v : b.panel->shown())
+                CHECK (v->getHeight() >= 140);
+            const auto* view = b.panel->shown().front()->findParentComponentOfClass<juce::Viewport>();
+            if (height >= 232) CHECK (view->getViewHeight() == view->getViewedComponent()->getHeight());   // nothing to scroll
+        }
+}
+
+TEST_CASE ("scopes: without a graph, the panel does not speak of wires to select", "[app][scopes]")
+{
+    Bench b;
+    b.document.open ({}, {}, "new graph");
+    b.panel->suggest();
+    REQUIRE (b.panel->shown().empty());
+    juce::String all;
+    for (const auto& t : tactus::host::test::readTexts (*b.panel))
+        all << t.text << ' ';
+    CHECK (all.contains ("Open a preset"));
+    CHECK_FALSE (all.contains ("press P"));
 }
