@@ -346,12 +346,17 @@ void LayersPanel::layOutHead (juce::Rectangle<int> head)
 
 void LayersPanel::layOutIntroduction()
 {
+    constexpr int gap = 4;
     auto area = getLocalBounds().reduced (24, 16).withTop (std::min (16 + introduction_height, std::max (0, getHeight() - 40))).withHeight (button_line);
-    first.setBounds (area.removeFromLeft (first.bestWidth() + 8));
+    int wanted = first.bestWidth();
+    for (const auto& b : kinds)
+        wanted += gap + b->bestWidth();
+    const int spare = std::clamp ((area.getWidth() - wanted) / (1 + static_cast<int> (kinds.size())), 0, 8);   // wider than their texts need
+    first.setBounds (area.removeFromLeft (first.bestWidth() + spare));
     for (auto& b : kinds)
     {
-        area.removeFromLeft (4);
-        b->setBounds (area.removeFromLeft (b->bestWidth() + 8));
+        area.removeFromLeft (gap);
+        b->setBounds (area.removeFromLeft (b->bestWidth() + spare));
     }
 }
 
