@@ -3,6 +3,8 @@
 #include "canvas.hpp"
 
 #include <algorithm>
+#include <span>
+#include <unordered_map>
 
 namespace tactus::host
 {
@@ -16,15 +18,27 @@ bool isSame (const SceneNode& a, const SceneNode& b)
            && std::ranges::equal (a.box.sockets, b.box.sockets, sameSocket);
 }
 
+/// Large graphs have thousands of nodes, and Scene::find() looks at one after another.
+template <typename Item>
+std::unordered_map<graph::Id, const Item*> byId (std::span<const Item> items)
+{
+    std::unordered_map<graph::Id, const Item*> all;
+    for (const auto& i : items)
+        all.emplace (i.id, &i);
+    return all;
+}
+
 /// What is in one scene, and not or different in another one.
 void collectChanges (const Scene& scene, const Scene& other, std::vector<juce::Rectangle<float>>& changed)
 {
+    const auto nodes = byId<SceneNode> (other.nodes());
     for (const auto& n : scene.nodes())
-        if (const auto* same = other.find (n.id); same == nullptr || ! isSame (n, *same)) changed.push_back (n.bounds());
+        if (const auto same = nodes.find (n.id); same == nodes.end() || ! isSame (n, *same->second)) changed.push_back (n.bounds());
+    const auto wires = byId<SceneWire> (other.wires());
     for (const auto& w : scene.wires())
     {
-        const auto* same = other.findWire (w.id);
-        if (same == nullptr || same->text != w.text || same->enabled != w.enabled)
+        const auto same = wires.find (w.id);
+        if (same == wires.end() || same->second->text != w.text || same->second->enabled != w.enabled)
             changed.push_back (juce::Rectangle<float> (w.from, w.to).withSizeKeepingCentre (1.0f, 1.0f));
     }
     for (std::size_t i = 0; i < scene.notes().size(); ++i)
