@@ -55,7 +55,7 @@ void updateBreadcrumbs (Canvas::Breadcrumbs& path, const graph::Graph& g)
         if (node != nullptr && node->type.starts_with ("graph:") && g.find (subgraph) == nullptr) subgraph = node->type.substr (6);
         if (node == nullptr || ! leadsTo (*node, subgraph))
         {
-            const auto other = std::ranges::find_if (in->nodes, [&] (const graph::Node& n) { return leadsTo (n, subgraph); });
+            const auto other = std::ranges::find_if (in->nodes, [&to = subgraph] (const graph::Node& n) { return leadsTo (n, to); });
             if (other == in->nodes.end()) return path.resize (i);
             name = other->name;
         }

@@ -156,7 +156,7 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
         }
     }
     list.is_checked = ! list.limits.empty() || list.held > 0 || list.unknown > 0;
-    std::ranges::stable_partition (list.limits, &Limit::is_broken);
+    std::stable_partition (list.limits.begin(), list.limits.end(), [] (const Limit& l) { return l.is_broken; });
     return list;
 }
 }   // namespace

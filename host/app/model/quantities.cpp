@@ -89,7 +89,7 @@ void Quantities::joinWithInside (const graph::Graph& owner, const graph::Patch& 
         if (inside == nullptr) continue;
         visit (*its_owner, *inside);
         const auto& outer = patches.at (&patch).nodes[i];
-        const auto joinExposed = [&] (const std::vector<std::pair<std::string, graph::Endpoint>>& names, Role role) {
+        const auto joinExposed = [&, inside = inside] (const std::vector<std::pair<std::string, graph::Endpoint>>& names, Role role) {
             for (const auto& [name, end] : names)
                 if (const auto* inner = portsOf (*inside, end.node))
                 {

@@ -38,6 +38,7 @@ private:
     void textEditorReturnKeyPressed (juce::TextEditor&) override { choose (list.getSelectedRow()); }
     void textEditorEscapeKeyPressed (juce::TextEditor&) override { close(); }
     void textEditorFocusLost (juce::TextEditor&) override;
+    using juce::Component::keyPressed;
     bool keyPressed (const juce::KeyPress&, juce::Component*) override;
     void update();
     void fit();                ///< makes the palette as high as its entries

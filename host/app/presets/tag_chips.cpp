@@ -16,7 +16,7 @@ juce::String fewer() { return TRANS ("fewer"); }
 
 void TagChips::show (std::vector<std::string> tags)
 {
-    std::ranges::stable_partition (tags, [this] (const std::string& t) { return selected.contains (t); });
+    std::stable_partition (tags.begin(), tags.end(), [this] (const std::string& t) { return selected.contains (t); });
     all = std::move (tags);
     repaint();
 }

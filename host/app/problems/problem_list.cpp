@@ -104,7 +104,7 @@ void ProblemList::show (const Messages& messages)
     if (asked && std::ranges::equal (messages, shown, isSame)) return;
     asked = true;
     shown = messages;
-    std::ranges::stable_partition (shown, [] (const Message& m) { return m.severity == Message::Severity::error; });
+    std::stable_partition (shown.begin(), shown.end(), [] (const Message& m) { return m.severity == Message::Severity::error; });
     rows.clear();
     for (const auto& m : shown)
         column.addAndMakeVisible (*rows.emplace_back (std::make_unique<Row> (*this, m)));

@@ -22,7 +22,7 @@ const juce::String gap = juce::String::fromUTF8 ("\xe2\x80\xa6");
 
 juce::String randomPath()
 {
-    const auto name = [] { return juce::String (*rc::gen::container<std::string> (*rc::gen::inRange (1, 24), rc::gen::inRange ('a', 'z'))); };
+    const auto name = [] { return juce::String (*rc::gen::container<std::string> (*rc::gen::inRange<std::size_t> (1, 24), rc::gen::inRange ('a', 'z'))); };
     juce::String path;
     for (int i = *rc::gen::inRange (0, 9); --i >= 0;)
         path << "/" << name();
