@@ -122,7 +122,8 @@ void FitTable::paint (juce::Graphics& g)
     const int width = area.getWidth();
     const auto [value_width, interval_width] = widths();
     const int name_width = std::max (width * 25 / 100, width - value_width - interval_width);
-    const auto cells = [&, value_width = value_width] (juce::Rectangle<int> line, const juce::String& name, const juce::String& value, const juce::String& interval) {
+    const auto cells = [&, value_width = value_width] (juce::Rectangle<int> line, const juce::String& name, const juce::String& value,
+                                                       const juce::String& interval) {
         g.drawText (name, line.removeFromLeft (name_width), juce::Justification::centredLeft, true);
         g.drawText (value, line.removeFromLeft (value_width), juce::Justification::centredRight, true);
         g.drawText (interval, line, juce::Justification::centredRight, true);

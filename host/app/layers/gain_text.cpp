@@ -33,7 +33,8 @@ Result<double> levelToGain (const std::string& text, const UnityLevel& level)
                                TRANS ("write -6 dB, x0.5, 50 % or a level such as 0.3 N").toStdString());
     const auto unit = level.unit.empty() ? Result<Measure> (Message::error ("gain/unit", {}, {})) : parseMeasure ("1 " + level.unit);
     if (unit && wanted->dimension != unit->dimension)
-        return Message::error ("gain/unit", {}, filled (TRANS ("%1 is not a gain, and the level of this layer is in %2"), quote (text), level.unit).toStdString(),
+        return Message::error ("gain/unit", {},
+                               filled (TRANS ("%1 is not a gain, and the level of this layer is in %2"), quote (text), level.unit).toStdString(),
                                filled (TRANS ("write -6 dB or a level in %1"), level.unit).toStdString());
     if (! unit || ! (level.peak > 0.0))
         return Message::error ("gain/no_level", {}, TRANS ("the layer has been silent, so its level is not known").toStdString(),

@@ -11,7 +11,7 @@ namespace tactus::host
 
 inline juce::String fromUtf8 (std::string_view s) { return juce::String::fromUTF8 (s.data(), static_cast<int> (s.size())); }
 
-/// A path that is at most `room` pixels wide. Folders in the middle are left out first: "/home/â¦/session.json". The name of the file is
+/// A path that is at most `room` pixels wide. Folders in the middle are left out first: "/data/â¦/session.json". The name of the file is
 /// shortened only if it does not fit alone.
 juce::String fittedPath (const juce::String& path, const juce::Font&, float room);
 

@@ -50,7 +50,7 @@ TEST_CASE ("a path is as wide as there is room, and keeps its ends as long as po
         const auto ends = "/" + first + "/" + gap + "/" + name;
         if (first.isNotEmpty() && f.width (ends) <= room) RC_ASSERT (shown.startsWith ("/" + first + "/" + gap));
     });
-    CHECK (fittedPath ("/home/anna/graphs/boards/oak.json", f.font, f.width ("/home/" + gap + "/oak.json") + 1.0f) == "/home/" + gap + "/oak.json");
+    CHECK (fittedPath ("/data/anna/graphs/boards/oak.json", f.font, f.width ("/data/" + gap + "/oak.json") + 1.0f) == "/data/" + gap + "/oak.json");
     CHECK (fittedPath ("a_very_long_name.json", f.font, 60.0f).startsWith ("a_"));
     CHECK (fittedPath ("a_very_long_name.json", f.font, 60.0f).endsWith ("n"));
 }
@@ -58,10 +58,10 @@ TEST_CASE ("a path is as wide as there is room, and keeps its ends as long as po
 TEST_CASE ("the path in a line is shortened until the line fits, and the words around it stay", "[app][look]")
 {
     const Fonts f;
-    const juce::String text = "Saved /home/anna/My graphs/of boards/and of other things/oak.json in time";
+    const juce::String text = "Saved /data/anna/My graphs/of boards/and of other things/oak.json in time";
     const auto shown = withFittedPath (text, f.font, 260.0f);
     CHECK (f.width (shown) <= 260.0f);
-    CHECK (shown.startsWith ("Saved /home/" + gap));
+    CHECK (shown.startsWith ("Saved /data/" + gap));
     CHECK (shown.endsWith ("/oak.json in time"));
     CHECK (withFittedPath (text, f.font, 2000.0f) == text);
     CHECK (withFittedPath ("no path in this line", f.font, 20.0f) == "no path in this line");

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <host/app/run/live_run.hpp>
-#include <host/app/scopes/scope_panel.hpp>
+#include "scope_bench.hpp"
 
-#include "host/app/support/seen_text.hpp"
 #include <host/app/scopes/energy_plot.hpp>
 #include <host/app/scopes/spectrogram_plot.hpp>
 #include <host/app/scopes/time_plot.hpp>
 #include <support/temporary_folder.hpp>
 #include <tactus/file/csv.hpp>
-#include <tactus/file/graph_file.hpp>
 
 #include <chrono>
 #include <cmath>
@@ -16,80 +13,10 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::Bench;
 
 namespace
 {
-const auto graphs = std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs";
-
-/// A scope panel without a display, whose graph is ticked by the test.
-struct Bench
-{
-    juce::ScopedJuceInitialiser_GUI juce;
-    Look look;
-    Document document;
-    LiveRun live_run;
-    FileAssets assets;
-    std::unique_ptr<ScopePanel> panel;
-    std::shared_ptr<Plan> plan;
-    std::uint64_t tick = 0;
-    double speed = 4.0;
-
-    explicit Bench (const std::string& name = "dry_wood") : document (std::move (loadGraph (graphs / (name + ".json")).graph)), live_run (document, catalogue())
-    {
-        juce::LookAndFeel::setDefaultLookAndFeel (&look);
-        panel = std::make_unique<ScopePanel> (document, live_run.traces(), catalogue());
-        panel->setSize (1100, 260);
-    }
-
-    ~Bench()
-    {
-        panel.reset();
-        juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
-    }
-
-    /// Compiles a plan that records the requested ports, and strokes the board with it.
-    void run (int ticks)
-    {
-        auto& traces = live_run.traces();
-        auto compiled = compile (document.graph(), catalogue(), { .records = traces.ports(), .assets = &assets });
-        REQUIRE (compiled.plan);
-        plan = std::move (compiled.plan);
-        traces.planComes (*plan);
-        for (int i = 0; i < ticks; ++i, ++tick)
-        {
-            const double t = static_cast<double> (tick) / document.graph().rate_hz;
-            for (auto& r : plan->roles())
-                r.state->reading.position = Vec3 (0.03 * std::sin (speed * t), 0.0, -5e-4);
-            plan->tick();
-            for (auto& r : plan->roles())   // acts as a guard that lets everything through
-            {
-                r.state->applied = {};
-                for (const auto& sink : r.sinks)
-                    r.state->applied.force += sink.effort (sink.node).force;
-            }
-            traces.after (*plan, tick, false);
-            if (i % 500 == 0) traces.collect();
-        }
-        traces.collect();
-        panel->refresh();
-    }
-
-    ScopeView& view (ScopeKind kind)
-    {
-        const auto at = std::ranges::find_if (panel->shown(), [&] (const auto& v) { return v->shown().kind == kind; });
-        REQUIRE (at != panel->shown().end());
-        return **at;
-    }
-
-    static std::vector<std::string> labels (juce::Component& c)
-    {
-        std::vector<std::string> all;
-        for (auto* child : c.getChildren())
-            if (auto* b = dynamic_cast<FlatButton*> (child)) all.push_back (b->getButtonText().toStdString());
-        return all;
-    }
-};
-
 juce::MouseEvent mouse (juce::Component& c, juce::Point<float> at, juce::Point<float> from, bool dragged, int mods = 0)
 {
     const auto now = juce::Time::getCurrentTime();
@@ -444,33 +371,6 @@ TEST_CASE ("scopes: the cost of scopes over ten seconds", "[.][bench]")
         }
 }
 
-TEST_CASE ("scopes in a narrow panel keep a readable width\\, and a new one is scrolled into view", "[app][scopes]")
-{
-    Bench b;
-    for (const int width : { 240, 480, 640, 1600 })
-    {
-        b.panel->setSize (width, 180);
-        b.panel->suggest();
-        while (b.panel->shown().size() < 6)
-        {
-            const auto& added = b.panel->add (ScopeKind::spectrum);
-            const auto place = b.panel->getLocalArea (&added, added.getLocalBounds());
-            INFO (width << ": " << place.toString());
-            CHECK (b.panel->getLocalBounds().contains (place));
-        }
-        int right = 0;
-        for (const auto& v : b.panel->shown())
-        {
-            CHECK (v->getWidth() >= 199);
-            CHECK (v->getX() >= right);   // none covers another one
-            right = v->getRight();
-        }
-        b.panel->setSize (1600, 180);
-        for (const auto& v : b.panel->shown())
-            CHECK (b.panel->getLocalBounds().contains (b.panel->getLocalArea (v.get(), v->getLocalBounds())));   // there is room for all
-    }
-}
-
 TEST_CASE ("scopes: for a slow stroke over a preset, the nodes account for all work of the hand", "[app][scopes]")
 {
     for (const char* name : { "dry_wood", "squealing_rubber", "soft_pad", "bare_skin" })
@@ -486,32 +386,4 @@ TEST_CASE ("scopes: for a slow stroke over a preset, the nodes account for all w
         CHECK (balance.gaps == 0);
         CHECK (std::abs (balance.elsewhere()) < 0.05 * balance.work);
     }
-}
-
-TEST_CASE ("scopes in a low panel keep a readable height, and scroll", "[app][scopes]")
-{
-    Bench b;
-    for (const int height : { 40, 76, 126, 166, 232, 400 })
-        for (const int width : { 320, 1600 })
-        {
-            INFO (width << " x " << height);
-            b.panel->setSize (width, height);
-            for (const auto& v : b.panel->shown())
-                CHECK (v->getHeight() >= 140);
-            const auto* view = b.panel->shown().front()->findParentComponentOfClass<juce::Viewport>();
-            if (height >= 232) CHECK (view->getViewHeight() == view->getViewedComponent()->getHeight());   // nothing to scroll
-        }
-}
-
-TEST_CASE ("scopes: without a graph, the panel does not speak of wires to select", "[app][scopes]")
-{
-    Bench b;
-    b.document.open ({}, {}, "new graph");
-    b.panel->suggest();
-    REQUIRE (b.panel->shown().empty());
-    juce::String all;
-    for (const auto& t : tactus::host::test::readTexts (*b.panel))
-        all << t.text << ' ';
-    CHECK (all.contains ("Open a preset"));
-    CHECK_FALSE (all.contains ("press P"));
 }
