@@ -33,8 +33,8 @@ public:
     /// The answer to an async query was not ready when it was due; see QueryService::isLate.
     virtual void late (std::uint64_t question) noexcept = 0;
 
-    /// Time without ticks before this one, in s. The guards count it.
-    virtual void lost (double s) noexcept = 0;
+    /// The time since the last tick, in s, if it is not one period. The guards count it.
+    virtual void passed (double s) noexcept = 0;
 
     /// All efforts ramp down to zero, or back up.
     virtual void halted() noexcept = 0;

@@ -26,9 +26,10 @@ public:
     /// refer to this reading until the next call. [tick thread]
     void begin (const Reading& reading, Fine now_s) noexcept
     {
-        const Fine at = now_s - std::max (0.0, reading.age);
+        // A repeated reading whose age grows faster than the time is not an earlier one.
+        const Fine at = known ? std::max (before_at, now_s - std::max (0.0, reading.age)) : now_s - std::max (0.0, reading.age);
         moved = known ? Vec3 (reading.position - position) : Vec3 (Vec3::Zero());
-        elapsed = known ? std::max (0.0, static_cast<double> (at - before_at)) : 0.0;
+        elapsed = known ? static_cast<double> (at - before_at) : 0.0;
         position = reading.position;
         before_at = at;
         was_known = std::exchange (known, true);
@@ -190,24 +191,22 @@ public:
     void prepare (double window_s, double dt_s) noexcept
     {
         *this = {};
-        const double ticks = std::ceil (window_s / dt_s / parts);
-        ticks_in_part = ticks < 1e15 ? std::max (std::uint64_t { 1 }, static_cast<std::uint64_t> (ticks)) : ~std::uint64_t { 0 };
+        part_s = (std::max (1.0, std::ceil (window_s / dt_s / parts)) - 0.5) * dt_s;   // so that rounding cannot add a tick to a part
     }
 
-    /// The impulse within the window in N s, including this sample, which lasts `ticks`. [tick thread]
-    double operator() (double newton_seconds, std::uint64_t ticks = 1) noexcept
+    /// The impulse within the window in N s, including this sample, which lasts `passed_s`. [tick thread]
+    double operator() (double newton_seconds, double passed_s) noexcept
     {
-        if (ticks_in_now >= ticks_in_part)
+        if (now_s >= part_s)
         {
             full[oldest] = now;
             oldest = (oldest + 1) % parts;
             in_full = 0.0;
             for (const double part : full)
                 in_full += part;
-            now = 0.0;
-            ticks_in_now = 0;
+            now = now_s = 0.0;
         }
-        ticks_in_now += ticks;
+        now_s += passed_s;
         now += newton_seconds;
         return in_full + now;
     }
@@ -215,7 +214,7 @@ public:
 private:
     static constexpr std::size_t parts = 16;
 
-    std::uint64_t ticks_in_part = 1, ticks_in_now = 0;
+    double part_s = 0.0, now_s = 0.0;   // how long a part is, and the latest one so far
     std::array<double, parts> full {};
     std::size_t oldest = 0;
     double now = 0.0, in_full = 0.0;

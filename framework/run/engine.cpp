@@ -25,7 +25,7 @@ inline Effort Engine::total (const Plan::RoleUse& role, Scratch& scratch) noexce
     return sumOfEfforts (std::span (scratch.efforts).first (n), scratch.numbers.data());
 }
 
-Engine::Engine (std::shared_ptr<Plan> p) : rate_hz (p->rateHz()), plans (makeRunning (std::move (p))), running (&plans.newest()) {}
+Engine::Engine (std::shared_ptr<Plan> p) : rate_hz (p->rateHz()), plans (makeRunning (std::move (p))), running (&plans.newest()), period (1.0 / rate_hz), passed_s (period) {}
 
 Engine::Channel* Engine::find (std::string_view role) const noexcept
 {
@@ -292,7 +292,7 @@ void Engine::afterPlan() noexcept
         auto& [reading, applied, layout] = *role.state;
         const auto& wanted = channel.bumpless (total (role, scratch));
         const auto events = channel.guard.events();
-        new (&applied) Effort (channel.guard (wanted, reading, lost_s));   // in place, like the reading
+        new (&applied) Effort (channel.guard (wanted, reading, passed_s));   // in place, like the reading
         if (channel.guard.stop() != Guard::Stop::none)
         {
             channel.bumpless.stop (applied);
@@ -301,7 +301,7 @@ void Engine::afterPlan() noexcept
         if (channel.device) channel.device->write (applied);
         if (channel.guard.events() != events) stops.note ({ ticks, channel.role, channel.guard.latest() });   // last, so as not to delay the effort
     }
-    lost_s = 0.0;
+    passed_s = period;
     if (journal) journal->ticked (*plan);
     ++ticks;
 }

@@ -113,11 +113,12 @@ public:
     /// clock. A log records these readings as invalid. [tick thread]
     void invalidateReadings (bool so) noexcept { readings_invalid = so; }
 
-    /// Tells the guards that this much time has passed without ticks before the next tick, in s. 0 for none. [tick thread]
-    void loseTime (double s) noexcept
+    /// Tells the guards how much time has passed since the last tick, in s, by the wall clock (PassedTime). Call it before each tick on which
+    /// this is not one period, as it always is in simulated time. [tick thread]
+    void passTime (double s) noexcept
     {
-        lost_s = s > 0.0 ? s : 0.0;
-        if (journal && lost_s > 0.0) journal->lost (lost_s);
+        passed_s = s;
+        if (journal && s != period) journal->passed (s);
     }
 
     /// Like halt, but callable from anywhere, including a signal handler, and it also applies to roles that join later. It
@@ -226,7 +227,7 @@ private:
     bool fresh = true;         // the running plan has not ticked yet
     bool is_stopped = false;   // the guards have been told of the emergency stop
     bool readings_invalid = false;
-    double lost_s = 0.0;   // time without ticks before this one
+    double period, passed_s;   // in s; passed_s: since the last tick
     std::uint64_t ticks = 0;
     std::uint64_t settled_at = 0;   // by this tick, every section has run at least once since the takeover
 };

@@ -74,6 +74,7 @@ struct Role
     DeviceLayout layout {};
     DeviceState state {};   ///< what the nodes read; tick() sets it
     Guard guard {};
+    double period = 0.0;   ///< of the ticks, in s; set by prepare
 
     /// Resets the role. The nodes see the layout from meet() on, after they are prepared, as in the engine.
     void prepare (double dt_s) noexcept
@@ -81,6 +82,7 @@ struct Role
         state.reading = {};
         state.applied = {};
         state.layout = {};
+        period = dt_s;
         guard.prepare (limits, dt_s, layout);
     }
 
@@ -96,7 +98,7 @@ struct Role
     /// Passes the effort that the graph wants through the guard. `lost_s` is the time without ticks before this one.
     const Effort& write (const Effort& wanted, double lost_s) noexcept
     {
-        state.applied = guard (wanted, state.reading, lost_s);
+        state.applied = guard (wanted, state.reading, period + lost_s);
         return state.applied;
     }
 };

@@ -208,23 +208,34 @@ void Guard::latch (Stop why, double value, Event::Part part, int channel) noexce
     is_news = true;
 }
 
-/// Counts time without ticks. Starvation ends once ticks have made up for all of it but half of the watchdog's time, so a run that
-/// is starved again and again gets no force in between.
-void Guard::loseTime (double lost_s) noexcept
+/// Counts time, and the ticks that are missing. Starvation ends once ticks have made up for all of it but half of the watchdog's time, so a
+/// run that is starved again and again gets no force in between.
+void Guard::passTime (double passed_s) noexcept
 {
-    if (lost_s > 0.0) lost += lost_s;
+    drift += passed_s - dt;
     if (limits.watchdog == GuardLimits::none) return;
-    behind = std::clamp (behind + lost_s - dt, 0.0, most_behind * limits.watchdog);
+    behind = std::clamp (behind + (passed_s - dt) - dt, 0.0, most_behind * limits.watchdog);
     is_starved = behind > (is_starved ? 0.5 : 1.0) * limits.watchdog;
 }
 
-/// Updates the watches with the motion of the device under its last effort. `is_usable`: see isUsable.
-void Guard::watch (const Reading& reading, bool is_usable, double elapsed_s) noexcept
+/// How far whatever rises may advance on this tick, in s.
+double Guard::rise (double passed_s) noexcept
 {
-    const Fine now = Fine (static_cast<std::int64_t> (ticks++)) * dt + lost;   // a signed number converts in one instruction
+    const double most = limits.watchdog == GuardLimits::none ? GuardLimits::default_watchdog : limits.watchdog;
+    saved = std::min (saved + passed_s, std::max (most, dt));
+    const double step = std::min (saved, dt);
+    saved -= step;
+    return step;
+}
+
+/// Updates the watches with the motion of the device under its last effort. `is_usable`: see isUsable.
+void Guard::watch (const Reading& reading, bool is_usable, double passed_s) noexcept
+{
+    const Fine now = Fine (static_cast<std::int64_t> (ticks++)) * dt + drift;   // a signed number converts in one instruction
+    const double weight = std::max (passed_s / dt, 1e-9);                       // of the last effort in a mean; never 0, even within a batch of reports
     if (! is_usable || ! isFinite (reading.age))
     {
-        mean_effort.add (last, reading, elapsed_s / dt, watches_axes);
+        mean_effort.add (last, reading, weight, watches_axes);
         // While an effort is on the device, the distance to the next reading counts, so a device cannot hide its motion behind bad readings.
         if (! isAtRest()) return;
         motion.forget();
@@ -241,8 +252,8 @@ void Guard::watch (const Reading& reading, bool is_usable, double elapsed_s) noe
     }
 
     // Most devices have a new reading on each tick. The mean is then the last effort itself.
-    const bool is_new = motion.isNew (dt), is_single = is_new && mean_effort.isEmpty() && elapsed_s == dt;
-    if (! is_single) mean_effort.add (last, reading, elapsed_s / dt, watches_axes);
+    const bool is_new = motion.isNew (dt), is_single = is_new && mean_effort.isEmpty();
+    if (! is_single) mean_effort.add (last, reading, weight, watches_axes);
     double work = (is_single ? Vec3 (last.force - reading.unrendered_force) : mean_effort.force()).dot (moved);
     if (watches_turns)
     {
@@ -257,10 +268,10 @@ void Guard::watch (const Reading& reading, bool is_usable, double elapsed_s) noe
     if (watches_axes) work += watchAxes (reading, motion.elapsed, is_single);
     if (is_new && ! is_single) mean_effort = {};
     if (limits.max_energy != GuardLimits::none)
-        if (const double given = energy (work, elapsed_s); ! (given <= limits.max_energy)) latch (Stop::energy, given);
+        if (const double given = energy (work, passed_s); ! (given <= limits.max_energy)) latch (Stop::energy, given);
     if (limits.max_still == GuardLimits::none) return;
-    still (reading.position, last.force, limits.still_force, dt);
-    still_turn (reading.rotation, last.torque, limits.still_torque, dt);
+    still (reading.position, last.force, limits.still_force, passed_s);
+    still_turn (reading.rotation, last.torque, limits.still_torque, passed_s);
 }
 
 /// A reading from the future comes from a clock that differs from ours, so its age is unknown.
@@ -287,8 +298,8 @@ bool Guard::isRecent (const Reading& reading) const noexcept
     return work;
 }
 
-/// Adds the impulse of the last effort, as the motors rendered it. It was on the device for s seconds.
-void Guard::countImpulse (double s, const Reading& reading) noexcept
+/// Adds the impulse of the last effort, as the motors rendered it. It was on the device since the last tick.
+void Guard::countImpulse (double passed_s, const Reading& reading) noexcept
 {
     // If the driver does not know what the motors rendered, the effort counts in full.
     const auto rendered = [] (const Vec3& written, const Vec3& unrendered) {
@@ -296,9 +307,8 @@ void Guard::countImpulse (double s, const Reading& reading) noexcept
         const double square = left.squaredNorm();
         return square == 0.0 && left.isZero (0.0) ? 0.0 : length (isFinite (square) || isFinite (left) ? left : written);
     };
-    const auto for_ticks = s > dt ? static_cast<std::uint64_t> (std::clamp (s / dt, 1.0, 1e9)) : 1;
     const auto add = [&] (ImpulseWatch& watch, double limit, double effort, Event::Part part) {
-        if (const double pushed = watch (effort * s, for_ticks); ! (pushed <= limit)) latch (Stop::impulse, pushed, part);
+        if (const double pushed = watch (effort * passed_s, passed_s); ! (pushed <= limit)) latch (Stop::impulse, pushed, part);
     };
     if (limits.max_impulse != GuardLimits::none)
         add (impulse, limits.max_impulse, rendered (last.force, reading.unrendered_force), Event::Part::none);
@@ -339,20 +349,19 @@ Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading, bool i
 }
 
 /// Here the force is limited: first a reason to stop is looked for, then the effort is faded, shortened and slowed down.
-const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, double lost_s) noexcept
+const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, double passed_s) noexcept
 {
-    const double elapsed = dt + (lost_s > 0.0 && isFinite (lost_s) ? lost_s : 0.0);
-    loseTime (elapsed - dt);
+    const double passed = passed_s >= 0.0 && isFinite (passed_s) ? passed_s : dt;
+    passTime (passed);
     const bool is_usable = isUsable (reading);
     if (is_watching)
     {
-        if (elapsed > dt) countImpulse (elapsed - dt, reading);
-        countImpulse (dt, reading);
-        watch (reading, is_usable, elapsed);
+        countImpulse (passed, reading);
+        watch (reading, is_usable, passed);
     }
     const auto cause = causeOf (wanted, reading, is_usable);
-    // A stop that has begun continues during lost time. A stop that begins now, and everything that rises, advances by one tick.
-    const double step_s = reason != Stop::none && cause != Stop::none ? elapsed : dt;
+    // A stop that has begun continues while ticks are missing. A stop that begins now, and everything that rises, advances by one period at most.
+    const double rising_s = rise (passed), step_s = reason != Stop::none && cause != Stop::none ? passed : rising_s;
 
     if (cause != reason && cause != Stop::none)
     {
@@ -376,7 +385,7 @@ const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, d
     reason = cause;
 
     withheld = std::max (0.0, withheld - step_s / fade_s);
-    if (reason == Stop::none) enabled = limits.ramp > 0.0 ? std::min (1.0, enabled + dt / limits.ramp) : 1.0;
+    if (reason == Stop::none) enabled = limits.ramp > 0.0 ? std::min (1.0, enabled + rising_s / limits.ramp) : 1.0;
     enabled == 1.0 ? approach (wanted, step_s) : approach (crossfaded (wanted), step_s);
     return last;
 }

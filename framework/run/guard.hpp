@@ -91,8 +91,10 @@ GuardLimits tightest (const GuardLimits&, const GuardLimits&) noexcept;
 ///  - The guard is a total function: whatever the effort, reading or limits, the result is finite.
 ///  - The torque has its own slew limit, since N/s does not apply to it. Stops and the ramp apply to everything.
 ///  - With ramp 0, full effort returns on the first good tick, as fast as the slew limit allows.
-///  - Time without ticks counts: for the watchdog, impulse, energy, and the end of a stop. Only a rising effort counts ticks, so
-///    it never rises faster, and has no step after a pause.
+///  - Limits count seconds, not ticks. Ticks that come too fast count as the time that has passed, so a device that reports faster than its
+///    profile says gains nothing. Missing ticks count too: for the watchdog, impulse, energy, speed, and the end of a stop.
+///  - Whatever rises (the slew, the ramp) advances by at most one period a tick, and by no more in total than the time that has passed. What
+///    late ticks leave is kept for the ticks of a batch, up to the length of the watchdog. So there is no step after a pause.
 ///  - Energy and speed include the axes that efforts push: for each effort the axis of the same name, or axisN for effortN. An
 ///    effort without such an axis is limited in size, slew and impulse only.
 ///  - Speed, impulse and energy are measured from the last effort on the device and its motion, so an excess is
@@ -153,9 +155,10 @@ public:
     /// The layout says which axes the efforts push. [main thread]
     void prepare (const GuardLimits&, double dt_s, const DeviceLayout& = {}) noexcept;
 
-    /// Returns the effort for the device; it stays valid until the next call. `lost_s` is the time without ticks before this one, in s; the
-    /// last effort was on the device during this time. [tick thread]
-    const Effort& operator() (const Effort& wanted, const Reading&, double lost_s = 0.0) noexcept;
+    /// Returns the effort for the device; it stays valid until the next call. `passed_s` is the time since the last tick, in s, by the wall
+    /// clock (PassedTime); the last effort was on the device during this time. Without it, one period. [tick thread]
+    const Effort& operator() (const Effort& wanted, const Reading&, double passed_s) noexcept;
+    const Effort& operator() (const Effort& wanted, const Reading& reading) noexcept { return (*this) (wanted, reading, dt); }
 
     /// Brings the effort to zero and keeps it there until resume(). [tick thread]
     void halt() noexcept { asked_to_halt = true; }
@@ -187,9 +190,10 @@ public:
 
 private:
     void forget() noexcept;
-    void loseTime (double lost_s) noexcept;
+    void passTime (double passed_s) noexcept;
+    double rise (double passed_s) noexcept;
     bool isUsable (const Reading&) const noexcept;
-    void watch (const Reading&, bool is_usable, double elapsed_s) noexcept;
+    void watch (const Reading&, bool is_usable, double passed_s) noexcept;
     double watchAxes (const Reading&, double elapsed_s, bool is_single) noexcept;
     bool isRecent (const Reading&) const noexcept;
     bool hasBrokenAxes (const Reading& reading) const noexcept { return watches_axes && ! isFinite (reading.axes); }
@@ -197,7 +201,7 @@ private:
     {
         return limits.max_still != GuardLimits::none && (still.time() > limits.max_still || still_turn.time() > limits.max_still);
     }
-    void countImpulse (double s, const Reading&) noexcept;
+    void countImpulse (double passed_s, const Reading&) noexcept;
     void latch (Stop, double value, Event::Part = Event::Part::none, int channel = 0) noexcept;
     Stop causeOf (const Effort& wanted, const Reading&, bool is_usable) const noexcept;
     void describeFrozen (Event&) const noexcept;
@@ -210,7 +214,8 @@ private:
 
     GuardLimits limits;
     double dt = fade_s;    // in s; until prepare is called, a stop takes one tick
-    double lost = 0.0;     // total time without ticks, in s
+    double drift = 0.0;    // total time that has passed, less one period for each tick, in s
+    double saved = 0.0;    // time that has passed and that no rising effort has used yet, in s
     double behind = 0.0;   // lost time that has not been made up by as much time with ticks, in s
     bool is_starved = false;
     double enabled = 1.0;    // progress of the enable ramp, 0…1

@@ -165,7 +165,7 @@ Result<> Replay::carryOut()
         if (const auto hand = hands.find (role); hand != hands.end()) hand->second->reading = reading;
     if (next->rearm) running->engine().rearm();
     if (next->emergency) running->engine().emergencyStop();
-    running->engine().loseTime (next->lost_s);
+    if (next->passed_s) running->engine().passTime (*next->passed_s);
     if (next->feed) feed.values = *next->feed;
     queries.repeat (next->late);
     return {};

@@ -34,7 +34,7 @@ void noteEfforts (const Plan& plan, RunStatus& now) noexcept
 
 Runner::Runner (Engine& e, TickClock& c, double rate_hz, Options o)
     : engine (e), clock (c), options (o), longest_halt (static_cast<std::uint64_t> (longest_halt_s * rate_hz)), ticks_so_far (1.0 / rate_hz),
-      lost_time (1.0 / rate_hz),
+      passed_time (1.0 / rate_hz),
       node_costs (c)
 {
 }
@@ -71,7 +71,7 @@ bool Runner::tick (double late_s) noexcept
     now.clock_replaced = clock.isReplaced();
     engine.invalidateReadings (now.clock_replaced);
     is_real_time = clock.isRealTime();
-    if (is_real_time) engine.loseTime (lost_time (begin, clock.block_s()));
+    if (is_real_time) engine.passTime (passed_time (begin, clock.block_s()));
     if (options.hooks) options.hooks->before (k);
     engine.tick ([this] (Plan& plan) noexcept {
         noteEfforts (plan, now);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lost_time.hpp"
 #include "node_costs.hpp"
+#include "passed_time.hpp"
 #include "run_status.hpp"
 #include "tick_account.hpp"
 #include "tick_clock.hpp"
@@ -95,7 +95,7 @@ private:
     const std::uint64_t longest_halt;   // in ticks
     std::atomic<bool> asked = false;
     TickAccount ticks_so_far;
-    LostTime lost_time;
+    PassedTime passed_time;
     NodeCosts node_costs;
     Snapshot<RunStatus> published;
 

@@ -55,9 +55,9 @@ void RunJournal::late (std::uint64_t question) noexcept
     ring.put (question);
 }
 
-void RunJournal::lost (double s) noexcept
+void RunJournal::passed (double s) noexcept
 {
-    put (Kind::lost);
+    put (Kind::passed);
     put (s);
 }
 

@@ -26,7 +26,7 @@ public:
         outdone,     ///< number of the instance; number of the knob
         struck,      ///< number of the instance; number of the hit input, speed
         late,        ///< 0; number of the query
-        lost,        ///< 0; time in s
+        passed,      ///< 0; time in s
         halted,      ///< 0
         resumed,     ///< 0
         emergency,   ///< 0
@@ -42,7 +42,7 @@ public:
     void outdone (std::size_t instance, std::size_t knob) noexcept override;
     void struck (std::size_t instance, std::size_t input, double speed) noexcept override;
     void late (std::uint64_t question) noexcept override;
-    void lost (double s) noexcept override;
+    void passed (double s) noexcept override;
     void halted() noexcept override;
     void resumed() noexcept override;
     void emergency() noexcept override;

@@ -167,8 +167,8 @@ void RunLog::take()
     case RunJournal::Kind::late:
         late += (late.empty() ? "" : ",") + std::to_string (words.pop());
         break;
-    case RunJournal::Kind::lost:
-        add ("lost", logNumber (number()));
+    case RunJournal::Kind::passed:
+        add ("passed", logNumber (number()));
         break;
     case RunJournal::Kind::halted:
         add ("halt", "true");

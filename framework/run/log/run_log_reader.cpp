@@ -259,6 +259,11 @@ Result<RunTick> RunLogReader::readTick (const std::string& text)
     RunTick tick;
     tick.line = number;
     std::optional<std::uint64_t> k;
+    const auto time = [&] (Json& v, const std::string& where, double period) {
+        line.number (v, where, tick.passed_s.emplace());
+        if (! (*tick.passed_s >= 0.0 && *tick.passed_s <= 1e9)) line.wrong (where, "the time must be from 0 to 1e9 s");
+        *tick.passed_s += period;
+    };
     const std::vector<KnownKey> keys {
         { "tick", JsonKind::any, [&] (Json& v, const std::string& where) { line.whole (v, where, k.emplace()); } },
         { "graph", JsonKind::object, [&] (Json& v, const std::string&) { tick.graph = std::move (v); } },
@@ -278,10 +283,8 @@ Result<RunTick> RunLogReader::readTick (const std::string& text)
                  line.whole (question, where, tick.late.emplace_back());
              if (! std::ranges::is_sorted (tick.late)) line.wrong (where, "the queries are not in order");
          } },
-        { "lost", JsonKind::any, [&] (Json& v, const std::string& where) {
-             line.number (v, where, tick.lost_s);
-             if (! (tick.lost_s >= 0.0 && tick.lost_s <= 1e9)) line.wrong (where, "the lost time must be from 0 to 1e9 s");
-         } },
+        { "passed", JsonKind::any, [&] (Json& v, const std::string& where) { time (v, where, 0.0); } },
+        { "lost", JsonKind::any, [&] (Json& v, const std::string& where) { time (v, where, 1.0 / begin.rate_hz); } },   // until version 5: on top of the period
         { "halt", JsonKind::truth, [&] (Json& v, const std::string&) { tick.halt = v.get<bool>(); } },
         { "rearm", JsonKind::truth, [&] (Json& v, const std::string&) { tick.rearm = v.get<bool>(); } },
         { "emergency", JsonKind::truth, [&] (Json& v, const std::string&) { tick.emergency = v.get<bool>(); } },

@@ -40,7 +40,7 @@ struct RunTick
     std::vector<std::pair<std::string, double>> turns {};   ///< targets by parameter
     std::vector<std::pair<std::string, double>> hits {};    ///< speeds by input
     std::vector<std::uint64_t> late {};                     ///< numbers of the late queries, as for ReplayedQueries::repeat
-    double lost_s = 0.0;                                    ///< time without ticks before this one, in s
+    std::optional<double> passed_s {};                      ///< time since the last tick, in s; empty: one period
     std::optional<bool> halt {};                            ///< true: from this tick on, all efforts go to zero; false: they rise again
     bool rearm = false;                                     ///< true: clears all latched guard stops; applied before `emergency`
     bool emergency = false;

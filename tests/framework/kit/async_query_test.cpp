@@ -69,7 +69,7 @@ struct Lateness final : Journal
     void struck (std::size_t, std::size_t, double) noexcept override {}
     void late (std::uint64_t question) noexcept override { questions.push_back (question); }
     void halted() noexcept override {}
-    void lost (double) noexcept override {}
+    void passed (double) noexcept override {}
     void resumed() noexcept override {}
     void emergency() noexcept override {}
     void rearmed() noexcept override {}

@@ -31,7 +31,7 @@ struct Notes final : Journal
     }
     void late (std::uint64_t question) noexcept override { add ("late " + std::to_string (question)); }
     void halted() noexcept override { add ("halt"); }
-    void lost (double s) noexcept override { add ("lost " + std::to_string (s)); }
+    void passed (double s) noexcept override { add ("passed " + std::to_string (s)); }
     void resumed() noexcept override { add ("resume"); }
     void emergency() noexcept override { add ("emergency"); }
     void rearmed() noexcept override { add ("rearm"); }

@@ -262,10 +262,15 @@ TEST_CASE ("an audio card can own the clock and tick a block at a time on its ow
             std::jthread ([&] {
                 for (bool more = true; more;)
                     for (int i = 0; i < 64 && more; ++i)
+                    {
                         more = t.tick (0.0);
+                        ++ticks;
+                    }
             })
                 .join();
         }
+        double now() const noexcept override { return ticks / rate_hz; }
+        double ticks = 0.0;
     } card;
     Rubbed run, alone;
     Runner by_card { run.engine, card, rate_hz, { .length = 1000 } }, by_itself { alone.engine, alone.clock, rate_hz, { .length = 1000 } };

@@ -61,6 +61,25 @@ struct Recorded final : Device
     std::size_t k = 0;
 };
 
+/// Records the time that passes from tick to tick.
+struct Times final : Journal
+{
+    void passed (double s) noexcept override { now = s; }
+    void ticked (const Plan&) noexcept override { all.push_back (std::exchange (now, 1e-3)); }
+    void tookOver (const Plan&) noexcept override {}
+    void turned (std::size_t, std::size_t, double) noexcept override {}
+    void outdone (std::size_t, std::size_t) noexcept override {}
+    void struck (std::size_t, std::size_t, double) noexcept override {}
+    void late (std::uint64_t) noexcept override {}
+    void halted() noexcept override {}
+    void resumed() noexcept override {}
+    void emergency() noexcept override {}
+    void rearmed() noexcept override {}
+
+    double now = 1e-3;
+    std::vector<double> all;
+};
+
 /// Records the readings of a device.
 struct Listening final : Device
 {
@@ -136,11 +155,13 @@ TEST_CASE ("a live run over dry wood sends the same forces as the offline run, b
     const test::BoardProfile profile { .max_rate = 1e5, .ramp = 0.02 };
     const auto limits = limitsOf (*profile.make(), {});
     std::vector<Reading> readings;
+    Times times;
     {
         const auto device = openBoard (board, profile);
         Listening listening { *device };
         Engine engine { dryWood() };
         engine.attach ("stylus", listening, limits);
+        engine.report (times);
         HidClock clock { device->port(), 1000.0 };
         sendNext();
         Runner runner { engine, clock, 1000.0, { .length = length } };
@@ -151,12 +172,15 @@ TEST_CASE ("a live run over dry wood sends the same forces as the offline run, b
         CHECK (device->port().counts().dropped <= clock.ticksByTimer());
     }
 
-    // Run the same readings offline.
+    // Run the same readings offline, with the times that the guard has counted.
     Recorded recorded { readings };
     Engine engine { dryWood() };
     engine.attach ("stylus", recorded, limits);
-    for (std::size_t i = 0; i < readings.size(); ++i)
+    for (const double passed : times.all)
+    {
+        engine.passTime (passed);
         engine.tick();
+    }
 
     const auto numberOf = [] (const Reading& reading) {
         for (int k = 1; k <= length; ++k)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Guards count seconds, not ticks: what happens to stops and limits when ticks are missing.
+// Guards count seconds, not ticks: what happens to stops and limits when ticks are missing, or come too fast.
 #include "support/sketch.hpp"
 
-#include <tactus/run/lost_time.hpp>
+#include <tactus/run/passed_time.hpp>
 #include <tactus/run/runner.hpp>
 
 #include <catch2/catch.hpp>
@@ -30,43 +30,49 @@ Guard pushed (const GuardLimits& limits)
 }
 }   // namespace
 
-TEST_CASE ("lost time is the wall time minus the ticks, and a clock that keeps up loses none", "[framework][guard]")
+TEST_CASE ("the time that passes is the wall time, in periods as far as it can be", "[framework][guard]")
 {
-    rc::prop ("ticks that are never more than a period late lose nothing", [] {
-        LostTime lost { dt };
-        for (int k = 0; k < 1000; ++k)
-            RC_ASSERT (lost ((k + *rc::gen::inRange (0, 1000) / 1000.0) * dt, 0.0) == 0.0);
-    });
-
-    rc::prop ("whatever the pauses, ticks and lost time add up to the wall time", [] {
-        LostTime lost { dt };
-        double wall = 0.0, sum = 0.0;
+    rc::prop ("whatever the pauses and batches, the sum is never more than the wall time, and never less by more than a period and two blocks", [] {
+        const double block = *rc::gen::element (0.0, 5.0 * dt);
+        PassedTime passed { dt };
+        double wall = 1e5, sum = -passed (wall, block) + dt;
+        RC_ASSERT (sum == 0.0);
         for (int k = 0; k < 500; ++k)
         {
-            sum += lost (wall, 0.0);
-            const double counted = k * dt + sum;
-            RC_ASSERT (counted >= wall - 1.001 * dt);
-            RC_ASSERT (counted <= wall + 1.001 * dt);
-            wall += dt * (*rc::gen::element (1.0, 1.0, 1.0, 1.9, 3.0, 40.0));
+            wall += dt * *rc::gen::element (0.0, 0.1, 0.5, 1.0, 1.0, 1.0, 1.9, 3.0, 40.0);
+            const double p = passed (wall, block);
+            RC_ASSERT (p >= 0.0);
+            sum += p;
+            RC_ASSERT (sum <= wall - 1e5 + 2e-6 * dt);
+            RC_ASSERT (sum >= wall - 1e5 - dt - 2.0 * block - 1e-9);
         }
     });
 
-    SECTION ("blocks of a sound card lose nothing, even if each comes half a block late or early")
+    rc::prop ("with jitter of less than a period, each tick takes one period, to the last bit", [] {
+        PassedTime passed { dt };
+        for (int k = 0; k < 1000; ++k)
+            RC_ASSERT (passed ((k + (k > 0 ? *rc::gen::inRange (0, 1000) / 1000.0 : 0.0)) * dt, 0.0) == dt);
+    });
+
+    SECTION ("in the blocks of a sound card, each tick takes one period, even if each block comes half a block late or early")
     {
         constexpr int block = 20;
-        LostTime lost { dt };
+        PassedTime passed { dt };
         for (int b = 0; b < 500; ++b)
             for (int i = 0; i < block; ++i)
-                CHECK (lost ((b + (b % 2) * 0.5) * block * dt, block * dt) == 0.0);
+            {
+                const double p = passed ((b + (b % 2) * 0.5) * block * dt, block * dt);
+                if (b > 0) CHECK (p == dt);
+            }
     }
 
-    SECTION ("a clock that is faster than the nominal rate saves up no time for a later pause")
+    SECTION ("ticks that come too fast take the time that there is")
     {
-        LostTime lost { dt };
-        double wall = 0.0;
-        for (int k = 0; k < 100000; ++k, wall += 0.99 * dt)
-            CHECK (lost (wall, 0.0) == 0.0);
-        CHECK (lost (wall + 50.0 * ms, 0.0) >= 47.0 * ms);
+        PassedTime passed { dt };
+        passed (0.0, 0.0);
+        for (int k = 1; k < 1000; ++k)
+            CHECK (passed (k * dt / 8.0, 0.0) == Approx (dt / 8.0));
+        CHECK (passed (999 * dt / 8.0 + 50.0 * ms, 0.0) >= 48.9 * ms);   // and save up no time for a later pause
     }
 }
 
@@ -84,7 +90,7 @@ TEST_CASE ("guard: a stop takes the same time in seconds, however few ticks ther
             RC_ASSERT (elapsed < most + 1e-9);
             const double lost = *rc::gen::inRange (0, 4) * ms;
             elapsed += dt + lost;
-            const double next = guard (pushing (1.0), {}, lost).force.x();
+            const double next = guard (pushing (1.0), {}, dt + lost).force.x();
             RC_ASSERT (next <= force);
             if (slew != GuardLimits::none) RC_ASSERT (force - next <= slew * (dt + lost) + 1e-12);
             force = next;
@@ -99,11 +105,84 @@ TEST_CASE ("guard: a force does not rise faster, and does not step, after a paus
     double before = 0.0;
     for (int k = 0; k < 300; ++k)
     {
-        const double now = guard (pushing (1.0), {}, 50.0 * ms).force.x();
+        const double now = guard (pushing (1.0), {}, 51.0 * ms).force.x();
         CHECK (now - before <= 20.0 * dt + 1e-12);
         before = now;
     }
     CHECK (before == 1.0);
+}
+
+TEST_CASE ("guard: ticks that come too fast, in batches or late raise the force no faster than its limits allow per second", "[framework][guard]")
+{
+    rc::prop ("the force rises by at most the slew times the time that has passed, and by one period's worth in a tick", [] {
+        const bool ramps = *rc::gen::arbitrary<bool>();
+        constexpr double slew = 10.0, watchdog = 0.02;
+        Guard guard;
+        guard.prepare ({ .max_slew = ramps ? GuardLimits::none : slew, .ramp = ramps ? 1.0 / slew : 0.0, .watchdog = watchdog }, dt);
+        PassedTime passed { dt };
+        double wall = 0.0, before = guard (pushing (1.0), {}, passed (wall, 0.0)).force.x();
+        RC_ASSERT (before <= slew * dt + 1e-12);
+        for (int k = 0; k < 500; ++k)
+        {
+            wall += dt * *rc::gen::element (0.0, 0.0, 0.125, 0.125, 0.125, 1.0, 1.5, 8.0);
+            const double force = guard (pushing (1.0), {}, passed (wall, 0.0)).force.x();
+            RC_ASSERT (force - before <= slew * dt + 1e-12);
+            RC_ASSERT (force <= slew * (wall + dt) + 1e-9);
+            before = force;
+        }
+    });
+
+    SECTION ("a device at 8 kHz under a profile of 1 kHz gains nothing")
+    {
+        Guard guard;
+        guard.prepare ({ .max_slew = 500.0, .ramp = 0.2 }, dt);
+        PassedTime passed { dt };
+        double reached = 0.0;
+        for (int k = 0; reached == 0.0; ++k)
+        {
+            const double wall = k * dt / 8.0, force = guard (pushing (1.0), {}, passed (wall, 0.0)).force.x();
+            CHECK (force <= (wall + dt) / 0.2 + 1e-12);
+            if (force == 1.0) reached = wall;
+        }
+        CHECK (reached >= 0.199 - 1e-9);
+        CHECK (reached <= 0.2);
+    }
+
+    SECTION ("batches of reports do not stall the force")
+    {
+        Guard guard;
+        guard.prepare ({ .max_slew = 10.0, .watchdog = 0.02 }, dt);
+        PassedTime passed { dt };
+        double force = 0.0;
+        for (int k = 0; k < 100; ++k)
+            force = guard (pushing (1.0), {}, passed (k / 8 * 8 * dt, 0.0)).force.x();   // eight at once, every 8 ms
+        CHECK (force >= 10.0 * (100 - 16) * dt);
+    }
+}
+
+TEST_CASE ("guard: a tool that moves too fast is stopped, however fast its device reports", "[framework][guard]")
+{
+    rc::prop ("any rate of reports, with jitter", [] {
+        const double per_period = *rc::gen::element (1.0, 2.0, 4.0, 8.0, 16.0);
+        const double limit = 2.0, speed = *rc::gen::element (1.8, 3.0);
+        Guard guard;
+        guard.prepare ({ .max_speed = limit }, dt);
+        PassedTime passed { dt };
+        double stopped = 0.0;
+        for (int k = 0; k * dt / per_period < 0.2; ++k)
+        {
+            const double t = k * dt / per_period, late = *rc::gen::inRange (0, 100) / 100.0 * 0.2 * dt / per_period;
+            guard (pushing (1.0), { .position = { speed * t, 0, 0 } }, passed (t + late, 0.0));
+            if (stopped == 0.0 && guard.stop() == Guard::Stop::speed) stopped = t;
+        }
+        if (speed < limit)
+            RC_ASSERT (stopped == 0.0);
+        else
+        {
+            RC_ASSERT (stopped > 0.0);
+            RC_ASSERT (stopped <= 0.010);   // the low-pass of 5 ms reaches 2 of 3 m/s after 5.5 ms
+        }
+    });
 }
 
 TEST_CASE ("guard: impulse and energy count the time without ticks, during which the last effort was on the device", "[framework][guard]")
@@ -118,7 +197,7 @@ TEST_CASE ("guard: impulse and energy count the time without ticks, during which
         while (guard.stop() == Guard::Stop::none && t < 1.0)
         {
             t += every * dt;
-            guard (pushing (1.0), { .position = { speed * t, 0, 0 } }, (every - 1) * dt);
+            guard (pushing (1.0), { .position = { speed * t, 0, 0 } }, every * dt);
         }
         // 0.3 N s after 0.3 s of 1 N; 0.05 J after t (0.25 W - 0.05 W) = 0.05 J
         const double expected = by_energy ? 0.25 : 0.3;
@@ -137,7 +216,7 @@ TEST_CASE ("guard: a starved run has no force within twice its watchdog, and say
         while (force > 0.0 && t < 1.0)
         {
             t += every * dt;
-            force = guard (pushing (1.0), {}, (every - 1) * dt).force.x();
+            force = guard (pushing (1.0), {}, every * dt).force.x();
         }
         RC_ASSERT (t <= 2.0 * watchdog + Guard::fade_s + 2.0 * every * dt);
         RC_ASSERT (guard.stop() == Guard::Stop::starved);
@@ -155,7 +234,7 @@ TEST_CASE ("guard: a starved run has no force within twice its watchdog, and say
     {
         auto guard = pushed ({ .watchdog = watchdog });
         for (int k = 0; k < 10000; ++k)
-            CHECK (guard (pushing (1.0), {}, k % 20 == 0 ? 18.0 * ms : 0.0).force.x() == 1.0);
+            CHECK (guard (pushing (1.0), {}, k % 20 == 0 ? 19.0 * ms : dt).force.x() == 1.0);
     }
 
     SECTION ("a guard without a watchdog, as of a simulated device, is never starved")
