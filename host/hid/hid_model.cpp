@@ -137,10 +137,10 @@ Vec3 HidModel::outOfReach (const Vec3& push) const noexcept
     return lost;
 }
 
-EffortValues HidModel::drive (const HidEffort& effort) noexcept
+EffortValues HidModel::drive (const HidEffort& effort, double passed_s) noexcept
 {
     auto values = asked (effort);
-    const auto [size, step] = limiter (values);
+    const auto [size, step] = limiter (values, passed_s);
     const auto& axes = description->axes;
     Vec3 no_turn = axes.transpose() * effort.torque;
     for (int i = 0; i < 3; ++i)

@@ -67,9 +67,8 @@ public:
     void take (const Channels& axes, HidEffort&) const noexcept;
 
     /// The values of all efforts for this tick. Force and torque are converted by the kinematics at the latest decoded pose, then
-    /// limited motor by motor. Call once per tick; `dt_s` is the tick period. [tick thread]
-    void prepare (double dt_s) noexcept { limiter.prepare (dt_s); }
-    EffortValues drive (const HidEffort&) noexcept;
+    /// limited motor by motor. Call once per tick. `passed_s`: the time since the last call, in s. [tick thread]
+    EffortValues drive (const HidEffort&, double passed_s) noexcept;
 
     /// Neutral reports are sent on this tick, so the motors start from rest on the next one. [tick thread]
     void rest() noexcept;

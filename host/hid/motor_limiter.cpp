@@ -19,7 +19,7 @@ const OutputField* fieldOf (const Profile& profile, const std::string& name)
 }   // namespace
 
 MotorLimiter::MotorLimiter (const Profile& profile, const std::vector<std::string>& names, const std::vector<std::string>& units, const EffortValues& rest)
-    : at_rest (rest), last (rest), last_asked (rest)
+    : at_rest (rest), last (rest)
 {
     Group force { {}, profile.limits.guard.max_slew }, torque { {}, profile.limits.guard.max_torque_slew };
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -67,38 +67,33 @@ double MotorLimiter::shrink (EffortValues& values) const noexcept
 }
 
 /// The factor s.
-double MotorLimiter::stepShare (const EffortValues& values, const EffortValues& asked) const noexcept
+double MotorLimiter::stepShare (const EffortValues& values, double passed_s) const noexcept
 {
     double share = 1.0;
     for (const auto& [effort, least, most, slew] : motors)
     {
         const double step = std::abs (values[effort] - last[effort]);
-        if (step > slew * dt && std::isfinite (step)) share = std::min (share, slew * dt / step);
+        if (step > slew * passed_s && std::isfinite (step)) share = std::min (share, slew * passed_s / step);
     }
     for (const auto& [efforts, slew] : groups)
     {
-        double step = 0.0, own = 0.0;   // squared: of what would be sent, and of what the guard asked for
+        double square = 0.0;
         for (const auto i : efforts)
-        {
-            step += (values[i] - last[i]) * (values[i] - last[i]);
-            own += (asked[i] - last_asked[i]) * (asked[i] - last_asked[i]);
-        }
-        const double most = std::max (slew * dt * slew * dt, own);
-        if (step > most && std::isfinite (step)) share = std::min (share, std::sqrt (most / step));
+            square += (values[i] - last[i]) * (values[i] - last[i]);
+        const double step = std::sqrt (square);
+        if (step > slew * passed_s && std::isfinite (step)) share = std::min (share, slew * passed_s / step);
     }
     return share;
 }
 
-MotorLimiter::Shares MotorLimiter::operator() (EffortValues& values) noexcept
+MotorLimiter::Shares MotorLimiter::operator() (EffortValues& values, double passed_s) noexcept
 {
-    const auto asked = values;
-    const double size = shrink (values), share = stepShare (values, asked);
+    const double size = shrink (values), share = stepShare (values, passed_s);
     for (const auto& motor : motors)
     {
         double& value = values[motor.effort];
         if (share < 1.0) value = last[motor.effort] + share * (value - last[motor.effort]);
         last[motor.effort] = std::isfinite (value) ? value : at_rest[motor.effort];
-        last_asked[motor.effort] = std::isfinite (asked[motor.effort]) ? asked[motor.effort] : at_rest[motor.effort];
     }
     return { size, share };
 }

@@ -17,11 +17,11 @@ using EffortValues = std::array<double, most_efforts>;
 /// factor scales all mechanical efforts of a device (force, torque, and efforts in N, N m or A), so directions are kept:
 ///
 ///     size    v = k u          so that each motor stays within its field's min and max, and within max_motor
-///     slew    w' = w + s (v - w)   so that no motor changes by more than max_motor_slew T in a tick
+///     slew    w' = w + s (v - w)   so that no motor changes by more than max_motor_slew t in the time t since the last call
 ///
 /// k changes from tick to tick, so it could change a torque, an axis, or the force of a Direct device faster than the guard allows. So
-/// s also keeps these within max_torque_slew, max_axis_slew and max_slew, except where the guard itself goes faster, as it does at
-/// the end of a stop after lost time.
+/// s also keeps these within max_torque_slew, max_axis_slew and max_slew. A driver measures t by the wall clock, so these limits hold for
+/// the device even if a run ticks faster than it says.
 ///
 /// Other values, such as the frequency of a rumble motor, pass through unchanged. max_motor and max_motor_slew hold for the
 /// motors that render the force.
@@ -29,8 +29,6 @@ class MotorLimiter
 {
 public:
     MotorLimiter (const Profile&, const std::vector<std::string>& effort_names, const std::vector<std::string>& effort_units, const EffortValues& rest);
-
-    void prepare (double dt_s) noexcept { dt = dt_s; }
 
     /// The factors k and s.
     struct Shares
@@ -41,11 +39,11 @@ public:
     /// Scales the efforts so that each motor stays within its limit, and returns k. [any thread that owns it]
     double shrink (EffortValues&) const noexcept;
 
-    /// Applies both limits. Call once per tick. [tick thread]
-    Shares operator() (EffortValues&) noexcept;
+    /// Applies both limits. `passed_s`: the time since the last call, in s. [tick thread]
+    Shares operator() (EffortValues&, double passed_s) noexcept;
 
     /// The neutral reports are sent instead of efforts. [tick thread]
-    void forget() noexcept { last = last_asked = at_rest; }
+    void forget() noexcept { last = at_rest; }
 
 private:
     struct Motor
@@ -62,12 +60,11 @@ private:
         double slew = GuardLimits::none;    // per s
     };
 
-    double stepShare (const EffortValues& values, const EffortValues& asked) const noexcept;
+    double stepShare (const EffortValues& values, double passed_s) const noexcept;
 
     std::vector<Motor> motors;
     std::vector<Group> groups;
-    EffortValues at_rest, last, last_asked;   // last: what was sent; last_asked: before both limits
-    double dt = 1e-3;                         // in s
+    EffortValues at_rest, last;   // last: what was sent
 };
 
 }   // namespace tactus::host::hid

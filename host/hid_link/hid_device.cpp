@@ -57,7 +57,7 @@ bool sendsOnlyChanges (const Profile& profile) { return std::ranges::count (prof
 }   // namespace
 
 HidDevice::HidDevice (std::unique_ptr<HidPort> port)
-    : link (std::move (port)), values (link->profile()), only_changes (sendsOnlyChanges (values.profile())),
+    : link (std::move (port)), values (link->profile()), longest_pause (std::chrono::nanoseconds (link->watchdog()).count()), only_changes (sendsOnlyChanges (values.profile())),
       expected_rate (values.hasSequence() || only_changes || values.profile().inputs.size() != 1 ? 0.0 : values.profile().rate)
 {
     std::size_t channel = 0;
@@ -76,7 +76,6 @@ HidDevice::HidDevice (std::unique_ptr<HidPort> port)
 void HidDevice::prepare (double dt_s)
 {
     dt = dt_s;
-    values.prepare (dt);
     for (auto& s : streams)
         s.feed.prepare (dt);
     for (auto& m : motors)
@@ -84,6 +83,7 @@ void HidDevice::prepare (double dt_s)
     ticks_without = 0;
     has_to_rest = true;
     driven_for = 0.0;
+    written = 0;
 }
 
 void HidDevice::take (const ArrivedReport& report) noexcept
@@ -159,6 +159,14 @@ ReadingFault HidDevice::fault (bool is_connected) const noexcept
     return record.isTrusted() ? ReadingFault::none : ReadingFault::lost;
 }
 
+/// The time since the last new report: by the clock or in ticks, whichever is longer, so that neither a run that ticks too slowly nor one
+/// that ticks too fast makes an old report seem new.
+double HidDevice::age (bool is_fresh) const noexcept
+{
+    if (is_fresh) return 0.0;
+    return std::max (static_cast<double> (ticks_without) * dt, newest == 0 ? 0.0 : static_cast<double> (link->now() - newest) / 1e9);
+}
+
 Reading HidDevice::read() noexcept
 {
     const auto no_room = link->overflown();
@@ -170,6 +178,7 @@ Reading HidDevice::read() noexcept
     // If some reports did not fit, the ones in the ring are old, whatever they contain.
     const bool fresh = came_now.any() && no_room == overflown && ! link->mayLackNewest();
     overflown = no_room;
+    if (fresh) newest = latest;
     ticks_without = fresh ? 0 : ticks_without + 1;
 
     if (const auto now = link->episode(); now != episode)
@@ -187,7 +196,7 @@ Reading HidDevice::read() noexcept
     }
     for (std::size_t i = 0; i < values.axisNames().size(); ++i)
         reading.axes.set (static_cast<int> (i), values.sample().axes[i]);
-    reading.age = only_changes && connected && has_one ? 0.0 : static_cast<double> (ticks_without) * dt;
+    reading.age = only_changes && connected && has_one ? 0.0 : age (fresh);
     if (reading.fault == ReadingFault::none && reading.age > 0.0) reading.fault = standing;
     reading.valid = reading.valid && ! has_to_rest;
     reading.unrendered_force = unrendered_force;
@@ -234,8 +243,12 @@ void HidDevice::write (const Effort& guarded) noexcept
     values.take (guarded.axes, effort);
     vibrate (guarded.signals, effort);
 
+    // The last limits hold per second of wall time, whatever drives the run. A pause counts as long as the port waits for efforts.
+    const auto now = link->now();
+    const double passed = written == 0 ? dt : 1e-9 * static_cast<double> (std::min (now - written, longest_pause));
     if (has_to_rest) values.rest();
-    driven = has_to_rest ? EffortValues {} : values.drive (effort);
+    driven = has_to_rest ? EffortValues {} : values.drive (effort, passed);
+    written = now;
     unrendered_force = guarded.force - values.renderedForce();
     unrendered_torque = guarded.torque - values.renderedTorque();
     for (std::size_t i = 0; i < values.outputs(); ++i)

@@ -41,7 +41,7 @@ DeviceLayout layoutOf (const HidModel&);
 /// number of the very report that it answers. Neither step allocates or locks. At its end, write() wakes the port's writing
 /// thread, so every device gets its effort right away, whichever clock drives the run; this is the only call into the system.
 ///
-/// A reading is the newest report; its age is the time since the report arrived, counted in ticks. It is not valid before the first
+/// A reading is the newest report; its age is the time since the report arrived. It is not valid before the first
 /// report, while the device is disconnected, and after a refused report until a good one arrives. (Reports whose ids the profile
 /// does not know are counted and ignored: many devices send some.) Nor is it valid while an alarm of the profile is on, while more
 /// than half of the last 32 reports are missing, and for 16 reports after one with an earlier number or time. A report with the
@@ -85,6 +85,7 @@ private:
     void take (const ArrivedReport&) noexcept;
     void judge (const ArrivedReport&, std::uint64_t lost) noexcept;
     ReadingFault fault (bool is_connected) const noexcept;
+    double age (bool is_fresh) const noexcept;
     void publish() noexcept;
     void vibrate (const Channels& signals, HidEffort&) noexcept;
 
@@ -105,6 +106,7 @@ private:
 
     std::unique_ptr<HidPort> link;
     HidModel values;
+    const Nanoseconds longest_pause;
     const bool only_changes;      // true if the device sends only when something moves, so its reading does not age while it is silent
     const double expected_rate;   // of reports without numbers, in Hz; 0: their loss cannot be detected
     double dt = 1e-3;
@@ -115,6 +117,8 @@ private:
     std::bitset<256> came_now;   // ids of the reports decoded on this tick
     std::uint64_t owed = 0;      // reports that did not fit and have not shown up as a gap in the sequence numbers yet
     Nanoseconds latest = 0;      // arrival of the report that this tick answers; 0: none
+    Nanoseconds newest = 0;      // arrival of the last new report
+    Nanoseconds written = 0;     // time of the last write(); 0: none
     bool has_one = false;        // true once a report has been decoded since the device was connected
     bool refused = false;        // true if the newest report was refused
     bool has_to_rest = true;     // true until the guard has been at zero once

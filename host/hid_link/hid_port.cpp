@@ -25,8 +25,6 @@ constexpr const char* check_device = "check that the connected device is the one
 
 double secondsOf (Clock::duration d) { return std::chrono::duration<double> (d).count(); }
 
-Nanoseconds nanosecondsOf (Clock::time_point t) { return std::chrono::duration_cast<std::chrono::nanoseconds> (t.time_since_epoch()).count(); }
-
 std::size_t longestInput (const Profile& p)
 {
     std::size_t longest = 1;

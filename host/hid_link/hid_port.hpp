@@ -28,6 +28,11 @@ namespace tactus::host::hid
 /// A time on the steady clock, in ns.
 using Nanoseconds = std::int64_t;
 
+inline Nanoseconds nanosecondsOf (std::chrono::steady_clock::time_point t)
+{
+    return std::chrono::duration_cast<std::chrono::nanoseconds> (t.time_since_epoch()).count();
+}
+
 /// A report as it arrived. A report longer than the profile's longest one is cut to one byte more than that, so that it is
 /// still recognised as too long.
 struct ArrivedReport
@@ -115,6 +120,7 @@ public:
     /// Wakes the writing thread, which sends what was offered. Without this call, sending may be delayed by half a report period.
     void sendNow() noexcept { something.ring(); }
 
+    Nanoseconds now() const noexcept { return nanosecondsOf (system.now()); }
     std::uint64_t episode() const noexcept { return current_episode.load (std::memory_order_acquire); }
     std::uint64_t overflown() const noexcept { return ring.lost(); }
 

@@ -27,17 +27,17 @@ constexpr Clock::time_point without_waiting;   // has passed
 /// Puts a report into the ring.
 void HidPort::arrive (std::span<const std::uint8_t> report) noexcept
 {
-    const Nanoseconds now = std::chrono::duration_cast<std::chrono::nanoseconds> (Clock::now().time_since_epoch()).count();
+    const auto arrival = now();
     if (const auto slot = ring.claim(); ! slot.empty())
     {
         auto& [bytes, arrived_at, connection] = slot.front();
         const auto kept = report.first (std::min (report.size(), bytes.capacity()));
         bytes.assign (kept.begin(), kept.end());   // within its capacity
-        arrived_at = now;
+        arrived_at = arrival;
         connection = connections;
     }
     ring.commit();
-    last_arrival.store (now, std::memory_order_release);
+    last_arrival.store (arrival, std::memory_order_release);
     reports.fetch_add (1, std::memory_order_release);
 }
 

@@ -85,6 +85,9 @@ public:
     /// The report descriptor, read without opening the device. Empty if the system does not provide it.
     virtual Bytes reportDescriptor (const ConnectedDevice&) { return {}; }
 
+    /// The time by which reports arrive and efforts are limited. Tests have their own. [any thread]
+    virtual std::chrono::steady_clock::time_point now() const noexcept { return std::chrono::steady_clock::now(); }
+
     /// True if this user may open the device; checked without opening it.
     virtual bool mayOpen (const ConnectedDevice&) { return true; }
 };

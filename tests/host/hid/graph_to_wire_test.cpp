@@ -27,7 +27,7 @@ struct Wired final : Device
 {
     explicit Wired (std::shared_ptr<const Profile> p) : profile (p), model (p) {}
 
-    void prepare (double dt_s) override { model.prepare (dt_s); }
+    void prepare (double dt_s) override { dt = dt_s; }
 
     Reading read() noexcept override
     {
@@ -43,7 +43,7 @@ struct Wired final : Device
         guarded_force = guarded.force;
         HidEffort effort { guarded.force, guarded.torque, model.restEfforts() };
         model.take (guarded.axes, effort);
-        const auto values = model.drive (effort);
+        const auto values = model.drive (effort, dt);
         for (std::size_t r = 0; r < model.outputs(); ++r)
         {
             const auto wire = model.encodeValues (r, values);
@@ -61,6 +61,7 @@ struct Wired final : Device
     HidModel model;
     std::vector<Bytes> reports;
     std::size_t tick = 0;
+    double dt = 0.0;
     EffortValues sent {};
     Vec3 guarded_force = Vec3::Zero();
 };

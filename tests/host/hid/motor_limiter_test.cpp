@@ -70,7 +70,6 @@ TEST_CASE ("no motor exceeds its limit or changes faster than its slew on the wi
             const double most = *rc::gen::element (0.2, 1.0, 2.5), slew = *rc::gen::element (20.0, 100.0, 600.0);
             const auto profile = with (id, most, slew);
             HidModel model (profile);
-            model.prepare (dt);
             auto limits = profile->limits.guard;
             limits.ramp = 0.0;
             Guard guard;
@@ -86,7 +85,7 @@ TEST_CASE ("no motor exceeds its limit or changes faster than its slew on the wi
                 const Effort wanted { anyVector (50.0), anyVector (1.0) };
                 const auto guarded = guard (wanted, reading);
                 HidEffort effort { guarded.force, guarded.torque, model.restEfforts() };
-                const auto values = model.drive (effort);
+                const auto values = model.drive (effort, dt);
                 const Vec3 now = motorsIn (*profile, model.encodeValues (0, values));
                 RC_ASSERT (now.cwiseAbs().maxCoeff() <= most + rounding);
                 RC_ASSERT ((now - last).cwiseAbs().maxCoeff() <= slew * dt + 2.0 * rounding);
@@ -105,7 +104,7 @@ TEST_CASE ("a motor at its limit scales all mechanical efforts of the device, so
         b.decode (report);
         const HidEffort effort { anyVector (0.5), Vec3::Zero(), a.restEfforts() };   // so small that the drives' own limit does not act
         const auto of = [&] (HidModel& m) {
-            const auto v = m.drive (effort);
+            const auto v = m.drive (effort, dt);
             return Vec3 (v[0], v[1], v[2]);
         };
         const Vec3 short_one = of (a), whole = of (b);
@@ -123,7 +122,7 @@ TEST_CASE ("a motor at its limit scales all mechanical efforts of the device, so
         HidEffort effort { { 2.0, 0.0, 0.0 }, { 0.0, 0.04, 0.0 }, model.restEfforts() };
         const auto own = static_cast<std::size_t> (indexOf (model.effortNames(), "effort1"));
         effort.efforts[own] = 0.7;
-        const auto v = model.drive (effort);
+        const auto v = model.drive (effort, 1.0);
         CHECK (v[static_cast<std::size_t> (indexOf (model.effortNames(), "fx"))] == 1.0);
         CHECK (v[static_cast<std::size_t> (indexOf (model.effortNames(), "ty"))] == 0.02);
         CHECK (v[own] == 0.7);
@@ -134,15 +133,14 @@ TEST_CASE ("after neutral reports, the motors start from rest", "[hid]")
 {
     const auto profile = with ("tactus_board", 2.0, 100.0);
     HidModel model (profile);
-    model.prepare (dt);
     model.decode (profile->samples[0].input[0]);
     const HidEffort effort { { 2.0, 0.0, 0.0 }, Vec3::Zero(), model.restEfforts() };
     const auto fx = static_cast<std::size_t> (indexOf (model.effortNames(), "fx"));
     for (int k = 1; k <= 20; ++k)
-        CHECK (model.drive (effort)[fx] == Approx (0.1 * k));
-    CHECK (model.drive (effort)[fx] == 2.0);
+        CHECK (model.drive (effort, dt)[fx] == Approx (0.1 * k));
+    CHECK (model.drive (effort, dt)[fx] == 2.0);
     model.rest();
-    CHECK (model.drive (effort)[fx] == Approx (0.1));
+    CHECK (model.drive (effort, dt)[fx] == Approx (0.1));
 }
 
 TEST_CASE ("a profile's limits of motors need motors, a size, and their unit", "[hid]")

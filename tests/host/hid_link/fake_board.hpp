@@ -8,6 +8,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstring>
@@ -30,6 +31,7 @@ struct BoardProfile
     double rate = 1000.0, max_rate = 1000.0, keepalive = 0.0;
     double watchdog = 10.0;   // long, so that the port does not send neutral reports by itself when the machine is busy
     double ramp = 0.01;
+    double max_slew = 0.0;                                   // N/s; 0: no limit
     std::string more_fields {}, more_of_input {}, more {};   // further fields, and keys of the input report and of the profile
     std::string steps = R"("init": [{"bytes": "aa 01"}, {"kind": "feature", "bytes": "aa 02"}], "exit": [{"bytes": "aa 03"}],)";
 
@@ -50,7 +52,7 @@ struct BoardProfile
             + number (max_rate) + (keepalive > 0.0 ? R"(, "keepalive": )" + number (keepalive) : "") + R"(}],
             "position": ["x", "y", "z"], "valid": "homed", "force": ["fx", "fy", "fz"],
             "limits": {"max_force": 3.0, "ramp": )"
-            + number (ramp) + R"(, "stale_input": )" + number (watchdog) + R"(}, "rate": )" + number (rate) + R"(, "sources": ["made up"]})");
+            + number (ramp) + (max_slew > 0.0 ? R"(, "max_slew": )" + number (max_slew) : "") + R"(, "stale_input": )" + number (watchdog) + R"(}, "rate": )" + number (rate) + R"(, "sources": ["made up"]})");
         std::string wrong;
         for (const auto& m : loaded.messages)
             wrong += m.where + ": " + m.text + "\n";
@@ -115,6 +117,15 @@ public:
 
     /// True if the tick thread may read the board. Set it before the board is opened.
     bool can_read_until = true;
+
+    /// If set, the time that the port and the device see.
+    std::atomic<std::int64_t> virtual_ns = -1;
+
+    std::chrono::steady_clock::time_point now() const noexcept override
+    {
+        const auto ns = virtual_ns.load();
+        return ns < 0 ? HidSystem::now() : std::chrono::steady_clock::time_point (std::chrono::nanoseconds (ns));
+    }
 
     /// Called with each output, without a lock, before it is logged.
     std::function<void (const Bytes&)> on_write;

@@ -26,6 +26,7 @@ struct Pushed
 {
     explicit Pushed (test::BoardProfile profile = {})
     {
+        board.virtual_ns = 1'000'000'000;
         profile.watchdog = 3600.0;
         device = openBoard (board, profile);
         guard.prepare ({ .ramp = 0.01, .watchdog = 1e-3 * stale_ms }, 1e-3);
@@ -33,6 +34,13 @@ struct Pushed
 
     /// A tick without a report.
     double tick()
+    {
+        board.virtual_ns += 1'000'000;
+        return answer();
+    }
+
+    /// The rest of a tick, after its report.
+    double answer()
     {
         reading = device->read();
         const auto applied = guard ({ { 1.0, 0.0, 0.0 }, Vec3::Zero() }, reading);
@@ -42,10 +50,11 @@ struct Pushed
 
     double tick (Bytes report)
     {
+        board.virtual_ns += 1'000'000;
         const auto before = device->port().lastArrival();   // changes once the report is in the ring
         board.send (std::move (report));
         REQUIRE (board.until ([&] { return device->port().lastArrival() != before; }));
-        return tick();
+        return answer();
     }
 
     /// Good reports until the force is there. Each has another number, time and position.
