@@ -177,6 +177,7 @@ void AudioRig::begin (const OpenedFormat& opened)
     const double silence = std::max (CardKeeper::silence_s, CardKeeper::silence_blocks * opened.block / opened.rate_hz);
     ticks_of_silence = static_cast<std::uint64_t> (silence * tick_hz) + 1;
     last_block = {};
+    passed_time = PassedTime (opened.block / opened.rate_hz);
     for (auto& limit : limits)
         limit.restart();
     if (! capture || opened.rate_hz == capture_rate) return;
@@ -237,11 +238,13 @@ void AudioRig::after (const Plan& plan, bool halts) noexcept
 //==============================================================================
 void AudioRig::block (const float* const* in, int ins, float* const* out, int outs, int frames) noexcept
 {
-    const auto now = std::chrono::steady_clock::now();
+    const auto now = cards.now();
     const double since = std::chrono::duration<double> (now - last_block).count();
     if (last_block != std::chrono::steady_clock::time_point {} && since > 2.0 * frames / format.rate_hz + wanted.reserve_s)
         late_blocks.fetch_add (1, std::memory_order_relaxed);
     last_block = now;
+    // A card may play faster than it says. Its channels are limited by the time that has passed.
+    const double passed = std::min (passed_time (std::chrono::duration<double> (now.time_since_epoch()).count(), 0.0), frames / format.rate_hz);
 
     for (int c = 0; c < outs; ++c)
         std::fill_n (out[c], frames, 0.0f);
@@ -251,7 +254,7 @@ void AudioRig::block (const float* const* in, int ins, float* const* out, int ou
     for (int c = 0; c < outs; ++c)
     {
         clip (out[c], frames);
-        if (c < most_channels) limits[static_cast<std::size_t> (c)](out[c], frames, format.rate_hz);
+        if (c < most_channels) limits[static_cast<std::size_t> (c)](out[c], frames, passed / frames);
     }
     if (auto* to = captures.load (std::memory_order_acquire)) to->note (out, outs, frames);
 }

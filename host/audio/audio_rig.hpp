@@ -8,6 +8,7 @@
 #include "port_mixer.hpp"
 #include "stream.hpp"
 
+#include <tactus/run/passed_time.hpp>
 #include <tactus/run/run.hpp>
 #include <tactus/text/result.hpp>
 
@@ -150,6 +151,7 @@ private:
     std::array<ChannelLimit, most_channels> limits {};   // by channel of the card   [audio thread, while a card is open]
     std::atomic<std::uint64_t> clipped = 0, late_blocks = 0;
     std::chrono::steady_clock::time_point last_block {};   // [audio thread]
+    PassedTime passed_time { 0.0 };                        // from block to block [audio thread]
     std::unique_ptr<CardCapture> capture;
     double capture_rate = 0.0;   // rate at which `capture` records, in Hz
     Result<> capture_result;     // result of a capture that has ended, until attend() returns it

@@ -32,11 +32,12 @@ public:
     /// Call when a card starts, whose channels are silent. [main thread, while no block is requested]
     void restart() noexcept { last = 0.0; }
 
-    /// Limits samples from -1 to 1. A sample that is not a number counts as 0. [audio thread]
-    void operator() (float* samples, int frames, double rate_hz) noexcept
+    /// Limits samples from -1 to 1. A sample that is not a number counts as 0. `period_s`: the time for which the card plays a sample, in s.
+    /// [audio thread]
+    void operator() (float* samples, int frames, double period_s) noexcept
     {
         if (! is_set) return;
-        const double step = slew / rate_hz;
+        const double step = slew == std::numeric_limits<double>::infinity() ? slew : slew * period_s;
         for (int i = 0; i < frames; ++i)
         {
             const double sample = static_cast<double> (samples[i]), wanted = isFinite (sample) ? std::clamp (sample, -most, most) : 0.0;

@@ -97,7 +97,7 @@ struct Bench
         double before = 0.0, largest = 0.0;
         for (const float sample : card.played[0])
             largest = std::max (largest, std::abs (static_cast<double> (sample) - std::exchange (before, static_cast<double> (sample))));
-        return largest * full_scale * card.rate_hz;
+        return largest * full_scale * card.rate_hz * card.speed;
     }
 
     FakeCards card;
@@ -112,7 +112,7 @@ void checkWithin (const Bench& b)
 {
     CHECK (b.peak() <= most);
     CHECK (b.peak() > 0.99 * most);
-    CHECK (b.steepest() <= slew * 1.001);   // a sample is a float, so its difference to the next is rounded
+    CHECK (b.steepest() <= slew * (1.0 + 0.001 * b.card.speed));   // a sample is a float, so its difference to the next is rounded
 }
 
 Route route (std::string port, int channel)
@@ -137,6 +137,16 @@ TEST_CASE ("a gain after the guard cannot exceed the limits of the role", "[audi
     b.run (0.5);
     checkWithin (b);
     CHECK (std::abs (b.card.played[0].back()) < 1e-6f);
+}
+
+TEST_CASE ("a card that plays faster than it says cannot exceed the slew of the role", "[audio][safety]")
+{
+    auto s = constant (3.0);
+    Bench b { addOut (s, "out", 1, "stylus", "wave.out"),
+              { { "stylus", roleOn (R"({ "channel": 1, "full_scale": "4 N", "gain": 30 })", limited) } } };
+    b.card.speed = 4.0;
+    b.run (0.5);
+    checkWithin (b);
 }
 
 TEST_CASE ("two outputs of a role on one channel of the card share the limits of the role", "[audio][safety]")
@@ -201,7 +211,7 @@ TEST_CASE ("the limit of a channel rounds towards zero and turns a sample that i
     auto samples = played;
     const auto count = static_cast<int> (samples.size());
     ChannelLimit limit;
-    limit (samples.data(), count - 2, 48'000.0);
+    limit (samples.data(), count - 2, 1.0 / 48'000.0);
     CHECK (std::equal (samples.begin(), samples.begin() + count - 2, played.begin()));
     for (const double strictest : { 0.1, 0.7, 1e-3, 0.0 })
     {
@@ -209,7 +219,7 @@ TEST_CASE ("the limit of a channel rounds towards zero and turns a sample that i
         ChannelLimit role;
         role.tighten (1.0, std::numeric_limits<double>::infinity());
         role.tighten (strictest, std::numeric_limits<double>::infinity());
-        role (samples.data(), count, 48'000.0);
+        role (samples.data(), count, 1.0 / 48'000.0);
         for (const float sample : samples)
             CHECK (std::abs (static_cast<double> (sample)) <= strictest);
         CHECK (samples[3] == 0.0f);

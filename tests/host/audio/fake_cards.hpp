@@ -3,6 +3,8 @@
 
 #include <host/audio/card.hpp>
 
+#include <chrono>
+#include <cstdint>
 #include <vector>
 
 namespace tactus::test
@@ -15,6 +17,7 @@ public:
     bool there = true;
     int outputs = 4, inputs = 2, block = 64;
     double rate_hz = 48'000.0;
+    double speed = 1.0;   ///< how much faster than it says the card plays
     int opened = 0;
     std::vector<std::vector<float>> played { 4 }, spoken { 2 };   ///< samples by channel; the input, `spoken`, is repeated
 
@@ -60,6 +63,11 @@ public:
         heard += static_cast<std::size_t> (block);
         for (std::size_t c = 0; c < out.size(); ++c)
             played[c].insert (played[c].end(), out[c].begin(), out[c].end());
+    }
+
+    std::chrono::steady_clock::time_point now() const noexcept override
+    {
+        return std::chrono::steady_clock::time_point (std::chrono::nanoseconds (static_cast<std::int64_t> (1e9 * static_cast<double> (heard) / (rate_hz * speed))));
     }
 
     host::audio::CardWanted wanted;
