@@ -3,6 +3,8 @@
 #include "setting_code.hpp"
 #include "tick_code.hpp"
 
+#include <tactus/run/log/run_head.hpp>
+
 #include <algorithm>
 #include <set>
 
@@ -88,33 +90,9 @@ std::string limitsOf (const GuardLimits& l)
 {
     const GuardLimits none;
     std::vector<std::string> all;
-    const auto add = [&] (const char* name, double GuardLimits::*limit) {
-        if (l.*limit != none.*limit) all.push_back ("." + std::string (name) + " = " + literal (l.*limit));
-    };
-    add ("max_force", &GuardLimits::max_force);
-    add ("max_torque", &GuardLimits::max_torque);
-    add ("max_slew", &GuardLimits::max_slew);
-    add ("max_torque_slew", &GuardLimits::max_torque_slew);
-    add ("ramp", &GuardLimits::ramp);
-    add ("watchdog", &GuardLimits::watchdog);
-    add ("max_axis_effort", &GuardLimits::max_axis_effort);
-    add ("max_axis_slew", &GuardLimits::max_axis_slew);
-    add ("max_signal", &GuardLimits::max_signal);
-    add ("max_signal_slew", &GuardLimits::max_signal_slew);
-    add ("max_speed", &GuardLimits::max_speed);
-    add ("max_angular_speed", &GuardLimits::max_angular_speed);
-    add ("max_axis_speed", &GuardLimits::max_axis_speed);
-    add ("max_impulse", &GuardLimits::max_impulse);
-    add ("max_angular_impulse", &GuardLimits::max_angular_impulse);
-    add ("max_axis_impulse", &GuardLimits::max_axis_impulse);
-    add ("impulse_window", &GuardLimits::impulse_window);
-    add ("max_energy", &GuardLimits::max_energy);
-    add ("energy_window", &GuardLimits::energy_window);
-    add ("max_still", &GuardLimits::max_still);
-    add ("still_force", &GuardLimits::still_force);
-    add ("workspace_scale", &GuardLimits::workspace_scale);
-    add ("dead_man_pressure", &GuardLimits::dead_man_pressure);
-    if (l.dead_man_buttons != 0) all.push_back (".dead_man_buttons = " + std::to_string (l.dead_man_buttons) + "u");
+    for (const auto& [key, limit] : guard_fields)
+        if (l.*limit != none.*limit) all.push_back ("." + std::string (key) + " = " + literal (l.*limit));
+    if (l.dead_man_buttons != 0) all.push_back ("." + std::string (dead_man_buttons) + " = " + std::to_string (l.dead_man_buttons) + "u");
     return all.empty() ? "{}" : "{ " + listed (all) + " }";
 }
 

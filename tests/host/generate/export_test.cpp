@@ -8,6 +8,7 @@
 #include <host/generate/sources.hpp>
 #include <support/sketch.hpp>
 #include <tactus/file/graph_file.hpp>
+#include <tactus/run/log/run_head.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -234,6 +235,32 @@ TEST_CASE ("an exported graph calls its nodes and values what the patch calls th
     CHECK (source.find ("// left_out: signal.gain") != std::string::npos);
     CHECK (source.find ("0.3 * double__out.out") != std::string::npos);
     CHECK (source.find ("left_out_2.tick") != std::string::npos);   // `left_out` holds the outputs of `left`
+}
+
+TEST_CASE ("an exported graph has every limit of its guard", "[export]")
+{
+    GuardLimits limits;
+    double value = 1.0;
+    for (const auto& [key, limit] : guard_fields)
+        limits.*limit = value *= 2.5;
+    limits.dead_man_buttons = 5;
+    test::Sketch s;
+    s.node ("motor", "device.force");
+    s.graph.root.nodes.front().role = "stylus";
+    const auto open = [&] (const std::string& role, const graph::Graph& graph, const Plan& plan, Messages& messages) -> Run::RoleDevice {
+        return { test::randomHands (1) (role, graph, plan, messages).device, limits };
+    };
+    for (const bool is_single : { false, true })
+    {
+        auto exported = host::exportGraph (s.graph, { .file = "limits.json", .program = "tactus", .compile = {}, .is_single = is_single, .open = open });
+        INFO (test::text (exported.messages));
+        REQUIRE_FALSE (exported.files.empty());
+        const auto& header = test::textOf (exported, "limits.hpp");
+        INFO (header);
+        for (const auto& [key, limit] : guard_fields)
+            CHECK (header.find ("." + std::string (key) + " = " + host::literal (limits.*limit) + (is_single ? "f" : "")) != std::string::npos);
+        CHECK (header.find (".dead_man_buttons = 5u") != std::string::npos);
+    }
 }
 
 TEST_CASE ("names and numbers of exported code", "[export]")
