@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 namespace tactus::exported
 {
@@ -66,15 +67,29 @@ void start (N& node, double rate_hz)
     if constexpr (Updatable<N>) node.update();
 }
 
-/// A device as the graph sees it, and the guard between the two. `limits` and `layout` are what the graph describes. Change them
-/// before ExportedGraph::prepare to those of the real device.
-struct Role
+/// A device as the graph sees it, and the guard between the two. The limits are those of the patch, and can only be tightened.
+class Role
 {
-    GuardLimits limits {};
-    DeviceLayout layout {};
+public:
+    Role (const GuardLimits& of_patch, DeviceLayout of_device) : layout (std::move (of_device)), all (of_patch) {}
+
+    DeviceLayout layout;    ///< what the graph describes. Change it before ExportedGraph::prepare to that of the real device
     DeviceState state {};   ///< what the nodes read; tick() sets it
     Guard guard {};
-    double period = 0.0;   ///< of the ticks, in s; set by prepare
+    const Effort* instead = nullptr;   ///< if set, this effort passes the guard to the device, in place of what the graph asks for
+
+    const GuardLimits& limits() const noexcept { return all; }
+
+    /// Tightens the limits to those of the real device. A limit that is looser than what the role has changes nothing, and neither does
+    /// workspace_scale. Returns false, and does nothing, after the first tick since prepare.
+    bool tighten (GuardLimits more) noexcept
+    {
+        if (has_begun) return false;
+        more.workspace_scale = 1.0;
+        all = tightest (all, more);
+        guard.prepare (all, dt, layout);
+        return true;
+    }
 
     /// Resets the role. The nodes see the layout from meet() on, after they are prepared, as in the engine.
     void prepare (double dt_s) noexcept
@@ -82,8 +97,9 @@ struct Role
         state.reading = {};
         state.applied = {};
         state.layout = {};
-        period = dt_s;
-        guard.prepare (limits, dt_s, layout);
+        dt = dt_s;
+        has_begun = false;
+        guard.prepare (all, dt, layout);
     }
 
     void meet() { state.layout = layout; }
@@ -98,9 +114,15 @@ struct Role
     /// Passes the effort that the graph wants through the guard. `lost_s` is the time without ticks before this one.
     const Effort& write (const Effort& wanted, double lost_s) noexcept
     {
-        state.applied = guard (wanted, state.reading, period + lost_s);
+        has_begun = true;
+        state.applied = guard (instead != nullptr ? *instead : wanted, state.reading, dt + lost_s);
         return state.applied;
     }
+
+private:
+    GuardLimits all;
+    double dt = 1.0;
+    bool has_begun = false;
 };
 
 /// One component of a parameter.

@@ -23,8 +23,9 @@ constexpr const char* board = R"(// SPDX-License-Identifier: MIT
 #pragma once
 
 /// The reports between a board and Tactus: 64 bytes each way, little-endian, without a report id. docs/devices.md of Tactus describes them.
+/// And who drives the motors: Tactus, or the board's own graph.
 
-#include <tactus/node/device.hpp>
+#include <tactus/run/exported_graph.hpp>
 
 #include <array>
 #include <cmath>
@@ -40,7 +41,7 @@ using Report = std::array<std::uint8_t, 64>;
 struct State
 {
     bool is_homed = false;      ///< the position is known
-    bool is_driven = false;     ///< the motors do what the host asks
+    bool is_driven = false;     ///< the motors do what the host asks, within the limits of the guard
     bool is_released = false;   ///< the watchdog has released the motors
     bool is_hot = false;
     std::uint32_t number = 0;   ///< of this report; one more in each
@@ -131,25 +132,119 @@ inline Asked askedBy (const Report& r) noexcept
     return all;
 }
 
+/// A button that counts when it is pressed, not while it is held. One that is held at a reset, is stuck or only bounces does not count.
+class Button
+{
+public:
+    /// True once for each press: it was up for 20 ms, may have bounced, and is down for 20 ms. Of a late tick, in which nobody looked, 2 ms count.
+    bool isPressed (std::uint32_t now_us, bool is_down) noexcept
+    {
+        const auto passed = now_us - seen_us;
+        seen_us = now_us;
+        if (is_down != was_down)
+        {
+            was_down = is_down;
+            steady_us = 0;
+            return false;
+        }
+        if (steady_us >= settles_us) return false;
+        steady_us += passed < most_us ? passed : most_us;
+        if (steady_us < settles_us) return false;
+        const bool counts = is_down && was_up;
+        was_up = ! is_down;
+        return counts;
+    }
+
+private:
+    static constexpr std::uint32_t settles_us = 20000, most_us = 2000;
+    bool was_down = true, was_up = false;   // as if it were held since before the reset
+    std::uint32_t seen_us = 0, steady_us = settles_us;
+};
+
+/// Decides who drives the motors. It is the board's own graph until a host has sent its first valid report, whatever that asks for. From then
+/// on it is the host alone: when it lets go or falls silent, the board rests. The board's own graph returns only when the arm input is pressed
+/// while no host speaks, or after a reset. Whoever drives passes the guard of the role, and each change goes through zero: the guard brings
+/// the force there as in every stop, and the next one rises along the ramp.
+///
+/// Times are compared by their differences, so a clock that wraps does no harm, and a host that is silent stays so until its next report.
+class Authority
+{
+public:
+    static constexpr std::uint32_t watchdog_us = 20000;
+
+    explicit Authority (exported::Role& driven) noexcept : role (driven) {}
+    Authority (const Authority&) = delete;
+    Authority& operator= (const Authority&) = delete;
+
+    /// Takes a report from the host. One that is not valid is ignored.
+    void hear (const Report& report, std::uint32_t now_us) noexcept
+    {
+        const auto now = askedBy (report);
+        if (! now.is_valid) return;
+        if (is_there && now_us - heard_us > watchdog_us) was_silent = true;   // the board itself was late
+        asked = now;
+        heard_us = now_us;
+        has_host = is_there = true;
+        has_timed_out = false;
+    }
+
+    /// Decides for this tick. Call it on every tick, after hear() and before the graph ticks.
+    void decide (std::uint32_t now_us, bool is_arm_down) noexcept
+    {
+        if (is_there && now_us - heard_us > watchdog_us)
+        {
+            is_there = false;
+            has_timed_out = asked.drives;
+        }
+        auto& guard = role.guard;
+        if (arm.isPressed (now_us, is_arm_down))
+        {
+            guard.rearm();
+            if (! is_there) has_host = false;
+        }
+        const bool is_asked = ! has_host || (is_there && asked.drives && ! was_silent);
+        was_silent = false;
+        const Effort* const source = has_host ? &asked.effort : nullptr;
+        if (role.instead != source && guard.stop() != Guard::Stop::none && guard.isAtRest()) role.instead = source;
+        is_asked && role.instead == source ? guard.resume() : guard.halt();
+    }
+
+    /// Whether the motors do what the host asks. Call this and the next one after the graph has ticked.
+    bool isDriven() const noexcept { return is_there && asked.drives && role.instead == &asked.effort && role.guard.stop() == Guard::Stop::none; }
+
+    /// Whether the motors were released because the host fell silent while it drove.
+    bool hasTimedOut() const noexcept { return has_timed_out; }
+
+private:
+    exported::Role& role;
+    Button arm;
+    Asked asked;
+    std::uint32_t heard_us = 0;
+    bool has_host = false;     // a host has spoken since the reset or since the arm input was pressed
+    bool is_there = false;     // and not fallen silent since
+    bool was_silent = false;   // between its last two reports
+    bool has_timed_out = false;
+};
+
 }   // namespace tactus::board
 )";
 
 constexpr const char* sketch = R"(// SPDX-License-Identifier: MIT
-// The board plays the graph by itself, at the rate of the patch. 1000 times a second it reports to Tactus by RawHID. While Tactus drives
-// the motors, they do what Tactus asks; when its reports stop for 20 ms, or it lets go, the board's own graph drives them. Here the
-// position comes from three analog sensors, and the force goes to three motor drivers. Change readPosition, drive and the numbers above
-// them to what your device has, and the limits in setup to what its motors are rated for.
+// The board plays the graph by itself, at the rate of the patch. 1000 times a second it reports to Tactus by RawHID. From the first report of
+// Tactus on, Tactus alone drives the motors. When Tactus lets go, or is silent for 20 ms, the board rests, until Tactus drives it again, the
+// arm button is pressed while Tactus is silent, or the board is reset. Then the board plays the graph again. All forces pass the guard of
+// the graph. Here the position comes from three analog sensors, the force goes to three motor drivers, and the arm button connects its pin to
+// ground. Change readPosition, drive and the numbers above them to what your device has, and the limits in setup to what its motors are
+// rated for. The limits of the patch hold as well.
 #include <@S@.hpp>
 #include <tactus_board.hpp>
-
-#include <cstring>
 
 static @C@ graph;
 static @C@::Inputs in;
 static @C@::Outputs out;
 
-const uint32_t period_us = @PERIOD@, report_us = 1000, watchdog_us = 20000;
-const int sensors[] = { A0, A1, A2 }, motors[] = { 3, 5, 6 }, directions[] = { 7, 8, 9 };
+const uint32_t period_us = @PERIOD@, report_us = 1000;
+const int sensors[] = { A0, A1, A2 }, motors[] = { 3, 5, 6 }, directions[] = { 7, 8, 9 }, arm_button = 2;
 const double metres_per_count = 0.1 / 4096, middle = 2048, counts_per_newton = 50;
 
 static tactus::Vec3 readPosition()
@@ -170,9 +265,9 @@ static void drive (const tactus::Effort& effort)
     }
 }
 
-static tactus::board::Asked asked;
+static tactus::board::Authority authority (graph.@ROLE@);
 static tactus::board::State state;
-static uint32_t next_tick, next_report, last_asked;
+static uint32_t last_tick, last_report;
 
 void setup()
 {
@@ -182,44 +277,40 @@ void setup()
         pinMode (motors[c], OUTPUT);
         pinMode (directions[c], OUTPUT);
     }
-    graph.@ROLE@.limits.max_force = 3.0;   // N
-    graph.@ROLE@.limits.ramp = 0.5;        // s, until the full force
+    pinMode (arm_button, INPUT_PULLUP);
+    graph.@ROLE@.tighten ({ .max_force = 3.0, .max_slew = 500.0, .ramp = 0.5 });   // N, N/s, and s until the full force
     graph.prepare (1e6 / period_us);
     state.is_homed = true;   // analog sensors know the position from power-on
-    next_tick = next_report = micros();
+    last_tick = last_report = micros();
 }
 
-/// Reads all waiting reports and uses the newest.
-static void listen()
+/// Reads all waiting reports. The newest counts.
+static void listen (uint32_t now)
 {
     tactus::board::Report report;
-    while (RawHID.recv (report.data(), 0) > 0)
-    {
-        const auto now = tactus::board::askedBy (report);
-        if (! now.is_valid) continue;
-        asked = now;
-        last_asked = micros();
-    }
-    state.is_released = asked.drives && micros() - last_asked > watchdog_us;
-    state.is_driven = asked.drives && ! state.is_released;
+    for (int size; (size = RawHID.recv (report.data(), 0)) > 0;)
+        if (size == static_cast<int> (report.size())) authority.hear (report, now);
 }
 
 void loop()
 {
-    const uint32_t now = micros();
-    if (static_cast<int32_t> (now - next_tick) < 0) return;
-    const uint32_t late = (now - next_tick) / period_us;
-    if (late > 0) graph.loseTime (late * (period_us * 1e-6));
-    next_tick += (late + 1) * period_us;
+    // Never faster than the rate of the patch: what is late is lost, not caught up.
+    const uint32_t now = micros(), passed = now - last_tick;
+    if (passed < period_us) return;
+    last_tick = now;
+    graph.loseTime ((passed - period_us) * 1e-6);
 
-    listen();
+    listen (now);
+    authority.decide (now, digitalRead (arm_button) == LOW);
     in.@PORT@.position = readPosition();
-    state.us = now;
     graph.tick (in, out);
-    drive (state.is_driven ? asked.effort : out.@PORT@);
+    drive (out.@PORT@);
 
-    if (static_cast<int32_t> (now - next_report) < 0) return;
-    next_report = now + report_us;
+    if (now - last_report < report_us) return;
+    last_report = now;
+    state.us = now;
+    state.is_driven = authority.isDriven();
+    state.is_released = authority.hasTimedOut();
     const auto report = tactus::board::reportOf (in.@PORT@, state);
     if (RawHID.send (report.data(), 0) > 0) ++state.number;
 }

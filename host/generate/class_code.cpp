@@ -158,10 +158,10 @@ std::string rolesOf (const Exported& e)
     std::string text;
     for (std::size_t i = 0; i < e.roles.size(); ++i)
     {
-        text += "    /// The device in the role " + comment (e.roles[i].name) + ": its limits, what it has, and its guard.\n"
-                                                                                "    /// Change limits and layout before prepare().\n";
+        text += "    /// The device in the role " + comment (e.roles[i].name) + ": what it has, and its guard, with the limits of the patch.\n"
+                                                                                "    /// Change the layout, and tighten the limits, before prepare().\n";
         text += wrapped ("    ", "tactus::exported::Role " + e.wiring.role_names[i] + " {",
-                         { ".limits = " + limitsOf (e.roles[i].limits), ".layout = " + layoutOf (e.roles[i].layout) }, "};");
+                         { limitsOf (e.roles[i].limits), layoutOf (e.roles[i].layout) }, "};");
         text += "\n";
     }
     return text;

@@ -141,7 +141,9 @@ std::string buildOf (const Exported& e, ExportTarget target)
 {
     if (target == ExportTarget::arduino)
         return "This is an Arduino library. Copy the folder into `libraries/`, install the library Eigen, and open the example `Board`. The core of the "
-               "board\nmust compile C++20 (`-std=gnu++20`), and must not use `-ffast-math`. `extras/` has a self-test for a computer:\n\n"
+               "board\nmust compile C++20 (`-std=gnu++20`), and must not use `-ffast-math`. The board plays the graph until Tactus speaks to it. From then on\n"
+               "Tactus drives it, and when Tactus stops, the board rests until its arm button (pin 2 to ground) is pressed or it is reset. `extras/` has\n"
+               "a self-test for a computer:\n\n"
                "    g++ -std=c++20 -O2 -ffp-contract=off -fno-math-errno -fno-trapping-math -Isrc -isystem /usr/include/eigen3 \\\n"
                "        extras/*.cpp $(find src -name '*.cpp') -o self_test && ./self_test\n";
     std::string text = filled (R"(    cmake -B build && cmake --build build && ctest --test-dir build
@@ -211,8 +213,8 @@ nodes are in `tactus/nodes/`, one file per node type.
   parameters and guards. Make it `static`. @MEASURED@
 - `prepare` accepts rates up to @RATE@ Hz. For a higher rate, export with `--rate`, because some nodes need more memory then.
 - All functions are for one thread.
-- Each role has a guard, which limits its effort and brings it to zero on bad readings. @LIMITS@ Set `limits` and `layout` of each role
-  to those of your device before `prepare`.
+- Each role has a guard, which limits its effort and brings it to zero on bad readings. @LIMITS@ Before `prepare`, set the
+  `layout` of each role to that of your device, and `tighten` its limits to those of your motors. Nothing loosens them.
 @BITS@  of `libm` is called, so its version does not matter.
 @MORE@
 @TABLES@)",

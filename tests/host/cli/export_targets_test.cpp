@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -75,14 +76,32 @@ std::vector<std::vector<double>> rendered (const Scratch& scratch, int ticks)
     return rendered (scratch, trace.str(), "board.force.z,drag.force.x,drag.deflection.x");
 }
 
-/// Writes the graph for this target.
-std::string exportedTo (const Scratch& scratch, const std::string& target)
+/// Writes a graph for this target.
+std::string written (const Scratch& scratch, const std::string& file, const std::string& target, std::vector<std::string> more = {})
 {
     const auto folder = scratch.path (target);
-    const auto ran = runTactus ({ "export", graph, "-o", folder, "--to", target, "--record", "board.force.z,drag.force.x,drag.deflection.x" });
+    more.insert (more.begin(), { "export", file, "-o", folder, "--to", target });
+    const auto ran = runTactus (more);
     INFO (ran.err);
     REQUIRE (ran.status == 0);
     return folder;
+}
+
+std::string exportedTo (const Scratch& scratch, const std::string& target)
+{
+    return written (scratch, graph, target, { "--record", "board.force.z,drag.force.x,drag.deflection.x" });
+}
+
+/// A stylus on a plate, with this guard.
+std::string plateWith (const std::string& guard)
+{
+    return R"({ "format": "tactus-graph", "version": 2, "rate_hz": 1000,
+                "devices": { "stylus": { "driver": "sim", "mass": "50 g", "damping": 1.0, "guard": { )"
+           + guard + R"( } } },
+                "nodes": { "hand": { "type": "device.position", "role": "stylus" },
+                           "plate": { "type": "deform.plane", "params": { "stiffness": 1000 } },
+                           "motor": { "type": "device.force", "role": "stylus" } },
+                "wires": ["hand.position -> plate.position", "plate.force -> motor.force"] })";
 }
 
 /// Compares ticks from `first` on with what render computed.
@@ -171,6 +190,49 @@ TEST_CASE ("a graph gives the same bits from C and in a simulator", "[cli][expor
     }
 }
 
+TEST_CASE ("a board rests when its host stops, and every force on its motors passes the guard of the patch", "[cli][export]")
+{
+    // The limits of the sketch, 3 N, 500 N/s and 0.5 s, hold where the patch has none.
+    const Scratch tight_scratch, loose_scratch;
+    const auto tight = R"("max_force": "0.5 N", "max_slew": "20 N/s", "ramp": "2 s", "max_impulse": "4 N*s", "impulse_window": "10 s")";
+    const struct
+    {
+        const Scratch& scratch;
+        std::string guard;
+        std::vector<std::string> limits;
+    } patches[] { { loose_scratch, R"("max_force": "6 N")", { "3", "500", "0.5" } }, { tight_scratch, tight, { "0.5", "20", "2" } } };
+    const std::string boards = TACTUS_SOURCE_DIR "/tests/host/generate/boards";
+    double pushed_s[2] {};
+    for (const auto& patch : patches)
+    {
+        const auto folder = written (patch.scratch, patch.scratch.write ("plate.json", plateWith (patch.guard)), "arduino");
+        REQUIRE (succeeds ("cd '" + folder + "' && c++ " + flags + "-O1 -Isrc -I'" + boards + "' -DSKETCH='\"" + folder
+                               + "/examples/Board/Board.ino\"' -o board '" + boards + "/simulated_board.cpp' $(find src -name '*.cpp')",
+                           patch.scratch.path ("said")));
+        const auto run = [&] (const std::string& scenario, const std::string& seed) {
+            auto arguments = patch.limits;
+            arguments.insert (arguments.begin(), scenario);
+            arguments.push_back (seed);
+            const auto ran = runProgram (folder + "/board", arguments);
+            INFO (patch.guard << ", " << scenario << " " << seed << ": " << ran.out);
+            CHECK (ran.status == 0);
+            return ran.out;
+        };
+        for (const auto* scenario : { "story", "opened", "shortened", "button", "limited", "wrapped", "late", "paced" })
+            (void)run (scenario, "0");
+        if (patch.guard == tight) (void)run ("latched", "0");
+        for (int seed = 0; seed < 12; ++seed)
+        {
+            double by_board = 0.0, by_host = 0.0;
+            CHECK (std::sscanf (run ("chaos", std::to_string (seed)).c_str(), "the board pushed for %lf s, the host for %lf s", &by_board, &by_host) == 2);
+            pushed_s[0] += by_board;
+            pushed_s[1] += by_host;
+        }
+    }
+    CHECK (pushed_s[0] > 10.0);   // or the tests would show nothing
+    CHECK (pushed_s[1] > 10.0);
+}
+
 TEST_CASE ("units for simulators, libraries for boards and C interfaces build as their folders say", "[.export_targets]")
 {
     const Scratch scratch;
@@ -182,11 +244,6 @@ TEST_CASE ("units for simulators, libraries for boards and C interfaces build as
 
     const auto arduino = exportedTo (scratch, "arduino");
     REQUIRE (succeeds ("cd '" + arduino + "' && c++ " + flags + "-Isrc extras/*.cpp $(find src -name '*.cpp') -o self_test && ./self_test", said));
-    const std::string boards = TACTUS_SOURCE_DIR "/tests/host/generate/boards";
-    REQUIRE (succeeds ("cd '" + arduino + "' && c++ " + flags + "-Isrc -I'" + boards + "' -DSKETCH='\"" + arduino + "/examples/Board/Board.ino\"' -o board '"
-                           + boards + "/simulated_board.cpp' $(find src -name '*.cpp')",
-                       said));
-    CHECK (runProgram (arduino + "/board", {}).status == 0);
     const auto c = exportedTo (scratch, "c-api");
     CHECK (succeeds ("make -s -C '" + c + "' test", said));
 }

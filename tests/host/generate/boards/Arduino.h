@@ -2,7 +2,7 @@
 #pragma once
 
 // Simulates the parts of a board that the sketch of an exported Arduino library uses: a sensor that moves into the object, motors, a
-// clock, and RawHID. simulated_board.cpp is its program.
+// button, a clock, and RawHID. simulated_board.cpp is its program.
 
 #include <array>
 #include <cstdint>
@@ -12,6 +12,7 @@
 #define LOW 0
 #define HIGH 1
 #define OUTPUT 1
+#define INPUT_PULLUP 2
 
 enum
 {
@@ -24,19 +25,31 @@ struct SimulatedBoard
 {
     using Report = std::array<std::uint8_t, 64>;
 
-    std::uint32_t now_us = 0;
+    /// A report on its way to the board, of which only the first bytes may arrive.
+    struct Sent
+    {
+        Report bytes {};
+        int size = 64;
+    };
+
+    std::uint64_t now_us = 0;                         ///< what micros() returns has only its lower half
     std::array<int, 3> counts { 2048, 2048, 2048 };   ///< of the sensors
+    std::uint64_t ticks = 0;                          ///< how often the first sensor was read
     std::array<int, 16> duty {}, level {};            ///< by pin
-    std::deque<Report> to_board;
+    bool is_button_down = false;
+    std::deque<Sent> to_board;
     Report from_board {};
     int reports = 0;
+    void (*received) (const Sent&) = nullptr;   ///< called for each report that the board reads
 
     int recv (void* to, int)
     {
         if (to_board.empty()) return 0;
-        std::memcpy (to, to_board.front().data(), 64);
+        const auto sent = to_board.front();
         to_board.pop_front();
-        return 64;
+        std::memcpy (to, sent.bytes.data(), static_cast<std::size_t> (sent.size));
+        if (received != nullptr) received (sent);
+        return sent.size;
     }
 
     int send (const void* from, int)
@@ -49,8 +62,13 @@ struct SimulatedBoard
 
 inline SimulatedBoard RawHID;
 
-inline std::uint32_t micros() { return RawHID.now_us; }
-inline int analogRead (int pin) { return RawHID.counts[static_cast<std::size_t> (pin - A0)]; }
+inline std::uint32_t micros() { return static_cast<std::uint32_t> (RawHID.now_us); }
+inline int analogRead (int pin)
+{
+    if (pin == A0) ++RawHID.ticks;
+    return RawHID.counts[static_cast<std::size_t> (pin - A0)];
+}
+inline int digitalRead (int) { return RawHID.is_button_down ? LOW : HIGH; }
 inline void analogReadResolution (int) {}
 inline void analogWrite (int pin, int duty) { RawHID.duty[static_cast<std::size_t> (pin)] = duty; }
 inline void digitalWrite (int pin, int level) { RawHID.level[static_cast<std::size_t> (pin)] = level; }
