@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "c_api_code.hpp"
 
+#include <tactus/run/log/run_head.hpp>
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 
 namespace tactus::host
 {
@@ -87,6 +89,23 @@ std::string cEnumOf (const Exported& e, const std::string& kind, const std::vect
     return "typedef enum " + e.stem + "_" + kind + "\n{\n    " + listed (all, ",\n    ") + "\n} " + e.stem + "_" + kind + ";\n\n";
 }
 
+/// Text for each limit that can be tightened.
+std::string forLimits (const std::function<std::string (const std::string&)>& text)
+{
+    std::string all;
+    for (const auto& [key, value] : guard_fields)
+        if (value != &GuardLimits::workspace_scale) all += text (std::string (key));
+    return all;
+}
+
+std::string limitsStruct (const Exported& e)
+{
+    if (e.roles.empty()) return {};
+    return "/* The limits of the guard of a device, in SI units, as docs/safety.md of Tactus explains them. */\ntypedef struct " + e.stem + "_limits\n{\n"
+           + forLimits ([] (const std::string& key) { return "    double " + key + ";\n"; })
+           + "    uint64_t dead_man_buttons;   /* bit i: button i must be held */\n} " + e.stem + "_limits;\n\n";
+}
+
 /// The names of the enumerators of a kind.
 std::vector<std::string> paramNames (const Exported& e)
 {
@@ -135,7 +154,13 @@ void @S@_destroy (@S@* graph);
     if (! e.controls.empty()) text += "/* Turns a control to a position from 0 to 1. */\nvoid @S@_turn (@S@* graph, @S@_control control, double position);\n\n";
     if (! e.hits.empty()) text += "/* Hits an input at this speed, in m/s. */\nvoid @S@_strike (@S@* graph, @S@_hit hit, double speed);\n\n";
     if (! e.roles.empty())
-        text += "/* Stops, as those of the class: see @S@.hpp. */\nvoid @S@_halt (@S@* graph);\nvoid @S@_resume (@S@* graph);\n"
+        text += "/* Limits that limit nothing. Set those that you want, and pass them to @S@_tighten. */\nvoid @S@_no_limits (@S@_limits* limits);\n\n"
+                "/* Tightens the limits of a device. One that is looser than the patch's changes nothing. Returns false, and does nothing, after the\n"
+                "   first tick since prepare. */\n"
+                "bool @S@_tighten (@S@* graph, @S@_role role, const @S@_limits* limits);\n\n"
+                "/* The limits of a device that hold: those of the patch, tightened. */\n"
+                "void @S@_limits_of (const @S@* graph, @S@_role role, @S@_limits* limits);\n\n"
+                "/* Stops, as those of the class: see @S@.hpp. */\nvoid @S@_halt (@S@* graph);\nvoid @S@_resume (@S@* graph);\n"
                 "void @S@_emergency_stop (@S@* graph);\nvoid @S@_rearm (@S@* graph);\nvoid @S@_lose_time (@S@* graph, double seconds);\n\n";
     return filled (text, { { "@S@", e.stem }, { "@U@", capitals (e.stem) } });
 }
@@ -149,7 +174,8 @@ std::string cHeader (const Exported& e)
            + "_RATE_HZ " + literal (e.wiring.plan.rateHz()) + "\n#define " + capitals (e.stem) + "_MAX_RATE_HZ " + literal (e.wiring.plan.rateHz())
            + "\n\ntypedef struct " + e.stem + " " + e.stem + ";\n\n" + cStructs (e) + cEnumOf (e, "param", paramNames (e))
            + cEnumOf (e, "control", controlNames (e))
-           + cEnumOf (e, "hit", e.hits) + cFunctions (e) + "#ifdef __cplusplus\n}\n#endif\n\n#endif\n";
+           + cEnumOf (e, "hit", e.hits) + cEnumOf (e, "role", e.wiring.role_ports) + limitsStruct (e) + cFunctions (e)
+           + "#ifdef __cplusplus\n}\n#endif\n\n#endif\n";
 }
 
 /// Statements that copy the inputs into those of the class.
@@ -202,10 +228,33 @@ std::string optionalFunctions (const Exported& e)
         text += "void @S@_turn (@S@* graph, @S@_control control, double position) { graph->all.set (static_cast<@C@::Control> (control), position); }\n";
     if (! e.hits.empty()) text += "void @S@_strike (@S@* graph, @S@_hit hit, double speed) { graph->all.strike (static_cast<@C@::Hit> (hit), speed); }\n";
     if (! e.roles.empty())
-        text += "void @S@_halt (@S@* graph) { graph->all.halt(); }\nvoid @S@_resume (@S@* graph) { graph->all.resume(); }\n"
+        text += "void @S@_no_limits (@S@_limits* limits) { copyLimits (tactus::GuardLimits {}, *limits); }\n\n"
+                "bool @S@_tighten (@S@* graph, @S@_role role, const @S@_limits* limits)\n{\n"
+                "    auto* const tightened = roleOf (graph->all, role);\n"
+                "    tactus::GuardLimits more;\n"
+                "    copyLimits (*limits, more);\n"
+                "    return tightened != nullptr && tightened->tighten (more);\n}\n\n"
+                "void @S@_limits_of (const @S@* graph, @S@_role role, @S@_limits* limits)\n{\n"
+                "    const auto* const asked = roleOf (graph->all, role);\n"
+                "    copyLimits (asked != nullptr ? asked->limits() : tactus::GuardLimits {}, *limits);\n}\n\n"
+                "void @S@_halt (@S@* graph) { graph->all.halt(); }\nvoid @S@_resume (@S@* graph) { graph->all.resume(); }\n"
                 "void @S@_emergency_stop (@S@* graph) { graph->all.emergencyStop(); }\nvoid @S@_rearm (@S@* graph) { graph->all.rearm(); }\n"
                 "void @S@_lose_time (@S@* graph, double seconds) { graph->all.loseTime (seconds); }\n";
     return text;
+}
+
+/// Functions that convert limits, and choose the role that an enumerator means.
+std::string limitHelpers (const Exported& e)
+{
+    if (e.roles.empty()) return {};
+    std::string roles;
+    for (std::size_t i = 0; i < e.roles.size(); ++i)
+        roles += "    case " + capitals (e.stem) + "_ROLE_" + e.wiring.role_ports[i] + ":\n        return &all." + e.wiring.role_names[i] + ";\n";
+    return "\n/// Null if there is no such role.\ntemplate <typename Graph>\nauto roleOf (Graph& all, @S@_role role) noexcept -> decltype (&all."
+           + e.wiring.role_names.front() + ")\n{\n    switch (role)\n    {\n" + roles + "    }\n    return nullptr;\n}\n\n"
+           + "template <typename From, typename To>\nvoid copyLimits (const From& from, To& to) noexcept\n{\n"
+           + forLimits ([] (const std::string& key) { return "    to." + key + " = from." + key + ";\n"; })
+           + "    to.dead_man_buttons = from.dead_man_buttons;\n}\n";
 }
 
 std::string cSource (const Exported& e)
@@ -241,7 +290,7 @@ template <std::size_t n>
     for (std::size_t i = 0; i < n; ++i)
         values[i] = channels[static_cast<int> (i)];
 }
-}   // namespace
+@LIMITS@}   // namespace
 
 size_t @S@_size (void) { return sizeof (@S@); }
 size_t @S@_alignment (void) { return alignof (@S@); }
@@ -286,6 +335,7 @@ void @S@_destroy (@S@* graph)
                      { "@READ@", readInputs (e) },
                      { "@WRITE@", writeOutputs (e) },
                      { "@MORE@", optionalFunctions (e) },
+                     { "@LIMITS@", limitHelpers (e) },
                      { "@C@", e.class_name },
                      { "@S@", e.stem } });
 }

@@ -2,11 +2,14 @@
 #include "fmu_code.hpp"
 #include "fmu_template.hpp"
 
+#include <tactus/run/log/run_head.hpp>
 #include <tactus/text/number_text.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 
 namespace tactus::host
 {
@@ -22,12 +25,13 @@ struct Variable
         output,
         parameter,
         control,
-        hit
+        hit,
+        limit
     };
 
     std::string name, about;
     Kind kind = Kind::input;
-    std::string code;   ///< for an input, a statement in which @ is the value; for an output, its value; for others, an enumerator
+    std::string code;   ///< for an input, a statement in which @ is the value; for an output, its value; for a limit, its key; for others, an enumerator
     double start = 0.0, low = -inf, high = inf;
 };
 
@@ -35,7 +39,11 @@ struct Variables
 {
     std::vector<Variable> reals;
     std::vector<std::pair<std::string, std::string>> buttons, valid;   ///< name and member, per role
+    std::vector<std::pair<std::string, std::uint64_t>> held;           ///< the buttons of the dead-man's switch: name and value, per role
 };
+
+/// A limit that limits nothing is the largest number, because not every importer reads "INF".
+double finite (double limit) { return std::min (limit, std::numeric_limits<double>::max()); }
 
 void addInput (Variables& all, const std::string& name, const std::string& code, const std::string& about, double start = 0.0)
 {
@@ -85,6 +93,20 @@ void addRoleOutputs (Variables& all, const Exported& e, std::size_t i)
         addOutput (all, "out." + role + ".signals." + std::to_string (s), out + "signals[" + std::to_string (s) + "]", "signal output");
 }
 
+void addLimits (Variables& all, const Exported& e, std::size_t i)
+{
+    const auto& role = e.wiring.role_ports[i];
+    const auto& limits = e.roles[i].limits;
+    for (const auto& [key, value] : guard_fields)
+        if (value != &GuardLimits::workspace_scale)
+            all.reals.push_back ({ .name = "limit." + role + "." + std::string (key),
+                                   .about = "limit of the guard; can only be tightened",
+                                   .kind = Variable::Kind::limit,
+                                   .code = std::string (key),
+                                   .start = finite (limits.*value) });
+    all.held.emplace_back ("limit." + role + "." + std::string (dead_man_buttons), limits.dead_man_buttons);
+}
+
 void addTaps (Variables& all, const Exported& e)
 {
     for (std::size_t i = 0; i < e.wiring.tap_names.size(); ++i)
@@ -110,6 +132,8 @@ Variables variablesOf (const Exported& e)
     for (std::size_t i = 0; i < e.roles.size(); ++i)
         addRoleOutputs (all, e, i);
     addTaps (all, e);
+    for (std::size_t i = 0; i < e.roles.size(); ++i)
+        addLimits (all, e, i);
     for (const auto& p : e.parameters)
     {
         const auto& hard = p.sheet->limits.hard;
@@ -153,6 +177,7 @@ std::string attributesOf (Variable::Kind kind)
 {
     using Kind = Variable::Kind;
     if (kind == Kind::output) return "causality=\"output\" variability=\"discrete\" initial=\"calculated\"";
+    if (kind == Kind::limit) return "causality=\"parameter\" variability=\"fixed\" initial=\"exact\"";
     if (kind == Kind::input || kind == Kind::hit) return "causality=\"input\" variability=\"discrete\"";
     return "causality=\"parameter\" variability=\"tunable\" initial=\"exact\"";
 }
@@ -195,6 +220,9 @@ std::string variableTags (const Variables& all, std::string& outputs)
     for (std::size_t i = 0; i < all.valid.size(); ++i)
         text += variableTag (all.valid[i].first, i, "causality=\"input\" variability=\"discrete\"", "false while the device has nothing to report",
                              "<Boolean start=\"true\"/>");
+    for (std::size_t i = 0; i < all.held.size(); ++i)
+        text += variableTag (all.held[i].first, all.buttons.size() + i, attributesOf (Variable::Kind::limit), "bit i: button i must be held",
+                             "<Integer start=\"" + std::to_string (static_cast<std::int32_t> (all.held[i].second)) + "\"/>");
     return text;
 }
 
@@ -251,16 +279,41 @@ Access accessOf (const Variables& all)
         a.read += "    " + all.buttons[i].second + " = static_cast<std::uint32_t> (unit.integer[" + std::to_string (i) + "]);\n";
         a.read += "    " + all.valid[i].second + " = unit.boolean[" + std::to_string (i) + "] != fmi2False;\n";
         a.starts += "    unit.boolean[" + std::to_string (i) + "] = fmi2True;\n";
+        const auto held = static_cast<std::int32_t> (all.held[i].second);
+        a.starts += "    unit.integer[" + std::to_string (all.buttons.size() + i) + "] = " + std::to_string (held) + ";\n";
     }
     return a;
 }
 
-/// By real variable: whether it is an output, which cannot be set.
+/// Statements that tighten the limits of each role to those that are set, and show those that hold.
+std::string tightenOf (const Exported& e, const Variables& all)
+{
+    std::string text;
+    for (std::size_t i = 0; i < e.roles.size(); ++i)
+    {
+        std::string from, to;
+        const auto role = "unit.graph." + e.wiring.role_names[i], prefix = "limit." + e.wiring.role_ports[i] + ".";
+        for (std::size_t n = 0; n < all.reals.size(); ++n)
+        {
+            const auto& v = all.reals[n];
+            if (v.kind != Variable::Kind::limit || v.name != prefix + v.code) continue;
+            const auto value = "unit.real[" + std::to_string (n) + "]";
+            from += "        limits." + v.code + " = unlimited (" + value + ");\n";
+            to += "        " + value + " = std::min (" + role + ".limits()." + v.code + ", largest);\n";
+        }
+        text += "    {\n        tactus::GuardLimits limits;\n" + from + "        limits.dead_man_buttons = static_cast<std::uint32_t> (unit.integer["
+                + std::to_string (all.buttons.size() + i) + "]);\n        (void) " + role + ".tighten (limits);\n" + to + "    }\n";
+    }
+    return text;
+}
+
+/// By real variable: an output, which cannot be set; a limit, which can be set before the first step; or one that can always be set.
 std::string kindsOf (const Variables& all)
 {
     std::string text;
     for (const auto& v : all.reals)
-        text += v.kind == Variable::Kind::output ? "o" : "i";
+        text += v.kind == Variable::Kind::output ? "o" : v.kind == Variable::Kind::limit ? "l"
+                                                                                         : "i";
     return text;
 }
 }   // namespace
@@ -278,6 +331,7 @@ FmuFiles fmuFiles (const Exported& e)
                                           { "@SET@", a.set },
                                           { "@STRIKE@", a.strike },
                                           { "@STARTS@", a.starts },
+                                          { "@TIGHTEN@", tightenOf (e, all) },
                                           { "@KINDS@", kindsOf (all) },
                                           { "@REALS@", std::to_string (all.reals.size()) },
                                           { "@ROLES@", std::to_string (all.buttons.size()) },

@@ -110,35 +110,50 @@ const char* fmuSource()
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <memory>
 
 namespace
 {
-constexpr std::size_t reals = @REALS@, roles = @ROLES@;
-constexpr const char* kinds = "@KINDS@";   // by number of a real: an input or parameter, or an output
+constexpr std::size_t reals = @REALS@, roles = @ROLES@, integers = 2 * roles;   // of each role, the buttons, and those of its dead-man's switch
+constexpr const char* kinds = "@KINDS@";   // by number of a real: an input or parameter, an output, or a limit
+[[maybe_unused]] constexpr double largest = std::numeric_limits<double>::max();
 constexpr const char* guid = "@GUID@";
 
 struct Unit
 {
     @C@ graph {};
     std::array<double, reals + 1> real {};   // one more, because an array may be empty
-    std::array<fmi2Integer, roles + 1> integer {};
+    std::array<fmi2Integer, integers + 1> integer {};
     std::array<fmi2Boolean, roles + 1> boolean {};
     double start = 0.0, now = 0.0;   // s
     std::uint64_t ticks = 0;         // since the start
+    bool has_begun = false;          // the limits are fixed
 };
 
 Unit& unitOf (fmi2Component c) { return *static_cast<Unit*> (c); }
 
 void makeNew (Unit& unit)
 {
+    tactus::exported::renew (unit.graph);
     unit.graph.prepare();
     unit.real.fill (0.0);
     unit.integer.fill (0);
     unit.boolean.fill (fmi2False);
     unit.start = unit.now = 0.0;
     unit.ticks = 0;
+    unit.has_begun = false;
 @STARTS@}
+
+/// A limit that limits nothing is the largest number.
+[[maybe_unused]] double unlimited (double limit) { return limit >= largest ? tactus::GuardLimits::none : limit; }
+
+/// Tightens the limits to those that are set. From now on they are fixed.
+void begin (Unit& unit)
+{
+    if (unit.has_begun) return;
+    unit.has_begun = true;
+@TIGHTEN@}
 
 /// Sets a parameter or control of the graph.
 void apply (Unit& unit, std::size_t number)
@@ -213,7 +228,13 @@ fmi2Status fmi2SetupExperiment (fmi2Component c, fmi2Boolean, fmi2Real, fmi2Real
 }
 
 fmi2Status fmi2EnterInitializationMode (fmi2Component) { return fmi2OK; }
-fmi2Status fmi2ExitInitializationMode (fmi2Component) { return fmi2OK; }
+
+fmi2Status fmi2ExitInitializationMode (fmi2Component c)
+{
+    begin (unitOf (c));
+    return fmi2OK;
+}
+
 fmi2Status fmi2Terminate (fmi2Component) { return fmi2OK; }
 
 fmi2Status fmi2Reset (fmi2Component c)
@@ -229,7 +250,7 @@ fmi2Status fmi2GetReal (fmi2Component c, const fmi2ValueReference numbers[], siz
 
 fmi2Status fmi2GetInteger (fmi2Component c, const fmi2ValueReference numbers[], size_t count, fmi2Integer to[])
 {
-    return copy (unitOf (c).integer, roles, numbers, count, to);
+    return copy (unitOf (c).integer, integers, numbers, count, to);
 }
 
 fmi2Status fmi2GetBoolean (fmi2Component c, const fmi2ValueReference numbers[], size_t count, fmi2Boolean to[])
@@ -242,7 +263,7 @@ fmi2Status fmi2GetString (fmi2Component, const fmi2ValueReference[], size_t coun
 fmi2Status fmi2SetReal (fmi2Component c, const fmi2ValueReference numbers[], size_t count, const fmi2Real from[])
 {
     for (size_t i = 0; i < count; ++i)
-        if (numbers[i] >= reals || kinds[numbers[i]] == 'o') return fmi2Error;
+        if (numbers[i] >= reals || kinds[numbers[i]] == 'o' || (kinds[numbers[i]] == 'l' && unitOf (c).has_begun)) return fmi2Error;
     for (size_t i = 0; i < count; ++i)
     {
         unitOf (c).real[numbers[i]] = from[i];
@@ -254,7 +275,7 @@ fmi2Status fmi2SetReal (fmi2Component c, const fmi2ValueReference numbers[], siz
 fmi2Status fmi2SetInteger (fmi2Component c, const fmi2ValueReference numbers[], size_t count, const fmi2Integer from[])
 {
     for (size_t i = 0; i < count; ++i)
-        if (numbers[i] >= roles) return fmi2Error;
+        if (numbers[i] >= (unitOf (c).has_begun ? roles : integers)) return fmi2Error;
     for (size_t i = 0; i < count; ++i)
         unitOf (c).integer[numbers[i]] = from[i];
     return fmi2OK;
@@ -310,6 +331,7 @@ fmi2Status fmi2DoStep (fmi2Component c, fmi2Real now, fmi2Real step, fmi2Boolean
 {
     if (! std::isfinite (now) || ! std::isfinite (step) || step < 0.0) return fmi2Error;
     auto& unit = unitOf (c);
+    begin (unit);
     strike (unit);
     for (const auto end = ticksBefore (unit, now + step); unit.ticks < end;)
         tick (unit);

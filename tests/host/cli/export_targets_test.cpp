@@ -5,6 +5,9 @@
 
 #include "../generate/fmu.hpp"
 
+#include <tactus/run/log/run_head.hpp>
+#include <tactus/text/number_text.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <array>
@@ -146,6 +149,47 @@ void checkUnit (const std::string& description, const std::string& library, cons
     REQUIRE (unit.set ("param.drag.mu", 0.1));
     REQUIRE (unit.step (10.0 * h, 2.5 * h));
     REQUIRE (unit.step (12.5 * h, 0.5 * h));
+
+    // Limits can be tightened before the first step.
+    CHECK (unit.variables().at ("limit.stylus.max_force").start == "6");
+    CHECK_FALSE (unit.set ("limit.stylus.max_force", 1.0));
+    for (const double most : { 1.0, 100.0 })
+    {
+        REQUIRE (unit.reset());
+        CHECK (unit.set ("limit.stylus.max_force", most));
+        CHECK (unit.set ("limit.stylus.dead_man_buttons", 2.0));
+        REQUIRE (unit.set ("in.stylus.position.z", -0.01));
+        REQUIRE (unit.step (0.0, 100.0 * h));
+        CHECK (unit.get ("limit.stylus.max_force") == std::min (most, 6.0));
+        CHECK (unit.get ("out.stylus.force.z") == 0.0);
+        CHECK_FALSE (unit.set ("limit.stylus.dead_man_buttons", 0.0));
+        REQUIRE (unit.set ("in.stylus.buttons", 2.0));
+        REQUIRE (unit.step (100.0 * h, 100.0 * h));
+        CHECK (unit.get ("out.stylus.force.z") == Approx (std::min (most, 6.0)));
+    }
+}
+
+/// What a C program with this body prints, linked with a graph called plate.
+std::string printedInC (const Scratch& scratch, const std::string& folder, const std::string& body)
+{
+    const auto said = scratch.path ("said"), source = scratch.write ("in_c.c", R"(#include "plate.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+int main (void)
+{
+    plate* const graph = plate_create (malloc (plate_size()), plate_size());
+    plate_limits limits;
+    plate_inputs inputs;
+    plate_outputs outputs;
+    plate_init (&inputs);
+)" + body + "    return 0;\n}\n");
+    const auto object = scratch.path ("in_c.o"), program = scratch.path ("in_c");
+    REQUIRE (succeeds ("cc -std=c99 -Wall -Wextra -Wpedantic -Werror -I'" + folder + "' -c -o '" + object + "' '" + source + "'", said));
+    REQUIRE (succeeds ("c++ -o '" + program + "' '" + object + "' '" + folder + "/libplate.a'", said));
+    const auto ran = runProgram (program, {});
+    CHECK (ran.status == 0);
+    return ran.out;
 }
 }   // namespace
 
@@ -231,6 +275,45 @@ TEST_CASE ("a board rests when its host stops, and every force on its motors pas
     }
     CHECK (pushed_s[0] > 10.0);   // or the tests would show nothing
     CHECK (pushed_s[1] > 10.0);
+}
+
+TEST_CASE ("exported code keeps every limit of the guard, and lets C only tighten them", "[cli][export]")
+{
+    const Scratch scratch;
+    std::string guard, show, tighter, expected, tightened;
+    double value = 1.0;
+    for (const auto& [key, limit] : tactus::guard_fields)
+    {
+        if (limit == &tactus::GuardLimits::workspace_scale) continue;   // not a limit: sessions set it
+        const std::string name (key);
+        const bool is_slew = name.find ("slew") != name.npos;
+        const bool is_longest = name == "ramp" || name == "impulse_window" || name == "energy_window" || name == "dead_man_pressure";
+        value += 0.125;
+        const double here = is_slew ? 100.0 * value : value, tight = is_longest ? 2.0 * here : 0.5 * here, loose = is_longest ? 0.5 * here : 2.0 * here;
+        guard += "\"" + name + "\": " + tactus::numberText (here) + ", ";
+        show += "    printf (\"%g\\n\", limits." + name + ");\n";
+        tighter += "    limits." + name + " = turn == 0 ? " + tactus::numberText (loose) + " : " + tactus::numberText (tight) + ";\n";
+        expected += tactus::numberText (here) + "\n";
+        tightened += tactus::numberText (tight) + "\n";
+    }
+    const auto folder = written (scratch, scratch.write ("plate.json", plateWith (guard + R"("dead_man_button": 1)")), "c-api");
+    REQUIRE (succeeds ("make -s -C '" + folder + "' libplate.a CXXFLAGS='-O0 -Wall -Wextra -Werror'", scratch.path ("said")));
+    const std::string print = "    plate_limits_of (graph, PLATE_ROLE_stylus, &limits);\n" + show + "    printf (\"%d\\n\", (int) limits.dead_man_buttons);\n";
+    const auto said = printedInC (scratch, folder,
+                                  "    int turn = 0;\n" + print
+                                      + "    plate_no_limits (&limits);\n    limits.max_force = 1e300;\n    limits.ramp = 0.0;\n"
+                                        "    if (! plate_tighten (graph, PLATE_ROLE_stylus, &limits)) return 1;\n"
+                                      + print + "    for (; turn < 2; ++turn)\n    {\n    plate_no_limits (&limits);\n" + tighter
+                                      + "    limits.dead_man_buttons = 4;\n    if (! plate_tighten (graph, PLATE_ROLE_stylus, &limits)) return 2;\n" + print
+                                      + "    }\n"
+                                      + "    plate_no_limits (&limits);\n    limits.max_speed = NAN;\n    limits.max_torque = -1.0;\n"
+                                        "    if (! plate_tighten (graph, PLATE_ROLE_stylus, &limits)) return 3;\n"
+                                        "    plate_limits_of (graph, PLATE_ROLE_stylus, &limits);\n"
+                                        "    printf (\"%g %g\\n\", limits.max_speed, limits.max_torque);\n"
+                                        "    plate_tick (graph, &inputs, &outputs);\n"
+                                        "    if (plate_tighten (graph, PLATE_ROLE_stylus, &limits)) return 4;\n"
+                                        "    if (plate_tighten (graph, (plate_role) 7, &limits)) return 5;\n");
+    CHECK (said == expected + "2\n" + expected + "2\n" + expected + "6\n" + tightened + "6\n" + "0 0\n");
 }
 
 TEST_CASE ("units for simulators, libraries for boards and C interfaces build as their folders say", "[.export_targets]")
