@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Runs in the guest, with devices from guest_device and the programs built on this computer. Results go to /run/results, where
-# check.py reads them. All times are those of the guest's clock. It does not depend on how busy this computer is, but it runs fast while
-# files of this computer are read. So each program runs once before a device exists, and waits are long: they cost little.
+# Runs in the guest, in a folder that test_devices.sh makes, with devices from guest_device and the programs built on this computer. Results go
+# to /run/results, where check.py reads them. All times are those of the guest's clock. It does not depend on how busy this computer is, but it
+# runs fast while files of this computer are read. So each program runs once before a device exists, and waits are long: they cost little.
 cd "$(dirname "$0")/../.."
-work=$(mktemp -d -p "${TMPDIR:-/var/tmp}")   # in memory; it disappears with the guest
+work=$(mktemp -d -p /var/tmp)   # in memory; it disappears with the guest
 chmod a+rx "$work"
-tactus=${TACTUS_PROGRAM:-build/release/bin/tactus}
-device=${GUEST_DEVICE:-build/release/bin/guest_device}
+tactus=build/release/bin/tactus
+device=build/release/bin/guest_device
+descriptor=$PWD/descriptor   # if the recording of a joystick's is there
 export HOME=$work
 # The tool seems to move many times faster than it does where reports are lost, and after the board was unplugged.
 mkdir -p $work/profiles
@@ -130,8 +131,8 @@ if make_gadget; then
     keep usb
 fi
 
-if [ -e "$FFB_DESCRIPTOR" ]; then
-    ln -s "$FFB_DESCRIPTOR" $work/descriptor
+if [ -e "$descriptor" ]; then
+    ln -s "$descriptor" $work/descriptor
     stick () { gone; $device joystick --file $work/descriptor --seconds 3000 --log $work/board.csv "$@" & sim=$!; wait_for '/dev/hidraw*'; }
     feel () { $tactus play $work/dry_wood.json --osc off --rate 1000 "$@" 2>$work/play.err; }
     echo '{"driver": "hid", "profile": "pid", "calibration": {"full_force": "4 N", "travel": {"x": "12 cm", "y": "12 cm", "z": "12 cm"}}}' >$work/joystick.json
@@ -174,7 +175,7 @@ plug
 $device space_mouse --seconds 3000 & mouse=$!
 joystick=
 count=2
-[ -e "$FFB_DESCRIPTOR" ] && { $device joystick --file "$FFB_DESCRIPTOR" --seconds 3000 --log /dev/null & joystick=$!; count=3; }
+[ -e "$descriptor" ] && { $device joystick --file "$descriptor" --seconds 3000 --log /dev/null & joystick=$!; count=3; }
 for _ in $(seq 100); do [ "$(compgen -G '/dev/hidraw*' | wc -l)" -eq $count ] && break; sleep 0.1; done
 $tactus devices >/run/results/devices.txt || fail "tactus devices"
 $tactus devices --json >/run/results/devices.json || fail "tactus devices --json"

@@ -5,7 +5,8 @@
 # guest uses no hardware virtualisation, so it runs everywhere. Its clock counts its own instructions (2 ns each) and jumps ahead
 # while it sleeps, so a busy computer makes the run longer and changes nothing else. It shows that things work, not how fast they are.
 set -euo pipefail
-folder=$(cd "$1" && pwd) script=$(realpath "$2") results=$(mkdir -p "$3" && cd "$3" && pwd)
+folder=$(cd "$1" && pwd) results=$(mkdir -p "$3" && cd "$3" && pwd)
+realpath "$2" >"$results/script"   # not on the kernel's command line, where a space would end it
 log=$results/console.log
 # The limit is on the time of the processor, because a busy computer may take ten times as long. The guest has one processor: in this
 # mode several take turns, and the kernel does not start in a minute.
@@ -15,9 +16,9 @@ boot ()
         -nodefaults -no-reboot \
         -display none -serial "file:$log" -monitor none \
         -kernel "$folder"/kernel/boot/vmlinuz-* -initrd "$folder/root.cpio.gz" \
-        -append "console=ttyS0 quiet panic=-1 tsc=reliable mitigations=off random.trust_cpu=on guest_script=$script" \
+        -append "console=ttyS0 quiet panic=-1 tsc=reliable mitigations=off random.trust_cpu=on" \
         -virtfs local,path=/,mount_tag=host,security_model=none,readonly=on,multidevs=remap \
-        -virtfs "local,path=$results,mount_tag=results,security_model=none" 2>"$results/qemu.txt") || true
+        -virtfs "local,path=${results//,/,,},mount_tag=results,security_model=none" 2>"$results/qemu.txt") || true
     cat "$results/qemu.txt" >&2
 }
 isUp () { grep -q GUEST_UP "$log" 2>/dev/null; }

@@ -1,22 +1,24 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# test_devices.sh BUILD: tests the programs of a build folder with virtual HID devices, in a QEMU guest. Exits with status 77 and a
-# message if no guest can run here.
+# test_devices.sh BUILD: tests the programs of a build folder with virtual HID devices, in a QEMU guest. The guest runs copies of them, in a
+# folder below /var/tmp with spaces in its name, as a checkout may be anywhere. Exits with status 77 and a message if no guest can run here.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=$(cd "$1" && pwd)
 guest=build/guest
-results=$(mktemp -d)
-trap '[ -z "${KEEP:-}" ] && rm -rf "$results" || echo $results' EXIT
+results=$(mktemp -d "${TMPDIR:-/tmp}/the results of the guest.XXXXXX")
+place=$(mktemp -d "/var/tmp/a folder for the guest.XXXXXX")
+trap 'rm -rf "$place"; [ -z "${KEEP:-}" ] && rm -rf "$results" || echo "$results"' EXIT
 
 tests/guest/make_guest.sh $guest
-data=../shared/data/hid_ffb/openffboard_1axis.bin
-cat >"$results/run.sh" <<RUN
-export TACTUS_PROGRAM=$build/bin/tactus GUEST_DEVICE=$build/bin/guest_device FFB_DESCRIPTOR=$(realpath -m $data)
-exec "$PWD/tests/guest/in_guest.sh"
-RUN
+mkdir -p "$place"/{tests/guest,host,build/release/bin}
+cp tests/guest/in_guest.sh "$place/tests/guest"
+cp -r host/profiles "$place/host"
+cp -r graphs "$place"
+cp "$build"/bin/{tactus,guest_device} "$place/build/release/bin"
+cp ../shared/data/hid_ffb/openffboard_1axis.bin "$place/descriptor" 2>/dev/null || true
 status=0
-tests/guest/run_guest.sh $guest "$results/run.sh" "$results" || status=$?
+tests/guest/run_guest.sh $guest "$place/tests/guest/in_guest.sh" "$results" || status=$?
 [ $status -eq 77 ] && exit 77
 if [ $status -ne 0 ]; then
     tail -n 20 "$results"/*.err >&2 || true
