@@ -163,7 +163,8 @@ public:
 
     /// The final limits of the role's guard for signals, each without limit if infinite: `max` in the unit of the calibration, and
     /// `max_slew` per s. A driver that amplifies, filters or mixes signals after the guard must keep what reaches a channel within
-    /// them. Called before prepare(). [main thread]
+    /// them. Called before prepare(), and again with tighter limits while the device is in use; what exceeds them then falls, without a step.
+    /// [main thread]
     virtual void limitSignals (double /*max*/, double /*max_slew*/) {}
 
     /// What the device has in addition to a tool. Called when the role gets the device; must not change afterwards. [main thread]

@@ -8,6 +8,7 @@ namespace tactus
 {
 
 class Plan;
+struct GuardLimits;
 
 /// Receives everything that reaches a run from outside, on the tick on which it takes effect, so that the run can be repeated
 /// bit for bit. All calls before ticked() belong to that tick. No function may allocate, lock or wait. [tick thread]
@@ -18,6 +19,9 @@ public:
 
     /// This plan ticks from now on.
     virtual void tookOver (const Plan&) noexcept = 0;
+
+    /// With this plan, the limits of the guard of this role, by its number in the plan, are tightened to these.
+    virtual void tightened (std::size_t role, const GuardLimits&) noexcept = 0;
 
     /// The tick thread picked up a new target for a knob. The numbers are the instance in the plan and the knob in the
     /// instance.

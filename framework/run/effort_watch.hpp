@@ -194,6 +194,14 @@ public:
         part_s = (std::max (1.0, std::ceil (window_s / dt_s / parts)) - 0.5) * dt_s;   // so that rounding cannot add a tick to a part
     }
 
+    /// Lengthens the window and keeps the counts. What has already left the shorter window is lost. [tick thread]
+    void lengthen (double window_s, double dt_s) noexcept
+    {
+        ImpulseWatch longer;
+        longer.prepare (window_s, dt_s);
+        part_s = std::max (part_s, longer.part_s);
+    }
+
     /// The impulse within the window in N s, including this sample, which lasts `passed_s`. [tick thread]
     double operator() (double newton_seconds, double passed_s) noexcept
     {
@@ -239,6 +247,12 @@ public:
     void prepare (double most_j, double window_s) noexcept
     {
         delivered = 0.0;
+        allow (most_j, window_s);
+    }
+
+    /// Changes the allowance, and keeps what was counted. [tick thread]
+    void allow (double most_j, double window_s) noexcept
+    {
         power = std::isfinite (window_s) ? most_j / window_s : 0.0;
         if (! std::isfinite (power)) power = 0.0;
     }

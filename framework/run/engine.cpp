@@ -49,7 +49,7 @@ Engine::Channel& Engine::makeChannel (const std::string& role)
 
 std::unique_ptr<Engine::Running> Engine::makeRunning (std::shared_ptr<Plan> p)
 {
-    auto made = std::make_unique<Running> (Running { std::move (p), {}, {}, {} });
+    auto made = std::make_unique<Running> (Running { std::move (p), {}, {}, {}, {} });
     std::size_t most = 0;
     for (const auto& role : made->plan->roles())
     {
@@ -59,7 +59,11 @@ std::unique_ptr<Engine::Running> Engine::makeRunning (std::shared_ptr<Plan> p)
     made->scratch.efforts.resize (most);
     made->scratch.numbers.resize (most);
 
-    const auto& [plan, used, bound, scratch] = *made;
+    for (std::size_t i = 0; i < made->channels.size(); ++i)
+        if (made->channels[i]->is_tightened) made->tightenings.push_back ({ i, made->channels[i]->limits });
+
+    const auto& plan = made->plan;
+    const auto& used = made->channels;
     for (const auto i : plan->bound())
     {
         const auto& node = plan->flat().nodes[i];
@@ -79,8 +83,8 @@ void Engine::equip (Channel& channel, Device& device, const GuardLimits& limits,
     channel.device = &device;
     channel.guard.prepare (limits, dt_s, layout);
     channel.is_news = channel.to_announce = true;
-    const auto valid = tightest (limits, limits);   // as the guard reads them: a limit that is negative or not a number lets nothing through
-    device.limitSignals (valid.max_signal, valid.max_signal_slew);
+    channel.limits = tightest (limits, {});   // as the guard reads them: a limit that is negative or not a number lets nothing through
+    device.limitSignals (channel.limits.max_signal, channel.limits.max_signal_slew);
     device.prepare (dt_s);
 }
 
@@ -158,6 +162,17 @@ void Engine::submit (std::shared_ptr<Plan> next, std::span<const Joining> joinin
     clear();
 }
 
+void Engine::tighten (std::string_view role, const GuardLimits& limits)
+{
+    auto* channel = find (role);
+    if (channel == nullptr) return;
+    const auto tighter = tightened (channel->limits, limits);
+    if (tighter == channel->limits) return;
+    channel->limits = tighter;
+    channel->is_tightened = true;
+    if (channel->device) channel->device->limitSignals (tighter.max_signal, tighter.max_signal_slew);
+}
+
 std::size_t Engine::clear()
 {
     plans.clear();
@@ -187,6 +202,13 @@ void Engine::strike (const plan::HitRef& hit, double speed) noexcept
     touched.store (true, std::memory_order_release);
 }
 
+/// Once tightened, a role's limits come with every plan, so those of a plan that was withdrawn are not lost.
+void Engine::tightenGuards (const Running& next) noexcept
+{
+    for (const auto& [role, limits] : next.tightenings)
+        if (next.channels[role]->guard.tighten (limits) && journal) journal->tightened (role, limits);
+}
+
 void Engine::takeOver (Running& next) noexcept
 {
     if (journal) journal->tookOver (*next.plan);
@@ -198,6 +220,7 @@ void Engine::takeOver (Running& next) noexcept
             next.channels[i]->touched_at = ticks;
         }
     introduce (next);
+    tightenGuards (next);
     if (is_stopped)
         for (auto* channel : next.channels)
             channel->guard.emergencyStop();
@@ -267,7 +290,7 @@ void Engine::beforePlan() noexcept
     if (ticks < settled_at) fadeAgain();
     if (fresh || touched.load (std::memory_order_relaxed)) turnKnobs();
 
-    auto& [plan, used, bound, scratch] = *running;
+    auto& [plan, used, bound, scratch, tightenings] = *running;
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i]->device)
         {
@@ -284,7 +307,7 @@ void Engine::beforePlan() noexcept
 void Engine::afterPlan() noexcept
 {
     static_assert (std::is_trivially_destructible_v<Effort>, "a new effort replaces the last one in place");
-    auto& [plan, used, bound, scratch] = *running;
+    auto& [plan, used, bound, scratch, tightenings] = *running;
     for (std::size_t i = 0; i < used.size(); ++i)
     {
         const auto& role = plan->roles()[i];

@@ -64,6 +64,10 @@ public:
     /// rate as the first plan and contain the roles that join. None of these roles may have a device already. [main thread]
     void submit (std::shared_ptr<Plan>, std::span<const Joining> = {});
 
+    /// Tightens the limits of a role's guard by these, which never loosens any (Guard::tighten). It takes effect with the next submitted plan that has
+    /// the role, and its device learns its limits for signals at once. Does nothing for an unknown role. [main thread]
+    void tighten (std::string_view role, const GuardLimits&);
+
     /// Frees plans that are no longer used; submit does this too. Returns how many are left. [main thread]
     std::size_t clear();
 
@@ -168,6 +172,8 @@ private:
         std::uint64_t touched_at = 0;   // the tick on which a plan last changed anything upstream of this role
         bool is_news = false;           // the nodes are not bound to its device yet   [tick thread, once a plan with it is submitted]
         bool to_announce = false;       // the next plan tells its nodes of the device   [main thread]
+        GuardLimits limits {};          // of the guard, once the last submitted plan runs   [main thread]
+        bool is_tightened = false;      // since the role got its device   [main thread]
     };
 
     /// A node that belongs to a role; its type has one of the hooks bind and learn.
@@ -186,6 +192,13 @@ private:
         std::vector<double> numbers;
     };
 
+    /// What the guard of a role of a plan is tightened to when the plan takes over.
+    struct Tightening
+    {
+        std::size_t role;
+        GuardLimits limits;
+    };
+
     /// A plan and the engine's state for it.
     struct Running
     {
@@ -193,6 +206,7 @@ private:
         std::vector<Channel*> channels;   // in the order of plan->roles()
         std::vector<BoundNode> bound;
         Scratch scratch;
+        std::vector<Tightening> tightenings;
     };
 
     static Effort total (const Plan::RoleUse&, Scratch&) noexcept;
@@ -207,6 +221,7 @@ private:
     static void equip (Channel&, Device&, const GuardLimits&, const Plan&, double dt_s);
     static void announce (const Running&);
     static void introduce (Running&) noexcept;
+    void tightenGuards (const Running&) noexcept;
     void applyStops() noexcept;
     std::unique_ptr<Running> makeRunning (std::shared_ptr<Plan>);
     void takeOver (Running&) noexcept;

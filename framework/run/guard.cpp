@@ -80,6 +80,19 @@ double approached (double from, double to, double most) noexcept
 bool hasChannels (const Effort& e) noexcept { return (e.axes.size() | e.signals.size()) != 0; }
 [[gnu::noinline]] bool channelsAreFinite (const Effort& e) noexcept { return isFinite (e.axes, e.signals); }
 
+/// The largest value, whatever its sign.
+[[gnu::noinline]] double largest (const Channels& all) noexcept
+{
+    double most = 0.0;
+    for (const double v : all)
+        most = std::max (most, std::abs (v));
+    return most;
+}
+
+/// What `sizes` of a guard limits, in this order, and the slew limits.
+constexpr std::array size_limits { &GuardLimits::max_force, &GuardLimits::max_torque, &GuardLimits::max_axis_effort, &GuardLimits::max_signal };
+constexpr std::array slew_limits { &GuardLimits::max_slew, &GuardLimits::max_torque_slew, &GuardLimits::max_axis_slew, &GuardLimits::max_signal_slew };
+
 double orNothing (double limit) noexcept { return limit >= 0.0 ? limit : 0.0; }
 double orForever (double s) noexcept { return s >= 0.0 ? s : GuardLimits::none; }
 
@@ -151,19 +164,96 @@ GuardLimits tightest (const GuardLimits& a, const GuardLimits& b) noexcept
     };
 }
 
+GuardLimits tightened (const GuardLimits& of_device, const GuardLimits& by) noexcept
+{
+    auto limits = tightest (of_device, by);
+    limits.workspace_scale = of_device.workspace_scale;
+    return limits;
+}
+
 void Guard::prepare (const GuardLimits& wanted, double dt_s, const DeviceLayout& layout) noexcept
 {
     *this = Guard();
     if (isFinite (dt_s) && dt_s > 0.0) dt = dt_s;
     limits = tightest (wanted, {});
+    axis_of_effort = axesOf (layout);
+    chooseWatches();
+    enabled = 0.0;
+    forget();
+}
+
+void Guard::chooseWatches() noexcept
+{
     const auto limitsAny = [] (auto... all) { return ((all != GuardLimits::none) || ...); };
     watches_turns = limitsAny (limits.max_angular_speed, limits.max_energy);
-    axis_of_effort = axesOf (layout);
     const bool knows_axes = std::ranges::any_of (axis_of_effort, [] (int axis) { return axis >= 0; });
     watches_axes = knows_axes && limitsAny (limits.max_axis_speed, limits.max_energy);
     is_watching = watches_turns || watches_axes || limitsAny (limits.max_speed, limits.max_still, smallestImpulse (limits));
-    enabled = 0.0;
-    forget();
+}
+
+bool Guard::tighten (const GuardLimits& wanted) noexcept
+{
+    const auto before = limits;
+    const auto& current = is_falling ? final_limits : limits;
+    const auto tighter = tightened (current, wanted);
+    if (tighter == current) return false;
+
+    limits = final_limits = tighter;
+    const auto level = onDevice();
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+        sizes[i].tighten (tighter.*size_limits[i], level[i], fade_s / dt);
+    is_falling = true;
+    for (const auto slew : slew_limits)
+        limits.*slew = before.*slew;
+    useSizes();
+
+    const bool watched_turns = watches_turns, watched_axes = watches_axes;
+    chooseWatches();
+    if (watches_turns != watched_turns || watches_axes != watched_axes)
+    {
+        motion.forget();   // it does not know the last rotation or the last axes
+        mean_effort = {};
+    }
+    for (auto* all : { &impulse, &angular_impulse, &axis_impulse })
+        all->lengthen (windowOf (smallestImpulse (limits), limits.impulse_window), dt);
+    energy.allow (limits.max_energy, windowOf (limits.max_energy, limits.energy_window));
+    return true;
+}
+
+/// How much force, torque, effort on an axis and signal is on the device, in the order of `sizes`.
+std::array<double, 4> Guard::onDevice() const noexcept
+{
+    return { length (last.force), length (last.torque), largest (last.axes), largest (last.signals) };
+}
+
+/// The limits of size that apply now, and all others once no size falls any more.
+void Guard::useSizes() noexcept
+{
+    is_falling = std::ranges::any_of (sizes, &FallingLimit::isFalling);
+    if (! is_falling) limits = final_limits;
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+        limits.*size_limits[i] = sizes[i].now();
+}
+
+/// Lowers the limits of size that fall. `steps`: the time that has passed, in periods.
+[[gnu::noinline]] void Guard::lowerSizes (double steps) noexcept
+{
+    const auto level = onDevice();
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+        sizes[i].advance (level[i], steps);
+    useSizes();
+}
+
+/// While a limit of several values falls, each of them stays where it is or falls, unless the new limit allows more.
+[[gnu::noinline]] Channels Guard::withoutRise (const Channels& wanted, const Channels& now, std::size_t size) const noexcept
+{
+    Channels all;
+    for (int i = 0; i < wanted.size(); ++i)
+    {
+        const double most = std::max (sizes[size].goal(), std::abs (now[i]));
+        all.set (i, std::clamp (wanted[i], -most, most));
+    }
+    return all;
 }
 
 void Guard::emergencyStop() noexcept
@@ -353,6 +443,7 @@ const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, d
 {
     const double passed = passed_s >= 0.0 && isFinite (passed_s) ? passed_s : dt;
     passTime (passed);
+    if (is_falling) lowerSizes (passed / dt);
     const bool is_usable = isUsable (reading);
     if (is_watching)
     {
@@ -383,6 +474,7 @@ const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, d
     else if (cause == Stop::stale && event.why == Stop::stale && reading.fault != ReadingFault::none && reading.fault != event.fault && ! isFrozen())
         note (cause, wanted, reading);   // the same stop with another reason, such as a silent board that is now too hot
     reason = cause;
+    if (reason != Stop::none) saved = 0.0;   // time that was left during a stop does not make the force rise faster after it
 
     withheld = std::max (0.0, withheld - step_s / fade_s);
     if (reason == Stop::none) enabled = limits.ramp > 0.0 ? std::min (1.0, enabled + rising_s / limits.ramp) : 1.0;
@@ -410,6 +502,7 @@ void Guard::approach (const Effort& to, double step_s) noexcept
     Vec3 to_force = to.force, to_torque = to.torque;
     Channels to_axes;
     if (has_channels) to_axes = resized (to.axes, std::max (last.axes.size(), to.axes.size()));
+    if (is_falling) to_axes = withoutRise (to_axes, last.axes, 2);
     const double size = fit (to_force, to_torque, to_axes);
 
     if (limits.max_slew == GuardLimits::none && limits.max_torque_slew == GuardLimits::none && ! has_channels)
@@ -436,7 +529,8 @@ void Guard::approach (const Effort& to, double step_s) noexcept
     if (! has_channels) return;
     last.axes = ! arrives ? mixed (1.0, last.axes, 2.0 * step, axes) : size == 1.0 ? to_axes
                                                                                    : mixed (size, to_axes, 0.0, {});
-    last.signals = approached (last.signals, to.signals, limits.max_signal, limits.max_signal_slew * step_s);
+    last.signals = approached (last.signals, is_falling ? withoutRise (to.signals, last.signals, 3) : to.signals,
+                               limits.max_signal, limits.max_signal_slew * step_s);
 }
 
 /// During a stop, and while the effort rises again.

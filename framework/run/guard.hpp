@@ -2,6 +2,7 @@
 #pragma once
 
 #include "effort_watch.hpp"
+#include "falling_limit.hpp"
 #include <tactus/node/device.hpp>
 
 #include <array>
@@ -55,6 +56,9 @@ struct GuardLimits
 /// The stricter of the two values of each limit; this is how a session tightens a profile. For limits with windows: the smaller
 /// limit and the longer window.
 GuardLimits tightest (const GuardLimits&, const GuardLimits&) noexcept;
+
+/// The limits of a device after a graph has asked for these: like tightest, but `workspace_scale` stays that of the device.
+GuardLimits tightened (const GuardLimits& of_device, const GuardLimits& by) noexcept;
 
 /// The last stage before a device, one per role, always present. It passes efforts that are finite and within the limits for
 /// size and slew, shortens other efforts keeping their direction, and brings everything to zero when there is a cause to stop.
@@ -155,6 +159,11 @@ public:
     /// The layout says which axes the efforts push. [main thread]
     void prepare (const GuardLimits&, double dt_s, const DeviceLayout& = {}) noexcept;
 
+    /// Tightens the limits to the stricter of what they are and these, and keeps everything that is counted. `workspace_scale` stays. What is
+    /// on the device above a new limit of size falls to it within fade_s, or as slowly as the slew limits so far require; the new slew limits apply
+    /// from then on, because they may be too slow for a force that their `max_force` no longer allows. False if nothing changes. [tick thread]
+    bool tighten (const GuardLimits&) noexcept;
+
     /// Returns the effort for the device; it stays valid until the next call. `passed_s` is the time since the last tick, in s, by the wall
     /// clock (PassedTime); the last effort was on the device during this time. Without it, one period. [tick thread]
     const Effort& operator() (const Effort& wanted, const Reading&, double passed_s) noexcept;
@@ -190,6 +199,11 @@ public:
 
 private:
     void forget() noexcept;
+    void chooseWatches() noexcept;
+    std::array<double, 4> onDevice() const noexcept;
+    void useSizes() noexcept;
+    void lowerSizes (double steps) noexcept;
+    Channels withoutRise (const Channels& wanted, const Channels& now, std::size_t size) const noexcept;
     void passTime (double passed_s) noexcept;
     double rise (double passed_s) noexcept;
     bool isUsable (const Reading&) const noexcept;
@@ -212,7 +226,11 @@ private:
     double fit (Vec3& force, Vec3& torque, Channels& axes) const noexcept;
     void approach (const Effort& to, double step_s) noexcept;
 
-    GuardLimits limits;
+    GuardLimits limits;                     // as they apply on this tick
+    GuardLimits final_limits;               // what they become, while `is_falling`
+    std::array<FallingLimit, 4> sizes {};   // of force, torque, axes and signals
+    bool is_falling = false;                // limits of size still fall to tighter ones
+
     double dt = fade_s;    // in s; until prepare is called, a stop takes one tick
     double drift = 0.0;    // total time that has passed, less one period for each tick, in s
     double saved = 0.0;    // time that has passed and that no rising effort has used yet, in s

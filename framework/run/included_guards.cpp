@@ -68,6 +68,12 @@ private:
 };
 }   // namespace
 
+Json withoutGuard (Json description)
+{
+    if (description.is_object()) description.erase ("guard");
+    return description;
+}
+
 std::vector<IncludedGuard> includedGuards (const graph::Graph& graph)
 {
     if (! includesGuards (graph)) return {};

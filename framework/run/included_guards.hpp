@@ -24,4 +24,7 @@ struct IncludedGuard
 /// instances. [main thread]
 std::vector<IncludedGuard> includedGuards (const graph::Graph&);
 
+/// The description of a device, without the guard: an edit can change that while the graph runs.
+Json withoutGuard (Json description);
+
 }   // namespace tactus

@@ -147,6 +147,7 @@ Result<> Replay::swapPlan()
     auto edit = running->edit (*graph, next->kept);
     if (edit.plan() == nullptr) return firstError (edit.messages());
     edit.openDevices();
+    edit.tightenOnly (next->tightened);   // the log has what took effect, also of edits that were undone before they ran
     edit.commit();
     running->engine().takeSubmitted();
     graph_name = graph->name;
@@ -155,7 +156,7 @@ Result<> Replay::swapPlan()
 
 Result<> Replay::carryOut()
 {
-    if (next->graph && std::exchange (has_first, true) && options.graph == nullptr)
+    if (next->graph && (std::exchange (has_first, true) || ! next->tightened.empty()) && options.graph == nullptr)
         if (auto swapped = swapPlan(); ! swapped) return swapped;
     for (const auto& [param, target] : next->turns)
         if (auto done = turn (param, target); ! done) return done;

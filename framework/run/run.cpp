@@ -78,10 +78,13 @@ void Run::keepRecords()
         options.records.push_back (tap.name);
 }
 
-bool Run::hasDevice (const std::string& role) const
+const Run::RoleDevice* Run::deviceOf (const std::string& role) const
 {
-    return std::ranges::any_of (by_role, [&] (const auto& d) { return d.first == role; });
+    const auto at = std::ranges::find (by_role, role, [] (const auto& d) { return std::string_view (d.first); });
+    return at != by_role.end() ? &at->second : nullptr;
 }
+
+bool Run::hasDevice (const std::string& role) const { return deviceOf (role) != nullptr; }
 
 namespace
 {
@@ -92,35 +95,62 @@ GuardLimits readGuard (Json guard, const std::string& where, Messages& messages,
             if (const auto limit = parseMeasure (guard[key].asString())) guard[key] = limit->value;
     return readGuardLimits (guard, where, messages, layout);
 }
+
+std::string guardPlace (const std::string& role) { return "/devices/" + role + "/guard"; }
+
+/// The strictest of the guards that the graph and the graphs that it includes describe for a role.
+GuardLimits describedLimits (const std::string& role, const graph::Graph& graph, const std::vector<IncludedGuard>& guards, const DeviceLayout& layout,
+                             Messages& messages)
+{
+    GuardLimits limits;
+    const auto* description = graph.device (role);
+    if (description != nullptr && description->is_object() && description->contains ("guard"))
+        limits = tightest (limits, readGuard (description->at ("guard"), guardPlace (role), messages, layout));
+    for (const auto& included : guards)
+    {
+        if (included.role != role) continue;
+        Messages of_file;
+        limits = tightest (limits, readGuard (included.guard, included.where, of_file, layout));
+        for (auto& m : of_file)
+        {
+            m.file = included.file;
+            messages.push_back (std::move (m));
+        }
+    }
+    return limits;
+}
 }   // namespace
+
+/// What the graph asks of the guard of a role, and what earlier graphs of this run asked for. A limit that is no longer there waits for the next run.
+GuardLimits Run::asksFor (const std::string& role, const graph::Graph& graph, const std::vector<IncludedGuard>& guards, const RoleDevice& of,
+                          Messages& messages) const
+{
+    const auto described = describedLimits (role, graph, guards, of.device->layout(), messages);
+    const auto earlier = asked.find (role);
+    const auto limits = earlier != asked.end() ? tightest (described, earlier->second) : described;
+    checkStops (tightened (of.limits, limits), guardPlace (role), messages);
+    if (limits != described)
+        messages.push_back (Message::warning ("watch/guard", guardPlace (role),
+                                              "the graph now asks for a looser guard of the role '" + role + "', or for none, but the run keeps the strict one",
+                                              "restart the run to use the new ones"));
+    return limits;
+}
 
 /// Opens the device of a role. If the graph or a graph that it includes has a guard for this role, the guard applies even to a device
 /// that an option or a session has chosen.
 Run::RoleDevice Run::openOne (const std::string& role, const graph::Graph& graph, const std::vector<IncludedGuard>& guards, const Plan& plan,
-                              Messages& messages)
+                              std::map<std::string, GuardLimits>& asks, Messages& messages)
 {
     auto opened = open (role, graph, plan, messages);
     if (! opened.device) return opened;
 
     Messages found;
-    const auto where = "/devices/" + role + "/guard";
-    const auto layout = opened.device->layout();
-    const auto* description = graph.device (role);
-    if (description != nullptr && description->is_object() && description->contains ("guard"))
-        opened.limits = tightest (opened.limits, readGuard (description->at ("guard"), where, found, layout));
-    for (const auto& included : guards)
-    {
-        if (included.role != role) continue;
-        Messages of_file;
-        opened.limits = tightest (opened.limits, readGuard (included.guard, included.where, of_file, layout));
-        for (auto& m : of_file)
-        {
-            m.file = included.file;
-            found.push_back (std::move (m));
-        }
-    }
-    checkStops (opened.limits, where, found);
-    if (hasErrors (found)) opened = {};   // better no device than a device without its limits
+    const auto limits = asksFor (role, graph, guards, opened, found);
+    if (hasErrors (found))
+        opened = {};   // better no device than a device without its limits
+    else
+        asks[role] = limits;
+    opened.limits = tightened (opened.limits, limits);
     if (messages.size() >= most_messages && hasErrors (messages)) return opened;
     for (auto& m : found)
     {
@@ -137,7 +167,7 @@ void Run::openDevices (const graph::Graph& graph, Messages& messages)
     for (const auto& role : plan.roles())
     {
         if (! open || hasDevice (role.name)) continue;
-        auto opened = openOne (role.name, graph, guards, plan, messages);
+        auto opened = openOne (role.name, graph, guards, plan, asked, messages);
         if (! opened.device) continue;
         running->attach (role.name, *opened.device, opened.limits);
         by_role.emplace_back (role.name, std::move (opened));
@@ -242,11 +272,26 @@ Run::Edit::Edit (Run& r, const graph::Graph& g, std::vector<std::string> kept)
         compiled.messages.push_back (Message::warning ("watch/rate", "/rate_hz",
                                                        "the graph now asks for a different rate, but the run continues at " + numberText (r.rate()) + " Hz",
                                                        "restart the run to use " + numberText (g.rate_hz) + " Hz"));
+    if (compiled.plan) readGuards();
+}
+
+/// What the guards of the edited graph ask of the roles that have a device.
+void Run::Edit::readGuards()
+{
+    const auto guards = includedGuards (graph);
+    Messages found;
+    for (const auto& [role, d] : run->by_role)
+    {
+        if (std::ranges::find (compiled.plan->roles(), role, &Plan::RoleUse::name) == compiled.plan->roles().end()) continue;
+        asks[role] = run->asksFor (role, graph, guards, d, found);
+    }
+    if (hasErrors (found)) compiled.plan.reset();   // better the plan before than one without its limits
+    std::ranges::move (found, std::back_inserter (compiled.messages));
 }
 
 Run::Edit::Edit (Edit&& other) noexcept
     : run (std::exchange (other.run, nullptr)), graph (other.graph), withdrawn (std::move (other.withdrawn)), compiled (std::move (other.compiled)),
-      opened (std::move (other.opened))
+      opened (std::move (other.opened)), asks (std::move (other.asks))
 {
 }
 
@@ -263,7 +308,7 @@ void Run::Edit::openDevices()
     for (const auto& role : compiled.plan->roles())
     {
         if (! run->open || run->hasDevice (role.name)) continue;
-        auto made = run->openOne (role.name, graph, guards, *compiled.plan, compiled.messages);
+        auto made = run->openOne (role.name, graph, guards, *compiled.plan, asks, compiled.messages);
         if (made.device) opened.emplace_back (role.name, std::move (made));
     }
 }
@@ -278,8 +323,14 @@ void Run::Edit::commit (std::span<const Engine::Joining> others)
     std::vector<Engine::Joining> joining (others.begin(), others.end());
     for (const auto& [role, d] : opened)
         joining.push_back ({ role, *d.device, d.limits });
+    for (const auto& [role, limits] : asks)
+        r.running->tighten (role, limits);
+    for (auto& [role, d] : r.by_role)
+        if (const auto tighter = asks.find (role); tighter != asks.end()) d.limits = tightened (d.limits, tighter->second);
     r.running->submit (compiled.plan, joining);
     std::ranges::move (opened, std::back_inserter (r.by_role));
+    for (auto& [role, limits] : asks)
+        r.asked.insert_or_assign (role, limits);
 }
 
 //==============================================================================

@@ -13,6 +13,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -114,6 +115,13 @@ public:
     /// Call it after load().
     void keepRecords();
 
+    /// Tightens the guards of this run as if its graph asked for these limits, by role: those that graphs asked for in an earlier run which this
+    /// one continues. Call it before openDevices().
+    void keepLimits (std::map<std::string, GuardLimits> limits) { asked = std::move (limits); }
+
+    /// By role, the strictest limits that the graphs of this run have asked for so far.
+    const std::map<std::string, GuardLimits>& askedLimits() const noexcept { return asked; }
+
     /// Opens the device of every role that has none and hands it to the engine. Call it after load().
     void openDevices (const graph::Graph&, Messages&);
 
@@ -152,6 +160,10 @@ public:
 
     /// An edited graph on its way into the run: a plan compiled on top of the running one. Unless it is committed, the run
     /// continues unchanged. Only one edit may exist at a time.
+    ///
+    /// The guards that the graph and the graphs that it includes describe for the roles tighten the limits of their guards, from the first tick
+    /// of the plan. What they no longer ask for still applies until the next run, and a message says so (watch/guard). A guard that cannot be read
+    /// is an error, and there is no plan.
     class Edit
     {
     public:
@@ -168,18 +180,23 @@ public:
         /// are roles that the caller connects to its own devices.
         void commit (std::span<const Engine::Joining> others = {});
 
+        /// These limits by role take the place of those that the guards of the graph ask for. Call it before commit().
+        void tightenOnly (std::map<std::string, GuardLimits> limits) { asks = std::move (limits); }
+
         /// Discards the edit now rather than in the destructor.
         void drop();
 
     private:
         friend Run;
         Edit (Run&, const graph::Graph&, std::vector<std::string> kept);
+        void readGuards();
 
         Run* run;
         const graph::Graph& graph;
         std::shared_ptr<Plan> withdrawn;
         Compiled compiled;
         std::vector<std::pair<std::string, RoleDevice>> opened;
+        std::map<std::string, GuardLimits> asks;   // by role, what the guards of the graph ask for
     };
 
     /// Compiles an edited graph. The run keeps its rate: if the graph has a different one, a message reports it (watch/rate). For
@@ -226,7 +243,10 @@ private:
     Compiled compile (const graph::Graph&, const Plan* before, const Plan* withdrawn, std::vector<std::string> kept);
     bool isOptional (const std::string& port) const;
     bool hasDevice (const std::string& role) const;
-    RoleDevice openOne (const std::string& role, const graph::Graph&, const std::vector<IncludedGuard>&, const Plan&, Messages&);
+    RoleDevice openOne (const std::string& role, const graph::Graph&, const std::vector<IncludedGuard>&, const Plan&, std::map<std::string, GuardLimits>& asks,
+                        Messages&);
+    GuardLimits asksFor (const std::string& role, const graph::Graph&, const std::vector<IncludedGuard>&, const RoleDevice&, Messages&) const;
+    const RoleDevice* deviceOf (const std::string& role) const;
     void logNext (const std::shared_ptr<Plan>&, const graph::Graph&, const std::vector<std::pair<std::string, RoleDevice>>& joining);
 
     const Catalogue& catalogue;
@@ -234,6 +254,8 @@ private:
     AssetList assets;   // the assets from the options, with a list of the files read
     OpenDevice open;
     std::vector<RunListener*> listeners;
+
+    std::map<std::string, GuardLimits> asked;   // by role, the strictest of what the graphs of this run have asked for so far
 
     std::vector<std::pair<std::string, RoleDevice>> by_role;
     std::unique_ptr<QueryThread> queries;   // must precede the engine and the log, which hold nodes that use it

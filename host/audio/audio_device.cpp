@@ -29,8 +29,16 @@ void AudioDevice::write (const Effort& guarded) noexcept
     }
 }
 
-void AudioDevice::tighten (std::span<ChannelLimit> channels) const noexcept
+void AudioDevice::limitSignals (double max, double max_slew)
 {
+    max_signal = max;
+    max_signal_slew = max_slew;
+    tighten (limited);
+}
+
+void AudioDevice::tighten (std::span<ChannelLimit> channels) noexcept
+{
+    limited = channels;
     if (max_signal == GuardLimits::none) return;
     for (const auto& use : role.outputs)
         if (const auto at = static_cast<std::size_t> (use.channel - 1); at < channels.size())

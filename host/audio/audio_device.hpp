@@ -31,11 +31,7 @@ public:
     AudioDevice& operator= (const AudioDevice&) = delete;
 
     void prepare (double dt_s) override;
-    void limitSignals (double max, double max_slew) override
-    {
-        max_signal = max;
-        max_signal_slew = max_slew;
-    }
+    void limitSignals (double max, double max_slew) override;
     Reading read() noexcept override;
     void write (const Effort& guarded) noexcept override;
     DeviceLayout layout() const override
@@ -45,8 +41,9 @@ public:
 
     const AudioRole& uses() const noexcept { return role; }
 
-    /// Adds the limits of the role to those of the channels that its outputs drive. Call after limitSignals(). [main thread]
-    void tighten (std::span<ChannelLimit> channels) const noexcept;
+    /// Adds the limits of the role to those of the channels that its outputs drive, now and whenever they are tightened. Call after limitSignals().
+    /// The channels must outlive the device. [main thread]
+    void tighten (std::span<ChannelLimit> channels) noexcept;
 
     /// Stores the input samples of this tick, by channel. Call before read(). [tick thread]
     void hear (std::span<const float> channels) noexcept;
@@ -60,6 +57,7 @@ private:
     const std::function<void (const AudioDevice&)> on_end;
     std::vector<HighPass> filters;
     Channels heard, samples;
+    std::span<ChannelLimit> limited;   // the channels of the card, once it is chosen   [main thread]
     double max_signal = GuardLimits::none, max_signal_slew = GuardLimits::none;
 };
 

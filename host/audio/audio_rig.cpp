@@ -74,8 +74,9 @@ Messages AudioRig::begin (const Plan& plan, double tick_rate_hz, const Engine* e
 {
     tick_hz = tick_rate_hz;
     engine = e;
-    limits = {};
-    for (const auto* device : devices)
+    for (auto& limit : limits)
+        limit.clear();
+    for (auto* device : devices)
         device->tighten (limits);
     std::vector<int> per_tick;
     std::vector<Route> played;

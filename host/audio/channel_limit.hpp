@@ -2,10 +2,11 @@
 #pragma once
 
 #include <tactus/kit/vec3.hpp>
+#include <tactus/run/guard.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <limits>
 
 namespace tactus::host::audio
 {
@@ -16,32 +17,57 @@ namespace tactus::host::audio
 class ChannelLimit
 {
 public:
-    /// Adds the limits of a role: the largest sample value (1 is full scale), and how much it may change per s. [main thread, while no block is requested]
+    /// Adds the limits of a role: the largest sample value (1 is full scale), and how much it may change per s. While the card plays, what exceeds
+    /// them falls as in the guard (Guard::tighten). [main thread]
     void tighten (double most_sample, double slew_per_s) noexcept
     {
-        is_set = true;
-        most = std::min (most, notAbove (most_sample));
-        slew = std::min (slew, slew_per_s);
+        asked_slew.store (std::min (asked_slew.load (std::memory_order_relaxed), slew_per_s), std::memory_order_relaxed);
+        asked_most.store (std::min (asked_most.load (std::memory_order_relaxed), notAbove (most_sample)), std::memory_order_release);
     }
 
-    bool isSet() const noexcept { return is_set; }
+    bool isSet() const noexcept { return asked_most.load (std::memory_order_acquire) != GuardLimits::none; }   ///< [any thread]
 
-    /// The longest time that a channel can take to reach zero, in s.
-    double fall() const noexcept { return ! is_set || most == 0.0 ? 0.0 : most / slew; }
+    /// The longest time that a channel can take to reach zero, in s. [main thread]
+    double fall() const noexcept
+    {
+        const double largest = asked_most.load (std::memory_order_relaxed);
+        return ! isSet() || largest == 0.0 ? 0.0 : largest / asked_slew.load (std::memory_order_relaxed);
+    }
+
+    /// Forgets the limits. [main thread, while no block is requested]
+    void clear() noexcept
+    {
+        asked_most = asked_slew = GuardLimits::none;
+        restart();
+    }
 
     /// Call when a card starts, whose channels are silent. [main thread, while no block is requested]
-    void restart() noexcept { last = 0.0; }
+    void restart() noexcept
+    {
+        most = {};
+        last = 0.0;
+    }
 
     /// Limits samples from -1 to 1. A sample that is not a number counts as 0. `period_s`: the time for which the card plays a sample, in s.
     /// [audio thread]
     void operator() (float* samples, int frames, double period_s) noexcept
     {
-        if (! is_set) return;
-        const double step = slew == std::numeric_limits<double>::infinity() ? slew : slew * period_s;
+        const auto valid = [] (float s) { return std::isfinite (s) ? static_cast<double> (s) : 0.0; };
+        if (frames <= 0) return;
+        if (! isSet())
+        {
+            last = valid (samples[frames - 1]);
+            return;
+        }
+        if (const double asked = asked_most.load (std::memory_order_relaxed); asked < most.goal())
+            most.tighten (asked, std::abs (last), Guard::fade_s / std::max (period_s, 1e-6));
         for (int i = 0; i < frames; ++i)
         {
-            const double sample = static_cast<double> (samples[i]), wanted = isFinite (sample) ? std::clamp (sample, -most, most) : 0.0;
-            const double change = wanted - last;
+            if (most.isFalling())
+                most.advance (std::abs (last));
+            else
+                slew = asked_slew.load (std::memory_order_relaxed);
+            const double wanted = std::clamp (valid (samples[i]), -most.now(), most.now()), change = wanted - last, step = slew == GuardLimits::none ? slew : slew * period_s;
             last = std::abs (change) <= step ? wanted : last + std::copysign (step, change);
             samples[i] = static_cast<float> (last);
         }
@@ -56,9 +82,12 @@ private:
         return static_cast<double> (static_cast<double> (rounded) > within ? std::nextafter (rounded, 0.0f) : rounded);
     }
 
-    bool is_set = false;
-    double most = 1.0, slew = std::numeric_limits<double>::infinity();
-    double last = 0.0;   // not rounded to float: a step below the resolution of a float must still add up   [audio thread]
+    std::atomic<double> asked_most = GuardLimits::none, asked_slew = GuardLimits::none;
+
+    // [audio thread]
+    FallingLimit most;
+    double slew = GuardLimits::none;
+    double last = 0.0;   // not rounded to float: a step below the resolution of a float must still add up
 };
 
 }   // namespace tactus::host::audio

@@ -9,6 +9,7 @@
 #include <host/sessions/numbers_device.hpp>
 #include <tactus/graph/reconcile.hpp>
 #include <tactus/plan/missing_parts.hpp>
+#include <tactus/run/included_guards.hpp>
 #include <tactus/run/replay.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/number_text.hpp>
@@ -330,9 +331,9 @@ Messages CommandRun::notTakenOver (const graph::Graph& graph) const
     for (const auto& role : described_by_graph)
     {
         const auto *present = graph.device (role), *before = loaded.graph.device (role);
-        if (present != nullptr && (before == nullptr || *present != *before))
+        if (present != nullptr && (before == nullptr || withoutGuard (*present) != withoutGuard (*before)))
             messages.push_back (Message::warning ("watch/device", "/devices/" + role,
-                                                  "the device of the role '" + role + "' has a new description, but the run keeps the old device and its guard",
+                                                  "the device of the role '" + role + "' has a new description, but the run keeps the old device",
                                                   "restart the run to use the new description"));
     }
     return messages;

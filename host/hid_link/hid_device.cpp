@@ -214,18 +214,31 @@ void HidDevice::withhold() noexcept
         motor.tracker.forgetPeaks();
 }
 
-void HidDevice::limitSignals (double max, double /*max_slew*/) { max_signal = max; }
+void HidDevice::limitSignals (double max, double /*max_slew*/) { asked_max_signal.store (max, std::memory_order_relaxed); }
+
+/// The limit of each amplitude on this tick. If it was tightened, it falls from the largest amplitude of the last tick, as in the guard.
+double HidDevice::limitOfVibration() noexcept
+{
+    double level = 0.0;
+    for (const auto& motor : motors)
+        if (motor.amplitude >= 0) level = std::max (level, std::abs (driven[static_cast<std::size_t> (motor.amplitude)]));
+    if (const double asked = asked_max_signal.load (std::memory_order_relaxed); asked < max_signal.goal())
+        max_signal.tighten (asked, level, Guard::fade_s / dt);
+    if (max_signal.isFalling()) max_signal.advance (level);
+    return max_signal.now();
+}
 
 /// Adds the vibrations to the efforts of their motors. An effort may drive the same motor, so the sum is limited.
 void HidDevice::vibrate (const Channels& signals, HidEffort& effort) noexcept
 {
+    const auto most = limitOfVibration();
     for (auto& [amplitude, frequency, channel, hold, tracker] : motors)
     {
         tracker.tick (signals[channel]);
         if (amplitude >= 0)
         {
             auto& sum = effort.efforts[static_cast<std::size_t> (amplitude)];
-            sum = std::clamp (sum + tracker.amplitude(), -max_signal, max_signal);
+            sum = std::clamp (sum + tracker.amplitude(), -most, most);
         }
         if (frequency >= 0 && tracker.frequency() > 0.0) effort.efforts[static_cast<std::size_t> (frequency)] = tracker.frequency();
     }

@@ -9,8 +9,10 @@
 #include <host/hid/report_record.hpp>
 #include <tactus/kit/snapshot.hpp>
 #include <tactus/node/device.hpp>
+#include <tactus/run/falling_limit.hpp>
 
 #include <array>
+#include <atomic>
 #include <bitset>
 #include <cstdint>
 #include <memory>
@@ -87,6 +89,7 @@ private:
     ReadingFault fault (bool is_connected) const noexcept;
     double age (bool is_fresh) const noexcept;
     void publish() noexcept;
+    double limitOfVibration() noexcept;
     void vibrate (const Channels& signals, HidEffort&) noexcept;
 
     /// An output report that carries samples.
@@ -134,7 +137,8 @@ private:
 
     std::vector<Streamed> streams;
     std::vector<VibrationMotor> motors;
-    double max_signal = GuardLimits::none;   // of each amplitude
+    std::atomic<double> asked_max_signal = GuardLimits::none;   // of each amplitude   [main thread writes, tick thread reads]
+    FallingLimit max_signal;
     EffortValues driven {};
 
     Snapshot<ReadingCounts> published;

@@ -49,8 +49,10 @@ void AwaitedDevice::withhold() noexcept
 
 void AwaitedDevice::limitSignals (double max, double max_slew)
 {
+    const std::lock_guard lock (mutex);
     max_signal = max;
     max_signal_slew = max_slew;
+    if (auto* d = device()) d->limitSignals (max, max_slew);
 }
 
 DeviceLayout AwaitedDevice::layout() const { return hid::layoutOf (hid::HidModel (wanted)); }
@@ -77,9 +79,10 @@ void AwaitedDevice::look()
     auto made = hid::openDevice (description, {}, system, { .profiles = { wanted }, .messages = {} });
     if (auto* d = dynamic_cast<hid::HidDevice*> (made.device.get()))
     {
-        d->limitSignals (max_signal, max_signal_slew);
         d->prepare (dt);
         opened = std::move (made.device);
+        const std::lock_guard lock (mutex);
+        d->limitSignals (max_signal, max_signal_slew);
         there.store (d, std::memory_order_release);
         return;
     }

@@ -52,11 +52,11 @@ private:
     hid::HidSystem& system;
     const std::chrono::milliseconds pause;
     double dt = 1e-3;
-    double max_signal = GuardLimits::none, max_signal_slew = GuardLimits::none;
 
     double age = 0.0;   // time spent waiting for the device to open, without a reading, in s   [tick thread]
 
-    mutable std::mutex mutex;   // protects `last_trouble` and `stopping`
+    mutable std::mutex mutex;   // protects the limits, `last_trouble` and `stopping`
+    double max_signal = GuardLimits::none, max_signal_slew = GuardLimits::none;
     std::condition_variable stopped;
     bool stopping = false;
     std::string last_trouble;

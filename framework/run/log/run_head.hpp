@@ -14,7 +14,7 @@ namespace tactus
 
 inline constexpr std::string_view run_format = "tactus-run";
 /// Version 1 had no axes, signals, device layouts or emergency stops; 2 had no hits; 3 had no faults of readings and no lost time; 5 logged
-/// only the time of missing ticks, as `lost`.
+/// only the time of missing ticks, as `lost`, and its edits did not tighten guards.
 inline constexpr int run_version = 6;
 
 /// The fixed properties of a run, stored in the first line of its log.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "run_journal.hpp"
 #include "reading_fields.hpp"
+#include "run_head.hpp"
 
 #include <bit>
 #include <utility>
@@ -27,6 +28,14 @@ void RunJournal::tookOver (const Plan& plan) noexcept
 {
     put (Kind::took);
     ring.put (plan.serial());
+}
+
+void RunJournal::tightened (std::size_t role, const GuardLimits& limits) noexcept
+{
+    put (Kind::tightened, role);
+    for (const auto& field : guard_fields)
+        put (limits.*field.value);
+    ring.put (limits.dead_man_buttons);
 }
 
 void RunJournal::turned (std::size_t instance, std::size_t knob, double target) noexcept

@@ -31,6 +31,7 @@ public:
         resumed,     ///< 0
         emergency,   ///< 0
         rearmed,     ///< 0
+        tightened,   ///< number of the role; the limits: guard_fields, then dead_man_buttons
         ticked       ///< number of roles; number of feeds, the readings, the feeds. A reading: its numbers, the number of axes and
                      ///< (from bit 8) of signals, and their values
     };
@@ -38,6 +39,7 @@ public:
     explicit RunJournal (std::size_t words) : ring (words) {}
 
     void tookOver (const Plan&) noexcept override;
+    void tightened (std::size_t role, const GuardLimits&) noexcept override;
     void turned (std::size_t instance, std::size_t knob, double target) noexcept override;
     void outdone (std::size_t instance, std::size_t knob) noexcept override;
     void struck (std::size_t instance, std::size_t input, double speed) noexcept override;

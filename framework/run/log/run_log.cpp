@@ -182,6 +182,9 @@ void RunLog::take()
     case RunJournal::Kind::rearmed:
         add ("rearm", "true");
         break;
+    case RunJournal::Kind::tightened:
+        takeTightened (of);
+        break;
     case RunJournal::Kind::ticked:
         takeTick (of, static_cast<std::size_t> (words.pop()));
     }
@@ -208,6 +211,18 @@ void RunLog::takeOver (std::uint64_t serial)
     if (const auto has = toJson (devices); ! has.empty()) add ("devices", textOf (has));
 }
 
+/// The replay needs the plan with which the limits took effect, even if its graph is that of the plan before: an edit that was undone
+/// before it ran may have tightened them.
+void RunLog::takeTightened (std::size_t role)
+{
+    auto& words = taken.words();
+    auto& limits = tightened[expected.front().plan->roles()[role].name];
+    for (const auto& field : guard_fields)
+        limits.*field.value = std::bit_cast<double> (words.pop());
+    limits.dead_man_buttons = words.pop();
+    if (line.find (R"("graph":)") == std::string::npos) add ("graph", graph);
+}
+
 LoggedReading RunLog::takeReading()
 {
     auto& words = taken.words();
@@ -227,6 +242,8 @@ void RunLog::takeTick (std::size_t roles, std::size_t feeds)
     auto& words = taken.words();
     const auto number = [&] { return std::bit_cast<double> (words.pop()); };
 
+    if (! tightened.empty()) add ("tightened", textOf (toJson (tightened)));
+    tightened.clear();
     if (! kept.empty()) add ("kept", "[" + kept + "]");
     if (! turns.empty()) add ("turn", "{" + turns + "}");
     if (! hits.empty()) add ("hit", "{" + hits + "}");

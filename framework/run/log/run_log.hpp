@@ -63,13 +63,14 @@ private:
     void takeOver (std::uint64_t serial);
     void takeTick (std::size_t roles, std::size_t feeds);
     LoggedReading takeReading();
+    void takeTightened (std::size_t role);
     void add (std::string_view key, std::string_view value);
     void endLine();
-    Result<> written();
+    static Result<> written (bool good, const std::filesystem::path&);
 
     std::filesystem::path path, place;
-    std::ofstream out;
-    std::uintmax_t whole = 0;   // bytes known to be in the file, up to the end of a line
+    std::unique_ptr<std::ostream> out;   // null once the log is closed
+    std::uintmax_t whole = 0;            // bytes known to be in the file, up to the end of a line
     RunJournal taken;
 
     std::deque<Expected> expected;               // the running plan, and submitted plans that may replace it
@@ -82,6 +83,7 @@ private:
 
     // Parts of the line for this tick.
     std::string line;
+    std::map<std::string, GuardLimits> tightened;
     std::string turns, kept, hits;
     std::string late;
 };

@@ -269,6 +269,7 @@ Result<RunTick> RunLogReader::readTick (const std::string& text)
         { "graph", JsonKind::object, [&] (Json& v, const std::string&) { tick.graph = std::move (v); } },
         { "guards", JsonKind::object, [&] (Json& v, const std::string& where) { line.guards (v, where, tick.guards); } },
         { "devices", JsonKind::object, [&] (Json& v, const std::string& where) { line.devices (v, where, tick.devices); } },
+        { "tightened", JsonKind::object, [&] (Json& v, const std::string& where) { line.guards (v, where, tick.tightened); } },
         { "kept", JsonKind::list, [&] (Json& v, const std::string& where) { line.texts (v, where, tick.kept); } },
         { "turn", JsonKind::object, [&] (Json& v, const std::string& where) {
              for (const auto& [param, target] : v.items())

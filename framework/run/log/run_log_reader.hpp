@@ -35,6 +35,7 @@ struct RunTick
     int line = 0;                                           ///< line number in the log, from 1
     std::optional<Json> graph {};                           ///< snapshot of the graph that takes over
     std::map<std::string, GuardLimits> guards {};           ///< guards of the new roles in the graph
+    std::map<std::string, GuardLimits> tightened {};        ///< what the guards of other roles are tightened to, with the graph
     std::map<std::string, DeviceLayout> devices {};         ///< devices of the new roles, only those with more than a tool
     std::vector<std::string> kept {};                       ///< parameters that keep the values they were turned to, instead of the values in the graph
     std::vector<std::pair<std::string, double>> turns {};   ///< targets by parameter

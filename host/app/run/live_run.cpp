@@ -9,6 +9,7 @@
 #include <host/sessions/binding.hpp>
 #include <tactus/check/factors.hpp>
 #include <tactus/plan/missing_parts.hpp>
+#include <tactus/run/included_guards.hpp>
 #include <tactus/run/turn.hpp>
 #include <tactus/text/message.hpp>
 
@@ -22,6 +23,13 @@ namespace tactus::host
 namespace
 {
 constexpr int looks_apart = 3;   // every third call to attend() checks the devices: ten times a second
+
+std::vector<std::pair<std::string, Json>> withoutGuards (std::vector<std::pair<std::string, Json>> devices)
+{
+    for (auto& [role, description] : devices)
+        description = withoutGuard (std::move (description));
+    return devices;
+}
 
 Message stopped() { return Message::error ("run/stopped", {}, "nothing is running in the window", "press START in the window"); }
 }   // namespace
@@ -64,10 +72,13 @@ void LiveRun::start (Hand who)
     restart (false);
 }
 
-/// Restarts the run, for changes that cannot be applied while it runs. A latched stop stays latched unless the user starts the run.
-void LiveRun::restart (bool stays_stopped)
+/// Restarts the run, for changes that cannot be applied while it runs. Unless the user starts the run, a latched stop stays latched, and the
+/// graph's guards do not become looser.
+void LiveRun::restart (bool by_edit)
 {
-    held = stays_stopped && (held || isStoppedForGood());
+    held = by_edit && (held || isStoppedForGood());
+    if (! by_edit) kept_limits.clear();
+    if (by_edit && run) kept_limits = run->askedLimits();
     stop();
     begins = wanted = true;
     if (! isRunning()) begin();
@@ -159,7 +170,7 @@ void LiveRun::begin()
     end();
     begins = false;
     const auto& graph = document.graph();
-    run_devices = graph.devices;
+    run_devices = withoutGuards (graph.devices);
     if (setup != nullptr) run_session = setup->session().session;
     graph_rate_hz = graph.rate_hz;
     Messages of_sound;
@@ -189,6 +200,7 @@ void LiveRun::begin()
 
     note (run->engine().newest());
     probes.clear();
+    run->keepLimits (kept_limits);
     run->openDevices (graph, said);
     beginLog();
     if (stop_switch != nullptr) obeyed = stop_switch->noticed();
@@ -227,7 +239,7 @@ void LiveRun::end()
 void LiveRun::documentChanged()
 {
     const auto& graph = document.graph();
-    const bool is_same_run = isLive() && graph.rate_hz == graph_rate_hz && graph.devices == run_devices;
+    const bool is_same_run = isLive() && graph.rate_hz == graph_rate_hz && withoutGuards (graph.devices) == run_devices;
     if (is_same_run) return takeOver();
     auto checked = makeRun (Run::Queries::within_tick)->check (graph);   // reports problems now: the previous run may take a moment to end
     said = std::move (checked.messages);
@@ -262,6 +274,7 @@ void LiveRun::takeOver()
     note (*edit.plan());
     edit.openDevices();
     edit.commit();
+    if (rig->limitsFirst (Sound::channels)) mutes_sound = true;
     said = std::move (edit.messages());
     std::ranges::move (missingParts (run->engine().newest()), std::back_inserter (said));
 }

@@ -25,8 +25,10 @@
 #include <tactus/run/runner.hpp>
 #include <tactus/run/taps.hpp>
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <variant>
@@ -197,7 +199,7 @@ private:
     void after (const Plan&, std::uint64_t tick, bool halts) noexcept override;
 
     bool isLive() const noexcept { return run && run->isLive(); }
-    void restart (bool stays_stopped);
+    void restart (bool by_edit);
     void begin();
     void end();
     std::unique_ptr<Run> makeRun (Run::Queries);
@@ -230,7 +232,8 @@ private:
     FilmTape film_tape;
     PortFeed port_feed;
     Sound* sound;
-    bool mutes_sound = false;   // a role of this run limits a channel that the sound may share
+    std::atomic<bool> mutes_sound = false;               // a role of this run limits a channel that the sound may share
+    std::map<std::string, GuardLimits> kept_limits {};   // by role, what the graphs have asked for since the user started
     Hand moved_by;
     std::chrono::steady_clock::time_point stopped_at = std::chrono::steady_clock::time_point::min();
     bool held = false;   // an emergency stop or another latched stop holds the forces at zero until rearm()
