@@ -25,6 +25,13 @@ HidModel::HidModel (std::shared_ptr<const Profile> p)
         own.push_back (i);
         own_names.push_back (effortNames()[i]);
     }
+    for (const auto& report : description->outputs)
+    {
+        auto& efforts = pushing.emplace_back();
+        for (const auto& field : report.fields)
+            if (field.source == OutputField::Source::effort && std::ranges::count (description->signals, field.name, &SignalEffort::frequency) == 0)
+                efforts.push_back (static_cast<std::size_t> (encoder.effort (field.name)));
+    }
     pressure = decoder.axis (description->pressure);
     valid = decoder.axis (description->valid);
     for (const auto& alarm : description->alarms)
@@ -168,6 +175,11 @@ std::span<const std::uint8_t> HidModel::encode (std::size_t report, const HidEff
     auto values = asked (effort);
     limiter.shrink (values);
     return encodeValues (report, values, samples);
+}
+
+bool HidModel::rests (std::size_t report, const EffortValues& values) const noexcept
+{
+    return std::ranges::all_of (pushing[report], [&] (std::size_t i) { return values[i] == restEfforts()[i]; });
 }
 
 std::span<const std::uint8_t> HidModel::neutral (std::size_t report) noexcept { return encoder.neutral (report); }

@@ -87,6 +87,10 @@ public:
     /// The same for a single effort, without the limit on the change of the motors.
     std::span<const std::uint8_t> encode (std::size_t report, const HidEffort&, std::span<const float> samples = {}) noexcept;
 
+    /// True if nothing in the n-th output report pushes or shakes: all its efforts, except the frequencies of signals, have the values
+    /// of the neutral report. The samples of a stream are not considered. [tick thread]
+    bool rests (std::size_t report, const EffortValues&) const noexcept;
+
     /// The report that makes the device do nothing, with the counters and the checksum that it requires.
     std::span<const std::uint8_t> neutral (std::size_t report) noexcept;
 
@@ -140,7 +144,8 @@ private:
     std::array<int, 3> position {}, rotation {}, force {}, torque {};   // indices of axes and efforts; -1: none
     std::vector<std::size_t> own;                                       // indices of the efforts in ownEffortNames()
     std::vector<std::string> own_names;
-    std::vector<int> alarms;   // axes of the alarms in the profile
+    std::vector<std::vector<std::size_t>> pushing;   // by report, the indices of the efforts that push or shake
+    std::vector<int> alarms;                         // axes of the alarms in the profile
     int pressure = -1, valid = -1;
 };
 

@@ -265,11 +265,13 @@ void HidDevice::write (const Effort& guarded) noexcept
     unrendered_force = guarded.force - values.renderedForce();
     unrendered_torque = guarded.torque - values.renderedTorque();
     for (std::size_t i = 0; i < values.outputs(); ++i)
-        if (values.channelNames (i).empty()) link->offer (i, has_to_rest ? values.neutral (i) : values.encodeValues (i, driven), episode, latest);
+        if (values.channelNames (i).empty())
+            link->offer (i, has_to_rest ? values.neutral (i) : values.encodeValues (i, driven), episode, latest, has_to_rest || values.rests (i, driven));
     for (auto& [report, feed] : streams)
         feed.tick (guarded.signals, [&, i = report] (std::span<const float> samples) {
             const auto& bytes = has_to_rest ? values.neutral (i) : values.encodeValues (i, driven, samples);
-            link->offer (i, bytes, episode, latest);
+            const bool is_silent = values.rests (i, driven) && std::ranges::all_of (samples, [] (float s) { return s == 0.0f; });
+            link->offer (i, bytes, episode, latest, has_to_rest || is_silent);
         });
     link->sendNow();
 }

@@ -220,7 +220,8 @@ PortCounts HidPort::counts() const noexcept
 //==============================================================================
 // The tick thread
 
-void HidPort::offer (std::size_t report, std::span<const std::uint8_t> bytes, std::uint64_t of_episode, Nanoseconds answers) noexcept
+void HidPort::offer (std::size_t report, std::span<const std::uint8_t> bytes, std::uint64_t of_episode, Nanoseconds answers,
+                     bool rests) noexcept
 {
     if (report >= outputs.size()) return;
     auto& o = outputs[report]->draft;
@@ -229,6 +230,7 @@ void HidPort::offer (std::size_t report, std::span<const std::uint8_t> bytes, st
     o.episode = of_episode;
     o.size = bytes.size();
     o.answers = answers;
+    o.rests = rests ? 1 : 0;
     std::ranges::copy (bytes, o.bytes.begin());
     constexpr std::size_t word = sizeof (std::uint64_t);
     outputs[report]->offered.store (o, offsetof (Offer, bytes) + (bytes.size() + word - 1) / word * word);
@@ -300,21 +302,24 @@ void HidPort::attend (Transport& t, Output& o, std::size_t report, Clock::time_p
     const auto bytes = std::span (latest.bytes).first (latest.size);
     const bool changed = how.keepalive == 0.0 ? is_new : ! std::ranges::equal (bytes, o.latest);
     const bool kept_alive = how.keepalive > 0.0 && now - o.sent >= toDuration (how.keepalive);
-    if (! changed && ! kept_alive)
+    const bool stops = latest.rests != 0 && o.pushes;
+    if (! changed && ! kept_alive && ! stops)
     {
         o.seen = latest.number;
         return;
     }
-    if (o.credit < 1.0 || ! t.beat (true)) return;
+    if ((o.credit < 1.0 && ! stops) || ! t.beat (true)) return;
 
     // Offers in between were never sent, so they count as dropped. With a keepalive, an unchanged offer is neither sent nor counted.
     if (is_new && how.keepalive == 0.0) dropped.fetch_add (latest.number - o.seen - 1, std::memory_order_relaxed);
     o.seen = latest.number;
-    o.credit -= 1.0;
+    o.credit = std::max (0.0, o.credit - 1.0);
     o.sent = now;
     o.latest.assign (bytes.begin(), bytes.end());
     driven = true;
-    if (send (t, report, bytes) && is_new) count (latest.answers, Clock::now());
+    const auto is_sent = static_cast<bool> (send (t, report, bytes));
+    if (is_sent || latest.rests == 0) o.pushes = latest.rests == 0;   // a report that could not be sent may have arrived
+    if (is_sent && is_new) count (latest.answers, Clock::now());
 }
 
 void HidPort::count (Nanoseconds answers, Clock::time_point sent_at) noexcept
@@ -349,7 +354,7 @@ void HidPort::quieten (Transport& t)
     {
         const auto bytes = quiet.neutral (i);
         outputs[i]->latest.assign (bytes.begin(), bytes.end());
-        static_cast<void> (send (t, i, bytes));   // counts and records its own failures
+        if (send (t, i, bytes)) outputs[i]->pushes = false;   // counts and records its own failures
     }
     driven = false;
     t.beat (driven);

@@ -114,8 +114,9 @@ public:
     }
 
     /// Replaces the content of an output report. `answers` is the arrival time of the report that this one answers; 0 if
-    /// it answers none.
-    void offer (std::size_t report, std::span<const std::uint8_t> bytes, std::uint64_t episode, Nanoseconds answers) noexcept;
+    /// it answers none. A report that `rests` asks for no effort: if the last one sent did, it is sent at once, whatever the rate
+    /// and the keepalive of the profile, so a stop is never later than its promise.
+    void offer (std::size_t report, std::span<const std::uint8_t> bytes, std::uint64_t episode, Nanoseconds answers, bool rests) noexcept;
 
     /// Wakes the writing thread, which sends what was offered. Without this call, sending may be delayed by half a report period.
     void sendNow() noexcept { something.ring(); }
@@ -159,6 +160,7 @@ private:
     {
         std::uint64_t number = 0, episode = 0, size = 0;
         Nanoseconds answers = 0;
+        std::uint64_t rests = 0;   // 1 if the report asks for no effort
         std::array<std::uint8_t, longest_report + 8> bytes {};
     };
 
@@ -177,6 +179,7 @@ private:
         Clock::time_point earned;           // the time up to which credit has been earned
         Clock::time_point sent;             // when the last report was sent
         std::vector<std::uint8_t> latest;   // the content of the last report
+        bool pushes = false;                // the last report may have left an effort on the device
     };
 
     using Opened = std::shared_ptr<Transport>;

@@ -370,6 +370,51 @@ TEST_CASE ("reports are sent no faster than the maximum rate, and repeated while
     CHECK (board.until ([&] { return driven (board) >= busy + 2; }));
 }
 
+TEST_CASE ("a report that brings the device to rest waits neither for the maximum rate nor for the keepalive", "[hid]")
+{
+    const double keepalive = GENERATE (0.0, 3600.0);
+    FakeBoard board;
+    const auto device = openBoard (board, { .max_rate = 0.01, .keepalive = keepalive, .watchdog = 3600.0 });   // one report in 100 s
+    tell (board, *device, boardReport (1));
+    device->write ({});
+    REQUIRE (board.until ([&] { return driven (board) == 1; }));
+    for (std::size_t sent = 2; sent <= 5; ++sent)   // more than may be sent in a row
+    {
+        device->read();
+        device->write ({ { 0.1 * static_cast<double> (sent), 0.0, 0.0 }, Vec3::Zero() });
+        if (sent <= 4) REQUIRE (board.until ([&] { return driven (board) == sent; }));
+    }
+    REQUIRE (board.told().back().force (0) == 400'000);
+
+    device->read();
+    device->write ({});
+    CHECK (board.until ([&] { return board.told().back().force (0) == 0; }));   // gives up after 10 s
+    const auto sent = driven (board);
+    for (int i = 0; i < 20; ++i)   // it rests, so the rate counts again
+        device->write ({ { i % 2 == 0 ? 0.0 : 0.5, 0.0, 0.0 }, Vec3::Zero() });
+    device->write ({});
+    std::this_thread::sleep_for (5ms);
+    CHECK (driven (board) == sent);
+
+    // After STOP, the guard's fade ends with such a report, too. A report that could not be sent is sent again.
+    FakeBoard other;
+    const auto stopped = openBoard (other, { .max_rate = 0.01, .keepalive = keepalive, .watchdog = 3600.0 });
+    Driven run { *stopped, { .ramp = 0.0 } };
+    tell (other, *stopped, boardReport (1));
+    run.tick (0.0);
+    REQUIRE (other.until ([&] { return driven (other) == 1; }));
+    run.tick();
+    REQUIRE (other.until ([&] { return other.told().back().force (0) == 1'000'000; }));
+    other.failWrites (true);
+    run.guard.emergencyStop();
+    for (int i = 0; i < 10; ++i)
+        run.tick();
+    CHECK (run.guard.isAtRest());
+    REQUIRE (other.until ([&] { return stopped->port().counts().write_errors > 10; }));
+    other.failWrites (false);
+    CHECK (other.until ([&] { return other.told().back().force (0) == 0; }));
+}
+
 TEST_CASE ("an effort is sent as soon as it is written, whichever clock drives the run", "[hid]")
 {
     FakeBoard board;
