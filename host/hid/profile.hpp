@@ -6,6 +6,7 @@
 #include <tactus/run/guard.hpp>
 #include <tactus/text/message.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -43,6 +44,8 @@ struct MatchRule
     std::optional<int> interface_number;
     std::optional<Bus> bus;
     std::string product;   ///< a part of the device's product name
+
+    bool operator== (const MatchRule&) const = default;
 };
 
 /// The place of a number within a report.
@@ -68,6 +71,8 @@ struct Answer
         Bits bits;
         std::uint32_t raw = 1;
         Message means {};   ///< `where` is empty
+
+        bool operator== (const Mark& other) const { return bits == other.bits && raw == other.raw && describe (means) == describe (other.means); }
     };
 
     std::optional<std::uint8_t> id;        ///< report id
@@ -75,6 +80,8 @@ struct Answer
     std::optional<Mark> success;           ///< a value without which the answer is ignored; empty: not needed
     std::vector<Mark> refusals;            ///< values that mean a refusal: asking again is pointless
     double patience = 0.5, pause = 0.01;   ///< how long to keep asking, and the pause between requests, in s
+
+    bool operator== (const Answer&) const = default;
 };
 
 /// One init or exit step of a device.
@@ -93,6 +100,8 @@ struct Step
     std::string about {};              ///< its purpose, as in "the report that creates an effect"; may be empty
     std::optional<Answer> answer {};   ///< expected answer to a get_feature; empty: any answer. Its number is inserted at `given` of later reports
     std::optional<Bits> given {};
+
+    bool operator== (const Step&) const = default;
 };
 
 /// An input value: value = raw scale + offset.
@@ -108,6 +117,8 @@ struct InputField
     bool is_hat = false;                ///< true if the value is 0 (up) … 7 (up and left), clockwise; the buttons are up, right, down, left
 
     bool isAxis() const noexcept { return buttons.empty() && ! expect; }
+
+    bool operator== (const InputField&) const = default;
 };
 
 struct InputReport
@@ -120,6 +131,8 @@ struct InputReport
     std::string sequence;    ///< the field that counts reports; may be empty
     bool verified = false;   ///< true if checked against a report from a real device
     std::string why_not;     ///< why it was not verified, if it was not
+
+    bool operator== (const InputReport&) const = default;
 };
 
 /// raw = round (value/scale - offset/scale), after the value has passed through a law.
@@ -157,6 +170,8 @@ struct OutputField
     double min = -std::numeric_limits<double>::infinity();   ///< lower limit of the value; the bits limit it too
     double max = std::numeric_limits<double>::infinity();
     std::string unit = "1";
+
+    bool operator== (const OutputField&) const = default;
 };
 
 /// True for the unit of an effort that pushes. Other units, such as Hz, are those of sounds and settings.
@@ -190,6 +205,8 @@ struct Stream
     std::vector<std::string> channels;
     bool is_signed = true;
     int bits = 8;   ///< 8 or 16, little-endian; full scale is 1
+
+    bool operator== (const Stream&) const = default;
 };
 
 struct OutputReport
@@ -208,6 +225,8 @@ struct OutputReport
     double keepalive = 0.0;     ///< time after which an unchanged report is sent again, in s; 0: sent on each tick
     bool verified = false;
     std::string why_not;
+
+    bool operator== (const OutputReport&) const = default;
 };
 
 /// A device whose position and force need no conversion.
@@ -221,6 +240,8 @@ struct SignalEffort
 {
     std::string amplitude;   ///< the effort that is set to the signal's amplitude
     std::string frequency;   ///< the effort that is set to its frequency in Hz; empty: the motor has a fixed frequency
+
+    bool operator== (const SignalEffort&) const = default;
 };
 
 /// A linear map: p = M q + p0; effort = transpose (M) F.
@@ -276,6 +297,8 @@ struct Alarm
     std::optional<std::uint32_t> is;             ///< the raw value that means the alarm; empty: any but 0
     ReadingFault means = ReadingFault::failed;   ///< one that isAlarm
     double while_driven = 0.0;                   ///< counts only after the motors have been driven for this long, in s
+
+    bool operator== (const Alarm&) const = default;
 };
 
 /// Limits and properties of the device; infinity or 0 if unknown.
@@ -292,6 +315,8 @@ struct Limits
     double position_quantum = 0.0;               ///< m
     double force_quantum = 0.0;                  ///< N
     double device_watchdog = 0.0;                ///< time after which the device itself switches its force off, in s; 0: never
+
+    bool operator== (const Limits&) const = default;
 };
 
 /// A report and its values, for testing a profile without the device.
@@ -305,6 +330,8 @@ struct GoldenSample
     std::string output;                                   ///< name of an output report; `values` are then the requested efforts, force.x …, torque.x …
     std::vector<float> samples;                           ///< samples of the output report's stream, interleaved
     Bytes expected;                                       ///< the bytes that must be sent
+
+    bool operator== (const GoldenSample&) const = default;
 };
 
 struct Profile
@@ -331,6 +358,11 @@ struct Profile
     std::vector<std::string> quirks;
     std::vector<std::string> sources;
     std::vector<GoldenSample> samples;
+
+    bool operator== (const Profile&) const = default;
 };
+
+/// True for a device that sends only when something changes (quirk "only_changes").
+inline bool sendsOnlyChanges (const Profile& p) { return std::ranges::count (p.quirks, "only_changes") > 0; }
 
 }   // namespace tactus::host::hid

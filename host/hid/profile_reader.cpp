@@ -205,6 +205,8 @@ Profile read (ProfileFields& in)
     if (in.whole ("version", 1, 1000, 1) != 1)
         in.error ("version", "profile/format", "the version of the profile's format is newer than 1", "update Tactus, or write \"version\": 1");
     p.id = in.name ("id");
+    if (p.id == "auto" || p.id == "pid")
+        in.error ("id", "profile/name", quote (p.id) + " does not name a profile: hid:" + p.id + " means any device that fits", "give the profile another id");
     in.require ("name", "write \"name\": the usual name of the device");
     p.name = in.text ("name");
     p.about = in.text ("about");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "profile_library.hpp"
-#include <host/hid/drive_difference.hpp>
+#include <host/hid/profile_difference.hpp>
 #include <host/platform/device_file.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -41,20 +41,22 @@ bool canFitOneDevice (const Profile& a, const Profile& b)
     });
 }
 
-/// An error if the user's profile drives a device differently from the shipped one for it, whose limits then mean
-/// nothing. If several shipped profiles fit that device, one of them must drive it in the same way, or be replaced.
-std::optional<Message> otherDrive (const std::vector<std::shared_ptr<const Profile>>& shipped, const Profile& own)
+/// An error if the user's profile differs from the shipped one for a device, whose limits then mean nothing. If several shipped profiles fit
+/// that device, one of them must be the same, or be replaced.
+std::optional<Message> competition (const std::vector<std::shared_ptr<const Profile>>& shipped, const Profile& own)
 {
     for (const auto& one : shipped)
     {
         const auto allows = [&] (const auto& other) {
-            return canFitOneDevice (own, *other) && canFitOneDevice (*one, *other) && (other->id == own.replaces || driveDifference (own, *other).empty());
+            return canFitOneDevice (own, *other) && canFitOneDevice (*one, *other) && (other->id == own.replaces || differenceOf (own, *other).empty());
         };
         if (! canFitOneDevice (own, *one) || std::ranges::any_of (shipped, allows)) continue;
         return Message::error ("profile/competes", "/match",
-                               "the profile fits the same devices as the shipped " + quote (one->id) + " but drives them differently ("
-                                   + driveDifference (own, *one) + "), so it is not used",
-                               "fit other devices; or, to use it instead of the shipped one and its limits, add \"replaces\": \"" + one->id + '"');
+                               "the profile fits the same devices as the shipped " + quote (one->id) + " but differs from it in " + differenceOf (own, *one)
+                                   + ", so it is not used",
+                               "change only names, texts and limits; or fit other devices; or, to use it instead of the shipped one and its limits, add "
+                               "\"replaces\": \""
+                                   + one->id + '"');
     }
     return {};
 }
@@ -67,10 +69,7 @@ std::shared_ptr<const Profile> limitedBy (const std::vector<std::shared_ptr<cons
     for (const auto& other : shipped)
     {
         if (other->id == own->replaces || ! canFitOneDevice (*own, *other)) continue;
-        limited.limits.guard = tightest (limited.limits.guard, other->limits.guard);
-        limited.limits.max_motor = std::min (limited.limits.max_motor, other->limits.max_motor);
-        limited.limits.max_motor_slew = std::min (limited.limits.max_motor_slew, other->limits.max_motor_slew);
-        limited.limits.still_travel = std::min (limited.limits.still_travel, other->limits.still_travel);
+        limited.limits = tightest (limited.limits, other->limits);
         others += (others.empty() ? "" : ", ") + quote (other->id);
     }
     return others.empty() ? own : std::make_shared<const Profile> (std::move (limited));
@@ -111,7 +110,7 @@ LoadedProfiles joined (LoadedProfiles own, LoadedProfiles shipped)
                                   "give it another id; or, to use it instead of the shipped one and its limits, add \"replaces\": \"" + profile->id + '"'));
             continue;
         }
-        if (auto error = otherDrive (shipped.profiles, *profile))
+        if (auto error = competition (shipped.profiles, *profile))
         {
             note (std::move (*error));
             continue;

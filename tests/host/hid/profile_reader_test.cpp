@@ -86,6 +86,8 @@ TEST_CASE ("every error in a profile is reported with its position")
         { "/format", "tactus-graph", "profile/format" },
         { "/version", 2, "profile/format" },
         { "/id", "Thing", "profile/name" },
+        { "/id", "auto", "profile/name" },   // hid:auto and hid:pid mean any device that fits
+        { "/id", "pid", "profile/name" },
         { "/name", null, "profile/missing" },
         { "/sources", null, "profile/missing" },
         { "/colour", "red", "profile/unknown_key" },

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/hid/profile_difference.hpp>
 #include <host/hid_link/profile_library.hpp>
+#include <tactus/file/text_file.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -68,6 +70,27 @@ OutputField& fieldOf (Profile& profile, const std::string& name)
     REQUIRE (at != profile.outputs[0].fields.end());
     return *at;
 }
+/// A few values that differ from this one; an empty one means that the value is left out.
+std::vector<std::optional<Json>> others (const Json& value)
+{
+    if (value.is_structured()) return { std::nullopt };
+    if (value.is_number()) return { std::nullopt, Json (value.get<double>() + 1.0), Json (0.5 * value.get<double>()) };
+    if (value.is_boolean()) return { std::nullopt, Json (! value.get<bool>()) };
+    if (! value.is_string()) return { std::nullopt };
+    const auto text = value.get<std::string>();
+    return { std::nullopt, Json (text + "0"), Json ("1" + text), Json (text + "x"), Json ("") };
+}
+
+bool eraseIn (Json& all, const std::string& path)
+{
+    const JsonPointer at (path);
+    if (at.parts().empty()) return false;
+    auto& around = all.at (at.parent());
+    if (around.is_object()) return around.erase (at.parts().back()) > 0;
+    around.erase (std::stoul (at.parts().back()));
+    return true;
+}
+
 InputField& inputOf (Profile& profile, const std::string& name)
 {
     const auto at = std::ranges::find (profile.inputs[0].fields, name, &InputField::name);
@@ -152,7 +175,7 @@ TEST_CASE ("user's profiles: one that replaces a shipped profile keeps to the li
     CHECK (all.messages[2].id == "profile/shadows");
 }
 
-TEST_CASE ("user's profiles: one that drives the device of a shipped profile differently is refused", "[hid]")
+TEST_CASE ("user's profiles: one that differs from the shipped profile in anything but names and limits is refused", "[hid]")
 {
     struct Case
     {
@@ -160,44 +183,70 @@ TEST_CASE ("user's profiles: one that drives the device of a shipped profile dif
         Change make;
     };
     const Case cases[] = {
-        { "instead of force x",   // signals of 1e6 in place of 2 N
+        { "\"force\", \"torque\", \"signals\"",   // signals of 1e6 in place of 2 N
           [] (Profile& p) {
               p.force = p.torque = {};
               p.signals = { { "fx", {} }, { "fy", {} }, { "fz", {} } };
               p.limits.guard.max_signal = 1e6;
           } },
-        { "instead of force x", [] (Profile& p) { p.force = {}; } },
-        { "instead of force x", [] (Profile& p) { std::swap (p.force[0], p.force[1]); } },
-        { "instead of torque z", [] (Profile& p) { p.torque[2].clear(); } },
-        { "instead of the effort 'effort1'", [] (Profile& p) { fieldOf (p, "effort1").name = "effort9"; } },   // the guard would not count its energy
-        { "a different scale", [] (Profile& p) { fieldOf (p, "fx").encoding.scale = 1e-9; } },
-        { "a different scale", [] (Profile& p) { fieldOf (p, "fx").encoding.offset = 1.0; } },
-        { "a different scale", [] (Profile& p) { fieldOf (p, "effort1").unit = "A"; } },
-        { "a different scale",
+        { "\"force\"", [] (Profile& p) { p.force = {}; } },
+        { "\"force\"", [] (Profile& p) { std::swap (p.force[0], p.force[1]); } },
+        { "\"torque\"", [] (Profile& p) { p.torque[2].clear(); } },
+        { "\"outputs\"", [] (Profile& p) { fieldOf (p, "effort1").name = "effort9"; } },   // the guard would not count its energy
+        { "\"outputs\"", [] (Profile& p) { fieldOf (p, "fx").encoding.scale = 1e-9; } },
+        { "\"outputs\"", [] (Profile& p) { fieldOf (p, "fx").encoding.offset = 1.0; } },
+        { "\"outputs\"", [] (Profile& p) { fieldOf (p, "effort1").unit = "A"; } },
+        { "\"outputs\"",
           [] (Profile& p) {
               auto& e = fieldOf (p, "fx").encoding;
               e.law = Encoding::Law::table;
               e.x = { 0.0, 1.0 };
               e.y = { 0.0, 1000.0 };
           } },
-        { "different bits", [] (Profile& p) { fieldOf (p, "fx").bits.big_endian = true; } },
-        { "different bits", [] (Profile& p) { p.outputs[0].fields[0].bits.at = 8 * 11; } },   // the enable bit within a force
-        { "constants", [] (Profile& p) { p.outputs[0].body[8] = 1; } },
-        { "constants", [] (Profile& p) { p.outputs[0].id = 0x54; } },
-        { "stream", [] (Profile& p) { p.outputs[0].stream = Stream { .at = 48, .frames = 4, .rate = 1000.0, .channels = { "l" } }; } },
-        { "kinematics", [] (Profile& p) { p.kinematics = LinearMap { .matrix = 10.0 * Mat3::Identity() }; } },
-        { "axes", [] (Profile& p) { p.axes.col (0) = -p.axes.col (0); } },
+        { "\"outputs\"", [] (Profile& p) { fieldOf (p, "fx").bits.big_endian = true; } },
+        { "\"outputs\"", [] (Profile& p) { p.outputs[0].fields[0].bits.at = 8 * 11; } },   // the enable bit within a force
+        { "\"outputs\"", [] (Profile& p) { p.outputs[0].body[8] = 1; } },
+        { "\"outputs\"", [] (Profile& p) { p.outputs[0].id = 0x54; } },
+        { "\"outputs\"", [] (Profile& p) { p.outputs[0].stream = Stream { .at = 48, .frames = 4, .rate = 1000.0, .channels = { "l" } }; } },
+        { "\"outputs\"", [] (Profile& p) { p.outputs[0].max_rate = 0.2; } },   // the last force would stay for 5 s
+        { "\"outputs\"", [] (Profile& p) { p.outputs[0].keepalive = 5.0; } },
+        // A force that is clamped, or has no motor, does not brake, but the guard would count that it did.
+        { "\"outputs\"", [] (Profile& p) { fieldOf (p, "fx").max = 1.0; } },
+        { "\"outputs\"", [] (Profile& p) { p.outputs[0].fields.pop_back(); } },
+        { "\"exit\"",   // it has no outputs, but still sends something
+          [] (Profile& p) {
+              p.outputs.clear();
+              p.force = p.torque = {};
+              p.kinematics = LinearMap {};
+              p.exit = { { .kind = Step::Kind::output, .bytes = Bytes (64) } };
+          } },
+        { "\"kinematics\"", [] (Profile& p) { p.kinematics = LinearMap { .matrix = 10.0 * Mat3::Identity() }; } },
+        { "\"axes\"", [] (Profile& p) { p.axes.col (0) = -p.axes.col (0); } },
         // The limits depend on the readings, so a change of the readings is refused too.
-        { "position y", [] (Profile& p) { inputOf (p, "y").scale *= 1e-3; } },
-        { "position x", [] (Profile& p) { p.position[0] = "axis1"; } },
-        { "position z", [] (Profile& p) { p.position[2].clear(); } },
-        { "rotation x", [] (Profile& p) { inputOf (p, "rx").bits.at += 32; } },
-        { "valid", [] (Profile& p) { p.valid.clear(); } },
-        { "alarm", [] (Profile& p) { p.alarms.pop_back(); } },
-        { "alarm", [] (Profile& p) { p.alarms.back().while_driven = 1e9; } },
-        { "the sequence number or the timestamp", [] (Profile& p) { p.inputs[0].sequence.clear(); } },
-        { "axis 'axis4'", [] (Profile& p) { p.inputs[0].fields.pop_back(); } },
-        { "init", [] (Profile& p) { p.init.push_back ({ .kind = Step::Kind::output, .bytes = Bytes (64) }); } },
+        { "\"inputs\"", [] (Profile& p) { inputOf (p, "y").scale *= 1e-3; } },
+        { "\"position\"", [] (Profile& p) { p.position[0] = "axis1"; } },
+        { "\"position\"", [] (Profile& p) { p.position[2].clear(); } },
+        { "\"inputs\"", [] (Profile& p) { inputOf (p, "rx").bits.at += 32; } },
+        { "\"inputs\"", [] (Profile& p) { inputOf (p, "magic").expect.reset(); } },
+        { "\"inputs\"", [] (Profile& p) { p.inputs[0].length = 8; } },
+        { "\"inputs\"",   // the dead-man's switch would be another button
+          [] (Profile& p) {
+              const auto buttons = std::ranges::find_if (p.inputs[0].fields, [] (const InputField& f) { return ! f.buttons.empty(); });
+              REQUIRE (buttons != p.inputs[0].fields.end());
+              std::swap (buttons->buttons[0], buttons->buttons[1]);
+          } },
+        { "\"pressure\"", [] (Profile& p) { p.pressure = "axis1"; } },
+        { "\"valid\"", [] (Profile& p) { p.valid.clear(); } },
+        { "\"alarms\"", [] (Profile& p) { p.alarms.pop_back(); } },
+        { "\"alarms\"", [] (Profile& p) { p.alarms.back().while_driven = 1e9; } },
+        { "\"alarms\"", [] (Profile& p) { p.alarms.back().means = ReadingFault::failed; } },
+        { "\"inputs\"", [] (Profile& p) { p.inputs[0].sequence.clear(); } },
+        { "\"inputs\"", [] (Profile& p) { p.inputs[0].fields.pop_back(); } },
+        { "\"init\"", [] (Profile& p) { p.init.push_back ({ .kind = Step::Kind::output, .bytes = Bytes (64) }); } },
+        { "\"rate\"", [] (Profile& p) { p.rate = 10.0; } },                           // at 10 Hz, 20 m/s would pass
+        { "\"quirks\"", [] (Profile& p) { p.quirks.push_back ("only_changes"); } },   // silence would be no fault
+        { "\"physics\"", [] (Profile& p) { p.physics.mass = DeviceNumber { .value = 10.0 }; } },
+        { "\"limits\"", [] (Profile& p) { p.limits.device_damping = 100.0; } },
     };
     for (const auto& [differs, make] : cases)
     {
@@ -213,20 +262,60 @@ TEST_CASE ("user's profiles: one that drives the device of a shipped profile dif
     CHECK_FALSE (arm ([] (Profile& p) { std::get<SerialArm> (p.kinematics).drives[1].torque_constant = 0.001; }).empty());
 }
 
-TEST_CASE ("user's profiles: one that drives the same device exactly as the shipped profile does, or drives less of it, is used", "[hid]")
+TEST_CASE ("user's profiles: every key of a profile that comes with Tactus counts, except a few", "[hid]")
+{
+    const std::vector<std::string> may_differ { "/$schema", "/id", "/name", "/about", "/match", "/replaces", "/sources", "/samples", "/limits" };
+    const auto folder = std::filesystem::path (TACTUS_SOURCE_DIR) / "host" / "profiles";
+    int changed = 0;
+    for (const auto* id : { "tactus_board", "woodenhaptics_usb", "dualsense_bluetooth_samples", "switch_controllers", "steam_triton" })
+    {
+        const auto json = Json::parse (*readTextFile (folder / (std::string (id) + ".json")));
+        const auto original = readProfile (json).profile;
+        REQUIRE (original);
+        const std::function<void (const Json&, const std::string&)> change = [&] (const Json& value, const std::string& path) {
+            if (std::ranges::count (may_differ, path) > 0 || path.ends_with ("/verified") || path.ends_with ("/why_not")) return;
+            if (value.is_object())
+                for (const auto& [key, inner] : value.items())
+                    change (inner, path + "/" + key);
+            if (value.is_array())
+                for (std::size_t i = 0; i < value.size(); ++i)
+                    change (value[i], path + "/" + std::to_string (i));
+            for (const auto& other : others (value))
+            {
+                auto copy = json;
+                if (other)
+                    copy[JsonPointer (path)] = *other;
+                else if (! eraseIn (copy, path))
+                    continue;
+                const auto read = readProfile (copy).profile;
+                if (! read || *read == *original) continue;   // it is broken, or only a text
+                ++changed;
+                INFO (id << path << (other ? " as " + other->dump() : " left out"));
+                CHECK_FALSE (differenceOf (*read, *original).empty());
+            }
+        };
+        change (json, "");
+    }
+    CHECK (changed > 500);
+}
+
+TEST_CASE ("user's profiles: one that is the same as the shipped profile but for names and limits, or sends nothing, is used", "[hid]")
 {
     const Change fine[] = {
         [] (Profile&) {},
         [] (Profile& p) { p.limits.guard.max_force = 50.0; },
-        [] (Profile& p) { fieldOf (p, "fx").max = 1.0; },
-        [] (Profile& p) { p.outputs[0].fields.pop_back(); },
-        [] (Profile& p) {   // without the fourth axis
-            p.inputs[0].fields.pop_back();
-            p.outputs[0].fields.pop_back();
+        [] (Profile& p) {
+            p.name = p.about = "mine";
+            p.sources = { "measured" };
+            p.samples.clear();
+            p.outputs[0].verified = true;
+            p.inputs[0].why_not.clear();
         },
-        [] (Profile& p) { p.alarms.push_back ({ .field = "magic", .is = {} }); },
-        [] (Profile& p) { inputOf (p, "x").name = p.position[0] = "across"; },
-        [] (Profile& p) { fieldOf (p, "fx").name = p.force[0] = "push"; },
+        [] (Profile& p) {   // tighter limits
+            p.limits.guard.max_speed = 0.1;
+            p.limits.max_motor = 0.1;
+            p.limits.still_travel = 0.001;
+        },
         [] (Profile& p) {   // readings only
             p.outputs.clear();
             p.force = p.torque = {};
@@ -238,6 +327,10 @@ TEST_CASE ("user's profiles: one that drives the same device exactly as the ship
 
     const auto stronger = withCopyOf ("tactus_board", fine[1]);
     CHECK (profileNamed (stronger, "mine")->limits.guard.max_force == 2.0);
+    const auto weaker = profileNamed (withCopyOf ("tactus_board", fine[3]), "mine")->limits;
+    CHECK (weaker.guard.max_speed == 0.1);
+    CHECK (weaker.max_motor == 0.1);
+    CHECK (weaker.still_travel == 0.001);
 
     const Change scaled = [] (Profile& p) { fieldOf (p, "fx").encoding.scale = 1e-9; };
     const auto replacing = withCopyOf ("tactus_board", [&] (Profile& p) {
@@ -253,7 +346,7 @@ TEST_CASE ("user's profiles: one that drives the same device exactly as the ship
                      .empty());
 }
 
-TEST_CASE ("user's profiles: where several shipped profiles fit a device, the same drive as one of them is enough", "[hid]")
+TEST_CASE ("user's profiles: where several shipped profiles fit a device, one that is the same as one of them is used", "[hid]")
 {
     const Change scaled = [] (Profile& p) { p.outputs[0].fields[0].encoding.scale *= 0.1; };
     for (const auto* id : { "dualsense_usb", "dualsense_bluetooth", "dualsense_bluetooth_samples" })
@@ -270,7 +363,7 @@ TEST_CASE ("user's profiles: where several shipped profiles fit a device, the sa
     }
 }
 
-TEST_CASE ("user's profiles: one that leaves out an init or exit report of the shipped profile is refused, unless it drives nothing", "[hid]")
+TEST_CASE ("user's profiles: one that leaves out an init or exit step of the shipped profile is refused, unless it sends nothing", "[hid]")
 {
     auto shipped = having ("arm", 5.0, {}, Ids { 2 });
     auto arm = *shipped.profiles[0];
@@ -286,7 +379,9 @@ TEST_CASE ("user's profiles: one that leaves out an init or exit report of the s
         return profileNamed (joined ({ { std::make_shared<const Profile> (std::move (own)) }, {} }, shipped), "mine") != nullptr;
     };
     CHECK (isUsed ([] (Profile&) {}));
-    CHECK (isUsed ([] (Profile& p) { p.init.erase (p.init.begin() + 1); }));   // this step only reads
+    CHECK_FALSE (isUsed ([] (Profile& p) { p.init.erase (p.init.begin() + 1); }));   // some devices change their mode when they are read
+    CHECK_FALSE (isUsed ([] (Profile& p) { p.init[0].delay = 10.0; }));
+    CHECK_FALSE (isUsed ([] (Profile& p) { p.outputs.clear(); }));
     CHECK_FALSE (isUsed ([] (Profile& p) { p.init.pop_back(); }));
     CHECK_FALSE (isUsed ([] (Profile& p) { std::swap (p.init.front(), p.init.back()); }));
     CHECK_FALSE (isUsed ([] (Profile& p) { p.exit.clear(); }));
