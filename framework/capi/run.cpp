@@ -42,9 +42,7 @@ Run::RoleDevice open (tactus_run& r, const std::string& role, const tactus::grap
         messages.push_back (Message::warning ("device/undescribed", "/devices",
                                               "no device is given for the role '" + role + "', so it gets a simulated tool at rest",
                                               "give it one with tactus_run_device or tactus_run_pushed_device"));
-    tactus::Json description { { "driver", "sim" } };
-    if (described != nullptr) description = *described;
-    if (is_given) description = given->second.description;
+    const auto description = is_given ? given->second.description : tactus::describedByGraph (described, role, messages);
     auto made = tactus::makeDevice (description, is_given ? given->second.folder : std::filesystem::path (graph.folder));
     for (auto& m : made.messages)
         m.where = "/devices/" + role + m.where;

@@ -2,6 +2,8 @@
 #include "run.hpp"
 
 #include "device/guard_limits.hpp"
+#include "device/make_device.hpp"
+#include "device/sim.hpp"
 #include "included_guards.hpp"
 #include "log/graph_snapshot.hpp"
 
@@ -119,16 +121,31 @@ GuardLimits describedLimits (const std::string& role, const graph::Graph& graph,
     }
     return limits;
 }
+
+/// True for a simulated device in place of a real one that the graph describes. It may lack the buttons and limits of that one.
+bool isStandIn (const Run::RoleDevice& opened, const Json* description)
+{
+    const auto* driver = opened.driver != nullptr ? opened.driver : opened.device.get();
+    return description != nullptr && ! isSimulated (*description) && dynamic_cast<const SimulatedDevice*> (driver) != nullptr;
+}
 }   // namespace
 
 /// What the graph asks of the guard of a role, and what earlier graphs of this run asked for. A limit that is no longer there waits for the next run.
 GuardLimits Run::asksFor (const std::string& role, const graph::Graph& graph, const std::vector<IncludedGuard>& guards, const RoleDevice& of,
                           Messages& messages) const
 {
-    const auto described = describedLimits (role, graph, guards, of.device->layout(), messages);
+    Messages found;
+    const auto described = describedLimits (role, graph, guards, of.device->layout(), found);
     const auto earlier = asked.find (role);
-    const auto limits = earlier != asked.end() ? tightest (described, earlier->second) : described;
-    checkStops (tightened (of.limits, limits), guardPlace (role), messages);
+    auto limits = earlier != asked.end() ? tightest (described, earlier->second) : described;
+    checkStops (tightened (of.limits, limits), guardPlace (role), found);
+    const bool does_not_fit = hasErrors (found) && isStandIn (of, graph.device (role));   // the guard fits the device that the graph names
+    for (auto& m : found)
+    {
+        if (does_not_fit) m.severity = Message::Severity::warning;
+        messages.push_back (std::move (m));
+    }
+    if (does_not_fit) return earlier != asked.end() ? earlier->second : GuardLimits {};
     if (limits != described)
         messages.push_back (Message::warning ("watch/guard", guardPlace (role),
                                               "the graph now asks for a looser guard of the role '" + role + "', or for none, but the run keeps the strict one",

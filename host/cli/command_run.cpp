@@ -110,7 +110,10 @@ void CommandRun::chooseAudio()
 /// The device for each role, described by an option, the session or the graph, in this order of precedence.
 std::vector<Described> CommandRun::devicesByRole()
 {
-    auto described = loaded.graph.devices;
+    Messages reported_later;
+    std::vector<Described> described;
+    for (const auto& [role, description] : loaded.graph.devices)
+        described.emplace_back (role, describedByGraph (&description, role, reported_later));
     const auto describe = [&] (const std::string& role, const Json& description) {
         const auto at = std::ranges::find (described, role, &Described::first);
         if (at != described.end())
@@ -120,7 +123,6 @@ std::vector<Described> CommandRun::devicesByRole()
     };
     for (const auto& role : rolesNamed (loaded.graph))
         if (const auto bound = bindingOf (device_session, role)) describe (role, bound->description);
-    Messages reported_later;
     for (const auto& text : options.devices)
         if (const auto parsed = optionOf (text, reported_later)) describe (parsed->role, parsed->description);
     return described;
@@ -217,16 +219,18 @@ Run::RoleDevice CommandRun::open (const std::string& role, const graph::Graph& g
                                               "no device is given for the role '" + role + "', so it gets a simulated tool at rest",
                                               "describe a device for it under `devices`, or give --device " + role + "=gesture:stroke"));
 
-    Json description { { "driver", "sim" } };
-    if (described != nullptr) description = *described;
-    if (by_option) description = option->description;
-    if (audio::isAudio (description)) description = audio::withChannels (description, plan, role);
-    auto made = real.open (description, by_option ? option->folder : folder());
+    auto made = by_option ? openByOption (*option, plan) : makeDevice (describedByGraph (described, role, messages), folder());
     for (auto& m : made.messages)
         m.where = (by_option ? "--device " : "/devices/") + role + m.where;
     std::ranges::move (made.messages, std::back_inserter (messages));
     if (made.device && ! by_option) described_by_graph.insert (role);
     return { std::move (made.device), made.limits };
+}
+
+MadeDevice CommandRun::openByOption (const DeviceOption& option, const Plan& plan)
+{
+    const auto& d = option.description;
+    return real.open (audio::isAudio (d) ? audio::withChannels (d, plan, option.role) : d, option.folder);
 }
 
 Run::RoleDevice CommandRun::openBySession (const std::string& role, RoleBinding binding, const Plan& plan, Messages& messages)

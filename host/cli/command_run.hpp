@@ -93,6 +93,7 @@ private:
     std::vector<Described> devicesByRole();
     Result<DeviceOption> optionOf (const std::string& text, Messages& notes);
     Run::RoleDevice open (const std::string& role, const graph::Graph&, const Plan&, Messages&);
+    MadeDevice openByOption (const DeviceOption&, const Plan&);
     Run::RoleDevice openBySession (const std::string& role, RoleBinding, const Plan&, Messages&);
     Messages notTakenOver (const graph::Graph&) const;
     std::filesystem::path folder() const { return std::filesystem::path (options.graph).parent_path(); }

@@ -6,11 +6,9 @@
 
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
-#include <host/hid_link/open_device.hpp>
-#include <host/hid_link/profile_library.hpp>
-#include <host/sessions/role_fits.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/compile.hpp>
+#include <tactus/run/device/make_device.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
@@ -26,19 +24,20 @@ namespace
 int checkDevices (const LoadedGraph& loaded, const std::string& file)
 {
     int errors = 0;
-    const auto& devices = loaded.graph.devices;
-    const bool any_real = std::ranges::any_of (devices, hid::isHid, &std::pair<std::string, Json>::second);
-    const auto profiles = any_real ? hid::loadProfileLibrary() : hid::LoadedProfiles {};
-    for (const auto& [role, description] : devices)
+    for (const auto& [role, description] : loaded.graph.devices)
     {
         if (errors >= static_cast<int> (most_messages))
         {
             std::cerr << printableName (file) << ": the other devices are not checked, because there are too many problems\n    fix these first\n";
             break;
         }
-        auto messages = checkDescription (description, std::filesystem::path (file).parent_path(), profiles);
-        for (auto& m : messages)
+        Messages messages;
+        auto made = makeDevice (describedByGraph (&description, role, messages), std::filesystem::path (file).parent_path());
+        for (auto& m : made.messages)
+        {
             m.where = "/devices/" + role + m.where;
+            messages.push_back (std::move (m));
+        }
         errors += report (messages, loaded, file);
     }
     return errors;

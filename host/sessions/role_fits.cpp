@@ -2,6 +2,7 @@
 #include "role_fits.hpp"
 
 #include <host/audio/check_audio.hpp>
+#include <host/hid_link/force_feedback.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -86,10 +87,12 @@ std::vector<RoleFit> fitsOf (const std::vector<RoleNeeds>& all_needs, const grap
             fit.messages = std::move (bound->messages);
             folder = bound->folder;
         }
-        else if (const auto at = std::ranges::find (g.devices, role, &std::pair<std::string, Json>::first); at != g.devices.end())
+        else if (const auto* described = g.device (role))
         {
-            fit.from = RoleFit::From::graph;
-            fit.description = at->second;
+            fit.from = isSimulated (*described) ? RoleFit::From::graph : RoleFit::From::none;
+            fit.description = describedByGraph (described, role, fit.messages);
+            for (auto& m : fit.messages)
+                m.where.clear();   // it is about the whole description
         }
 
         auto wrong = checkDescription (fit.description, folder, all);
@@ -97,7 +100,7 @@ std::vector<RoleFit> fitsOf (const std::vector<RoleNeeds>& all_needs, const grap
         fit.there = partsOf (fit.description, folder, all);
         if (hid::isHid (fit.description))
         {
-            fit.connected = isAmong (fit.description, connected, all);
+            if (textAt (fit.description, "profile") != hid::pid_profile) fit.connected = isAmong (fit.description, connected, all);
             if (! fit.there)
                 for (const auto& device : connected)
                     if (const auto profile = profileFor (fit.description, device, all)) fit.there = partsOf (*profile);

@@ -27,7 +27,7 @@ struct RoleFit
     Json description {};   ///< description of the device, without "workspace"
     Workspace workspace {};
     std::optional<DeviceParts> there {};   ///< parts of the device, from partsOf
-    std::optional<bool> connected {};      ///< set only for a HID device
+    std::optional<bool> connected {};      ///< set only for a HID device with a profile
     std::vector<std::string> lacking {};   ///< missing parts, from lackingOf
     Messages messages {};                  ///< problems of the description; `where` is relative to it
 

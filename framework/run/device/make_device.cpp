@@ -212,6 +212,33 @@ std::vector<std::string> driverNames()
     return names;
 }
 
+// Drivers of real devices, which other parts of Tactus open, and what chooses such a device in `--device ROLE=`.
+constexpr std::string_view real_drivers[] { "hid", "audio" };
+
+std::string driverOf (const Json& description)
+{
+    const auto written = description.is_object() ? description.find ("driver") : description.end();
+    return written != description.end() && written->is_string() ? written->get<std::string>() : std::string();
+}
+
+/// The outputs of a sound card, which its description lists.
+int outputsOf (const Json& description)
+{
+    const auto outputs = description.find ("outputs");
+    return outputs != description.end() && outputs->is_array() ? static_cast<int> (std::min<std::size_t> (outputs->size(), Channels::most)) : 0;
+}
+
+/// The option that chooses the real device that a graph describes. The graph may contain any text, and users copy this line.
+std::string optionFor (const Json& description, const std::string& role)
+{
+    const auto driver = driverOf (description);
+    auto option = "--device " + role + "=" + driver;
+    if (driver != "hid") return option;
+    const auto profile = description.find ("profile");
+    const bool is_named = profile != description.end() && profile->is_string() && graph::isId (profile->asString());
+    return option + ":" + (is_named ? profile->get<std::string>() : "auto");
+}
+
 // The keys that a simulated device can use from the description of a real one.
 constexpr std::string_view known_to_sim[] { "mass", "damping", "quantum", "force_quantum", "delay", "coulomb", "first_mode",
                                             "first_mode_damping", "end_mass", "position", "velocity", "rotation", "hand_force", "hand",
@@ -233,7 +260,7 @@ MadeDevice makeDevice (const Json& description, const Folder& folder)
     if (driver == std::end (drivers))
     {
         // Without the driver, the valid keys are unknown, so only this problem is reported.
-        if (id == "hid" || id == "audio")
+        if (std::ranges::count (real_drivers, id) > 0)
             in.error ("driver", "device/real", "this is a real device, which only `tactus play` and tactus-host can drive",
                       "give the role a simulated device instead: \"driver\": \"sim\"");
         else if (! id.empty())
@@ -248,6 +275,24 @@ MadeDevice makeDevice (const Json& description, const Folder& folder)
 
     if (hasErrors (made.messages)) made.device.reset();
     return made;
+}
+
+bool isSimulated (const Json& description)
+{
+    return std::ranges::count (drivers, driverOf (description), [] (const Driver& d) { return std::string (d.id); }) > 0;
+}
+
+Json describedByGraph (const Json* description, const std::string& role, Messages& messages)
+{
+    Json at_rest { { "driver", "sim" } };
+    if (description == nullptr) return at_rest;
+    if (std::ranges::count (real_drivers, driverOf (*description)) == 0) return *description;   // makeDevice() refuses what it does not know
+    messages.push_back (Message::warning ("device/not_by_graph", "/devices/" + role + "/driver",
+                                          "a graph cannot choose or calibrate a real device, so the role '" + role + "' gets a simulated tool at rest",
+                                          "to use your device, give " + optionFor (*description, role)
+                                              + " to `tactus play`, bind the role in your session, or choose it in the window, under Devices"));
+    at_rest["signal_outputs"] = outputsOf (*description);
+    return at_rest;
 }
 
 Json defaultDevice()
@@ -271,21 +316,10 @@ Json simulated (std::string_view role, const std::vector<std::pair<std::string, 
             Json sim { { "driver", "sim" } };
             for (const auto key : known_to_sim)
                 if (const auto it = description.find (key); it != description.end()) sim[std::string (key)] = *it;
-            if (const auto outputs = description.find ("outputs"); outputs != description.end() && outputs->is_array())
-                sim["signal_outputs"] = outputs->size();   // the description is that of a sound card
+            if (description.contains ("outputs")) sim["signal_outputs"] = outputsOf (description);   // the description is that of a sound card
             return sim;
         }
     return defaultDevice();
-}
-
-/// The description of a sound card: the one in the graph if the role has one, else an empty one; with the given card, if any.
-Json soundCard (std::string_view role, std::string_view card, const std::vector<std::pair<std::string, Json>>& described)
-{
-    Json audio { { "driver", "audio" } };
-    for (const auto& [name, description] : described)
-        if (name == role && description.is_object() && description.value ("driver", Json()) == "audio") audio = description;
-    if (! card.empty()) audio["card"] = card;
-    return audio;
 }
 
 Result<DeviceOption> fromFile (std::string_view option, std::string role, const Folder& path)
@@ -317,9 +351,11 @@ Result<DeviceOption> parseDeviceOption (std::string_view text, const std::vector
 
     constexpr std::string_view audio = "audio";
     if (what == audio || (what.starts_with (audio) && what.substr (audio.size()).starts_with (':')))
-        return DeviceOption { .role = role,
-                              .description = soundCard (role, what.substr (std::min (what.size(), audio.size() + 1)), described),
-                              .folder = folder_of_graph };
+    {
+        Json card { { "driver", audio } };
+        if (const auto name = what.substr (std::min (what.size(), audio.size() + 1)); ! name.empty()) card["card"] = name;
+        return DeviceOption { .role = role, .description = std::move (card), .folder = {} };
+    }
 
     constexpr std::pair<std::string_view, const char*> with_a_name[] { { "trace", "path" }, { "gesture", "path" }, { "hid", "profile" } };
     for (const auto& [driver, key] : with_a_name)

@@ -40,12 +40,21 @@ struct MadeDevice
 /// the end; for a hand, stiffness 100 N/m and damping 2 N s/m. The default position is the start of the hand's path, because the
 /// tool is in the hand, or 0 without a hand.
 ///
-/// The drivers "hid" and "audio" are for real devices, which are opened by hid::openDevice and audio::openAudio; here they are
-/// refused.
+/// These drivers are the only ones that open no hardware. "hid" and "audio" are for real devices, which are opened by hid::openDevice
+/// and audio::openAudio; here they are refused.
 ///
 /// Ids: device/unknown_driver, device/real, device/missing, device/unknown_key, device/kind, device/unit,
 /// device/out_of_range, device/unknown_gesture, device/unknown_button, device/name, and the ids of trace/ and csv/.
 MadeDevice makeDevice (const Json& description, const std::filesystem::path& folder);
+
+/// True for the drivers that makeDevice() makes, which open no hardware.
+bool isSimulated (const Json& description);
+
+/// What makeDevice() gets for a role to which neither an option, nor a session, nor a person has given a device: the description in
+/// the graph, which may be null. A graph may come from anyone, so it neither chooses real hardware nor calibrates it: instead of a real
+/// device, the role gets a simulated tool at rest, and a warning says how to choose the device. Never pass the description in a
+/// graph to anything else that opens devices. Id: device/not_by_graph. [main thread]
+Json describedByGraph (const Json* description, const std::string& role, Messages&);
 
 /// The device for `--device ROLE=sim` if the graph does not describe the role: a hand that makes strokes.
 Json defaultDevice();
@@ -58,8 +67,8 @@ struct DeviceOption
     std::filesystem::path folder;   ///< base of the relative paths in the description
 };
 
-/// `sim` uses the parts of the graph's description of the role that apply to a simulated device, or else defaultDevice(). Ids:
-/// device/option, device/unreadable, device/syntax. [main thread]
+/// `sim` uses the parts of the graph's description of the role that apply to a simulated device, or else defaultDevice(). The
+/// description of a real device takes nothing from the graph. Ids: device/option, device/unreadable, device/syntax. [main thread]
 Result<DeviceOption> parseDeviceOption (std::string_view text, const std::vector<std::pair<std::string, Json>>& described,
                                         const std::filesystem::path& folder_of_graph);
 

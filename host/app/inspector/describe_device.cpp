@@ -2,13 +2,9 @@
 #include "describe.hpp"
 
 #include <host/app/look/text.hpp>
-#include <host/app/model/device_profiles.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/app/text/translated.hpp>
-#include <host/audio/audio_settings.hpp>
-#include <host/hid_link/open_device.hpp>
-#include <host/sessions/role_fits.hpp>
 #include <tactus/run/device/make_device.hpp>
 
 #include <algorithm>
@@ -37,7 +33,7 @@ Remark describeRole (const Document& d, const std::string& role)
 {
     const auto description = descriptionOf (d, role);
     if (description.is_null()) return { TRANS ("This role has no description. Its device is simulated, without a hand. Add a description below."), false };
-    Remark r { TRANS ("A physical device, identified by its profile."), false };
+    Remark r;
     const auto append = [&] (const Messages& messages) {
         for (const auto& m : messages)
         {
@@ -45,20 +41,16 @@ Remark describeRole (const Document& d, const std::string& role)
             r.is_problem = true;
         }
     };
-    if (hid::isHid (description) || audio::isAudio (description))
-    {
-        if (audio::isAudio (description)) r.text = TRANS ("Channels of the sound card.");
-        append (checkDescription (description, d.graph().folder, deviceProfiles()));
-        return r;
-    }
-    const auto made = makeDevice (description, d.graph().folder);
-    r.text = translated (made.about);
+    Messages refused;
+    const auto made = makeDevice (describedByGraph (&description, role, refused), d.graph().folder);
+    r.text = refused.empty() ? translated (made.about) : TRANS ("A graph cannot choose a real device. Choose it in the Devices panel.");
+    r.is_problem = ! refused.empty();
     append (made.messages);
     return r;
 }
 
 const char* const driver_help = NEEDS_TRANS ("sim: a simulated tool in a hand; trace: a recording; gesture: a motion computed from a formula; "
-                                             "hid: a connected device with a profile (docs/devices.md); audio: channels of a sound card (docs/audio.md)");
+                                             "real devices are chosen in the Devices panel");
 
 /// Adds the row for one value of a device description.
 void addValue (Document& document, const std::string& role, const std::string& path, Column& column)
@@ -77,7 +69,7 @@ void addValue (Document& document, const std::string& role, const std::string& p
     const auto label = juce::String (path.substr (1)).replaceCharacter ('/', ' ');
     if (path == "/driver")
         column.add (choiceRow (
-            label, { "sim", "trace", "gesture", "hid", "audio" }, [get] { return get().toStdString(); },
+            label, { "sim", "trace", "gesture" }, [get] { return get().toStdString(); },
             [set] (const std::string& t) { set (Json (t)); },
             juce::translate (driver_help)));
     else

@@ -178,7 +178,10 @@ std::vector<LimitRole> limitRolesOf (const graph::Graph& g, const LoadedSession&
             }
         }
         else if (const auto* described = g.device (role))
-            describe (r, *described, g.folder, profiles);
+        {
+            Messages said_by_run;
+            describe (r, describedByGraph (described, role, said_by_run), g.folder, profiles);
+        }
     }
     return roles;
 }

@@ -89,8 +89,8 @@ ForcePicture pictureOf (const std::filesystem::path& file, const Catalogue& cata
     std::vector<MadeDevice> devices;   // must outlive the engine
     for (const auto& role : roles)
     {
-        const auto described = std::ranges::find (loaded.graph.devices, role, &std::pair<std::string, Json>::first);
-        devices.push_back (makeDevice (described != loaded.graph.devices.end() ? described->second : Json { { "driver", "sim" } }, loaded.graph.folder));
+        Messages said_by_run;
+        devices.push_back (makeDevice (describedByGraph (loaded.graph.device (role), role, said_by_run), loaded.graph.folder));
         if (! devices.back().device) return refuse (firstError (devices.back().messages));
         picture.seconds = std::max (picture.seconds, devices.back().device->duration());
     }

@@ -208,7 +208,7 @@ private:
     void takeOver();
     void showScene();
     Run::RoleDevice open (const std::string& role, const Plan&, Messages&);
-    Run::RoleDevice openDescribed (const std::string& role, const Plan&, Messages&);
+    Run::RoleDevice openDescribed (const std::string& role, Messages&);
     Run::RoleDevice openBySession (const std::string& role, const Plan&, Messages&);
     MadeDevice make (const Json& description, const std::filesystem::path& folder, const std::string& role, const Plan&);
     audio::AudioSettings audioWanted (Messages&) const;

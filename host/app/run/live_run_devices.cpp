@@ -76,10 +76,10 @@ Run::RoleDevice LiveRun::openBySession (const std::string& role, const Plan& pla
     return opened;
 }
 
-Run::RoleDevice LiveRun::openDescribed (const std::string& role, const Plan& plan, Messages& messages)
+Run::RoleDevice LiveRun::openDescribed (const std::string& role, Messages& messages)
 {
     const auto* described = document.graph().device (role);
-    auto made = make (described != nullptr ? *described : Json { { "driver", "sim" } }, document.graph().folder, role, plan);
+    auto made = makeDevice (describedByGraph (described, role, messages), document.graph().folder);
     for (auto& m : made.messages)
         m.where = "/devices/" + role + m.where;
     std::ranges::move (made.messages, std::back_inserter (messages));
@@ -93,7 +93,7 @@ Run::RoleDevice LiveRun::openDescribed (const std::string& role, const Plan& pla
 
 Run::RoleDevice LiveRun::open (const std::string& role, const Plan& plan, Messages& messages)
 {
-    return ! isMovedOtherwise (role) && isBound (role) ? openBySession (role, plan, messages) : openDescribed (role, plan, messages);
+    return ! isMovedOtherwise (role) && isBound (role) ? openBySession (role, plan, messages) : openDescribed (role, messages);
 }
 
 /// A device that has its own clock ticks the run, as on the command line.
@@ -104,13 +104,8 @@ ClockChoice LiveRun::decideClock (const Plan& plan) const
     std::vector<Described> described;
     for (const auto& role : plan.roles())
     {
-        const bool is_moved = isMovedOtherwise (role.name);
-        const auto bound = setup != nullptr ? bindingOf (setup->session(), role.name) : std::nullopt;
-        const auto* own = document.graph().device (role.name);
-        if (! is_moved && (bound || own != nullptr))
-            described.emplace_back (role.name, bound ? bound->description : *own);
-        else
-            described.emplace_back (role.name, Json { { "driver", "sim" } });
+        const auto bound = setup != nullptr && ! isMovedOtherwise (role.name) ? bindingOf (setup->session(), role.name) : std::nullopt;
+        described.emplace_back (role.name, bound ? bound->description : Json { { "driver", "sim" } });
     }
     const auto rateOf = [&] (const Described& d, bool may_wait) {
         const bool is_bound = setup != nullptr && setup->session().session.binding (d.first) != nullptr;

@@ -71,6 +71,22 @@ double forceZ (const tactus_run* run)
 }
 }   // namespace
 
+TEST_CASE ("C API: a graph that names a real device opens and runs, with a tool at rest", "[c_api]")
+{
+    const MessageList m { tactus_messages_create() };
+    const std::string text = R"({ "format": "tactus-graph", "version": 2, "rate_hz": 1000,
+        "devices": { "stylus": { "driver": "hid", "profile": "pid", "calibration": { "full_force": "1 mN" }, "guard": { "max_force": "1 N" } } },
+        "nodes": { "push": { "type": "signal.constant", "params": { "value": "5 N" } }, "motor": { "type": "device.force", "role": "stylus" } },
+        "wires": [ "push.out -> motor.force.x" ] })";
+    const GraphHandle g { tactus_graph_parse (text.c_str(), text.size(), nullptr, m.get()) };
+    const RunHandle run { tactus_run_create (g.get(), nullptr, m.get()) };
+    REQUIRE (run);
+    CHECK (tactus_run_open (run.get(), m.get()) == TACTUS_OK);
+    CHECK (tactus_messages_have_errors (m.get()) == 0);
+    CHECK (said (m).find ("device/not_by_graph") != std::string::npos);
+    CHECK (tactus_run_steps (run.get(), 10, nullptr, nullptr) == TACTUS_OK);
+}
+
 TEST_CASE ("C API: a render has the same bits as the engine in C++", "[c_api]")
 {
     for (const std::string preset : { "dry_wood", "padded_bench", "two_fingers" })

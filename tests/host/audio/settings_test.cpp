@@ -153,13 +153,12 @@ TEST_CASE ("a role uses the channels in its description, or else the channels of
     CHECK (withChannels ({ { "driver", "audio" }, { "outputs", Json::array() } }, *plan, "stylus")["outputs"].empty());
 }
 
-TEST_CASE ("an option binds a role to the sound card as the graph describes it, or to a named card", "[audio]")
+TEST_CASE ("an option binds a role to the sound card, or to a named card, without the calibration of the graph", "[audio]")
 {
     const std::vector<std::pair<std::string, Json>> described { { "shaker", { { "driver", "audio" }, { "outputs", { { { "channel", 3 } } } } } } };
     const auto of = [&] (const char* text) { return parseDeviceOption (text, described, {}).value().description; };
-    CHECK (of ("shaker=audio") == described[0].second);
-    CHECK (of ("shaker=audio:JACK:system")["card"] == "JACK:system");
-    CHECK (of ("shaker=audio:JACK:system")["outputs"].size() == 1);
+    CHECK (of ("shaker=audio") == Json { { "driver", "audio" } });
+    CHECK (of ("shaker=audio:JACK:system") == Json { { "driver", "audio" }, { "card", "JACK:system" } });
     CHECK (of ("stylus=audio") == Json { { "driver", "audio" } });
     CHECK (of ("shaker=sim")["signal_outputs"] == 1);
 }

@@ -56,8 +56,8 @@ TEST_CASE ("a render uses no sound card, and a graph that names one is valid on 
             "nodes": { "wave": { "type": "signal.lfo" }, "out": { "type": "device.signal_out", "role": "shaker" } }, "wires": ["wave.out -> out.in"] })");
     };
     CHECK (runTactus ({ "validate", graphWith (R"([ { "channel": 3, "full_scale": "4 N" } ])") }).status == 0);
-    const auto wrong = runTactus ({ "validate", graphWith (R"([ { "channel": 0, "full_scale": "4 mm" } ])") });
-    CHECK (wrong.status == 1);
-    CHECK (holds (wrong.err, "device/out_of_range"));
-    CHECK (holds (wrong.err, "audio/full_scale"));
+    const auto unused = runTactus ({ "play", graphWith (R"([ { "channel": 0, "full_scale": "4 mm" } ])"), "--osc", "off", "--duration", "0.1" });
+    CHECK (unused.status == 0);
+    CHECK (holds (unused.err, "--device shaker=audio "));
+    CHECK (holds (unused.err, "device/not_by_graph"));
 }

@@ -58,22 +58,64 @@ TEST_CASE ("a render refuses a real device, and says what to do instead", "[cli]
     CHECK (holds (refused.err, "sim"));
 }
 
-TEST_CASE ("a graph that names a real device is valid on any machine", "[cli][hid]")
+TEST_CASE ("a graph that names a real device runs on any machine, opens nothing, and says which option does", "[cli][hid]")
 {
     Scratch scratch;
-    const auto graphWith = [&] (const std::string& profile) {
-        return scratch.write ("graph.json", R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000,
-            "devices": { "tool": { "driver": "hid", "profile": ")"
-                                                + profile + R"(", "guard": { "max_force": "1 N" } } },
-            "nodes": { "hand": { "type": "device.position", "role": "tool" }, "wall": { "type": "deform.plane" },
+    const auto graphWith = [&] (const std::string& file, const std::string& device, const std::string& more = "") {
+        return scratch.write (file, R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000,
+            "devices": { "tool": )" + device
+                                        + R"( },
+            "nodes": { )" + more + R"( "hand": { "type": "device.position", "role": "tool" }, "wall": { "type": "deform.plane" },
                 "motor": { "type": "device.force", "role": "tool" } },
             "wires": ["hand.position -> wall.position", "wall.force -> motor.force"] })");
     };
-    CHECK (runTactus ({ "validate", graphWith ("tactus_board") }).status == 0);
-    CHECK (runTactus ({ "validate", graphWith ("auto") }).status == 0);
-    const auto unknown = runTactus ({ "validate", graphWith ("tactus_bord") });
-    CHECK (unknown.status == 1);
-    CHECK (holds (unknown.err, "hid/unknown_profile"));
+    const auto hid = [] (const std::string& more) { return R"({ "driver": "hid", )" + more + " }"; };
+    const auto rests = [] (const test::Ran& ran, const std::string& option) {
+        INFO (ran.err);
+        CHECK (ran.status == 0);
+        CHECK (holds (ran.err, "device/not_by_graph"));
+        CHECK (holds (ran.err, option));
+        CHECK_FALSE (holds (ran.err, "hid/"));
+        CHECK_FALSE (holds (ran.err, "pid/"));
+    };
+    const std::string calibrated = R"("profile": "pid", "calibration": { "full_force": "0.001 N" })";
+    const std::pair<std::string, std::string> named[] {
+        { hid (R"("profile": "tactus_board", "guard": { "max_force": "1 N" })"), "--device tool=hid:tactus_board " },
+        { hid (R"("profile": "auto")"), "--device tool=hid:auto " },
+        { hid (R"("profile": "tactus_bord", "serial": 3)"), "--device tool=hid:tactus_bord " },
+        { hid (calibrated), "--device tool=hid:pid " },
+        { hid (R"("guard": { "dead_man_button": "grip", "max_slew": "1 N/s" })"), "--device tool=hid:auto " },   // limits that fit the device only
+    };
+    for (const auto& [device, option] : named)
+    {
+        const auto graph = graphWith ("graph.json", device);
+        rests (runTactus ({ "validate", graph }), option);
+        rests (runTactus ({ "play", graph, "--osc", "off", "--duration", "0.1" }), option);
+        rests (runTactus ({ "render", graph, "--duration", "0.1", "--out", scratch.path ("out.csv") }), option);
+    }
+
+    // A graph that includes it, and its guard.
+    const auto inner = graphWith ("inner.json", hid (calibrated + R"(, "guard": { "max_force": "1 N" })"));
+    const auto outer = graphWith ("outer.json", R"({ "driver": "sim" })", R"("part": { "type": "file:inner.json" },)");
+    const auto included = runTactus ({ "play", outer, "--osc", "off", "--duration", "0.1" });
+    CHECK (included.status == 0);
+    CHECK_FALSE (holds (included.err, "hid/"));
+
+    // It cannot become the clock of the run either.
+    const auto clock = runTactus ({ "play", graphWith ("graph.json", hid (calibrated)), "--osc", "off", "--duration", "0.1", "--clock", "tool" });
+    CHECK (clock.status == 1);
+    CHECK (holds (clock.err, "run/no_clock"));
+
+    // The option chooses a device, without what the graph says about it.
+    const auto chosen = runTactus ({ "play", graphWith ("graph.json", hid (calibrated)), "--osc", "off", "--duration", "0.1", "--device", "tool=hid:pid" });
+    CHECK (chosen.status == 1);
+    CHECK (holds (chosen.err, "hid/not_connected"));
+    CHECK_FALSE (holds (chosen.err, "device/not_by_graph"));
+
+    const auto session = runTactus ({ "session", inner, "--file", scratch.write ("session.json", R"({"format": "tactus-session", "version": 1})") });
+    CHECK (session.status == 0);
+    CHECK (holds (session.out, "sim (default)"));
+    CHECK (holds (session.out, "a graph cannot choose or calibrate a real device"));
 }
 
 TEST_CASE ("a device that is known only by its numbers is listed, simulated on request, and never opened", "[cli][hid]")

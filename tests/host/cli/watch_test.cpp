@@ -53,6 +53,22 @@ TEST_CASE ("an edited graph is swapped in live: no tick is lost, and a counter c
     CHECK (breaks == 0);
 }
 
+TEST_CASE ("an edit that adds a role with a real device opens nothing", "[cli][watch]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("g.json", counter());
+    Running play { { "play", file, "--watch", "--osc", "off" } };
+    REQUIRE (play.says ("Ctrl-C stops"));
+    scratch.write ("g.json", counter (R"("other": { "type": "device.position", "role": "stick" },)", "1",
+                                      R"("stick": { "driver": "hid", "profile": "pid", "calibration": { "full_force": "1 mN" } },)"));
+    REQUIRE (play.says (": reloaded"));
+    const auto ran = play.stop();
+    INFO (ran.err);
+    CHECK (ran.status == 0);
+    CHECK (ran.err.find ("--device stick=hid:pid ") != std::string::npos);
+    CHECK (ran.err.find ("hid/") == std::string::npos);
+}
+
 TEST_CASE ("a value changed in the file is approached gradually", "[cli][watch]")
 {
     const Scratch scratch;

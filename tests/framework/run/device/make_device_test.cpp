@@ -309,6 +309,67 @@ TEST_CASE ("the option --device ROLE=sim: uses those parts of the graph's own de
     CHECK (m.device->duration() > 0.0);
 }
 
+TEST_CASE ("a graph never chooses a real device: its role gets a tool at rest, and the message has the option to use", "[host][devices]")
+{
+    const auto of = [] (const Json& description, Messages& messages) { return describedByGraph (&description, "stylus", messages); };
+    const auto optionIn = [&] (const Json& description) {
+        Messages messages;
+        const auto used = of (description, messages);
+        CHECK (isSimulated (used));
+        CHECK_FALSE (isSimulated (description));
+        CHECK_FALSE (used.contains ("calibration"));
+        CHECK_FALSE (used.contains ("guard"));   // the run applies it
+        const auto made = makeDevice (used, {});
+        CHECK (made.messages.empty());
+        CHECK (made.device->duration() == 0.0);
+        REQUIRE (messages.size() == 1);
+        CHECK (messages[0].id == "device/not_by_graph");
+        CHECK (messages[0].severity == Message::Severity::warning);
+        CHECK (messages[0].where == "/devices/stylus/driver");
+        const auto at = messages[0].remedy.find ("--device ");
+        REQUIRE (at != std::string::npos);
+        return messages[0].remedy.substr (at, messages[0].remedy.find (" to `") - at);
+    };
+    const auto hid = [] (const Json& profile) { return Json { { "driver", "hid" }, { "profile", profile }, { "calibration", { { "full_force", "1 mN" } } } }; };
+    CHECK (optionIn (hid ("pid")) == "--device stylus=hid:pid");
+    CHECK (optionIn (hid ("tactus_board")) == "--device stylus=hid:tactus_board");
+    CHECK (optionIn ({ { "driver", "hid" } }) == "--device stylus=hid:auto");
+    CHECK (optionIn (hid ("x; rm -rf ~")) == "--device stylus=hid:auto");   // people copy the line
+    CHECK (optionIn (hid (3)) == "--device stylus=hid:auto");
+    CHECK (optionIn ({ { "driver", "audio" }, { "card", "$(reboot)" }, { "outputs", Json::array ({ Json::object() }) } }) == "--device stylus=audio");
+
+    Messages none;
+    for (const auto& simulated : { Json { { "driver", "sim" }, { "mass", 1.0 } }, Json { { "driver", "gesture" }, { "path", "tap" } },
+                                   Json { { "driver", "trace" }, { "path", "a.csv" } } })
+    {
+        CHECK (isSimulated (simulated));
+        CHECK (of (simulated, none) == simulated);
+    }
+    CHECK (describedByGraph (nullptr, "stylus", none) == Json { { "driver", "sim" } });
+    CHECK (none.empty());
+
+    // Whatever is not in the list of simulated drivers is refused, also what may become the driver of a real device later.
+    const Json unknown[] { "serial", "HID", "hid ", "tcp://10.0.0.1", "bridge", "pid", "", 1, Json() };
+    for (const auto& driver : unknown)
+    {
+        const Json description { { "driver", driver }, { "path", "/dev/ttyACM0" } };
+        CAPTURE (description);
+        CHECK_FALSE (isSimulated (description));
+        Messages messages;
+        CHECK_FALSE (makeDevice (of (description, messages), {}).device);
+    }
+}
+
+TEST_CASE ("the option --device: a real device takes nothing from the graph", "[host][devices]")
+{
+    const Described described { { "stylus", { { "driver", "hid" }, { "profile", "pid" }, { "calibration", { { "full_force", "1 mN" } } }, { "serial", "7" } } },
+                                { "shaker", { { "driver", "audio" }, { "outputs", { { { "channel", 3 }, { "full_scale", "1 mN" }, { "gain", 1000 } } } } } } };
+    CHECK (optionOf ("stylus=hid:auto", described).description == Json { { "driver", "hid" }, { "profile", "auto" } });
+    CHECK (optionOf ("stylus=hid:pid", described).description == Json { { "driver", "hid" }, { "profile", "pid" } });
+    CHECK (optionOf ("shaker=audio", described).description == Json { { "driver", "audio" } });
+    CHECK (optionOf ("shaker=audio:JACK:system", described).description == Json { { "driver", "audio" }, { "card", "JACK:system" } });
+}
+
 TEST_CASE ("the option --device: unreadable text is refused with a list of the valid forms", "[host][devices]")
 {
     for (const char* text : { "", "stylus", "=sim", "Stylus=sim", "a.b=sim", "stylus=", "stylus=simulation", "stylus=trace",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/app/support/canvas_rig.hpp"
 
+#include "host/hid_link/fake_board.hpp"
 #include "support/guardian.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -24,6 +25,8 @@
 using namespace tactus;
 using namespace tactus::host;
 using host::test::CanvasRig;
+using tactus::test::BoardProfile;
+using tactus::test::FakeBoard;
 
 namespace
 {
@@ -211,12 +214,49 @@ TEST_CASE ("if an edit breaks a running graph, the previous graph keeps running 
 TEST_CASE ("a device that is not plugged in is reported", "[app][run]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
-    rig.document.perform (graph::SetDevice { "stylus", Json { { "driver", "hid" }, { "profile", "tactus_board" }, { "serial", "none has this" } } });
+    const TemporaryFolder home;
+    DeviceSetup setup;
+    setup.open (home.path());
+    REQUIRE (setup.edit ([] (DeviceSession& s) {
+        s.bind ("stylus", Json { { "driver", "hid" }, { "profile", "tactus_board" }, { "serial", "none has this" } });
+    }));
     LiveRun p { rig.document, catalogue() };
+    p.use (setup);
     p.start ({});
     const auto said = p.messages();
     REQUIRE (std::ranges::count (said, "hid/not_connected", &Message::id) == 1);
-    CHECK (std::ranges::find (said, "hid/not_connected", &Message::id)->where.starts_with ("/devices/stylus"));
+    CHECK (std::ranges::find (said, "hid/not_connected", &Message::id)->where.starts_with ("/roles/stylus"));
+}
+
+TEST_CASE ("a graph that names a device which is plugged in does not open it; the session does", "[app][run]")
+{
+    const TemporaryFolder home;
+    FakeBoard board;
+    const hid::LoadedProfiles profiles { .profiles = { BoardProfile {}.make() }, .messages = {} };
+    DeviceSetup setup { board, profiles };
+    setup.open (home.path());
+    const Json on_board { { "driver", "hid" }, { "profile", "board" } };
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    LiveRun p { rig.document, catalogue() };
+    p.use (setup);
+    setup.onChange = [&] { p.setupChanged(); };
+    const auto isSaid = [&] { return std::ranges::count (p.messages(), "device/not_by_graph", &Message::id) == 1; };
+    const auto runs = [&] { return p.isRunning() && p.status()->ticks > 10; };
+
+    p.start ({});
+    REQUIRE (until (p, runs));
+    rig.document.perform (graph::SetDevice { "stylus", on_board });   // restarts the run
+    CHECK (until (p, [&] { return isSaid() && runs(); }));
+    p.start (LiveRun::Hand::pointer());
+    CHECK (until (p, [&] { return isSaid() && runs(); }));
+    CHECK_FALSE (p.drivesDevice());
+    CHECK (p.clockRole().empty());
+    CHECK (board.openings() == 0);
+
+    p.start ({});
+    REQUIRE (setup.edit ([&] (DeviceSession& s) { s.bind ("stylus", on_board); }));
+    CHECK (until (p, [&] { return board.openings() == 1 && p.drivesDevice(); }));
+    CHECK_FALSE (isSaid());
 }
 
 TEST_CASE ("a missing sound card is reported, and the run continues without it", "[app][run]")
