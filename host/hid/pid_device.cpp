@@ -198,9 +198,34 @@ void addInput (std::vector<InputReport>& inputs, const ReportDescriptor& d, cons
     }
 }
 
+// The limits of a calibrated device, in the manner of the shipped profiles (docs/safety.md). They are guesses: no device was measured.
+constexpr double slew_per_s = 250.0;                          // from 0 to full effort in 4 ms, so a stop stays within the guard's fade
+constexpr double max_speed = 2.0, max_angular_speed = 20.0;   // m/s, rad/s
+constexpr double longest_push = 0.1, longest_turn = 1.0;      // m, rad
+constexpr double energy_window = 1.0;                         // s
+constexpr double still_share = 0.25;                          // of the full effort
+constexpr double still_for = 1.0, still_for_coarse = 5.0;     // s
+constexpr double fine_quantum = 10e-6, fine_turn = 100e-6;    // m, rad: a hand that holds against a force trembles by more
+
+/// Limits the effort along an axis with this travel and resolution, in m or rad. Without a travel, its motion is unknown, and
+/// nothing that depends on it can be limited.
+void limit (GuardLimits& g, bool turns, double most, double travel, double quantum)
+{
+    (turns ? g.max_torque : g.max_force) = most;
+    (turns ? g.max_torque_slew : g.max_slew) = slew_per_s * most;
+    if (travel <= 0.0) return;
+    (turns ? g.max_angular_speed : g.max_speed) = turns ? max_angular_speed : max_speed;
+    g.max_energy = most * std::min (0.5 * travel, turns ? longest_turn : longest_push);
+    g.energy_window = energy_window;
+    (turns ? g.still_torque : g.still_force) = still_share * most;
+    g.max_still = quantum <= (turns ? fine_turn : fine_quantum) ? still_for : still_for_coarse;
+}
+
 /// Scales axes to m or rad if their travel is known, and assigns axes and force to the tool.
 void calibrate (Profile& p, const PidCalibration& calibration)
 {
+    const auto driven = drivenAxis (calibration);
+    double quantum = 0.0;
     std::vector<std::string> scaled;
     for (auto& report : p.inputs)
         for (auto& field : report.fields)
@@ -210,11 +235,12 @@ void calibrate (Profile& p, const PidCalibration& calibration)
                 field.offset *= 0.5 * travel->second;
                 field.unit = calibration.turns ? "rad" : "m";
                 scaled.push_back (field.name);
+                if (field.name == driven) quantum = field.scale;
             }
-    const auto known = [&] (const char* name) { return std::ranges::count (scaled, name) > 0 ? std::string (name) : std::string(); };
+    const auto known = [&] (const std::string& name) { return std::ranges::count (scaled, name) > 0 ? name : std::string(); };
 
     if (calibration.turns)
-        p.rotation[1] = known ("steering").empty() ? known ("x") : "steering";
+        p.rotation[1] = known (driven);
     else
     {
         p.position = { known ("x"), known ("y"), known ("z") };
@@ -222,9 +248,9 @@ void calibrate (Profile& p, const PidCalibration& calibration)
     }
 
     if (calibration.full_force <= 0.0) return;
-    auto& limits = p.limits.guard;
     (calibration.turns ? p.torque[1] : p.force[0]) = "force";
-    (calibration.turns ? limits.max_torque : limits.max_force) = calibration.full_force * calibration.usable;
+    const double travel = known (driven).empty() ? 0.0 : calibration.travel.find (driven)->second;
+    limit (p.limits.guard, calibration.turns, calibration.full_force * calibration.usable, travel, quantum);
 }
 
 /// The place of the block index in a report of this kind.
@@ -324,6 +350,11 @@ OutputReport startReport (const ReportDescriptor& d)
     return report;
 }
 }   // namespace
+
+std::string drivenAxis (const PidCalibration& c)
+{
+    return c.turns && c.travel.contains ("steering") ? "steering" : "x";
+}
 
 std::optional<PidDevice> PidDevice::from (const ReportDescriptor& d, Messages& messages)
 {
@@ -428,6 +459,7 @@ Profile PidDevice::profile (const PidCalibration& calibration) const
     p.limits.guard.watchdog = 0.05;
     p.limits.guard.ramp = 0.2;
     p.limits.guard.max_axis_effort = full_force * calibration.usable;
+    p.limits.guard.max_axis_slew = slew_per_s * p.limits.guard.max_axis_effort;
     p.quirks = { "only_changes" };   // USB HID devices may send only when something moves
     calibrate (p, calibration);
     return p;

@@ -25,6 +25,9 @@ struct PidCalibration
     std::map<std::string, double, std::less<>> travel {};   ///< travel of each axis from end to end, in m or rad
 };
 
+/// The axis along which the force acts: "steering" of a wheel that has a travel for it, else "x".
+std::string drivenAxis (const PidCalibration&);
+
 /// A joystick or wheel with force feedback, as described by its report descriptor (Device Class Definition for Physical
 /// Interface Devices 1.0). It creates one constant force effect on the device and updates it on every tick; our models
 /// need nothing else.
@@ -36,6 +39,9 @@ struct PidCalibration
 /// There is one effort, `force`, to the right, and axes named after their usages: x, y, z, rx … With a calibration, x, y
 /// and z are the position of the tool and `force` is the force on it along x. For a wheel, `steering` (else x) is its
 /// rotation about y, clockwise positive as the user sees it, and `force` is the torque. [main thread]
+///
+/// With a calibration, the profile limits force and slew, and, if the travel of the driven axis is known, speed, energy and how long the
+/// axis may stay exactly the same under force (docs/safety.md).
 class PidDevice
 {
 public:

@@ -19,11 +19,27 @@ namespace
 // Assumptions about an uncalibrated device. The force may turn out weaker than requested, but not stronger.
 constexpr double assumed_force = 10.0;   // N
 constexpr double assumed_travel = 0.1;   // m
+constexpr double assumed_turn = 15.7;    // rad, 900 degrees
 constexpr double assumed_usable = 0.1;   // fraction of the full force
 
 PidCalibration assumed()
 {
     return { .full_force = assumed_force, .usable = assumed_usable, .travel = { { "x", assumed_travel }, { "y", assumed_travel }, { "z", assumed_travel } } };
+}
+
+/// Gives the driven axis a travel if the calibration has none: without it, neither speed nor energy could be limited.
+void assumeTravel (PidCalibration& c, const std::vector<std::string>& axes, const std::string& product, Messages& messages)
+{
+    const auto has = [&] (std::string_view axis) { return std::ranges::count (axes, axis) > 0; };
+    const std::string driven = c.turns && has ("steering") && ! c.travel.contains ("x") ? "steering" : "x";
+    if (! has (driven) || c.travel.contains (driven) || c.travel.contains (drivenAxis (c))) return;
+    const double travel = c.turns ? assumed_turn : assumed_travel;
+    const std::string example = "\"" + driven + "\": \"" + (c.turns ? "900 deg" : "12 cm") + '"';
+    c.travel[driven] = travel;
+    messages.push_back (Message::warning ("pid/no_travel", "/calibration",
+                                          "the calibration of " + product + " has no travel of the axis " + quote (driven) + ", so it is taken to be "
+                                              + numberText (travel) + (c.turns ? " rad" : " m"),
+                                          "measure it from end to end, and write \"travel\": {" + example + "}"));
 }
 
 /// True for a string with a unit of torque.
@@ -102,7 +118,9 @@ std::shared_ptr<const Profile> profileOf (HidSystem& system, const ConnectedDevi
                                               "\"calibration\": {\"full_force\": \"4 N\", \"travel\": {\"x\": \"12 cm\"}}"));
     }
 
-    auto profile = pid->profile (calibration.value_or (assumed()));
+    auto used = calibration.value_or (assumed());
+    assumeTravel (used, pid->axisNames(), device.product, messages);
+    auto profile = pid->profile (used);
     MatchRule rule;
     rule.vid = { device.vid };
     rule.pid = { device.pid };

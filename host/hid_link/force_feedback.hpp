@@ -30,7 +30,8 @@ std::optional<PidCalibration> readCalibration (const Json& description, Messages
 /// Makes a profile from the device's own report descriptor. Without a calibration the device's strength is unknown: there is
 /// a warning, and it is treated as a stick with 10 cm of travel and 10 N of force, of which a tenth may be used. Null if
 /// there is an error.
-/// Ids: pid/missing, pid/uncalibrated, pid/no_axis, descriptor/… [main thread]
+/// Without the travel of the axis that is driven, a usual one is assumed, with a warning.
+/// Ids: pid/missing, pid/uncalibrated, pid/no_axis, pid/no_travel, descriptor/… [main thread]
 std::shared_ptr<const Profile> profileOf (HidSystem&, const ConnectedDevice&, const std::optional<PidCalibration>&, Messages&);
 
 }   // namespace tactus::host::hid

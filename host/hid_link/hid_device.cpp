@@ -52,13 +52,11 @@ double periodOf (const Profile& profile, const std::string& effort)
         if (std::ranges::count (report.fields, effort, &OutputField::name) > 0) return 1.0 / report.max_rate;
     return 0.0;
 }
-
-bool sendsOnlyChanges (const Profile& profile) { return std::ranges::count (profile.quirks, "only_changes") > 0; }
 }   // namespace
 
 HidDevice::HidDevice (std::unique_ptr<HidPort> port)
-    : link (std::move (port)), values (link->profile()), longest_pause (std::chrono::nanoseconds (link->watchdog()).count()), only_changes (sendsOnlyChanges (values.profile())),
-      expected_rate (values.hasSequence() || only_changes || values.profile().inputs.size() != 1 ? 0.0 : values.profile().rate)
+    : link (std::move (port)), values (link->profile()), longest_pause (std::chrono::nanoseconds (link->watchdog()).count()),
+      expected_rate (values.hasSequence() || sendsOnlyChanges (values.profile()) || values.profile().inputs.size() != 1 ? 0.0 : values.profile().rate)
 {
     std::size_t channel = 0;
     for (std::size_t i = 0; i < values.outputs(); ++i)
@@ -196,7 +194,7 @@ Reading HidDevice::read() noexcept
     }
     for (std::size_t i = 0; i < values.axisNames().size(); ++i)
         reading.axes.set (static_cast<int> (i), values.sample().axes[i]);
-    reading.age = only_changes && connected && has_one ? 0.0 : age (fresh);
+    reading.age = age (fresh);
     if (reading.fault == ReadingFault::none && reading.age > 0.0) reading.fault = standing;
     reading.valid = reading.valid && ! has_to_rest;
     reading.unrendered_force = unrendered_force;

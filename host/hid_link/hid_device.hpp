@@ -43,7 +43,8 @@ DeviceLayout layoutOf (const HidModel&);
 /// number of the very report that it answers. Neither step allocates or locks. At its end, write() wakes the port's writing
 /// thread, so every device gets its effort right away, whichever clock drives the run; this is the only call into the system.
 ///
-/// A reading is the newest report; its age is the time since the report arrived. It is not valid before the first
+/// A reading is the newest report; its age is the time since the report arrived. (A driven device that sends only when
+/// something changes is asked for a report while it is silent, see HidPort.) It is not valid before the first
 /// report, while the device is disconnected, and after a refused report until a good one arrives. (Reports whose ids the profile
 /// does not know are counted and ignored: many devices send some.) Nor is it valid while an alarm of the profile is on, while more
 /// than half of the last 32 reports are missing, and for 16 reports after one with an earlier number or time. A report with the
@@ -110,7 +111,6 @@ private:
     std::unique_ptr<HidPort> link;
     HidModel values;
     const Nanoseconds longest_pause;
-    const bool only_changes;      // true if the device sends only when something moves, so its reading does not age while it is silent
     const double expected_rate;   // of reports without numbers, in Hz; 0: their loss cannot be detected
     double dt = 1e-3;
 

@@ -39,6 +39,17 @@ bool usesIds (const Profile& p)
     return std::ranges::any_of (p.inputs, has) || std::ranges::any_of (p.outputs, has);
 }
 
+/// The report with the position or the rotation of a device that pushes, but is silent while nothing changes.
+const InputReport* stateOf (const Profile& p)
+{
+    if (! sendsOnlyChanges (p) || p.outputs.empty() || p.inputs.empty()) return nullptr;
+    const auto places = [&] (const InputField& f) {
+        return ! f.name.empty() && (std::ranges::count (p.position, f.name) > 0 || std::ranges::count (p.rotation, f.name) > 0);
+    };
+    const auto at = std::ranges::find_if (p.inputs, [&] (const InputReport& r) { return std::ranges::any_of (r.fields, places); });
+    return at != p.inputs.end() ? &*at : &p.inputs.front();
+}
+
 Clock::duration watchdogOf (const Profile& p)
 {
     const double s = p.limits.guard.watchdog;
@@ -62,7 +73,7 @@ Result<> transfer (Transport& t, Step::Kind kind, std::span<std::uint8_t> bytes)
 
 HidPort::HidPort (HidSystem& s, ConnectedDevice d, std::shared_ptr<const Profile> p, Options o)
     : system (s), wanted (std::move (d)), description (std::move (p)), options (o), longest_silence (watchdogOf (*description)),
-      has_ids (usesIds (*description)), ring (reports_waiting, 1, { .bytes = Bytes (longestInput (*description) + 1) }),
+      has_ids (usesIds (*description)), state (stateOf (*description)), ring (reports_waiting, 1, { .bytes = Bytes (longestInput (*description) + 1) }),
       buffer (longest_report + 1), quiet (description)
 {
     for (std::size_t i = 0; i < description->outputs.size(); ++i)
@@ -206,6 +217,7 @@ PortCounts HidPort::counts() const noexcept
     const auto n = answers_sent.load (std::memory_order_relaxed);
     return { .reports = reports.load (std::memory_order_relaxed),
              .read_by_tick = read_by_tick.load (std::memory_order_relaxed),
+             .asked_for = asked_for.load (std::memory_order_relaxed),
              .overflown = ring.lost(),
              .writes = writes.load (std::memory_order_relaxed),
              .write_errors = write_errors.load (std::memory_order_relaxed),

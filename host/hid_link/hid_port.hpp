@@ -47,6 +47,7 @@ struct PortCounts
 {
     std::uint64_t reports = 0;                                         ///< reports received, valid or not
     std::uint64_t read_by_tick = 0;                                    ///< of these, the ones that the tick thread read itself
+    std::uint64_t asked_for = 0;                                       ///< of these, the answers of a silent device that was asked for its state
     std::uint64_t overflown = 0;                                       ///< dropped because no tick had taken any reports for a long time
     std::uint64_t writes = 0;                                          ///< reports sent, including neutral ones
     std::uint64_t write_errors = 0;                                    ///< writes that the system rejected
@@ -66,6 +67,9 @@ struct PortCounts
 ///    neutral reports and performs the exit steps. A number that the device returns in a step (Answer) is inserted into
 ///    everything sent afterwards.
 ///  - If the device goes away, the port looks for it every half second, by serial number, else by path, else by ids.
+///  - A device that is driven, but sends only when something changes, is asked for its state while it is silent, once it has sent
+///    something. Its answer is a report like any other. If it does not answer, or takes longer than the watchdog, it is not asked again
+///    until it is reopened, and its readings get old when nothing changes.
 ///  - If no effort is offered for longer than the watchdog, the port sends the neutral reports.
 ///  - If the process dies or freezes, the failsafe sends the neutral reports (Transport::armFailsafe). A port whose device got
 ///    them, or that finds that the computer has slept, treats the device as gone away and back.
@@ -196,6 +200,7 @@ private:
     bool isStopping() const noexcept { return stopping.load (std::memory_order_acquire); }
 
     void readOn();
+    bool ask (Transport&, std::vector<std::uint8_t>& into);
     void lend (Transport&);
     void arrive (std::span<const std::uint8_t> report) noexcept;
     bool takeWaiting() noexcept;
@@ -222,6 +227,7 @@ private:
     const Options options;
     const Clock::duration longest_silence;
     const bool has_ids;
+    const InputReport* const state;   // the report that a silent device is asked for; null: none
 
     SpscRing<ArrivedReport> ring;
     Doorbell arrived, something;   // `arrived`: the reading thread wakes the tick thread; `something`: any thread wakes the writing thread
@@ -257,7 +263,7 @@ private:
     bool driven = false;             // true if the last report sent was not neutral
     Clock::time_point given;         // time of the latest new offer
 
-    std::atomic<std::uint64_t> reports = 0, read_by_tick = 0, writes = 0, write_errors = 0, dropped = 0, silences = 0, departures = 0;
+    std::atomic<std::uint64_t> reports = 0, read_by_tick = 0, asked_for = 0, writes = 0, write_errors = 0, dropped = 0, silences = 0, departures = 0;
     std::atomic<std::uint64_t> answers_sent = 0;
     std::atomic<double> latency_sum = 0.0, latency_min = 0.0, latency_max = 0.0;
 

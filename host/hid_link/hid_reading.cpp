@@ -125,24 +125,58 @@ void HidPort::readOn()
 {
     if (options.real_time) becomeRealTime (std::nullopt);   // if real-time priority is refused, the run reports that
     std::vector<std::uint8_t> own_buffer (longest_report + 1);
+    const auto quarter = std::chrono::duration_cast<std::chrono::milliseconds> (longest_silence / 4);
+    const auto patience = state != nullptr ? std::clamp<std::chrono::milliseconds> (quarter, 1ms, longest_read) : longest_read;
+    std::optional<Clock::time_point> heard;   // the last report; empty: none since the device was opened
+    bool answers = true;
     while (! isStopping())
     {
         const auto t = transport();
         if (! t)
         {
             lookAgain();
+            heard.reset();
+            answers = true;
             continue;
         }
         lend (*t);
-        const auto got = t->read (own_buffer, longest_read);   // if the tick thread has failed to read, this finds out why
+        const auto got = t->read (own_buffer, patience);   // if the tick thread has failed to read, this finds out why
         if (! got)
             lose (*t, got.error().text);
         else if (*got > 0)
         {
             arrive (std::span (own_buffer).first (*got));
             arrived.ring();
+            heard = Clock::now();
+        }
+        else if (state != nullptr && answers && heard && Clock::now() - *heard >= patience)
+        {
+            answers = ask (*t, own_buffer);
+            heard = Clock::now();
         }
     }
+}
+
+/// Asks a silent device for its state. False if it should not be asked again.
+bool HidPort::ask (Transport& t, std::vector<std::uint8_t>& into)
+{
+    const auto begin = Clock::now();
+    const auto answer = std::span (into).first (state->length + (has_ids ? 0 : 1));
+    answer.front() = state->id.value_or (0);
+    const auto got = t.getInput (answer);
+    const auto took = Clock::now() - begin;
+    if (! got) note ("the device does not say where it is while nothing changes, so its readings get old: " + got.error().text);
+    if (! got || took > longest_silence) return false;
+
+    // Reports that have arrived meanwhile are newer, or at least not older.
+    std::vector<std::uint8_t> newer (longest_report + 1);
+    const auto waiting = t.read (newer, 0ms);
+    if (! waiting) return true;   // the next read says so again
+    const bool is_newer = *waiting > 0;
+    if (! is_newer) asked_for.fetch_add (1, std::memory_order_relaxed);
+    arrive (is_newer ? std::span<const std::uint8_t> (newer).first (*waiting) : std::span<const std::uint8_t> (into).first (*got));
+    arrived.ring();
+    return true;
 }
 
 /// Lets the tick thread read the device if it has asked to, for as long as it can and wants to.

@@ -93,6 +93,26 @@ public:
         return static_cast<std::size_t> (got);
     }
 
+    Result<std::size_t> getInput (std::span<std::uint8_t> report) override
+    {
+        std::size_t size = 0;
+        if (file)
+        {
+            const auto got = file->ask (report);
+            if (got.what != ReportFile::Outcome::What::report) return transferError (std::generic_category().message (got.error));
+            size = got.size;
+        }
+        else
+        {
+            const int got = hid_get_input_report (reading.get(), report.data(), report.size());
+            if (got < 0) return transferError (errorOf (reading.get()));
+            size = static_cast<std::size_t> (got);
+        }
+        if (size == 0 || report[0] != 0) return size;
+        std::shift_left (report.begin(), report.begin() + static_cast<std::ptrdiff_t> (size), 1);   // without ids, it begins with a 0 here
+        return size - 1;
+    }
+
     Result<> write (std::span<const std::uint8_t> report) override
     {
         return outcome (hid_write (writing.get(), report.data(), report.size()));

@@ -37,6 +37,10 @@ public:
     /// means that the device is gone. A report longer than the buffer is truncated.
     virtual Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) = 0;
 
+    /// Asks for the input report whose id is the first byte of `report`, stores it there as read() does, and returns its size. For the
+    /// thread that calls read(). Blocks for as long as the device needs, which is for some seconds if it does not answer.
+    virtual Result<std::size_t> getInput (std::span<std::uint8_t> /*report*/) { return transferError ("the device cannot be asked for a report"); }
+
     /// True if readUntil() works.
     virtual bool canReadUntil() const noexcept { return false; }
 

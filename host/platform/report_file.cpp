@@ -3,7 +3,9 @@
 
 #if defined(__linux__)
 #include <fcntl.h>
+#include <linux/hidraw.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -69,6 +71,13 @@ Outcome ReportFile::read (std::span<std::uint8_t> into, Clock::time_point until)
     }
 }
 
+Outcome ReportFile::ask (std::span<std::uint8_t> report) noexcept
+{
+    const int got = ::ioctl (file, HIDIOCGINPUT (report.size()), report.data());
+    if (got < 0) return failure (errno);
+    return { .what = Outcome::What::report, .size = static_cast<std::size_t> (got) };
+}
+
 #else
 
 std::optional<ReportFile> ReportFile::open (const std::string&) noexcept
@@ -78,6 +87,7 @@ std::optional<ReportFile> ReportFile::open (const std::string&) noexcept
 ReportFile::ReportFile (int) noexcept {}
 ReportFile::~ReportFile() = default;
 ReportFile::Outcome ReportFile::read (std::span<std::uint8_t>, Clock::time_point) noexcept { return { .what = Outcome::What::failure }; }
+ReportFile::Outcome ReportFile::ask (std::span<std::uint8_t>) noexcept { return { .what = Outcome::What::failure }; }
 
 #endif
 

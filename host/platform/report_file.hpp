@@ -52,6 +52,10 @@ public:
     /// truncated.
     Outcome read (std::span<std::uint8_t> into, Clock::time_point until) noexcept;
 
+    /// Asks a HID device for the input report whose id is the first byte, and stores it there, after its id or a 0. Waits for the answer,
+    /// for up to some seconds.
+    Outcome ask (std::span<std::uint8_t> report) noexcept;
+
 private:
     int file = -1;
 };

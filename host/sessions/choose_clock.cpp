@@ -108,7 +108,7 @@ std::optional<double> tickRateOf (const Json& description, hid::HidSystem& syste
     auto profile = hid::findDevice (description, system, all).profile;
     if (const auto name = description.value ("profile", Json()); ! profile && may_wait && name.is_string())
         profile = hid::profileNamed (all, name.asString());
-    const bool ticks = profile && profile->rate > 0.0 && std::ranges::count (profile->quirks, "only_changes") == 0;
+    const bool ticks = profile && profile->rate > 0.0 && ! hid::sendsOnlyChanges (*profile);
     return ticks ? std::optional (profile->rate) : std::nullopt;
 }
 

@@ -12,7 +12,7 @@ namespace
 {
 /// True if the device reports at a fixed rate, which can be compared with other clocks. A device that sends only when something
 /// moves has no such rate.
-bool hasClock (const hid::Profile& p) { return p.rate > 0.0 && std::ranges::count (p.quirks, "only_changes") == 0; }
+bool hasClock (const hid::Profile& p) { return p.rate > 0.0 && ! hid::sendsOnlyChanges (p); }
 
 /// The time of the latest report, and the number of reports. The two are stored one after the other, so about one look in a
 /// thousand sees an inconsistent pair, which is off by one report.

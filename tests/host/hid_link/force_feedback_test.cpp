@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <mutex>
 #include <thread>
 
@@ -43,6 +44,8 @@ public:
     std::uint8_t free_block = 5;              // assigned to the next effect; 0: no room
     int busy = 0;                             // how many more requests remain unanswered
     std::optional<std::uint8_t> refused {};   // id of a report that it rejects
+    bool answers = true;                      // it says where it is when it is asked
+    std::function<void()> on_ask {};          // called without a lock
 
     struct Told
     {
@@ -70,7 +73,17 @@ public:
     void moveTo (int x)
     {
         const std::lock_guard lock (mutex);
-        input = { 1, static_cast<std::uint8_t> (x), static_cast<std::uint8_t> (x >> 8), 0 };
+        state = input = { 1, static_cast<std::uint8_t> (x), static_cast<std::uint8_t> (x >> 8), 0 };
+    }
+    void pretend (int x)   // what it answers, until it moves
+    {
+        const std::lock_guard lock (mutex);
+        state = { 1, static_cast<std::uint8_t> (x), static_cast<std::uint8_t> (x >> 8), 0 };
+    }
+    int asked() const
+    {
+        const std::lock_guard lock (mutex);
+        return times_asked;
     }
     void plug (bool in)
     {
@@ -105,6 +118,15 @@ private:
             const auto report = std::exchange (wheel.input, {});
             std::ranges::copy (report, into.begin());
             return report.size();
+        }
+        Result<std::size_t> getInput (std::span<std::uint8_t> report) override
+        {
+            if (wheel.on_ask) wheel.on_ask();
+            const std::lock_guard lock (wheel.mutex);
+            ++wheel.times_asked;
+            if (gone() || ! wheel.answers || report.size() != 4 || report[0] != 1) return transferError ("Broken pipe");
+            std::ranges::copy (wheel.state, report.begin());
+            return wheel.state.size();
         }
         Result<> write (std::span<const std::uint8_t> report) override { return tell (report, 'o'); }
         Result<> sendFeature (std::span<const std::uint8_t> report) override { return tell (report, 'f'); }
@@ -142,9 +164,9 @@ private:
 
     mutable std::mutex mutex;
     std::vector<Told> log;
-    Bytes input;
+    Bytes input, state { 1, 0, 0, 0 };
     bool plugged = true;
-    int plugging = 0;
+    int plugging = 0, times_asked = 0;
 };
 
 const Json any { { "driver", "hid" }, { "profile", "auto" } };
@@ -237,6 +259,134 @@ TEST_CASE ("the effect is restarted repeatedly, since it ends on its own", "[hid
         return std::ranges::count_if (told, [] (const auto& t) { return t.bytes == Bytes { 4, 5, 1, 1 }; });
     };
     CHECK (run.until (push (1.0), [&] { return starts() >= 3; }));
+}
+
+TEST_CASE ("a device that sends only changes keeps its force at rest if it says where it is, and loses it if it does not", "[hid]")
+{
+    for (const bool answers : { true, false })
+    {
+        CAPTURE (answers);
+        Wheel wheel;
+        wheel.answers = answers;
+        auto made = openDevice (of_4_newton, {}, wheel, {});
+        REQUIRE (made.device);
+        CHECK (made.limits.watchdog == 0.05);
+        made.limits.max_still = GuardLimits::none;   // for this test, it may rest for as long as it likes
+        Driven run (made);
+        wheel.moveTo (1000);   // its only report
+        const auto& device = dynamic_cast<HidDevice&> (*made.device);
+        if (answers)
+        {
+            REQUIRE (run.until (push (2.0), [&] { return wheel.magnitude() == -5000; }));
+            const auto asked = wheel.asked();
+            double oldest = 0.0;
+            REQUIRE (run.until (push (2.0), [&] {
+                oldest = std::max (oldest, run.reading.age);
+                return wheel.asked() > asked + 10;
+            }));
+            CHECK (oldest > 0.0);   // silence is not a new reading
+            CHECK (run.reading.position.x() == Approx (0.06 * 1000.0 / 32767.5).epsilon (0.01));
+            CHECK (device.port().counts().asked_for > 10);
+            CHECK (device.port().counts().reports == device.port().counts().asked_for + 1);
+        }
+        else
+        {
+            // Whatever the graph asks for, the reading gets old, and the guard brings the force to zero.
+            REQUIRE (run.until (push (2.0), [&] { return run.guard.stop() == Guard::Stop::stale && run.guard.isAtRest() && run.reading.age > 0.05; }));
+            REQUIRE (run.until (push (2.0), [&] { return wheel.magnitude() == 0; }));
+            CHECK (wheel.asked() == 1);
+            CHECK (device.port().trouble().find ("Broken pipe") != std::string::npos);
+            wheel.moveTo (2000);
+            CHECK (run.until (push (2.0), [&] { return run.guard.stop() == Guard::Stop::none; }));
+        }
+    }
+}
+
+TEST_CASE ("an answer that is late, or older than a report, does not count", "[hid]")
+{
+    Wheel wheel;
+    wheel.on_ask = [&, first = true]() mutable {
+        if (std::exchange (first, false)) wheel.moveTo (3000);   // it moves while it is asked
+        wheel.pretend (wheel.asked() == 0 ? -3000 : 3000);       // and answers where it was before
+    };
+    auto made = openDevice (of_4_newton, {}, wheel, {});
+    REQUIRE (made.device);
+    Driven run (made);
+    wheel.moveTo (1);
+    const auto& port = dynamic_cast<HidDevice&> (*made.device).port();
+    bool went_back = false;
+    REQUIRE (run.until ({}, [&] {
+        went_back = went_back || run.reading.position.x() < -0.001;
+        return run.reading.position.x() > 0.005;
+    }));
+    CHECK_FALSE (went_back);
+    CHECK (port.counts().reports > 1);
+
+    Wheel slow;
+    slow.on_ask = [] { std::this_thread::sleep_for (60ms); };   // longer than its watchdog
+    auto other = openDevice (of_4_newton, {}, slow, {});
+    REQUIRE (other.device);
+    Driven late (other);
+    slow.moveTo (1);
+    REQUIRE (late.until ({}, [&] { return slow.asked() == 1 && late.reading.age > 0.2; }));
+    CHECK (slow.asked() == 1);
+    CHECK (dynamic_cast<HidDevice&> (*other.device).port().counts().asked_for == 0);
+}
+
+TEST_CASE ("a force feedback device has limits of force, slew, speed, energy and stillness", "[hid]")
+{
+    const auto limitsWith = [] (const Json& calibration, const char* warning = "") {
+        Wheel wheel;
+        const auto made = openDevice ({ { "driver", "hid" }, { "profile", "pid" }, { "calibration", calibration } }, {}, wheel, {});
+        REQUIRE (made.device);
+        CHECK (idOf (made) == warning);
+        return made.limits;
+    };
+    const auto stick = limitsWith ({ { "full_force", "4 N" }, { "travel", { { "x", "12 cm" } } } });
+    CHECK (stick.max_force == 4.0);
+    CHECK (stick.max_slew == 1000.0);
+    CHECK (stick.max_speed == 2.0);
+    CHECK (stick.max_energy == Approx (4.0 * 0.06));   // a centred spring stores at most half of it
+    CHECK (stick.energy_window == 1.0);
+    CHECK (stick.still_force == 1.0);
+    CHECK (stick.max_still == 1.0);   // 12 cm in 65536 counts are 2 um
+    CHECK (stick.max_axis_slew == 1000.0);
+
+    CHECK (limitsWith ({ { "full_force", "4 N" }, { "travel", { { "x", "2 m" } } } }).max_still == 5.0);   // 30 um
+    CHECK (limitsWith ({ { "full_force", "4 N" }, { "travel", { { "x", "2 m" } } } }).max_energy == Approx (0.4));
+
+    const auto wheel = limitsWith ({ { "full_force", "2.5 N*m" }, { "travel", { { "x", "900 deg" } } } });
+    CHECK (wheel.max_torque == 2.5);
+    CHECK (wheel.max_torque_slew == 625.0);
+    CHECK (wheel.max_angular_speed == 20.0);
+    CHECK (wheel.max_energy == Approx (2.5));
+    CHECK (wheel.still_torque == 0.625);
+    CHECK (wheel.max_still == 5.0);   // 0.24 mrad
+
+    // Without the travel of the axis that is driven, a usual one is assumed, so that the limits mean something.
+    const auto assumed = limitsWith ({ { "full_force", "4 N" } }, "pid/no_travel");
+    CHECK (assumed.max_speed == 2.0);
+    CHECK (assumed.max_energy == Approx (0.2));
+    CHECK (limitsWith ({ { "full_force", "2 N*m" } }, "pid/no_travel").max_angular_speed == 20.0);
+
+    Wheel plain;
+    const auto uncalibrated = openDevice (any, {}, plain, {});
+    CHECK (uncalibrated.limits.max_slew == 250.0);
+    CHECK (uncalibrated.limits.max_energy == Approx (0.05));
+}
+
+TEST_CASE ("a force feedback device whose sensor is frozen loses its force", "[hid]")
+{
+    Wheel wheel;
+    auto made = openDevice (of_4_newton, {}, wheel, {});
+    REQUIRE (made.device);
+    Driven run (made);
+    wheel.moveTo (1000);
+    REQUIRE (run.until (push (2.0), [&] { return wheel.magnitude() == -5000; }));
+    CHECK (run.until (push (2.0), [&] { return run.guard.stop() == Guard::Stop::stale && wheel.magnitude() == 0; }));
+    CHECK (run.guard.latest().fault == ReadingFault::frozen);
+    wheel.moveTo (1100);
+    CHECK (run.until (push (2.0), [&] { return wheel.magnitude() == -5000; }));
 }
 
 TEST_CASE ("a force feedback device that comes back may assign a different effect block", "[hid]")
