@@ -5,6 +5,7 @@
 #include <host/app/text/translated.hpp>
 #include <host/audio/audio_settings.hpp>
 #include <host/hid/physics.hpp>
+#include <host/hid_link/force_feedback.hpp>
 #include <host/sessions/numbers_device.hpp>
 #include <host/sessions/role_fits.hpp>
 
@@ -18,7 +19,7 @@ namespace tactus::host
 
 Json deviceOfBinding (Json binding)
 {
-    for (const auto* key : { "workspace", "guard", "outputs", "inputs" })
+    for (const auto* key : { "workspace", "guard", "outputs", "inputs", "calibration" })
         binding.erase (key);
     return binding;
 }
@@ -30,7 +31,8 @@ Json simulationOf (const hid::Profile& profile, const Json* before)
     return withNumbers (std::move (sim), hid::numbersOf (profile));
 }
 
-std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles)
+std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles,
+                                           std::span<const hid::ConnectedDevice> without_profile)
 {
     std::vector<BindingChoice> all { { TRANS ("as in the graph").toStdString(), Json() },
                                      { TRANS ("simulated tool").toStdString(), defaultDevice() },
@@ -45,6 +47,14 @@ std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<cons
         if (needs_serial) description["serial"] = d.serial;
         const auto& name = fitting.front()->name;
         BindingChoice choice { needs_serial ? filled (TRANS ("%1, serial %2"), name, d.serial).toStdString() : name, std::move (description) };
+        if (std::ranges::count (all, choice) == 0) all.push_back (std::move (choice));
+    }
+    for (const auto& d : without_profile)
+    {
+        // With the serial number, because a calibration is that of one device.
+        Json description { { "driver", "hid" }, { "profile", hid::pid_profile } };
+        if (! d.serial.empty()) description["serial"] = d.serial;
+        BindingChoice choice { filled (TRANS ("%1, force feedback"), d.product).toStdString(), std::move (description) };
         if (std::ranges::count (all, choice) == 0) all.push_back (std::move (choice));
     }
     for (const auto& p : profiles.profiles)

@@ -25,11 +25,13 @@ struct BindingChoice
     bool operator== (const BindingChoice&) const = default;
 };
 
-/// The choices for a role: as in the graph, a simulated tool, the sound card, each connected device that has a profile, a simulation of
-/// each device that is known only by its numbers, the gestures, and what the role is bound to now if that is none of these.
-std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice>, const hid::LoadedProfiles&);
+/// The choices for a role: as in the graph, a simulated tool, the sound card, each connected device that has a profile, each of
+/// `without_profile`, which have force feedback, a simulation of each device that is known only by its numbers, the gestures, and what
+/// the role is bound to now if that is none of these.
+std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice>, const hid::LoadedProfiles&,
+                                           std::span<const hid::ConnectedDevice> without_profile = {});
 
-/// The device of a binding, without its workspace, guard and channels.
+/// The device of a binding, without its workspace, guard, channels and calibration.
 Json deviceOfBinding (Json binding);
 
 /// A simulated device with the numbers of a profile. It keeps the guard of the previous binding, so that no limit is lost, unless that

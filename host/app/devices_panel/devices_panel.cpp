@@ -7,6 +7,7 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/audio/audio_settings.hpp>
+#include <host/hid_link/force_feedback.hpp>
 
 #include <algorithm>
 
@@ -47,6 +48,19 @@ constexpr Part parts[] {
     { "/guard/ramp", NEEDS_TRANS ("ramp"), NEEDS_TRANS ("Time from no force to full force, such as 0.5 s") },
 };
 
+constexpr Part parts_of_pid[] {
+    { "/calibration/full_force", NEEDS_TRANS ("full force"),
+      NEEDS_TRANS ("What the device exerts at its largest magnitude, such as 4 N, or 2.5 N*m for a wheel. Measure it. Without it, a tenth is used") },
+    { "/calibration/travel", NEEDS_TRANS ("travel"),
+      NEEDS_TRANS ("How far each axis moves from end to end, such as {\"x\": \"12 cm\"}, or {\"steering\": \"900 deg\"} for a wheel") },
+    { "/calibration/reversed", NEEDS_TRANS ("reversed"), NEEDS_TRANS ("true if a force to the right pushes to the left") },
+    parts[0],
+    parts[1],
+    parts[2],
+    parts[3],
+    parts[4],
+};
+
 constexpr Part parts_of_sound[] {
     { "/outputs", NEEDS_TRANS ("outputs"),
       NEEDS_TRANS ("Card channels for the signal outputs 1, 2 ... of the role, and the value at full scale, such as 3@4 N, 4@4 N. "
@@ -69,7 +83,15 @@ constexpr Part parts_of_card[] {
 std::span<const Part> partsOf (const std::string& driver)
 {
     if (driver == "audio") return parts_of_sound;
+    if (driver == hid::pid_profile) return parts_of_pid;
     return parts;
+}
+
+/// What decides which settings a binding has: its driver, or "pid" for a device that must be calibrated.
+std::string driverOf (const Json& binding)
+{
+    const bool is_pid = hid::isHid (binding) && binding.value ("profile", Json()) == Json (hid::pid_profile);
+    return is_pid ? std::string (hid::pid_profile) : binding.value ("driver", std::string());
 }
 
 std::string anyCard() { return TRANS ("automatic").toStdString(); }
@@ -185,15 +207,15 @@ void DevicesPanel::refresh()
 
 void DevicesPanel::update()
 {
-    const auto connected = setup.connected();
+    const auto connected = setup.connected(), without_profile = setup.withoutProfile();
     fits = fitsOf (run.needs(), document.graph(), setup.session(), setup.profiles(), connected);
     Shape now;
     for (const auto& fit : fits)
     {
         now.roles.push_back (fit.role);
         const auto* binding = bindingOf (fit.role);
-        now.drivers.push_back (binding != nullptr ? binding->value ("driver", std::string()) : std::string());
-        now.choices.push_back (bindingChoices (bindingOf (fit.role), connected, setup.profiles()));
+        now.drivers.push_back (binding != nullptr ? driverOf (*binding) : std::string());
+        now.choices.push_back (bindingChoices (bindingOf (fit.role), connected, setup.profiles(), without_profile));
     }
     now.routes = routes().size();
     if (columns.empty() || now != shape)

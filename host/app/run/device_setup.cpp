@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "device_setup.hpp"
 
+#include <host/hid_link/force_feedback.hpp>
+
 #include <algorithm>
 #include <chrono>
 
@@ -57,6 +59,12 @@ std::vector<hid::ConnectedDevice> DeviceSetup::connected() const
     return found;
 }
 
+std::vector<hid::ConnectedDevice> DeviceSetup::withoutProfile() const
+{
+    const std::lock_guard lock (mutex);
+    return found_without_profile;
+}
+
 void DeviceSetup::scanLoop()
 {
     using namespace std::chrono_literals;
@@ -67,8 +75,11 @@ void DeviceSetup::scanLoop()
         if (ends) return;
         lock.unlock();
         auto connected_now = hid::eachOnce (devices.connected(), known);
+        auto without_profile = connected_now;
+        std::erase_if (without_profile, [&] (const auto& d) { return ! hid::matching (known.profiles, d).empty() || ! hid::hasForceFeedback (devices, d); });
         lock.lock();
         found = std::move (connected_now);
+        found_without_profile = std::move (without_profile);
         changed.wait_for (lock, 1s, [this] { return ends; });
     }
 }

@@ -34,7 +34,8 @@ public:
 
     /// Turns the scan for connected devices on or off. It runs once a second, on its own thread.
     void scan (bool on);
-    std::vector<hid::ConnectedDevice> connected() const;   ///< as of the last scan
+    std::vector<hid::ConnectedDevice> connected() const;        ///< as of the last scan
+    std::vector<hid::ConnectedDevice> withoutProfile() const;   ///< of these, the devices with force feedback that no profile fits
 
 private:
     void scanLoop();
@@ -47,7 +48,7 @@ private:
     mutable std::mutex mutex;   // guards the members below
     std::condition_variable changed;
     bool scans = false, ends = false;
-    std::vector<hid::ConnectedDevice> found;
+    std::vector<hid::ConnectedDevice> found, found_without_profile;
     std::jthread scanner;   // declared last: it uses the members above
 };
 
