@@ -87,9 +87,14 @@ fs::path profileFolder()
 fs::path ownProfileFolder()
 {
     if (const char* given = std::getenv ("TACTUS_PROFILES"); given != nullptr && *given != 0) return given;
-    if (const char* config = std::getenv ("XDG_CONFIG_HOME"); config != nullptr && *config != 0) return fs::path (config) / "tactus/profiles";
-    if (const char* home = std::getenv ("HOME"); home != nullptr && *home != 0) return fs::path (home) / ".config/tactus/profiles";
-    return {};
+    // A relative path would be in the folder of whatever graph is played.
+    const auto within = [] (const char* variable, const char* folder) {
+        const char* value = std::getenv (variable);
+        const fs::path path (value != nullptr ? value : "");
+        return path.is_absolute() ? path / folder : fs::path();
+    };
+    const auto configured = within ("XDG_CONFIG_HOME", "tactus/profiles");
+    return configured.empty() ? within ("HOME", ".config/tactus/profiles") : configured;
 }
 
 LoadedProfiles joined (LoadedProfiles own, LoadedProfiles shipped)

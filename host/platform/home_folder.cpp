@@ -27,6 +27,7 @@ fs::path configurations()
     return fromEnvironment ("APPDATA");
 #else
     auto home = fromEnvironment ("HOME");
+    if (! home.is_absolute()) home.clear();   // it would be in the folder of whatever graph is played
     if (home.empty())
         if (const auto* user = ::getpwuid (::getuid()); user != nullptr && user->pw_dir != nullptr) home = user->pw_dir;
     if (home.empty()) return {};

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -90,6 +91,30 @@ bool eraseIn (Json& all, const std::string& path)
     around.erase (std::stoul (at.parts().back()));
     return true;
 }
+
+/// A variable of the environment, for as long as this exists.
+class Environment
+{
+public:
+    Environment (const char* name, const char* value) : variable (name)
+    {
+        if (const char* now = std::getenv (name); now != nullptr) before = now;
+        setenv (name, value, 1);
+    }
+    ~Environment()
+    {
+        if (before)
+            setenv (variable, before->c_str(), 1);
+        else
+            unsetenv (variable);
+    }
+    Environment (const Environment&) = delete;
+    Environment& operator= (const Environment&) = delete;
+
+private:
+    const char* variable;
+    std::optional<std::string> before;
+};
 
 InputField& inputOf (Profile& profile, const std::string& name)
 {
@@ -391,4 +416,14 @@ TEST_CASE ("user's profiles: one that leaves out an init or exit step of the shi
         p.init.clear();
         p.exit.clear();
     }));
+}
+
+TEST_CASE ("user's profiles: a relative path in the environment names no folder, because it would be next to a graph", "[hid]")
+{
+    const Environment none ("TACTUS_PROFILES", ""), config ("XDG_CONFIG_HOME", "here"), home ("HOME", "/home/somebody");
+    CHECK (ownProfileFolder() == "/home/somebody/.config/tactus/profiles");
+    const Environment nowhere ("HOME", "there");
+    CHECK (ownProfileFolder().empty());
+    const Environment absolute ("XDG_CONFIG_HOME", "/config");
+    CHECK (ownProfileFolder() == "/config/tactus/profiles");
 }
