@@ -86,7 +86,8 @@ std::string accountOf (std::span<const RealDevice> devices, std::span<const Devi
         }
         const auto read = device->counts();
         const auto port = device->port().counts();
-        text += called + ": " + std::to_string (port.reports) + " reports, " + hid::describe (read, port) + "\n";
+        text += called + ": " + std::to_string (port.reports) + " reports, "
+                + (port.asked_for > 0 ? std::to_string (port.asked_for) + " asked for, " : std::string()) + hid::describe (read, port) + "\n";
         if (const auto h = std::ranges::find (health, real.role, &DeviceHealth::role); h != health.end()) text += clockOf (*h);
         if (port.writes > 0)
         {

@@ -362,6 +362,18 @@ struct Profile
     bool operator== (const Profile&) const = default;
 };
 
+/// The input reports that say where the tool is; empty if none does.
+inline std::vector<const InputReport*> placingReports (const Profile& p)
+{
+    const auto places = [&] (const InputField& f) {
+        return ! f.name.empty() && (std::ranges::count (p.position, f.name) > 0 || std::ranges::count (p.rotation, f.name) > 0);
+    };
+    std::vector<const InputReport*> all;
+    for (const auto& report : p.inputs)
+        if (std::ranges::any_of (report.fields, places)) all.push_back (&report);
+    return all;
+}
+
 /// True for a device that sends only when something changes (quirk "only_changes").
 inline bool sendsOnlyChanges (const Profile& p) { return std::ranges::count (p.quirks, "only_changes") > 0; }
 

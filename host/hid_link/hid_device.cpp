@@ -58,6 +58,11 @@ HidDevice::HidDevice (std::unique_ptr<HidPort> port)
     : link (std::move (port)), values (link->profile()), longest_pause (std::chrono::nanoseconds (link->watchdog()).count()),
       expected_rate (values.hasSequence() || sendsOnlyChanges (values.profile()) || values.profile().inputs.size() != 1 ? 0.0 : values.profile().rate)
 {
+    const auto places = placingReports (values.profile());
+    if (std::ranges::all_of (places, [] (const auto* report) { return report->id.has_value(); }))
+        for (const auto* report : places)
+            heard.push_back ({ .id = *report->id });
+    if (heard.empty()) heard.emplace_back();
     std::size_t channel = 0;
     for (std::size_t i = 0; i < values.outputs(); ++i)
         if (const auto& stream = values.profile().outputs[i].stream)
@@ -78,7 +83,8 @@ void HidDevice::prepare (double dt_s)
         s.feed.prepare (dt);
     for (auto& m : motors)
         m.tracker.prepare (dt, m.hold);
-    ticks_without = 0;
+    for (auto& each : heard)
+        each = { .id = each.id };
     has_to_rest = true;
     driven_for = 0.0;
     written = 0;
@@ -157,12 +163,14 @@ ReadingFault HidDevice::fault (bool is_connected) const noexcept
     return record.isTrusted() ? ReadingFault::none : ReadingFault::lost;
 }
 
-/// The time since the last new report: by the clock or in ticks, whichever is longer, so that neither a run that ticks too slowly nor one
-/// that ticks too fast makes an old report seem new.
-double HidDevice::age (bool is_fresh) const noexcept
+/// By the clock or in ticks, whichever is longer, so that neither a run that ticks too slowly nor one that ticks too fast makes an old report
+/// seem new.
+double HidDevice::Heard::age (bool comes, Nanoseconds arrival, double dt_s, Nanoseconds now) noexcept
 {
-    if (is_fresh) return 0.0;
-    return std::max (static_cast<double> (ticks_without) * dt, newest == 0 ? 0.0 : static_cast<double> (link->now() - newest) / 1e9);
+    ticks_without = comes ? 0 : ticks_without + 1;
+    if (comes) at = arrival;
+    if (comes) return 0.0;
+    return std::max (static_cast<double> (ticks_without) * dt_s, at == 0 ? 0.0 : static_cast<double> (now - at) / 1e9);
 }
 
 Reading HidDevice::read() noexcept
@@ -174,10 +182,11 @@ Reading HidDevice::read() noexcept
     link->drain ([this] (const ArrivedReport& report) { take (report); });
 
     // If some reports did not fit, the ones in the ring are old, whatever they contain.
-    const bool fresh = came_now.any() && no_room == overflown && ! link->mayLackNewest();
+    const bool usable = no_room == overflown && ! link->mayLackNewest();
     overflown = no_room;
-    if (fresh) newest = latest;
-    ticks_without = fresh ? 0 : ticks_without + 1;
+    double age = 0.0;
+    for (auto& each : heard)
+        age = std::max (age, each.age (usable && (each.id ? came_now.test (*each.id) : came_now.any()), latest, dt, link->now()));
 
     if (const auto now = link->episode(); now != episode)
     {
@@ -194,7 +203,7 @@ Reading HidDevice::read() noexcept
     }
     for (std::size_t i = 0; i < values.axisNames().size(); ++i)
         reading.axes.set (static_cast<int> (i), values.sample().axes[i]);
-    reading.age = age (fresh);
+    reading.age = age;
     if (reading.fault == ReadingFault::none && reading.age > 0.0) reading.fault = standing;
     reading.valid = reading.valid && ! has_to_rest;
     reading.unrendered_force = unrendered_force;

@@ -16,6 +16,7 @@
 #include <bitset>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace tactus::host::hid
@@ -43,7 +44,8 @@ DeviceLayout layoutOf (const HidModel&);
 /// number of the very report that it answers. Neither step allocates or locks. At its end, write() wakes the port's writing
 /// thread, so every device gets its effort right away, whichever clock drives the run; this is the only call into the system.
 ///
-/// A reading is the newest report; its age is the time since the report arrived. (A driven device that sends only when
+/// A reading is the newest report; its age is the time since the report arrived. If several reports say where the tool
+/// is, that of the oldest counts, and reports that do not say it count for nothing. (A driven device that sends only when
 /// something changes is asked for a report while it is silent, see HidPort.) It is not valid before the first
 /// report, while the device is disconnected, and after a refused report until a good one arrives. (Reports whose ids the profile
 /// does not know are counted and ignored: many devices send some.) Nor is it valid while an alarm of the profile is on, while more
@@ -88,10 +90,19 @@ private:
     void take (const ArrivedReport&) noexcept;
     void judge (const ArrivedReport&, std::uint64_t lost) noexcept;
     ReadingFault fault (bool is_connected) const noexcept;
-    double age (bool is_fresh) const noexcept;
     void publish() noexcept;
     double limitOfVibration() noexcept;
     void vibrate (const Channels& signals, HidEffort&) noexcept;
+
+    /// When a report came last.
+    struct Heard
+    {
+        double age (bool comes, Nanoseconds arrival, double dt_s, Nanoseconds now) noexcept;   // in s; call once per tick
+
+        std::optional<std::size_t> id {};   // empty: any report
+        std::uint64_t ticks_without = 0;
+        Nanoseconds at = 0;   // 0: never
+    };
 
     /// An output report that carries samples.
     struct Streamed
@@ -116,11 +127,11 @@ private:
 
     // [tick thread]
     ReadingCounts tally;
-    std::uint64_t episode = 0, connection = 0, overflown = 0, ticks_without = 0;
+    std::uint64_t episode = 0, connection = 0, overflown = 0;
+    std::vector<Heard> heard;    // of the reports that say where the tool is, if they have ids; else one entry for all reports
     std::bitset<256> came_now;   // ids of the reports decoded on this tick
     std::uint64_t owed = 0;      // reports that did not fit and have not shown up as a gap in the sequence numbers yet
     Nanoseconds latest = 0;      // arrival of the report that this tick answers; 0: none
-    Nanoseconds newest = 0;      // arrival of the last new report
     Nanoseconds written = 0;     // time of the last write(); 0: none
     bool has_one = false;        // true once a report has been decoded since the device was connected
     bool refused = false;        // true if the newest report was refused

@@ -39,15 +39,13 @@ bool usesIds (const Profile& p)
     return std::ranges::any_of (p.inputs, has) || std::ranges::any_of (p.outputs, has);
 }
 
-/// The report with the position or the rotation of a device that pushes, but is silent while nothing changes.
-const InputReport* stateOf (const Profile& p)
+/// The reports that a device is asked for while they do not come, because it pushes, but sends only when something changes.
+std::vector<const InputReport*> askedFor (const Profile& p)
 {
-    if (! sendsOnlyChanges (p) || p.outputs.empty() || p.inputs.empty()) return nullptr;
-    const auto places = [&] (const InputField& f) {
-        return ! f.name.empty() && (std::ranges::count (p.position, f.name) > 0 || std::ranges::count (p.rotation, f.name) > 0);
-    };
-    const auto at = std::ranges::find_if (p.inputs, [&] (const InputReport& r) { return std::ranges::any_of (r.fields, places); });
-    return at != p.inputs.end() ? &*at : &p.inputs.front();
+    if (! sendsOnlyChanges (p) || p.outputs.empty() || p.inputs.empty()) return {};
+    auto all = placingReports (p);
+    if (all.empty()) all.push_back (&p.inputs.front());
+    return all;
 }
 
 Clock::duration watchdogOf (const Profile& p)
@@ -73,7 +71,7 @@ Result<> transfer (Transport& t, Step::Kind kind, std::span<std::uint8_t> bytes)
 
 HidPort::HidPort (HidSystem& s, ConnectedDevice d, std::shared_ptr<const Profile> p, Options o)
     : system (s), wanted (std::move (d)), description (std::move (p)), options (o), longest_silence (watchdogOf (*description)),
-      has_ids (usesIds (*description)), state (stateOf (*description)), ring (reports_waiting, 1, { .bytes = Bytes (longestInput (*description) + 1) }),
+      has_ids (usesIds (*description)), states (askedFor (*description)), ring (reports_waiting, 1, { .bytes = Bytes (longestInput (*description) + 1) }),
       buffer (longest_report + 1), quiet (description)
 {
     for (std::size_t i = 0; i < description->outputs.size(); ++i)

@@ -67,8 +67,8 @@ struct PortCounts
 ///    neutral reports and performs the exit steps. A number that the device returns in a step (Answer) is inserted into
 ///    everything sent afterwards.
 ///  - If the device goes away, the port looks for it every half second, by serial number, else by path, else by ids.
-///  - A device that is driven, but sends only when something changes, is asked for its state while it is silent, once it has sent
-///    something. Its answer is a report like any other. If it does not answer, or takes longer than the watchdog, it is not asked again
+///  - A device that is driven, but sends only when something changes, is asked for the reports that say where it is while they do not
+///    come, once it has sent something. An answer is a report like any other. If it does not answer, or takes longer than the watchdog, it is not asked again
 ///    until it is reopened, and its readings get old when nothing changes.
 ///  - If no effort is offered for longer than the watchdog, the port sends the neutral reports.
 ///  - If the process dies or freezes, the failsafe sends the neutral reports (Transport::armFailsafe). A port whose device got
@@ -200,7 +200,8 @@ private:
     bool isStopping() const noexcept { return stopping.load (std::memory_order_acquire); }
 
     void readOn();
-    bool ask (Transport&, std::vector<std::uint8_t>& into);
+    void hear (std::span<const std::uint8_t> report);
+    bool ask (Transport&, const InputReport&);
     void lend (Transport&);
     void arrive (std::span<const std::uint8_t> report) noexcept;
     bool takeWaiting() noexcept;
@@ -227,7 +228,7 @@ private:
     const Options options;
     const Clock::duration longest_silence;
     const bool has_ids;
-    const InputReport* const state;   // the report that a silent device is asked for; null: none
+    const std::vector<const InputReport*> states;   // the reports that the device is asked for while they do not come
 
     SpscRing<ArrivedReport> ring;
     Doorbell arrived, something;   // `arrived`: the reading thread wakes the tick thread; `something`: any thread wakes the writing thread
@@ -256,12 +257,14 @@ private:
     std::string last_trouble;
     std::condition_variable stopped;
 
-    std::mutex writing;              // protects all writing and the members below; never taken on the tick thread
-    HidModel quiet;                  // encodes the neutral reports
-    std::uint32_t assigned = 0;      // the number that the device returned and expects back; 0: none
-    std::uint64_t connections = 0;   // [reading thread, which does not change it while the tick thread reads]
-    bool driven = false;             // true if the last report sent was not neutral
-    Clock::time_point given;         // time of the latest new offer
+    std::mutex writing;                     // protects all writing and the members below; never taken on the tick thread
+    HidModel quiet;                         // encodes the neutral reports
+    std::uint32_t assigned = 0;             // the number that the device returned and expects back; 0: none
+    std::vector<Clock::time_point> heard;   // when each of `states` came last; empty before the first report   [reading thread]
+    bool may_ask = true;                    // false after the device did not answer in time   [reading thread]
+    std::uint64_t connections = 0;          // [reading thread, which does not change it while the tick thread reads]
+    bool driven = false;                    // true if the last report sent was not neutral
+    Clock::time_point given;                // time of the latest new offer
 
     std::atomic<std::uint64_t> reports = 0, read_by_tick = 0, asked_for = 0, writes = 0, write_errors = 0, dropped = 0, silences = 0, departures = 0;
     std::atomic<std::uint64_t> answers_sent = 0;

@@ -19,6 +19,11 @@ constexpr auto longest_read = 20ms;            // short, so that a stop request 
 constexpr std::size_t most_at_once = 256;      // a device that sends faster than it can be read must not keep the run from ticking
 constexpr std::size_t kept_by_system = 63;     // reports that Linux keeps for a reader; it drops newer ones (HIDRAW_BUFFER_SIZE is 64)
 constexpr Clock::time_point without_waiting;   // has passed
+
+bool isOf (const InputReport& described, std::span<const std::uint8_t> report)
+{
+    return ! described.id || (! report.empty() && report.front() == *described.id);
+}
 }   // namespace
 
 //==============================================================================
@@ -125,57 +130,72 @@ void HidPort::readOn()
 {
     if (options.real_time) becomeRealTime (std::nullopt);   // if real-time priority is refused, the run reports that
     std::vector<std::uint8_t> own_buffer (longest_report + 1);
-    const auto quarter = std::chrono::duration_cast<std::chrono::milliseconds> (longest_silence / 4);
-    const auto patience = state != nullptr ? std::clamp<std::chrono::milliseconds> (quarter, 1ms, longest_read) : longest_read;
-    std::optional<Clock::time_point> heard;   // the last report; empty: none since the device was opened
-    bool answers = true;
+    const auto quarter = std::clamp<std::chrono::milliseconds> (std::chrono::duration_cast<std::chrono::milliseconds> (longest_silence / 4), 1ms, longest_read);
+    const auto patience = states.empty() ? longest_read : quarter;
     while (! isStopping())
     {
         const auto t = transport();
         if (! t)
         {
             lookAgain();
-            heard.reset();
-            answers = true;
+            heard.clear();
+            may_ask = true;
             continue;
         }
         lend (*t);
         const auto got = t->read (own_buffer, patience);   // if the tick thread has failed to read, this finds out why
         if (! got)
+        {
             lose (*t, got.error().text);
-        else if (*got > 0)
-        {
-            arrive (std::span (own_buffer).first (*got));
-            arrived.ring();
-            heard = Clock::now();
+            continue;
         }
-        else if (state != nullptr && answers && heard && Clock::now() - *heard >= patience)
-        {
-            answers = ask (*t, own_buffer);
-            heard = Clock::now();
-        }
+        if (*got > 0) hear (std::span (own_buffer).first (*got));
+        const auto now = Clock::now();
+        for (std::size_t i = 0; i < heard.size() && may_ask; ++i)
+            if (now - heard[i] >= patience) may_ask = ask (*t, *states[i]);
     }
 }
 
-/// Asks a silent device for its state. False if it should not be asked again.
-bool HidPort::ask (Transport& t, std::vector<std::uint8_t>& into)
+/// Takes over a report that the reading thread has read.
+void HidPort::hear (std::span<const std::uint8_t> report)
 {
-    const auto begin = Clock::now();
-    const auto answer = std::span (into).first (state->length + (has_ids ? 0 : 1));
-    answer.front() = state->id.value_or (0);
-    const auto got = t.getInput (answer);
-    const auto took = Clock::now() - begin;
-    if (! got) note ("the device does not say where it is while nothing changes, so its readings get old: " + got.error().text);
-    if (! got || took > longest_silence) return false;
-
-    // Reports that have arrived meanwhile are newer, or at least not older.
-    std::vector<std::uint8_t> newer (longest_report + 1);
-    const auto waiting = t.read (newer, 0ms);
-    if (! waiting) return true;   // the next read says so again
-    const bool is_newer = *waiting > 0;
-    if (! is_newer) asked_for.fetch_add (1, std::memory_order_relaxed);
-    arrive (is_newer ? std::span<const std::uint8_t> (newer).first (*waiting) : std::span<const std::uint8_t> (into).first (*got));
+    arrive (report);
     arrived.ring();
+    const auto now = Clock::now();
+    if (heard.empty()) heard.assign (states.size(), now);
+    for (std::size_t i = 0; i < states.size(); ++i)
+        if (isOf (*states[i], report)) heard[i] = now;
+}
+
+/// Asks the device for a report that does not come. False if it should not be asked again.
+bool HidPort::ask (Transport& t, const InputReport& wanted_report)
+{
+    std::vector<std::uint8_t> answer (longest_report + 1), waiting (longest_report + 1);
+    answer.front() = wanted_report.id.value_or (0);
+    const auto begin = Clock::now();
+    const auto got = t.getInput (std::span (answer).first (wanted_report.length + (has_ids ? 0 : 1)));
+    const auto took = Clock::now() - begin;
+    const auto report = std::span<const std::uint8_t> (answer).first (got ? *got : 0);
+    if (report.empty() || ! isOf (wanted_report, report) || took > longest_silence)
+    {
+        note ("the device does not say where it is while nothing changes, so its readings get old: "
+              + (got ? std::string ("it answers late, or with another report") : got.error().text));
+        return false;
+    }
+
+    // A report that has come meanwhile is newer than the answer, or at least not older.
+    bool has_come = false;
+    for (std::size_t n = 0; n < most_at_once; ++n)
+    {
+        const auto more = t.read (waiting, 0ms);
+        if (! more || *more == 0) break;   // if the device is gone, the next read says so again
+        const auto newer = std::span<const std::uint8_t> (waiting).first (*more);
+        has_come = has_come || isOf (wanted_report, newer);
+        hear (newer);
+    }
+    if (has_come) return true;
+    asked_for.fetch_add (1, std::memory_order_relaxed);
+    hear (report);
     return true;
 }
 

@@ -45,6 +45,7 @@ public:
     int busy = 0;                             // how many more requests remain unanswered
     std::optional<std::uint8_t> refused {};   // id of a report that it rejects
     bool answers = true;                      // it says where it is when it is asked
+    Bytes chatter {};                         // a report that it sends all the time
     std::function<void()> on_ask {};          // called without a lock
 
     struct Told
@@ -110,12 +111,12 @@ private:
     {
         Wire (Wheel& w, int p) : wheel (w), plugging (p) {}
 
-        Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds) override
+        Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override
         {
-            std::this_thread::sleep_for (500us);
+            if (timeout > 0ms) std::this_thread::sleep_for (500us);
             const std::lock_guard lock (wheel.mutex);
             if (gone()) return transferError ("Input/output error");
-            const auto report = std::exchange (wheel.input, {});
+            const auto report = wheel.input.empty() && timeout > 0ms ? wheel.chatter : std::exchange (wheel.input, {});
             std::ranges::copy (report, into.begin());
             return report.size();
         }
@@ -164,7 +165,7 @@ private:
 
     mutable std::mutex mutex;
     std::vector<Told> log;
-    Bytes input, state { 1, 0, 0, 0 };
+    Bytes input, state { 1, 0, 0, 0 };   // the report that waits, and what it answers
     bool plugged = true;
     int plugging = 0, times_asked = 0;
 };
@@ -299,6 +300,38 @@ TEST_CASE ("a device that sends only changes keeps its force at rest if it says 
             wheel.moveTo (2000);
             CHECK (run.until (push (2.0), [&] { return run.guard.stop() == Guard::Stop::none; }));
         }
+    }
+}
+
+TEST_CASE ("reports that do not say where a device is do not make its reading new", "[hid]")
+{
+    for (const bool answers : { true, false })
+    {
+        CAPTURE (answers);
+        Wheel wheel;
+        wheel.answers = answers;
+        wheel.descriptor.pop_back();   // a second input report within the same joystick
+        const auto state_report = test::bytes ("09 92 a1 02 85 09 09 a0 15 00 25 01 75 01 95 08 81 02 c0 c0");
+        wheel.descriptor.insert (wheel.descriptor.end(), state_report.begin(), state_report.end());
+        wheel.chatter = { 9, 1 };   // sent all the time
+        auto made = openDevice (of_4_newton, {}, wheel, {});
+        REQUIRE (made.device);
+        made.limits.max_still = GuardLimits::none;
+        Driven run (made);
+        wheel.moveTo (1000);
+        const auto& port = dynamic_cast<HidDevice&> (*made.device).port();
+        if (answers)
+        {
+            REQUIRE (run.until (push (2.0), [&] { return wheel.magnitude() == -5000; }));
+            CHECK (run.until (push (2.0), [&] { return port.counts().asked_for > 10; }));
+            CHECK (run.guard.stop() == Guard::Stop::none);
+        }
+        else
+        {
+            CHECK (run.until (push (2.0), [&] { return run.guard.stop() == Guard::Stop::stale && run.reading.age > 0.05; }));
+            CHECK (run.until (push (2.0), [&] { return wheel.magnitude() == 0; }));
+        }
+        CHECK (port.counts().reports > 10);
     }
 }
 
