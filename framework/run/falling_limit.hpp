@@ -16,6 +16,9 @@ public:
     double goal() const noexcept { return end; }
     bool isFalling() const noexcept { return value > end; }
 
+    /// True once no more than the new value is on the device: a slew limit may let it fall more slowly than the limit does.
+    bool isReached (double level) const noexcept { return ! isFalling() && level <= end; }
+
     /// `level` is on the device now. A limit that is already falling does not fall more slowly than before, nor again from further up.
     void tighten (double to, double level, double steps) noexcept
     {

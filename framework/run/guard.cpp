@@ -205,7 +205,7 @@ bool Guard::tighten (const GuardLimits& wanted) noexcept
     is_falling = true;
     for (const auto slew : slew_limits)
         limits.*slew = before.*slew;
-    useSizes();
+    useSizes (level);
 
     const bool watched_turns = watches_turns, watched_axes = watches_axes;
     chooseWatches();
@@ -226,10 +226,12 @@ std::array<double, 4> Guard::onDevice() const noexcept
     return { length (last.force), length (last.torque), largest (last.axes), largest (last.signals) };
 }
 
-/// The limits of size that apply now, and all others once no size falls any more.
-void Guard::useSizes() noexcept
+/// The limits of size that apply now, and all others once nothing on the device is above its new limit any more.
+void Guard::useSizes (const std::array<double, 4>& level) noexcept
 {
-    is_falling = std::ranges::any_of (sizes, &FallingLimit::isFalling);
+    is_falling = false;
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+        is_falling = is_falling || ! sizes[i].isReached (level[i]);
     if (! is_falling) limits = final_limits;
     for (std::size_t i = 0; i < sizes.size(); ++i)
         limits.*size_limits[i] = sizes[i].now();
@@ -241,7 +243,7 @@ void Guard::useSizes() noexcept
     const auto level = onDevice();
     for (std::size_t i = 0; i < sizes.size(); ++i)
         sizes[i].advance (level[i], steps);
-    useSizes();
+    useSizes (level);
 }
 
 /// While a limit of several values falls, each of them stays where it is or falls, unless the new limit allows more.

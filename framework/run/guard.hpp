@@ -201,7 +201,7 @@ private:
     void forget() noexcept;
     void chooseWatches() noexcept;
     std::array<double, 4> onDevice() const noexcept;
-    void useSizes() noexcept;
+    void useSizes (const std::array<double, 4>& level) noexcept;
     void lowerSizes (double steps) noexcept;
     Channels withoutRise (const Channels& wanted, const Channels& now, std::size_t size) const noexcept;
     void passTime (double passed_s) noexcept;

@@ -63,9 +63,8 @@ public:
             most.tighten (asked, std::abs (last), Guard::fade_s / std::max (period_s, 1e-6));
         for (int i = 0; i < frames; ++i)
         {
-            if (most.isFalling())
-                most.advance (std::abs (last));
-            else
+            if (most.isFalling()) most.advance (std::abs (last));
+            if (most.isReached (std::abs (last)))
                 slew = asked_slew.load (std::memory_order_relaxed);
             const double wanted = std::clamp (valid (samples[i]), -most.now(), most.now()), change = wanted - last, step = slew == GuardLimits::none ? slew : slew * period_s;
             last = std::abs (change) <= step ? wanted : last + std::copysign (step, change);

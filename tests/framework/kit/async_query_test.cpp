@@ -64,6 +64,7 @@ struct Lateness final : Journal
     Lateness() { questions.reserve (20'000); }
 
     void tookOver (const Plan&) noexcept override {}
+    void tightened (std::size_t, const GuardLimits&) noexcept override {}
     void turned (std::size_t, std::size_t, double) noexcept override {}
     void outdone (std::size_t, std::size_t) noexcept override {}
     void struck (std::size_t, std::size_t, double) noexcept override {}

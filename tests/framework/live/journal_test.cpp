@@ -20,6 +20,10 @@ namespace
 struct Notes final : Journal
 {
     void tookOver (const Plan& plan) noexcept override { add ("plan " + std::to_string (plan.serial())); }
+    void tightened (std::size_t role, const GuardLimits& limits) noexcept override
+    {
+        add ("tighten " + std::to_string (role) + " " + std::to_string (limits.max_force));
+    }
     void turned (std::size_t instance, std::size_t knob, double target) noexcept override
     {
         add ("turn " + std::to_string (instance) + " " + std::to_string (knob) + " " + std::to_string (target));

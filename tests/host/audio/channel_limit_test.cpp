@@ -225,3 +225,31 @@ TEST_CASE ("the limit of a channel rounds towards zero and turns a sample that i
         CHECK (samples[3] == 0.0f);
     }
 }
+
+TEST_CASE ("a channel whose limits are tightened while it plays falls to them without a step, also from no limit at all", "[audio][safety]")
+{
+    const bool had_limits = GENERATE (false, true);
+    constexpr double card_hz = 48000.0;
+    ChannelLimit limit;
+    if (had_limits) limit.tighten (0.9, 5000.0);
+    std::vector<float> block (480, 0.8f);
+    limit (block.data(), 480, card_hz);
+    REQUIRE (block.back() == 0.8f);
+    limit.tighten (0.1, 0.2);   // the new slew alone would take seconds
+    float before = block.back();
+    for (int k = 0; k < 20; ++k)
+    {
+        std::ranges::fill (block, 0.8f);
+        limit (block.data(), 480, card_hz);
+        for (const float sample : block)
+        {
+            REQUIRE (sample <= before);
+            REQUIRE (before - sample <= 0.7f / 239.0f);
+            before = sample;
+        }
+    }
+    CHECK (before == Approx (0.1));
+    std::ranges::fill (block, 0.0f);
+    limit (block.data(), 480, card_hz);
+    CHECK (block.back() == Approx (0.1 - 0.2 * 480 / card_hz));   // the new slew, once the channel is within the new limit
+}

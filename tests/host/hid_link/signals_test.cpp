@@ -197,6 +197,36 @@ TEST_CASE ("max_signal also limits a rumble motor that the graph drives as an ef
     }
 }
 
+TEST_CASE ("a max_signal that is tightened during a run lowers a rumble motor smoothly, and no setting raises it again", "[hid][safety]")
+{
+    FakeBoard pad;
+    const auto device = open (pad, "dualsense_usb", 1e-3);
+    device->limitSignals (1.0, GuardLimits::none);
+    Effort full { .signals = { 1.0, 1.0 } };
+    const auto now = [&] {
+        device->read();
+        device->write (full);
+        return *std::ranges::max_element (device->effortsNow());
+    };
+    device->read();
+    device->write ({});
+    double before = 0.0;
+    for (int k = 0; k < 100; ++k)
+        before = now();
+    REQUIRE (before == 1.0);
+    device->limitSignals (0.25, GuardLimits::none);
+    for (int k = 1; k <= 20; ++k)
+    {
+        const double amplitude = now();
+        CHECK (amplitude <= before);
+        CHECK (before - amplitude <= 0.75 / 5.0 * (1.0 + 1e-9));
+        if (k >= 5) CHECK (amplitude == 0.25);
+        before = amplitude;
+    }
+    device->limitSignals (0.5, GuardLimits::none);
+    CHECK (now() == 0.25);
+}
+
 TEST_CASE ("signals neither allocate nor lock on the tick thread", "[hid]")
 {
     FakeBoard pad;

@@ -322,3 +322,48 @@ TEST_CASE ("if a run's clock is a sound card that is missing, its forces stay at
     CHECK (p.audioStatus()->by_timer);
     CHECK (p.status()->peak == 0.0);
 }
+
+TEST_CASE ("in the window, an edit tightens a guard at once, and what it loosens waits for START, even if the run restarts by itself", "[app][run][safety]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    LiveRun p { rig.document, catalogue() };
+    p.start ({});
+    REQUIRE (until (p, [&] { return p.isRunning(); }));
+    const auto before = p.mostForce();
+    REQUIRE (before);
+    REQUIRE (*before > 0.5);
+    const auto guarded = [&] (const Json& most, double rate_hz) {
+        auto g = rig.graph();
+        for (auto& [role, description] : g.devices)
+        {
+            if (most.is_null())
+                description.erase ("guard");
+            else
+                description["guard"]["max_force"] = most;
+        }
+        g.rate_hz = rate_hz;
+        rig.document.open (std::move (g), {}, "another guard");
+    };
+    const auto isSaid = [&] { return std::ranges::any_of (p.messages(), [] (const Message& m) { return m.id == "watch/guard"; }); };
+    const double rate = p.rate();
+
+    guarded ("0.5 N", rate);
+    CHECK (p.isRunning());   // no restart
+    CHECK (p.mostForce() == 0.5);
+    CHECK_FALSE (isSaid());
+    rig.document.undo();
+    CHECK (p.mostForce() == 0.5);
+    CHECK (isSaid());
+    guarded ({}, rate);
+    CHECK (p.mostForce() == 0.5);
+    CHECK (isSaid());
+
+    guarded ({}, 0.5 * rate);   // needs a restart
+    REQUIRE (until (p, [&] { return p.isRunning() && p.rate() == 0.5 * rate; }));
+    CHECK (p.mostForce() == 0.5);
+    CHECK (isSaid());
+
+    p.start ({});
+    REQUIRE (until (p, [&] { return p.isRunning() && p.mostForce() != 0.5; }));
+    CHECK_FALSE (isSaid());
+}
