@@ -6,11 +6,11 @@
 #include <tactus/text/budget.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
+#include <tactus/text/read_number.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <set>
@@ -39,25 +39,6 @@ std::string_view trim (std::string_view text)
 {
     const auto first = text.find_first_not_of (spaces);
     return first == std::string_view::npos ? std::string_view {} : text.substr (first, text.find_last_not_of (spaces) - first + 1);
-}
-
-struct Number
-{
-    double value = 0.0;
-    std::errc problem {};
-};
-
-Number parseNumber (std::string_view text)
-{
-    // from_chars does not accept a plus sign, but some instruments write one.
-    if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+')
-        text.remove_prefix (1);
-
-    Number number;
-    const auto* const end = text.data() + text.size();
-    const auto [stop, problem] = std::from_chars (text.data(), end, number.value);
-    number.problem = problem == std::errc {} && stop != end ? std::errc::invalid_argument : problem;
-    return number;
 }
 
 std::string withoutDoubledQuotes (std::string_view text)
@@ -172,7 +153,7 @@ private:
         return close;
     }
 
-    static bool isNumber (const Field& field) { return parseNumber (field.text).problem == std::errc {}; }
+    static bool isNumber (const Field& field) { return wholeNumber (field.text).has_value(); }
 
     static std::string inColumn (std::string_view column, std::string_view text, const char* what)
     {
@@ -225,11 +206,11 @@ private:
                 return fail ("csv/empty_field", column, "there is no number in column " + quote (name_of_column),
                              "write nan where a number is missing");
 
-            const auto number = parseNumber (text);
-            if (number.problem == std::errc::result_out_of_range)
+            const auto number = readNumber (text);
+            if (number.size > 0 && ! number.is_in_range)
                 return fail ("csv/out_of_range", column, inColumn (name_of_column, text, "is out of the range of a double"),
                              "write inf or 0 if that is what you mean");
-            if (number.problem != std::errc {})
+            if (number.size != text.size())
             {
                 const bool has_separator = text.find_first_of (";\t") != std::string_view::npos;
                 return fail ("csv/not_a_number", column, inColumn (name_of_column, text, "is not a number"),

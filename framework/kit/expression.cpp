@@ -3,6 +3,7 @@
 #include "math/math.hpp"
 
 #include <tactus/text/is_digit.hpp>
+#include <tactus/text/read_number.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -178,12 +179,11 @@ private:
 
     void number()
     {
-        double v = 0.0;
-        const auto [end, problem] = std::from_chars (text.data() + at, text.data() + text.size(), v);
-        if (problem != std::errc {}) return fail (at, "this number does not fit into a double");
-        at = static_cast<std::size_t> (end - text.data());
+        const auto read = readNumber (std::string_view (text).substr (at));
+        if (! read.is_in_range) return fail (at, "this number does not fit into a double");
+        at += read.size;
         skipSpace();
-        emit ({ Op::constant, 0, v });
+        emit ({ Op::constant, 0, read.value });
     }
 
     void named()

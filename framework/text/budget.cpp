@@ -4,9 +4,9 @@
 #include "closest_match.hpp"
 #include "number_text.hpp"
 #include "quote.hpp"
+#include "read_number.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <iterator>
@@ -57,11 +57,10 @@ std::string limitText (const BudgetSheet& sheet, double amount)
 
 std::optional<double> amountIn (std::string_view text, const BudgetSheet& sheet)
 {
-    double amount = 0.0;
-    const auto* const end = text.data() + text.size();
-    const auto [stop, problem] = std::from_chars (text.data(), end, amount);
-    if (problem != std::errc {}) return std::nullopt;
-    std::string_view suffix (stop, static_cast<std::size_t> (end - stop));
+    const auto number = readNumber (text);
+    if (! number.is_in_range) return std::nullopt;
+    double amount = number.value;
+    auto suffix = text.substr (number.size);
     if ((isInBytes (sheet) && suffix.ends_with ('B')) || (isInSeconds (sheet) && suffix.ends_with ('s'))) suffix.remove_suffix (1);
     if (suffix == "k")
         amount *= 1e3;

@@ -3,6 +3,7 @@
 
 #include "is_digit.hpp"
 #include "quote.hpp"
+#include "read_number.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -203,30 +204,27 @@ double shifted (std::string_view digits, double value, int decimals)
         digits = digits.substr (0, e);
     }
     const auto text = std::string (digits) + "e" + std::to_string (exponent + decimals);
-    double moved = 0.0;
-    const auto [end, error] = std::from_chars (text.data(), text.data() + text.size(), moved);
-    return error == std::errc {} ? moved : std::numeric_limits<double>::infinity();
+    return wholeNumber (text).value_or (std::numeric_limits<double>::infinity());
 }
 }   // namespace
 
 Result<Measure> parseMeasure (std::string_view text)
 {
     const auto wrong = [text] (const std::string& what) { return Message::error ("unit/syntax", {}, quote (text) + ": " + what); };
-    constexpr auto too_large = "the number is too large or too small for a double";
+    constexpr auto too_large = "the number is too large for a double";
 
     if (text.size() > 200) return wrong ("too long for a number with a unit");
 
     Reader in { text };
     in.skipSpace();
     if (in.text.empty()) return Message::error ("unit/syntax", {}, "the text is empty; a number with a unit is missing");
-    if (in.peek() == '+' && in.text.size() > 1 && in.text[1] != '-') in.take ('+');
 
-    double value = 0.0;
-    const auto [end, error] = std::from_chars (in.text.data(), in.text.data() + in.text.size(), value);
-    if (error == std::errc::result_out_of_range) return wrong (too_large);
-    if (error != std::errc {}) return wrong ("does not begin with a number; write, for example, '0.4 mm'");
+    const auto number = readNumber (in.text);
+    if (number.size == 0) return wrong ("does not begin with a number; write, for example, '0.4 mm'");
+    if (! number.is_in_range) return wrong (too_large);
+    double value = number.value;
     if (! std::isfinite (value)) return wrong ("nan and inf are not allowed; write a finite number");
-    const auto digits = in.text.substr (0, static_cast<std::size_t> (end - in.text.data()));
+    const auto digits = in.text.substr (0, number.size);
     in.text.remove_prefix (digits.size());
     if (in.peek() == ',') return wrong ("a comma in a number; write a decimal point, for example '0.4 mm'");
 

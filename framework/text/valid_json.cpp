@@ -2,6 +2,7 @@
 #include "valid_json.hpp"
 
 #include "is_digit.hpp"
+#include "read_number.hpp"
 #include "seen_keys.hpp"
 
 #include <bit>
@@ -13,6 +14,7 @@
 #include <string>
 #include <system_error>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 namespace tactus
@@ -189,7 +191,14 @@ private:
     template <typename T>
     bool isRead (const char* begin, T number, Json& into) const
     {
-        if (std::from_chars (begin, here, number).ec != std::errc()) return false;
+        if constexpr (std::is_same_v<T, double>)
+        {
+            const auto read = wholeNumber ({ begin, here });
+            number = read.value_or (0.0);
+            if (! read) return false;
+        }
+        else if (std::from_chars (begin, here, number).ec != std::errc())
+            return false;
         put (into, number);
         return true;
     }

@@ -6,6 +6,7 @@
 #include <tactus/examine/stage.hpp>
 #include <tactus/plugin/plugin_library.hpp>
 #include <tactus/text/quote.hpp>
+#include <tactus/text/read_number.hpp>
 
 #include <algorithm>
 #include <stdexcept>
@@ -135,7 +136,7 @@ CheckedNode checkNode (const Options& options, const std::string& id)
     const auto timed = runApart (options.cpu_seconds, [&] {
         return askNode (options.file, id, [] (const NodeType& type) { return std::to_string (examine::tickTime (type)); });
     });
-    if (timed.done) node.tick_ns = std::strtod (timed.answer.c_str(), nullptr);
+    if (timed.done) node.tick_ns = readNumber (timed.answer).value;
     return node;
 }
 }   // namespace

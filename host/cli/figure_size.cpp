@@ -2,8 +2,8 @@
 #include "figure_size.hpp"
 
 #include <tactus/text/quote.hpp>
+#include <tactus/text/read_number.hpp>
 
-#include <charconv>
 #include <cmath>
 
 namespace tactus::host
@@ -14,11 +14,10 @@ namespace
 /// Reads a positive number at the start of the text, and removes it. Returns 0 if there is none.
 double takeNumber (std::string_view& text)
 {
-    double number = 0.0;
-    const auto read = std::from_chars (text.data(), text.data() + text.size(), number);
-    if (read.ec != std::errc {} || ! (number > 0.0 && number < 1e4)) return 0.0;
-    text.remove_prefix (static_cast<std::size_t> (read.ptr - text.data()));
-    return number;
+    const auto number = readNumber (text);
+    if (! number.is_in_range || ! (number.value > 0.0 && number.value < 1e4)) return 0.0;
+    text.remove_prefix (number.size);
+    return number.value;
 }
 }   // namespace
 

@@ -4,8 +4,8 @@
 #include "report.hpp"
 
 #include <tactus/text/quote.hpp>
+#include <tactus/text/read_number.hpp>
 
-#include <charconv>
 #include <utility>
 
 namespace tactus::host
@@ -19,23 +19,23 @@ struct HitOptions
     OscOption osc;
 };
 
-constexpr float usual_speed = 1.0f;   // m/s
+constexpr double usual_speed = 1.0;   // m/s
 
 /// Parses NODE.PORT[=SPEED].
 std::pair<std::string, float> readHit (const std::string& text)
 {
     const auto equals = text.find ('=');
     const auto name = text.substr (0, equals);
-    float speed = usual_speed;
+    double speed = usual_speed;
     bool right = name.find ('.') != name.npos;
     if (equals != text.npos)
     {
-        const auto* const end = text.data() + text.size();
-        const auto [read_to, error] = std::from_chars (text.data() + equals + 1, end, speed);
-        right = right && error == std::errc {} && read_to == end;
+        const auto read = wholeNumber (std::string_view (text).substr (equals + 1));
+        speed = read.value_or (0.0);
+        right = right && read;
     }
     if (! right) throw UsageError ("NODE.PORT[=SPEED]", quote (text) + " has the wrong form; write ring.hit or ring.hit=0.4 (m/s)");
-    return { name, speed };
+    return { name, static_cast<float> (speed) };
 }
 
 void run (const HitOptions& options)

@@ -20,10 +20,10 @@
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
+#include <tactus/text/read_number.hpp>
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <iterator>
@@ -49,11 +49,7 @@ struct SweepOptions
 Extent readSpeeds (const std::string& text)
 {
     const auto dots = text.find ("..");
-    const auto read = [] (std::string_view part) {
-        double number = 0.0;
-        const auto done = std::from_chars (part.data(), part.data() + part.size(), number);
-        return done.ec == std::errc {} && done.ptr == part.data() + part.size() ? number : 0.0;
-    };
+    const auto read = [] (std::string_view part) { return wholeNumber (part).value_or (0.0); };
     const Extent range { dots == text.npos ? 0.0 : read (std::string_view (text).substr (0, dots)),
                          dots == text.npos ? 0.0 : read (std::string_view (text).substr (dots + 2)) };
     if (! (range.low >= 1e-4 && range.low < range.high && range.high <= 100.0))

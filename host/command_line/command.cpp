@@ -4,6 +4,7 @@
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
+#include <tactus/text/read_number.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -85,8 +86,8 @@ Check finiteWithin (double min, double max)
 {
     const auto range = "from " + numberText (min) + " to " + numberText (max);
     return { [=] (const std::string& text) {
-                double value = 0.0;
-                const bool fits = CLI::detail::lexical_cast (text, value) && value >= min && value <= max;
+                const auto value = wholeNumber (text);
+                const bool fits = value && *value >= min && *value <= max;
                 return fits ? std::string() : "'" + text + "' is not a number " + range;
             },
              range };
@@ -153,7 +154,14 @@ Option Command::addOption (const std::string& name, std::string& value, const st
 
 Option Command::addOption (const std::string& name, double& value, const std::string& about) const
 {
-    return Option (app->add_option (name, value, about));
+    const CLI::callback_t take = [&value] (const CLI::results_t& given) {
+        const auto number = given.size() == 1 ? wholeNumber (given.front()) : std::nullopt;
+        value = number.value_or (value);
+        return number.has_value();
+    };
+    auto* option = app->add_option (name, take, about);
+    option->type_name ("FLOAT");
+    return Option (option);
 }
 
 Option Command::addOption (const std::string& name, int& value, const std::string& about) const

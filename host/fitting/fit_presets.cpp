@@ -4,6 +4,7 @@
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/kit/math/math.hpp>
+#include <tactus/text/read_number.hpp>
 
 #include <algorithm>
 #include <numbers>
@@ -118,7 +119,7 @@ void setSources (graph::Graph& graph, std::initializer_list<std::pair<const char
 constexpr const char* board_guess = "guess: what the simulated device can render";
 
 /// Rounds a number to six digits, which is more than the accuracy of any fit; places along a path need them.
-double tidy (double v, int digits = 6) { return std::stod (shortNumber (v, digits)); }
+double tidy (double v, int digits = 6) { return readNumber (shortNumber (v, digits)).value; }
 }   // namespace
 
 graph::Graph frictionPreset (const FrictionFit& fit, const std::string& load_source, const std::string& source)

@@ -8,6 +8,7 @@
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/budget.hpp>
 #include <tactus/text/quote.hpp>
+#include <tactus/text/read_number.hpp>
 
 #include <algorithm>
 #include <array>
@@ -37,7 +38,7 @@ double rateFor (const Clip& clip, double wanted_hz)
     if (wanted_hz > 0.0) return wanted_hz;
     for (const auto& [key, value] : clip.notes)
         if (key == "rate")
-            if (const double rate = std::strtod (value.c_str(), nullptr); rate >= 1.0 && rate <= 1e6) return rate;
+            if (const double rate = readNumber (value).value; rate >= 1.0 && rate <= 1e6) return rate;
     return usual_rate_hz;
 }
 

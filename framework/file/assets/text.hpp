@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/text/read_number.hpp>
+
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 
 namespace tactus::readers
 {
@@ -49,7 +52,7 @@ inline std::string_view takeWord (std::string_view& line) noexcept
 template <typename T>
 std::optional<T> numberIn (std::string_view text) noexcept
 {
-    // from_chars does not accept a plus sign, but some programs write one.
+    if constexpr (std::is_same_v<T, double>) return wholeNumber (text);
     if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+') text.remove_prefix (1);
     T value {};
     const auto [stop, problem] = std::from_chars (text.data(), text.data() + text.size(), value);

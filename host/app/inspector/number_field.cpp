@@ -9,6 +9,7 @@
 #include <host/app/text/translated.hpp>
 
 #include <tactus/text/number_text.hpp>
+#include <tactus/text/read_number.hpp>
 
 #include <cctype>
 #include <cmath>
@@ -220,10 +221,8 @@ bool NumberField::type (const juce::String& text)
         refuse (text, messageText (custom.error()));
         return false;
     }
-    char* rest = nullptr;
-    const double plain = std::strtod (trimmed.c_str(), &rest);
-    // A number without a unit is in the unit shown.
-    auto wanted = ! trimmed.empty() && *rest == '\0' ? QuantityText { plain, value.unit, value.scale }.toJson() : Json (trimmed);
+    const auto plain = wholeNumber (trimmed);   // a number without a unit is in the unit shown
+    auto wanted = plain ? QuantityText { *plain, value.unit, value.scale }.toJson() : Json (trimmed);
     if (read) wanted = *custom;
     const auto taken = readQuantity (wanted, sheet);
     if (! taken)

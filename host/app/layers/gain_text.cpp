@@ -4,12 +4,12 @@
 #include <host/app/text/filled.hpp>
 
 #include <tactus/text/quote.hpp>
+#include <tactus/text/read_number.hpp>
 #include <tactus/text/units.hpp>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdlib>
 
 namespace tactus::host
 {
@@ -72,10 +72,9 @@ Result<double> readGain (const std::string& text, const UnityLevel& level)
     if (word == "off" || word == "-inf" || word == "-infdb") return silent_db;
     const bool is_factor = word.starts_with ('x') || word.starts_with ("\xc3\x97");
     const auto digits = is_factor ? word.substr (word[0] == 'x' ? 1 : 2) : word;
-    char* rest = nullptr;
-    const double number = std::strtod (digits.c_str(), &rest);
-    const std::string unit = rest;
-    if (rest == digits.c_str() || ! std::isfinite (number))
+    const auto [number, size, is_in_range] = readNumber (digits);
+    const auto unit = digits.substr (size);
+    if (! is_in_range || ! std::isfinite (number))
         return Message::error ("gain/syntax", {}, filled (TRANS ("cannot read %1 as a gain"), quote (text)).toStdString(),
                                TRANS ("write -6 dB, x0.5, 50 % or a level such as 0.3 N").toStdString());
     if (unit.empty() && is_factor) return decibelsOf (number);

@@ -6,10 +6,11 @@
 
 #include <tactus/plan/values.hpp>
 #include <tactus/text/number_text.hpp>
+#include <tactus/text/read_number.hpp>
 #include <tactus/text/units.hpp>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <set>
 
 namespace tactus::host
@@ -18,9 +19,7 @@ namespace tactus::host
 double rounded (double v, int digits)
 {
     if (v == 0.0 || ! std::isfinite (v)) return v;
-    char text[40];
-    std::snprintf (text, sizeof text, "%.*e", digits - 1, v);
-    return std::strtod (text, nullptr);
+    return wholeNumber (roundedText (v, digits)).value_or (v);
 }
 
 QuantityText QuantityText::moved (double to_si) const
@@ -80,9 +79,9 @@ Result<QuantityText> readQuantity (const Json& value, const PortSheet& sheet)
     if (value.is_string())
     {
         const auto written = value.get<std::string>();
-        char* rest = nullptr;
-        const double number = std::strtod (written.c_str(), &rest);
-        std::string unit = rest;
+        const auto start = std::min (written.find_first_not_of (' '), written.size());
+        const auto [number, size, is_in_range] = readNumber (std::string_view (written).substr (start));
+        auto unit = written.substr (start + size);
         unit.erase (0, unit.find_first_not_of (' '));
         const auto one = parseMeasure ("1 " + unit);
         if (! unit.empty() && one) text = { number, unit, one->value };

@@ -7,6 +7,7 @@
 #include <host/io/stretch_files.hpp>
 #include <tactus/run/log/run_test.hpp>
 #include <tactus/text/quote.hpp>
+#include <tactus/text/read_number.hpp>
 
 #include <algorithm>
 
@@ -21,7 +22,7 @@ constexpr auto how_to = NEEDS_TRANS ("Press Record, move, and press Stop. Then m
 double secondsIn (const juce::String& text, double before)
 {
     const auto number = text.trim().upToFirstOccurrenceOf ("s", false, true).trim();
-    return number.isNotEmpty() && number.containsOnly ("0123456789.,") ? number.replaceCharacter (',', '.').getDoubleValue() : before;
+    return number.containsOnly ("0123456789.,") ? wholeNumber (number.replaceCharacter (',', '.').toStdString()).value_or (before) : before;
 }
 }   // namespace
 

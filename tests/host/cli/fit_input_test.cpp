@@ -141,3 +141,16 @@ TEST_CASE ("fit texture: the preset runs at least as fast as the recording, or a
     CHECK (fitted (scratch, "texture", hiss (40000), {}, &printed).rate_hz == 20000);
     CHECK (printed.find ("lacks frequencies above 10 kHz") != std::string::npos);
 }
+
+TEST_CASE ("a recording of numbers near the smallest is fitted or refused with a reason, like any other", "[cli][fit]")
+{
+    const Scratch scratch;
+    const auto recording = scratch.write ("tiny.csv", table ("t,x,force", 4000, [] (std::ostream& out, int i) {
+                                              const double t = i * 1e-3, x = 5e-3 * std::sin (0.5 * full_circle * t);
+                                              out << t << "," << x << "," << 1e-310 * std::tanh (1e4 * x);
+                                          }));
+    const auto ran = runTactus ({ "fit", "friction", recording, "-o", scratch.path ("tiny.json") });
+    INFO (ran.err);
+    CHECK ((ran.status == 0 || ran.err.find ("tiny.csv") != std::string::npos));
+    CHECK (ran.err.find ("should not happen") == std::string::npos);
+}
