@@ -2,6 +2,8 @@
 #include "examination.hpp"
 #include "parts.hpp"
 
+#include <tactus/text/caught.hpp>
+
 #include <algorithm>
 #include <bit>
 #include <latch>
@@ -88,9 +90,11 @@ std::string threadFault (const NodeType& type, unsigned seed)
         for (int k = 0; k < ticks; ++k)
             one.tick();
     };
-    std::thread there ([&] { play (second); });
-    play (first);
+    Result<> played {};
+    std::thread there ([&] { played = caught ("a tick", [&] { play (second); }); });
+    const auto played_here = caught ("a tick", [&] { play (first); });
     there.join();
+    if (! played || ! played_here) return sentence ((played ? played_here : played).error());
     const bool same = sameBits (first.outputs(), first_alone) && sameBits (second.outputs(), second_alone);
     return same ? "" : "two instances that tick in two threads give different bits than each alone: they share state";
 }

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "query_thread.hpp"
 
+#include <tactus/text/caught.hpp>
+
 #include <algorithm>
 #include <chrono>
 
 namespace tactus
 {
 
-QueryThread::QueryThread() : thread ([this] { run(); })
+QueryThread::QueryThread()
+    : thread ([this] {
+          while (! stopping)
+              static_cast<void> (caught ("the thread of the queries", [this] { run(); }));   // what is not answered is late, and is counted
+      })
 {
 }
 

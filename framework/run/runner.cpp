@@ -3,6 +3,8 @@
 
 #include "realtime.hpp"
 
+#include <tactus/text/caught.hpp>
+
 #include <algorithm>
 #include <cfenv>
 #include <cstddef>
@@ -47,7 +49,8 @@ std::vector<std::string> Runner::start()
 
     std::promise<std::vector<std::string>> ready;
     auto more = ready.get_future();
-    thread = std::jthread ([this, r = std::move (ready)]() mutable { run (std::move (r)); });
+    // If run() throws before the promise is kept, the caller of start() gets the exception of a broken promise.
+    thread = std::jthread ([this, r = std::move (ready)]() mutable { static_cast<void> (caught ("the tick thread", [&] { run (std::move (r)); })); });
     std::ranges::move (more.get(), std::back_inserter (refused));
     return refused;
 }

@@ -7,6 +7,8 @@
 #include <host/platform/signals.hpp>
 #include <host/plugins/installed_plugins.hpp>
 #include <tactus/tactus.h>
+#include <tactus/text/caught.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <cstdio>
 
@@ -52,16 +54,14 @@ public:
 
     void initialise (const juce::String&) override
     {
-        look = std::make_unique<Look>();
-        juce::LookAndFeel::setDefaultLookAndFeel (look.get());
-        MainView::Start how { .home = homeFolder(), .stops_directly = true, .program = "tactus " TACTUS_VERSION };
-        if (! readArguments (how)) return quit();
-        std::fputs (textOf (usePlugins (plugin_folders)).c_str(), stderr);
-        how.live = liveBuilds (catalogue());
-        useTranslation (translationFor (languageSetIn (how.home), how.home));
-        window = std::make_unique<Window> (*look, how);
-        watchForStop();
-        startTimerHz (10);
+        if (const auto begun = caught ({}, [this] { begin(); }); ! begun) giveUp (begun.error());
+    }
+
+    /// An exception in the main thread, such as one from a file that was dropped on the window. [in a catch block]
+    void unhandledException (const std::exception*, const juce::String&, int) override
+    {
+        const auto why = exceptionAt ({});
+        window != nullptr ? window->view().report (why) : giveUp (why);
     }
 
     void shutdown() override
@@ -79,6 +79,27 @@ public:
     }
 
 private:
+    void begin()
+    {
+        look = std::make_unique<Look>();
+        juce::LookAndFeel::setDefaultLookAndFeel (look.get());
+        MainView::Start how { .home = homeFolder(), .stops_directly = true, .program = "tactus " TACTUS_VERSION };
+        if (! readArguments (how)) return quit();
+        std::fputs (textOf (usePlugins (plugin_folders)).c_str(), stderr);
+        how.live = liveBuilds (catalogue());
+        useTranslation (translationFor (languageSetIn (how.home), how.home));
+        window = std::make_unique<Window> (*look, how);
+        watchForStop();
+        startTimerHz (10);
+    }
+
+    void giveUp (const Message& why)
+    {
+        std::fprintf (stderr, "tactus-host: error: %s\n    %s [%s]\n", printable (why.text).c_str(), why.remedy.c_str(), why.id.c_str());
+        setApplicationReturnValue (1);
+        quit();
+    }
+
     /// Returns false if no window should open: after --help or --version, or if the arguments are wrong.
     bool readArguments (MainView::Start& how)
     {

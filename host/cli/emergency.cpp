@@ -5,6 +5,7 @@
 #include <host/platform/failsafe.hpp>
 #include <host/platform/signals.hpp>
 #include <tactus/run/realtime.hpp>
+#include <tactus/text/caught.hpp>
 
 #include <chrono>
 #include <limits>
@@ -31,7 +32,10 @@ Emergency::Emergency (Engine& e)
     asked_by_signal = false;
     watchForEmergency ([]() noexcept { under_signals.load()->press(); },
                        []() noexcept { asked_by_signal = true; });
-    listening = std::jthread ([this] (const std::stop_token& stop) { listen (stop); });
+    listening = std::jthread ([this] (const std::stop_token& stop) {
+        while (! stop.stop_requested())
+            if (! caught ("the stop keys", [&] { listen (stop); })) press();   // a key may have been lost
+    });
 }
 
 Emergency::~Emergency() { watchForEmergency (nullptr, nullptr); }

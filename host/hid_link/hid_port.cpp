@@ -6,6 +6,7 @@
 #include <host/hid/bits.hpp>
 #include <tactus/run/realtime.hpp>
 #include <tactus/run/tick_clock.hpp>
+#include <tactus/text/caught.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -95,8 +96,15 @@ Result<std::unique_ptr<HidPort>> HidPort::open (HidSystem& system, const Connect
                                device.path + " (" + device.product + ") fails the init steps of its profile " + port->profile()->id + ": " + woken.error().text,
                                woken.error().remedy);
     port->become (std::move (*opened));
-    port->reader = std::jthread ([p = port.get()] { p->readOn(); });
-    port->writer = std::jthread ([p = port.get()] { p->writeOn(); });
+    const auto persist = [p = port.get()] (auto act) {
+        while (! p->isStopping())
+            if (const auto done = caught (p->wanted.path, act); ! done) p->note (done.error().text);
+    };
+    port->reader = std::jthread ([persist, p = port.get()] { persist ([p] { p->readOn(); }); });
+    port->writer = std::jthread ([persist, p = port.get()] {
+        persist ([p] { p->writeOn(); });
+        if (const auto left = caught (p->wanted.path, [p] { p->leave(); }); ! left) p->note (left.error().text);
+    });
     return port;
 }
 
@@ -273,6 +281,11 @@ void HidPort::writeOn()
         else if (! serve (*t))
             lose (*t, "the program or the computer was suspended, so the device is opened again");
     }
+}
+
+/// Brings the device to rest at the end.
+void HidPort::leave()
+{
     const std::lock_guard lock (writing);
     if (const auto t = transport()) leave (*t);
 }

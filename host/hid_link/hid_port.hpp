@@ -218,6 +218,7 @@ private:
     Clock::time_point nextLook (Clock::time_point now) const;
     Result<> send (Transport&, std::size_t report, std::span<const std::uint8_t>);
     void quieten (Transport&);
+    void leave();
     void leave (Transport&);
     std::vector<OutgoingReport> neutralReports();
     void count (Nanoseconds answers, Clock::time_point sent_at) noexcept;

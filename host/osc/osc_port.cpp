@@ -3,6 +3,7 @@
 #include "read_packet.hpp"
 
 #include <tactus/run/realtime.hpp>
+#include <tactus/text/caught.hpp>
 
 #include <vector>
 
@@ -42,7 +43,10 @@ Result<std::unique_ptr<OscPort>> OscPort::open (const OscListen& where)
     }
     port->where = where;
     port->bound = port->socket.getBoundPort();
-    port->listening = std::jthread ([raw = port.get()] (const std::stop_token& stop) { raw->listen (stop); });
+    port->listening = std::jthread ([raw = port.get()] (const std::stop_token& stop) {
+        while (! stop.stop_requested())
+            if (! caught ("OSC", [&] { raw->listen (stop); })) raw->lose();
+    });
     return port;
 }
 
@@ -87,6 +91,13 @@ std::size_t OscPort::dropped() const
 {
     const std::lock_guard lock (guard);
     return lost;
+}
+
+/// Counts a message that could not be taken.
+void OscPort::lose()
+{
+    const std::lock_guard lock (guard);
+    ++lost;
 }
 
 void OscPort::listen (const std::stop_token& stop)

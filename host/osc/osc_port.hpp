@@ -78,6 +78,7 @@ private:
     OscPort() = default;
 
     static bool bind (juce::DatagramSocket&, const OscListen&);
+    void lose();
     void listen (const std::stop_token&);
     void take (std::string_view packet, const std::string& answers_to);
     std::string answersTo (const std::string& sender) const;

@@ -2,6 +2,8 @@
 #include "failsafe.hpp"
 #include "guardian.hpp"
 
+#include <tactus/text/caught.hpp>
+
 #include <utility>
 
 #if defined(__linux__)
@@ -187,7 +189,10 @@ std::string needGuardian()
         action.sa_handler = afterFault;
         ::sigaction (faults[i], &action, &handled_before[i]);
     }
-    std::thread (watchGuardian).detach();
+    std::thread ([] {
+        for (;;)
+            if (! caught ("the watch over the guardian", watchGuardian)) shared.load()->raiseAlarm (Shared::Cause::unguarded, EAGAIN);
+    }).detach();
     return {};
 }
 }   // namespace

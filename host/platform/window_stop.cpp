@@ -2,6 +2,7 @@
 #include "window_stop.hpp"
 
 #include <tactus/run/realtime.hpp>
+#include <tactus/text/caught.hpp>
 
 #include <utility>
 
@@ -111,7 +112,10 @@ Result<std::unique_ptr<WindowStop>> WindowStop::open (std::uintptr_t window, Act
 }
 
 WindowStop::WindowStop (std::unique_ptr<Server> s, Actions a)
-    : server (std::move (s)), actions (std::move (a)), listening ([this] (const std::stop_token& stop) { listen (stop); })
+    : server (std::move (s)), actions (std::move (a)), listening ([this] (const std::stop_token& stop) {
+          while (! stop.stop_requested() && server->isThere())
+              if (! caught ("the stop keys", [&] { listen (stop); })) actions.emergency_stop();   // a key may have been lost
+      })
 {
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "awaited_device.hpp"
 
+#include <tactus/text/caught.hpp>
+
 #include <utility>
 
 namespace tactus::host
@@ -25,7 +27,10 @@ void AwaitedDevice::prepare (double dt_s)
 {
     dt = dt_s;
     if (! looking.joinable())
-        looking = std::jthread ([this] { lookOn(); });
+        looking = std::jthread ([this] {
+            while (device() == nullptr && ! isStopping())
+                if (const auto looked = caught (wanted->id, [this] { lookOn(); }); ! looked) note (looked.error().text);
+        });
 }
 
 Reading AwaitedDevice::read() noexcept
@@ -86,8 +91,19 @@ void AwaitedDevice::look()
         there.store (d, std::memory_order_release);
         return;
     }
+    note (made.messages.empty() ? std::string() : made.messages.back().text);
+}
+
+void AwaitedDevice::note (const std::string& trouble)
+{
     const std::lock_guard lock (mutex);
-    last_trouble = made.messages.empty() ? std::string() : made.messages.back().text;
+    last_trouble = trouble;
+}
+
+bool AwaitedDevice::isStopping() const
+{
+    const std::lock_guard lock (mutex);
+    return stopping;
 }
 
 }   // namespace tactus::host

@@ -46,6 +46,8 @@ public:
 private:
     void lookOn();
     void look();
+    void note (const std::string& trouble);
+    bool isStopping() const;
 
     const Json description;
     const std::shared_ptr<const hid::Profile> wanted;

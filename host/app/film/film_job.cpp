@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "film_job.hpp"
 
+#include <tactus/text/caught.hpp>
+
 namespace tactus::host
 {
 
@@ -8,9 +10,11 @@ FilmJob::FilmJob (Film f, const Theme& theme, juce::Rectangle<int> view, int wid
     : film (std::move (f)), picture (theme, view, width), named (std::move (path))
 {
     worker = std::thread ([this] {
-        outcome = writeFilm (film, picture, named, [this] (double part) {
-            done.store (part, std::memory_order_relaxed);
-            return ! is_stopped.load (std::memory_order_relaxed);
+        outcome = caught (named.string(), [this] {
+            return writeFilm (film, picture, named, [this] (double part) {
+                done.store (part, std::memory_order_relaxed);
+                return ! is_stopped.load (std::memory_order_relaxed);
+            });
         });
         is_over.store (true, std::memory_order_release);
     });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit_job.hpp"
 
+#include <tactus/text/caught.hpp>
+
 #include <utility>
 
 namespace tactus::host
@@ -12,7 +14,7 @@ void FitJob::start (FitKind kind, std::shared_ptr<const Table> table, std::strin
     forgetFinished();
     work = std::make_shared<Work>();
     threads.emplace_back (work, std::jthread ([own = work, kind, table = std::move (table), file = std::move (file), settings = std::move (settings)] {
-                              own->result.emplace (fitRecording (kind, *table, file, settings, &own->course));
+                              own->result.emplace (caught (file, [&] { return fitRecording (kind, *table, file, settings, &own->course); }));
                               own->done = true;
                           }));
 }

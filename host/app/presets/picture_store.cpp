@@ -3,6 +3,8 @@
 
 #include <host/app/text/filled.hpp>
 
+#include <tactus/text/caught.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -53,7 +55,8 @@ void PictureStore::run()
             wait (-1);
             continue;
         }
-        auto picture = std::make_shared<const ForcePicture> (pictureOf (file, types, cancelled));
+        auto drawn = caught (file.string(), [&] { return pictureOf (file, types, cancelled); });
+        auto picture = std::make_shared<const ForcePicture> (drawn ? std::move (*drawn) : ForcePicture { .problem = drawn.error().text });
         const std::scoped_lock guard (lock);
         pictures[file] = std::move (picture);
         std::erase (wanted, file);

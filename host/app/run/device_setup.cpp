@@ -2,9 +2,12 @@
 #include "device_setup.hpp"
 
 #include <host/hid_link/force_feedback.hpp>
+#include <tactus/text/caught.hpp>
 
 #include <algorithm>
 #include <chrono>
+#include <tuple>
+#include <utility>
 
 namespace tactus::host
 {
@@ -50,7 +53,7 @@ void DeviceSetup::scan (bool on)
     }
     changed.notify_all();
     if (on && ! scanner.joinable())
-        scanner = std::jthread ([this] { scanLoop(); });
+        scanner = std::jthread ([this] { static_cast<void> (caught ("the search for devices", [this] { scanLoop(); })); });
 }
 
 std::vector<hid::ConnectedDevice> DeviceSetup::connected() const
@@ -74,12 +77,15 @@ void DeviceSetup::scanLoop()
         changed.wait (lock, [this] { return ends || scans; });
         if (ends) return;
         lock.unlock();
-        auto connected_now = hid::eachOnce (devices.connected(), known);
-        auto without_profile = connected_now;
-        std::erase_if (without_profile, [&] (const auto& d) { return ! hid::matching (known.profiles, d).empty() || ! hid::hasForceFeedback (devices, d); });
+        auto look = caught ("the search for devices", [this] {
+            auto connected_now = hid::eachOnce (devices.connected(), known);
+            auto without_profile = connected_now;
+            std::erase_if (without_profile,
+                           [&] (const auto& d) { return ! hid::matching (known.profiles, d).empty() || ! hid::hasForceFeedback (devices, d); });
+            return std::pair { std::move (connected_now), std::move (without_profile) };
+        });
         lock.lock();
-        found = std::move (connected_now);
-        found_without_profile = std::move (without_profile);
+        if (look) std::tie (found, found_without_profile) = std::move (*look);   // else it looks again a second later
         changed.wait_for (lock, 1s, [this] { return ends; });
     }
 }

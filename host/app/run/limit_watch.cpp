@@ -2,7 +2,7 @@
 #include "limit_watch.hpp"
 #include "device_setup.hpp"
 
-#include <exception>
+#include <tactus/text/caught.hpp>
 
 namespace tactus::host
 {
@@ -71,7 +71,9 @@ void LimitWatch::take()
     }
     if (! finished) return;
     is_busy = false;
-    if (finished->document == document.identity()) show (std::move (finished->list));
+    if (finished->document != document.identity()) return;
+    show (std::move (finished->list));
+    if (! finished->problem.empty()) said.push_back (Message::warning ("program/exception", {}, finished->problem));
 }
 
 void LimitWatch::begin()
@@ -108,14 +110,12 @@ void LimitWatch::run()
             wait (-1);
             continue;
         }
-        Done result { order->document, {} };
-        try
-        {
-            result.list = limitsOf (order->job, order->types, assets);
-        }
-        catch (const std::exception&)   // if memory runs out, for example, the graph counts as not checked
-        {
-        }
+        Done result { order->document, {}, {} };
+        auto list = caught ({}, [&] { return limitsOf (order->job, order->types, assets); });
+        if (list)
+            result.list = std::move (*list);
+        else
+            result.problem = "the graph was not checked: " + list.error().text;
         const std::scoped_lock guard (lock);
         done = std::move (result);
     }

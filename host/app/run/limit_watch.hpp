@@ -49,6 +49,7 @@ private:
     {
         const void* document = nullptr;
         LimitList list;
+        std::string problem;   // why there is no list; empty if there is one
     };
 
     void documentChanged() override;

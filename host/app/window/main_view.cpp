@@ -261,7 +261,8 @@ void MainView::documentChanged()
     top.show (std::move (trail), instance ? std::optional (TopBar::Instance { instance->number, instance->count }) : std::nullopt);
 }
 
-void MainView::documentRefused (const Message& m) { status.notify (juce::String (messageText (m))); }
+void MainView::documentRefused (const Message& m) { report (m); }
+void MainView::report (const Message& m) { status.notify (juce::String (messageText (m))); }
 
 void MainView::paint (juce::Graphics& g) { g.fillAll (themeOf (*this).panel); }
 

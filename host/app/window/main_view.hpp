@@ -92,6 +92,7 @@ public:
     TakePanel& takePanel() noexcept { return takes; }
     Inspector& inspected() noexcept { return inspector; }
     juce::String statusText() const { return status.text(); }
+    void report (const Message&);   ///< an error that belongs to no part of the window, in the status line
 
     /// Asks for a file, see Files::Callbacks. Tests answer immediately.
     std::function<void (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>)> chooseFile;
