@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <fstream>
 #include <random>
 #include <sstream>
 #include <system_error>
@@ -41,6 +42,15 @@ void removeLeftovers (const fs::path& folder)
     }
 }
 
+std::unique_ptr<std::ostream> asFile (const fs::path& path)
+{
+    auto file = std::make_unique<std::ofstream> (path, std::ios::binary | std::ios::trunc);
+    if (! *file) return nullptr;
+    return file;
+}
+
+std::atomic<OpenPipe> open_pipe { asFile };
+
 constexpr int most_partial = 99;   // unfinished files next to one target
 
 /// NAME.partial.csv, NAME.partial-2.csv and so on. The extension stays last, so that other programs know what is in the file.
@@ -70,6 +80,32 @@ fs::path behindLinks (const fs::path& target)
     return failed ? target : behind;
 }
 }   // namespace
+
+void openPipesBy (OpenPipe how) noexcept { open_pipe = how; }
+
+std::unique_ptr<std::ostream> openDirectly (const fs::path& path)
+{
+    std::error_code ignored;
+    const auto existing = fs::status (path, ignored);
+    const bool is_file = ! fs::exists (existing) || fs::is_regular_file (existing) || fs::is_directory (existing);
+    errno = 0;
+    return is_file ? asFile (path) : open_pipe.load() (path);
+}
+
+bool closed (std::unique_ptr<std::ostream>& out)
+{
+    if (out == nullptr) return true;
+    errno = 0;
+    if (auto* file = dynamic_cast<std::ofstream*> (out.get()))
+        file->close();   // which can fail, too
+    else
+        out->flush();
+    const bool is_whole = out->good();
+    const int why = errno;
+    out.reset();
+    errno = why;
+    return is_whole;
+}
 
 Message AtomicFile::unwritable (const std::string& reason) const
 {
@@ -105,8 +141,8 @@ Result<> AtomicFile::open (IfKilled if_killed)
     errno = 0;
     if (direct)
     {
-        out.open (target, std::ios::binary);
-        if (! out) return writeError();
+        out = openDirectly (target);
+        if (out == nullptr) return writeError();
         return {};
     }
     if (auto opened = openTemporary (if_killed); ! opened) return opened;
@@ -129,8 +165,8 @@ Result<> AtomicFile::openTemporary (IfKilled if_killed)
             return writeError();
         }
         temporary = name;
-        out.open (temporary, std::ios::binary);
-        if (! out) return writeError();
+        out = openDirectly (temporary);
+        if (out == nullptr) return writeError();
         // Before the lock is taken, another process may have removed the file as a leftover. The last try also serves file
         // systems without locks, where no process removes leftovers.
         if (lockTemporary() || kept || i == tries) return {};
@@ -169,7 +205,7 @@ AtomicFile::~AtomicFile() { discard(); }
 
 void AtomicFile::discard() noexcept
 {
-    out.close();
+    out.reset();
     if (temporary.empty()) return;
     std::error_code ignored;
     fs::remove (temporary, ignored);
@@ -179,9 +215,7 @@ void AtomicFile::discard() noexcept
 
 Result<> AtomicFile::commit()
 {
-    errno = 0;
-    out.close();
-    if (! out) return writeError();
+    if (! closed (out)) return writeError();
     if (temporary.empty()) return {};
 
     std::error_code failure;

@@ -6,13 +6,25 @@
 #include <tactus/text/result.hpp>
 
 #include <filesystem>
-#include <fstream>
+#include <memory>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
 namespace tactus
 {
+
+/// Opens a file for writing in place, without a temporary file. Null, with errno, if that fails. A program may replace how pipes and devices are opened,
+/// because opening and writing them may wait forever; regular files are always opened as files. [any thread]
+std::unique_ptr<std::ostream> openDirectly (const std::filesystem::path&);
+
+/// Opens a pipe or a device, like openDirectly. [any thread]
+using OpenPipe = std::unique_ptr<std::ostream> (*) (const std::filesystem::path&);
+void openPipesBy (OpenPipe) noexcept;
+
+/// Closes the stream of a file. False, with errno, if not everything was written. [any thread]
+bool closed (std::unique_ptr<std::ostream>&);
 
 /// What becomes of an unfinished file if the process is killed.
 enum class IfKilled
@@ -29,7 +41,7 @@ enum class IfKilled
 ///
 /// A temporary file is locked while it is written, so files of killed processes can be told from files of running ones.
 ///
-/// A target that exists and is not a regular file (/dev/null, a pipe) cannot be replaced and is written directly.
+/// A target that exists and is not a regular file (/dev/null, a pipe) cannot be replaced and is written directly, through openDirectly().
 class AtomicFile
 {
 public:
@@ -40,7 +52,7 @@ public:
     AtomicFile& operator= (AtomicFile&& other) noexcept;
     ~AtomicFile();
 
-    std::ostream& stream() noexcept { return out; }
+    std::ostream& stream() noexcept { return *out; }
     const std::filesystem::path& path() const noexcept { return target; }
 
     /// Closes the file and moves it to the target. This must be the last call.
@@ -59,7 +71,7 @@ private:
 
     std::filesystem::path target;
     std::filesystem::path temporary;   // path of the temporary file; empty if there is none to remove
-    std::ofstream out;
+    std::unique_ptr<std::ostream> out;
     std::optional<FileLock> lock;   // of the temporary file
 };
 

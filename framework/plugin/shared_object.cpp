@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared_object.hpp"
 
-#include <tactus/text/quote.hpp>
+#include <system_error>
 
 #if defined(_WIN32)
 #include <windows.h>
@@ -14,6 +14,9 @@ namespace tactus
 
 Result<std::unique_ptr<SharedObject>> SharedObject::load (const std::filesystem::path& file)
 {
+    std::error_code unseen;
+    if (const auto status = std::filesystem::status (file, unseen); std::filesystem::exists (status) && ! std::filesystem::is_regular_file (status))
+        return Message::error ("plugin/cannot_load", file.string(), "this is not a file, but a folder, a pipe or a device", "name the file of a plugin");
 #if defined(_WIN32)
     void* handle = LoadLibraryW (file.c_str());
     const std::string why = handle == nullptr ? "Windows error " + std::to_string (GetLastError()) : "";

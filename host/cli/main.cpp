@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "report.hpp"
 
+#include <host/platform/patient_output.hpp>
 #include <host/plugins/installed_plugins.hpp>
 #include <tactus/tactus.h>
 
@@ -44,6 +45,7 @@ int main (int argc, char** argv)
 {
     using namespace tactus::host;
 
+    giveUpBlockedOutputs();
     const Command app { "Tactus: haptic effects, patched like a modular synthesiser.", "tactus" };
     app.footer (examples);
     app.version (TACTUS_VERSION " (C API " + std::to_string (TACTUS_API_VERSION) + ")");

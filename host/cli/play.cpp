@@ -10,6 +10,7 @@
 #include <host/fuse/fuser.hpp>
 #include <host/io/file_watch.hpp>
 #include <host/osc/osc_options.hpp>
+#include <host/platform/patient_output.hpp>
 #include <host/platform/signals.hpp>
 #include <host/platform/terminal.hpp>
 #include <host/plugins/live_plugins.hpp>
@@ -120,7 +121,8 @@ class Playing
 public:
     Playing (const PlayOptions& o, LivePlugins& l) : options (o), live (l)
     {
-        watchForStop();   // before this there is nothing to shut down
+        watchForStop();                                    // before this there is nothing to shut down
+        giveUpBlockedOutputs (std::chrono::seconds (5));   // longer than usual: a recording cannot be repeated
         command.run().add (emergency);
         if (! options.outputs.empty()) command.run().add (recording.emplace (command.run(), options.outputs));
         if (port) control.emplace (*port, remote, token);

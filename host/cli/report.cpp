@@ -22,6 +22,9 @@ std::string placeOf (const Message& m, const LoadedGraph& loaded, const std::str
     return file + ":" + std::to_string (at.line) + ":" + std::to_string (at.column);
 }
 
+/// The id at the end of a message. It may come from the answer of another program.
+std::string idOf (const Message& m) { return " [" + printableName (m.id) + "]\n"; }
+
 /// Shortens messages, because a file may contain a name of a megabyte. Long enough for the chain of a loop through many nodes.
 std::string cut (std::string text)
 {
@@ -51,18 +54,18 @@ int report (const Messages& messages, const LoadedGraph& loaded, const std::stri
         errors += error;
         if (++count > most_messages) continue;
         std::cerr << inOneLine (placeOf (m, loaded, file)) << ": " << (error ? "error: " : "warning: ") << inOneLine (m.text);
-        std::cerr << "\n    " << printable (cut (m.remedy)) << " [" << m.id << "]\n";
+        std::cerr << "\n    " << printable (cut (m.remedy)) << idOf (m);
     }
     if (count > most_messages) std::cerr << inOneLine (file) << ": problems not listed: " << count - most_messages << "\n    fix the listed ones first\n";
     return errors;
 }
 
-void warn (const std::string& file, const Message& m) { std::cerr << inOneLine (file) << ": warning: " << inOneLine (m.text) << " [" << m.id << "]\n"; }
+void warn (const std::string& file, const Message& m) { std::cerr << inOneLine (file) << ": warning: " << inOneLine (m.text) << idOf (m); }
 
 void fail (const Message& e)
 {
     std::cerr << inOneLine (e.where) << (e.where.empty() ? "" : ": ") << "error: " << inOneLine (e.text);
-    std::cerr << "\n    " << printable (cut (e.remedy)) << " [" << e.id << "]\n";
+    std::cerr << "\n    " << printable (cut (e.remedy)) << idOf (e);
     throw Stop {};
 }
 

@@ -3,8 +3,10 @@
 #include "evemu.hpp"
 #include "measure_option.hpp"
 #include <tactus/file/csv.hpp>
+#include <tactus/file/text_file.hpp>
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/object_reader.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <fstream>
 #include <iostream>
@@ -67,10 +69,12 @@ int main (int argc, char** argv)
     if (const auto status = app.parse (argc, argv)) return *status == 0 ? 0 : usage;
 
     std::ifstream file;
-    if (in != "-") file.open (in, std::ios::binary);
-    if (! file)
+    auto why = in == "-" ? std::string() : whyUnreadable (in);
+    if (in != "-" && why.empty()) file.open (in, std::ios::binary);
+    if (! file && why.empty()) why = "the system gave no reason";
+    if (! why.empty())
     {
-        std::cerr << in << ": cannot be read\n";
+        std::cerr << printableName (in) << ": cannot be read: " << why << "; check the path [file/unreadable]\n";
         return input_at_fault;
     }
     std::istream& source = in == "-" ? std::cin : file;

@@ -2,6 +2,7 @@
 #include "run_log.hpp"
 #include "log_number.hpp"
 
+#include <tactus/file/atomic_file.hpp>
 #include <tactus/plan/find_hit.hpp>
 #include <tactus/plan/find_param.hpp>
 
@@ -91,23 +92,23 @@ bool same (std::span<const double> a, std::span<const double> b) noexcept
 }   // namespace
 
 RunLog::RunLog (const std::filesystem::path& p, const RunHead& head)
-    : path (p), place (p.parent_path()), out (p, std::ios::binary | std::ios::trunc), taken (roomFor (head))
+    : path (p), place (p.parent_path()), out (openDirectly (p)), taken (roomFor (head))
 {
-    out << headLine (head) << std::flush;
+    if (out) *out << headLine (head) << std::flush;
 }
 
 Result<std::unique_ptr<RunLog>> RunLog::create (const std::filesystem::path& path, const RunHead& head)
 {
     errno = 0;
     std::unique_ptr<RunLog> log { new RunLog (path, head) };
-    if (auto problem = log->written(); ! problem) return std::move (problem.error());
-    log->whole = static_cast<std::uintmax_t> (log->out.tellp());
+    if (auto problem = written (log->out && log->out->good(), path); ! problem) return std::move (problem.error());
+    log->whole = static_cast<std::uintmax_t> (log->out->tellp());
     return log;
 }
 
-Result<> RunLog::written()
+Result<> RunLog::written (bool good, const std::filesystem::path& path)
 {
-    if (out.good()) return {};
+    if (good) return {};
     const auto reason = errno != 0 ? std::generic_category().message (errno) : "the system gave no reason";
     return Message::error ("output/unwritable", path.string(), "cannot be written: " + reason, "choose another file, create its folder, or free some space");
 }
@@ -122,17 +123,17 @@ void RunLog::expect (std::shared_ptr<const Plan> plan, const Json& snapshot, con
 
 Result<> RunLog::drain()
 {
-    if (! out.is_open()) return {};
+    if (! out) return {};
     while (taken.words().size() > 0)
         take();
-    out.flush();
-    auto result = written();
+    out->flush();
+    auto result = written (out->good(), path);
     if (result)
-        whole = static_cast<std::uintmax_t> (out.tellp());
+        whole = static_cast<std::uintmax_t> (out->tellp());
     else
     {
         std::error_code ignored;
-        out.close();
+        out.reset();
         std::filesystem::resize_file (path, whole, ignored);
     }
     return result;
@@ -294,17 +295,16 @@ void RunLog::add (std::string_view key, std::string_view value)
 
 void RunLog::endLine()
 {
-    out << "{\"tick\":" << now << line << "}\n";
+    *out << "{\"tick\":" << now << line << "}\n";
     line.clear();
 }
 
 Result<> RunLog::finish()
 {
-    if (auto problem = drain(); ! problem || ! out.is_open()) return problem;
+    if (auto problem = drain(); ! problem || ! out) return problem;
     add (brokenAt() ? "broken" : "end", "true");
     endLine();
-    out.close();
-    return written();
+    return written (closed (out), path);
 }
 
 }   // namespace tactus
