@@ -334,8 +334,8 @@ void @S@_destroy (@S@* graph)
                      { "@OUTPUTS@", writes ? "outputs" : "" },
                      { "@READ@", readInputs (e) },
                      { "@WRITE@", writeOutputs (e) },
-                     { "@MORE@", optionalFunctions (e) },
-                     { "@LIMITS@", limitHelpers (e) },
+                     { "@MORE@", filled (optionalFunctions (e), { { "@C@", e.class_name }, { "@S@", e.stem } }) },
+                     { "@LIMITS@", filled (limitHelpers (e), { { "@C@", e.class_name }, { "@S@", e.stem } }) },
                      { "@C@", e.class_name },
                      { "@S@", e.stem } });
 }

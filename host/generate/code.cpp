@@ -123,10 +123,19 @@ std::string wrapped (std::string_view indent, const std::string& head, const std
 
 std::string filled (std::string text, const std::vector<std::pair<std::string, std::string>>& marks)
 {
-    for (const auto& [mark, word] : marks)
-        for (auto at = text.find (mark); at != std::string::npos; at = text.find (mark, at + word.size()))
-            text.replace (at, mark.size(), word);
-    return text;
+    std::string all;
+    for (std::size_t at = 0; at < text.size();)
+    {
+        const auto mark = std::ranges::find_if (marks, [&] (const auto& m) { return text.compare (at, m.first.size(), m.first) == 0; });
+        if (mark == marks.end())
+            all += text[at++];
+        else
+        {
+            all += mark->second;
+            at += mark->first.size();
+        }
+    }
+    return all;
 }
 
 std::string Names::make (std::string_view text, const std::vector<std::string>& endings)

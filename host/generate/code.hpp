@@ -37,7 +37,8 @@ std::vector<std::string> inOrder (std::vector<std::pair<std::size_t, std::string
 /// Code that begins with `head` and has these parts: on one line if it fits, else with one part per line. `end` closes it.
 std::string wrapped (std::string_view indent, const std::string& head, const std::vector<std::string>& parts, std::string_view end);
 
-/// A text in which each mark, such as @STEM@, is replaced by what belongs there.
+/// A text in which each mark, such as @STEM@, is replaced by what belongs there. What takes the place of a mark is not searched for marks, because names
+/// that users write may look like one. Where several marks fit, the first one counts.
 std::string filled (std::string text, const std::vector<std::pair<std::string, std::string>>& marks);
 
 /// Gives out names that are unique in their scope and are not words of C++.

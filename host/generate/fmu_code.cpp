@@ -164,7 +164,8 @@ Variables variablesOf (const Exported& e)
 
 std::string xml (std::string_view text)
 {
-    return filled (comment (text), { { "&", "&amp;" }, { "<", "&lt;" }, { ">", "&gt;" }, { "\"", "&quot;" } });
+    const std::string no_character = "\xef\xbf\xbe", nor_this = "\xef\xbf\xbf";   // U+FFFE and U+FFFF
+    return filled (comment (text), { { "&", "&amp;" }, { "<", "&lt;" }, { ">", "&gt;" }, { "\"", "&quot;" }, { no_character, "" }, { nor_this, "" } });
 }
 
 std::string variableTag (const std::string& name, std::size_t number, const std::string& attributes, const std::string& about, const std::string& value)

@@ -273,7 +273,8 @@ SelfTestFiles selfTestFiles (const Exported& e, const SelfTest& test)
         checks += "    check (count, k, \"" + test.outputs[i].target + "\", " + test.outputs[i].target + ", " + name + size + ");\n";
     }
     files.data += "}   // namespace " + space + "\n";
-    files.source = filled (program, { { "@COMPARE@", e.is_single ? nearly : same_bits },
+    const std::vector<std::pair<std::string, std::string>> names { { "@STEM@", e.stem }, { "@TICKS@", std::to_string (test.ticks) } };
+    files.source = filled (program, { { "@COMPARE@", filled (e.is_single ? nearly : same_bits, names) },
                                       { "@HOW@", e.is_single ? "in double precision" : "bit for bit" },
                                       { "@EVENTS@", events (e, test) },
                                       { "@INPUTS@", inputs },

@@ -299,3 +299,33 @@ TEST_CASE ("every node type of the catalogue has a class and a header that can b
     CHECK (files.contains ("tactus/kit/vec3.hpp"));
     CHECK_FALSE (files.contains ("tactus/node/catalogue.hpp"));
 }
+
+TEST_CASE ("a name that looks like a mark of a template, or like XML, stays a name in everything that is exported", "[export]")
+{
+    CHECK (host::filled ("@A@ @B@ @AB@", { { "@A@", "@B@" }, { "@B@", "<&>" } }) == "@B@ <&> @AB@");
+
+    test::Sketch s;
+    s.graph.name = "@VARIABLES@ @STRUCTURE@ <a href=\"x\">& \xef\xbf\xbf";
+    s.graph.about = "@GUID@ @S@";
+    s.node ("z", "signal.lfo", { { "frequency", 30.0 } });
+    host::ExportOptions options { .file = "marks.json", .program = "tactus", .compile = {}, .open = {} };
+    options.target = host::ExportTarget::fmu;
+    options.compile.records.push_back ("z.out");
+    const auto folder = host::exportGraph (s.graph, options);
+    INFO (test::text (folder.messages));
+    const auto xml = std::ranges::find_if (folder.files, [] (const auto& file) { return file.first.ends_with ("modelDescription.xml"); });
+    REQUIRE (xml != folder.files.end());
+    const auto& text = xml->second;
+    INFO (text);
+    CHECK (text.find ("modelName=\"@VARIABLES@ @STRUCTURE@ &lt;a href=&quot;x&quot;&gt;&amp; \"") != std::string::npos);
+    CHECK (text.find ("description=\"@GUID@ @S@\"") != std::string::npos);
+    const auto count = [&] (const std::string& what) {
+        int n = 0;
+        for (auto at = text.find (what); at != std::string::npos; at = text.find (what, at + 1))
+            ++n;
+        return n;
+    };
+    CHECK (count ("<ModelVariables>") == 1);
+    CHECK (count ("name=\"record.z.out\"") == 1);
+    CHECK (count ("guid=\"{") == 1);
+}
