@@ -74,6 +74,9 @@ public:
     /// True if the graph differs from its file.
     bool isChanged() const;
 
+    /// The text of the graph in its file; empty if it is not the text of any graph.
+    const std::string& savedText() const noexcept { return origin().saved; }
+
     /// Writes the graph to a file, which becomes its file. [errors: those of saveGraph]
     Messages save (const std::filesystem::path&);
 

@@ -35,6 +35,8 @@ juce::String errorList (const Messages& messages, const fs::path& file)
     if (count > most) list << filled (TRANS ("There are %1 more errors."), count - most) << "\n\n";
     return list;
 }
+
+juce::String autosaveFailed (const Message& why) { return filled (TRANS ("Autosave failed: %1. Save often."), translated (why.text)); }
 }   // namespace
 
 Files::Files (Document& d, Question& q, Settings& s, Callbacks c)
@@ -49,7 +51,9 @@ Files::~Files() { document.remove (*this); }
 void Files::beginSession (const fs::path& h)
 {
     home = h;
+    autosaver.reset();
     session.emplace (home);
+    autosaver.emplace (*session);
     if (! session->problem().empty()) callbacks.notify (session->problem());
 }
 
@@ -253,16 +257,34 @@ void Files::restoreNext (bool runs)
 void Files::documentChanged()
 {
     if (! session) return;
-    if (! unsaved_since) unsaved_since = clock();
+    autosaveSoon();
     if (callbacks.isRunning()) beforeRun();   // the change itself may crash the program
 }
 
+/// Hands a copy of the document to the thread that writes autosaves, or remembers to do so once it is idle.
+void Files::autosaveSoon()
+{
+    is_dirty = ! autosaver->isIdle();
+    if (is_dirty) return;
+    autosaver->write ({ { document.file(), document.preset(), true, clock(), {} }, document.graph(), document.savedText() });
+}
+
+void Files::finishAutosave()
+{
+    if (! session) return;
+    autosaver->finish();
+    if (is_dirty) autosaveSoon();
+    autosaver->finish();
+}
+
+/// Autosaves before it returns.
 bool Files::autosave()
 {
     if (! session) return false;
-    unsaved_since.reset();
+    is_dirty = false;
+    autosaver->finish();
     const auto saved = session->autosave ({ document.file(), document.preset(), document.isChanged(), clock(), writeGraph (document.graph()) });
-    if (! saved) callbacks.notify (filled (TRANS ("Autosave failed: %1. Save often."), translated (saved.error().text)));
+    if (! saved) callbacks.notify (autosaveFailed (saved.error()));
     return saved.has_value();
 }
 
@@ -279,12 +301,14 @@ void Files::attend()
 {
     if (! session) return;
     const auto now = clock();
-    if (unsaved_since && now - *unsaved_since >= autosave_after_s) autosave();
+    if (is_dirty) autosaveSoon();
+    if (const auto problem = autosaver->takeProblem()) callbacks.notify (autosaveFailed (*problem));
     if (session->inTrial() && (now >= trial_until || ! callbacks.isRunning())) session->endTrial();
 }
 
 void Files::end()
 {
+    autosaver.reset();
     if (session) session->end();
     session.reset();
 }
@@ -294,6 +318,7 @@ void Files::endSuddenly()
     if (! session) return;
     if (! document.isChanged()) return end();
     autosave();
+    autosaver.reset();
     session->endTrial();
     session.reset();
 }

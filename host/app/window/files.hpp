@@ -4,6 +4,7 @@
 #include "question.hpp"
 
 #include <host/app/model/document.hpp>
+#include <host/app/storage/autosaver.hpp>
 #include <host/app/storage/recovery.hpp>
 #include <host/app/storage/settings.hpp>
 
@@ -52,13 +53,15 @@ public:
     /// Offers to recover crashed sessions, the latest first. Returns true if there are any.
     bool recover();
 
-    void beforeRun();     ///< call before each run
-    void attend();        ///< call many times a second
-    void end();           ///< removes the autosave; call it when the program closes normally
-    void endSuddenly();   ///< autosaves unsaved changes; call it when the program must close now
+    void beforeRun();        ///< call before each run
+    void attend();           ///< call many times a second: an edit that came while another one was being autosaved is handed over here
+    void finishAutosave();   ///< waits until the autosave matches the document
+    void end();              ///< removes the autosave; call it when the program closes normally
+    void endSuddenly();      ///< autosaves unsaved changes; call it when the program must close now
 
 private:
     void documentChanged() override;
+    void autosaveSoon();
     bool autosave();
     void load (const std::filesystem::path&, Document::Source, bool by_pointer);
     void loadClipGraph (const std::filesystem::path&, bool by_pointer);   ///< opens a graph that plays a clip file
@@ -70,7 +73,7 @@ private:
     void restoreNext (bool runs);
     std::string name() const;
 
-    static constexpr double autosave_after_s = 1.0, trial_s = 10.0;
+    static constexpr double trial_s = 10.0;
 
     Document& document;
     Question& question;
@@ -79,7 +82,8 @@ private:
     std::optional<RecoverySession> session;
     std::filesystem::path home;
     std::vector<CrashedSession> crashed;
-    std::optional<double> unsaved_since;
+    std::optional<Autosaver> autosaver;   // declared after the session, which it uses
+    bool is_dirty = false;                // the document has changed since it was handed to the autosaver
     double trial_until = 0.0;
     bool safe = false;
 };

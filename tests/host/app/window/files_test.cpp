@@ -7,6 +7,9 @@
 #include <tactus/file/graph_file.hpp>
 
 #include <fstream>
+#include <iterator>
+
+#include <sys/stat.h>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -239,7 +242,7 @@ TEST_CASE ("a recent file that no longer exists can be removed from the list whe
     CHECK_FALSE (d.question.isOpen());
 }
 
-TEST_CASE ("a second after each edit, the autosave matches the document")
+TEST_CASE ("after each edit, the autosave matches the document, without waiting for more edits")
 {
     Rig d;
     d.files->beginSession (d.folder.path());
@@ -259,8 +262,7 @@ TEST_CASE ("a second after each edit, the autosave matches the document")
         default:
             if (d.document.graph().root.find ("drag") != nullptr) d.edit (0.01 * i);
         }
-        d.now += 1.1;
-        d.files->attend();
+        d.files->finishAutosave();
         const auto saved = d.autosaved();
         REQUIRE (saved);
         REQUIRE (saved->graph == writeGraph (d.document.graph()));
@@ -269,17 +271,47 @@ TEST_CASE ("a second after each edit, the autosave matches the document")
     }
 }
 
-TEST_CASE ("a drag is not autosaved at each step")
+TEST_CASE ("a drag is autosaved while it goes on: a step that comes while another one is being written is written next")
 {
     Rig d;
     d.files->beginSession (d.folder.path());
     d.files->open (wood);
     d.runs = false;
-    const auto before = d.autosaved()->graph;
+    for (int i = 0; i < 300; ++i)
+    {
+        d.edit (1e-3 * i);
+        if (i % 10 == 0) d.files->attend();
+    }
+    d.files->finishAutosave();
+    CHECK (d.autosaved()->graph == writeGraph (d.document.graph()));
+}
+
+TEST_CASE ("writing an autosave does not keep the thread of the window")
+{
+    Rig d;
+    d.files->beginSession (d.folder.path());
+    d.files->open (wood);
+    d.runs = false;
+    d.files->finishAutosave();
+    // A pipe in place of the file that is written: whoever writes it waits for a reader.
+    std::error_code failed;
+    for (const auto& entry : fs::directory_iterator (d.folder / "sessions", failed))
+    {
+        fs::remove (entry.path() / "kept.json", failed);
+        REQUIRE (mkfifo ((entry.path() / "kept.json").c_str(), 0600) == 0);
+    }
     d.edit (0.9);
-    d.now += 0.5;
-    d.files->attend();
-    CHECK (d.autosaved()->graph == before);
+    d.edit (0.8);
+    d.files->attend();   // returns, as do the edits
+    for (const auto& entry : fs::directory_iterator (d.folder / "sessions", failed))
+    {
+        std::ifstream reader (entry.path() / "kept.json");
+        const std::string text { std::istreambuf_iterator<char> (reader), {} };
+        CHECK (readAutosave (text));
+        fs::remove (entry.path() / "kept.json", failed);
+    }
+    d.files->finishAutosave();
+    CHECK (d.autosaved()->graph == writeGraph (d.document.graph()));
 }
 
 TEST_CASE ("an edit during a run is autosaved before it runs, and counts as a trial for ten seconds")
