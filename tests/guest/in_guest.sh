@@ -162,6 +162,14 @@ if [ -e "$descriptor" ]; then
     unplug
     keep no_room
 
+    for answers in 1 0; do
+        say "the same, resting and silent under a force; it says where it is when it is asked: $answers"
+        stick --quiet 1.5 --answers $answers
+        feel --device stylus=$work/joystick.json --duration 4 "${recorded[@]}" || fail "the joystick, silent"
+        unplug
+        keep quiet_$answers
+    done
+
     say "the same, with its program killed while a force acts"
     stick --mark $work/pushed
     feel --device stylus=$work/joystick.json --duration 600 & player=$!

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "uhid.hpp"
 
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <utility>
 
 namespace tactus::guest
 {
@@ -15,7 +17,7 @@ namespace
 volatile std::sig_atomic_t ended = 0;
 
 // OpenFFBoard's reports.
-constexpr std::uint8_t set_force = 0x05, create_effect = 0x11, block_load = 0x12;
+constexpr std::uint8_t place = 0x01, set_force = 0x05, create_effect = 0x11, block_load = 0x12;
 
 struct Log
 {
@@ -55,7 +57,8 @@ std::array<std::uint8_t, 25> reportAt (double t)
 
 /// A joystick with OpenFFBoard's report descriptor, read from a file. It answers like a real one, and logs everything it receives.
 /// --file NAME --log FILE --mark FILE --seconds S --blocks N (effect blocks it assigns; 0: its memory is full) --unplug S
-/// (unplugged this long after it was opened) --away S (stays unplugged for this long; comes back with another block)
+/// (unplugged this long after it was opened) --away S (stays unplugged for this long; comes back with another block) --quiet S (does not
+/// move, and sends nothing, from this long after it was opened) --answers 0 (does not say where it is when it is asked)
 int joystick (const std::vector<std::string>& args)
 {
     std::signal (SIGTERM, [] (int) { ended = 1; });
@@ -67,9 +70,12 @@ int joystick (const std::vector<std::string>& args)
     Log log;
     std::uint8_t block = option (args, "blocks", 1.0) > 0.0 ? 3 : 0;
     bool asked = false;
+    const bool answers = option (args, "answers", 1.0) > 0.0;
+    std::array<std::uint8_t, 25> latest = reportAt (0.0);
     const auto plug = [&] {
         auto device = std::make_unique<Uhid> ("Test joystick", "J1", std::uint16_t { 0x1209 }, std::uint16_t { 0xffb0 }, descriptor);
         device->on_ask = [&] (std::uint8_t id) -> std::vector<std::uint8_t> {
+            if (id == place && answers) return { latest.begin(), latest.end() };
             if (id != block_load || ! asked) return {};
             return { block_load, block, static_cast<std::uint8_t> (block > 0 ? 1 : 2), 0, 0x10 };
         };
@@ -84,7 +90,8 @@ int joystick (const std::vector<std::string>& args)
 
     auto device = plug();
     const double begin = now(), end = begin + option (args, "seconds", 10.0);
-    double unplug = option (args, "unplug", 0.0);
+    double unplug = option (args, "unplug", 0.0), quiet = option (args, "quiet", 0.0);
+    bool is_quiet = false;
     bool was_open = false;
     double opened = 0.0;
     for (double due = begin; now() < end && ended == 0; due = std::max (due + 2e-3, now() - 8e-3))
@@ -104,7 +111,10 @@ int joystick (const std::vector<std::string>& args)
             log.add ("plugged", {});
             continue;
         }
-        if (was_open) device->input (reportAt (now() - begin));
+        if (was_open && quiet > 0.0 && now() - opened > quiet && ! std::exchange (is_quiet, true)) log.add ("quiet", {});
+        if (! was_open || is_quiet) continue;
+        latest = reportAt (now() - begin);
+        device->input (latest);
     }
     device->serve (now() + 0.05, heard);
 

@@ -162,6 +162,32 @@ TEST_CASE ("a run in the window waits for a missing device, and the mouse can ta
     r.run.letGo();
 }
 
+TEST_CASE ("a joystick without a profile is chosen and calibrated in the window, and the session keeps it", "[app][sessions]")
+{
+    hid::ConnectedDevice stick;
+    stick.product = "Stick";
+    stick.serial = "J1";
+    const Json chosen { { "driver", "hid" }, { "profile", "pid" }, { "serial", "J1" } };
+    const std::vector<hid::ConnectedDevice> there { stick };
+    const auto choices = bindingChoices (nullptr, there, {}, there);
+    CHECK (std::ranges::count_if (choices, [&] (const BindingChoice& c) { return c.description == chosen && c.label.starts_with ("Stick"); }) == 1);
+
+    Rig r;
+    const auto before = r.rig.text();
+    REQUIRE (r.setup.edit ([&] (DeviceSession& s) { s.bind ("stylus", chosen); }));
+    r.panel.setPart ("stylus", "/calibration/full_force", "4 N");
+    r.panel.setPart ("stylus", "/calibration/travel", "{\"x\": \"12 cm\"}");
+    r.panel.setPart ("stylus", "/calibration/reversed", "true");
+    const Json calibration { { "full_force", "4 N" }, { "travel", { { "x", "12 cm" } } }, { "reversed", true } };
+    CHECK (r.saved()["roles"]["stylus"]["calibration"] == calibration);
+    CHECK (r.hint.isEmpty());
+    r.panel.setPart ("stylus", "/calibration/full_force", "4 mm");
+    CHECK (r.hint.isNotEmpty());
+    CHECK (r.bound()["calibration"] == calibration);
+    CHECK (deviceOfBinding (r.bound()) == chosen);   // so that the panel shows the choice
+    CHECK (r.rig.text() == before);
+}
+
 TEST_CASE ("the choices for a role include connected devices, with serial numbers if two are alike", "[app][sessions]")
 {
     FakeBoard board;
