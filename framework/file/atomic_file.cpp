@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "atomic_file.hpp"
 
+#include <tactus/text/ownership.hpp>
+
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -62,6 +64,12 @@ fs::path partialName (const fs::path& target, int number)
     return target.parent_path() / name;
 }
 
+/// The permissions of the file that is replaced. If another user has chosen them, they let nobody else write to the new one.
+fs::perms permissionsLike (fs::perms old, const fs::path& target)
+{
+    return whoElseOwns (target).empty() ? old : old & ~(fs::perms::group_write | fs::perms::others_write);
+}
+
 /// Creates an empty file, and fails if there is a file of this name.
 bool createNew (const fs::path& path)
 {
@@ -69,6 +77,19 @@ bool createNew (const fs::path& path)
     if (made == nullptr) return false;
     std::fclose (made);
     return true;
+}
+
+/// Why the links at the end of a path must not be followed; empty if they may be. A link of another user would choose which file of this
+/// user is replaced. Linux itself does not follow such links in folders such as /tmp, but it cannot see that a rename would.
+std::string foreignLink (fs::path path)
+{
+    std::error_code failed;
+    for (int links = 0; links < 40 && fs::is_symlink (path, failed); ++links)
+    {
+        if (auto who = whoElseOwns (path); ! who.empty()) return who;
+        path = path.parent_path() / fs::read_symlink (path, failed);
+    }
+    return {};
 }
 
 /// The file that would be written: a rename would replace a symbolic link.
@@ -131,6 +152,7 @@ Result<> AtomicFile::open (IfKilled if_killed)
     const bool direct = fs::exists (existing) && ! fs::is_regular_file (existing);
     if (fs::is_regular_file (existing))
     {
+        if (const auto who = foreignLink (target); ! who.empty()) return unwritable (who);
         target = behindLinks (target);
         errno = 0;   // a rename would ignore the write protection of a file
         if (! std::ofstream (target, std::ios::binary | std::ios::app)) return writeError();
@@ -146,7 +168,7 @@ Result<> AtomicFile::open (IfKilled if_killed)
         return {};
     }
     if (auto opened = openTemporary (if_killed); ! opened) return opened;
-    if (fs::is_regular_file (existing)) fs::permissions (temporary, existing.permissions(), ignored);
+    if (fs::is_regular_file (existing)) fs::permissions (temporary, permissionsLike (existing.permissions(), target), ignored);
     return {};
 }
 

@@ -2,6 +2,7 @@
 #include <tactus/file/atomic_file.hpp>
 
 #include "support/no_system_calls.hpp"
+#include "support/other_user.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
@@ -130,6 +131,31 @@ TEST_CASE ("atomic file: the permissions of the old file are kept, and a link st
     CHECK (fs::is_symlink (folder / "link.txt"));
     CHECK (folder.textOf ("real.txt") == "new");
     CHECK (fs::status (folder / "real.txt").permissions() == owner_only);
+}
+
+TEST_CASE ("atomic file: a link or the permissions of another user do not choose what is written", "[host][io]")
+{
+    const TemporaryFolder folder;
+    folder.write ("precious.txt", "old");
+    folder.write ("theirs.txt", "old");
+    fs::permissions (folder / "theirs.txt", fs::perms::all);
+    fs::create_symlink ("precious.txt", folder / "out.txt");
+    fs::create_symlink ("out.txt", folder / "mine.txt");
+    if (! test::giveAway (folder / "out.txt") || ! test::giveAway (folder / "theirs.txt")) return;
+
+    for (const auto* name : { "out.txt", "mine.txt" })
+    {
+        const auto refused = AtomicFile::create (folder / name);
+        REQUIRE_FALSE (refused.has_value());
+        CHECK (refused.error().id == "output/unwritable");
+        CHECK (refused.error().text.find ("the link") != std::string::npos);
+    }
+    CHECK (folder.textOf ("precious.txt") == "old");
+
+    auto file = AtomicFile::create (folder / "theirs.txt");
+    REQUIRE (file.has_value());
+    REQUIRE (file->commit());
+    CHECK ((fs::status (folder / "theirs.txt").permissions() & (fs::perms::group_write | fs::perms::others_write)) == fs::perms::none);
 }
 
 TEST_CASE ("atomic file: a device is written to, not replaced", "[host][io]")
