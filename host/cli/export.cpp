@@ -49,8 +49,7 @@ void run (const ExportArguments& options)
     const auto target = targetNamed (options.target);
     const auto loaded = loadGraph (options.graph);
     if (report (loaded.messages, loaded, options.graph) > 0) throw Stop {};
-    if (! canWriteFolder (options.folder))
-        fail ("output/exists", "the folder " + quote (options.folder) + " is not empty, and holds no earlier export", "name a new folder with -o");
+    if (auto can = canWriteFolder (options.folder); ! can) fail (std::move (can).error());
 
     FileAssets assets;
     CompileOptions compile { .rate_hz = options.rate_hz,

@@ -2,7 +2,7 @@
 #include "commands.hpp"
 #include "report.hpp"
 
-#include <tactus/file/text_file.hpp>
+#include <host/platform/atomic_folder.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -177,9 +177,7 @@ void check (const NewNodeOptions& options, const fs::path& folder)
         if (! isName (word)) fail ("node/name", quote (word) + " is not a name for a node", "use lower-case letters, digits and _, beginning with a letter");
     if (const auto* there = catalogue().find (options.family + "." + options.name))
         fail ("node/exists", "there is a node " + quote (there->info.id) + " already", "choose another name; `tactus nodes` lists them all");
-    std::error_code unseen;
-    if (fs::exists (folder, unseen) && ! fs::is_empty (folder, unseen))
-        fail ("output/exists", "the folder " + quote (folder.string()) + " is not empty", "name a new folder: tactus new-node FAMILY NAME DIR");
+    if (auto can = AtomicFolder::check (folder); ! can) fail (std::move (can).error());
 }
 
 /// The path in quotation marks, which the shell reads as one word.
@@ -211,11 +209,13 @@ void run (const NewNodeOptions& options)
                                                         { options.name + "_test.cpp", test_template },
                                                         { "CMakeLists.txt", cmake_template },
                                                         { "README.md", readme_template } };
+    auto made = AtomicFolder::create (folder);
+    if (! made) fail (std::move (made).error());
     for (const auto& [file, text] : files)
-    {
-        if (auto written = writeTextFile (folder / file, filled (text, options)); ! written) fail (written.error());
+        if (auto written = made->write (file, filled (text, options)); ! written) fail (written.error());
+    if (auto placed = made->commit(); ! placed) fail (placed.error());
+    for (const auto& [file, text] : files)
         std::cout << printable ((folder / file).string()) << '\n';
-    }
     if (! options.only_write) build (folder);
     std::cout << "try it: tactus nodes " << options.family << '.' << options.name << " --plugins " << printable ((folder / "build").string()) << '\n';
 }

@@ -11,7 +11,7 @@
 #include "single_precision.hpp"
 #include "sources.hpp"
 
-#include <tactus/file/text_file.hpp>
+#include <host/platform/atomic_folder.hpp>
 #include <tactus/plan/find_param.hpp>
 #include <tactus/run/turn.hpp>
 #include <tactus/text/quote.hpp>
@@ -279,68 +279,21 @@ ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& opti
     return folder;
 }
 
-bool canWriteFolder (const fs::path& path)
-{
-    std::error_code unseen;
-    return ! fs::exists (path, unseen) || (fs::is_directory (path, unseen) && (fs::is_empty (path, unseen) || fs::exists (path / manifest, unseen)));
-}
-
-namespace
-{
-/// Writes all files, and last the list of them.
-Result<> writeFiles (const ExportedFolder& folder, const fs::path& path)
-{
-    std::string list;
-    for (const auto& [name, text] : folder.files)
-    {
-        if (auto written = writeTextFile (path / name, text); ! written) return written;
-        list += name + "\n";
-    }
-    return writeTextFile (path / manifest, list);
-}
-
-/// Removes the files of an earlier export that this one does not have. Other files stay.
-void removeOld (const ExportedFolder& folder, const fs::path& path, const std::string& list)
-{
-    std::set<std::string> names;
-    for (const auto& [name, text] : folder.files)
-        names.insert (name);
-    for (std::size_t i = 0; i < list.size();)
-    {
-        const auto end = std::min (list.find ('\n', i), list.size());
-        const fs::path name = list.substr (i, end - i);
-        i = end + 1;
-        const bool is_inside = name.is_relative() && std::ranges::none_of (name, [] (const fs::path& part) { return part == ".."; });
-        std::error_code ignored;
-        if (is_inside && ! names.contains (name.generic_string())) fs::remove (path / name, ignored);
-    }
-}
-}   // namespace
+Result<> canWriteFolder (const fs::path& path) { return AtomicFolder::check (path, manifest); }
 
 Result<> writeFolder (const ExportedFolder& folder, const fs::path& path)
 {
-    if (! canWriteFolder (path))
-        return Message::error ("output/exists", path.string(), "the folder is not empty, and holds no earlier export", "name a new folder with -o");
-    if (const auto earlier = readTextFile (path / manifest))
+    auto made = AtomicFolder::create (path, manifest);
+    if (! made) return std::move (made).error();
+    std::string list;
+    for (const auto& [name, text] : folder.files)
     {
-        removeOld (folder, path, *earlier);
-        return writeFiles (folder, path);
+        if (auto written = made->write (name, text); ! written) return written;
+        list += name + "\n";
     }
-    auto target = fs::absolute (path).lexically_normal();
-    if (! target.has_filename()) target = target.parent_path();
-    const fs::path beside = target.string() + ".new";   // a new folder appears whole, or not at all
-    std::error_code failed, ignored;
-    fs::remove_all (beside, ignored);
-    auto written = writeFiles (folder, beside);
-    if (written)
-    {
-        fs::remove (target, ignored);   // if it exists, it is empty
-        fs::rename (beside, target, failed);
-        if (failed)
-            written = Message::error ("output/unwritable", path.string(), "the folder cannot be written: " + failed.message(), "name another folder with -o");
-    }
-    if (! written) fs::remove_all (beside, ignored);
-    return written;
+    if (auto written = made->write (manifest, list); ! written) return written;
+    if (auto kept = made->keepOthers(); ! kept) return kept;
+    return made->commit();
 }
 
 }   // namespace tactus::host

@@ -43,11 +43,11 @@ struct ExportedFolder
 /// the program), export/role (an Arduino library needs a device), export/float (what has no single-precision export). [main thread]
 ExportedFolder exportGraph (const graph::Graph&, const ExportOptions&);
 
-/// Writes the files into a folder that is new or empty, or holds an earlier export, whose files are replaced. Errors: output/exists,
-/// output/unwritable. [main thread]
+/// Writes the files as a new folder, or in place of an earlier export: its other files stay. The folder changes in one step: see AtomicFolder.
+/// Errors: output/exists, output/unwritable. [main thread]
 Result<> writeFolder (const ExportedFolder&, const std::filesystem::path&);
 
-/// True if the folder is new or empty or holds an earlier export.
-bool canWriteFolder (const std::filesystem::path&);
+/// Whether the folder can be written: it is new or empty, or holds an earlier export of this user. Error: output/exists.
+Result<> canWriteFolder (const std::filesystem::path&);
 
 }   // namespace tactus::host

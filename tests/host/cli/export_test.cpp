@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 using namespace tactus::test;
 
@@ -63,6 +64,33 @@ TEST_CASE ("export replaces only its own folders, and writes nothing if somethin
     std::filesystem::copy_file (graph, other + "/mine.json");
     checkRefused ({ "export", graph, "-o", other }, 1, "is not empty", other + "/g.hpp");
     CHECK (std::filesystem::exists (other + "/mine.json"));
+}
+
+TEST_CASE ("export writes and deletes nothing outside of its folder", "[cli][export]")
+{
+    namespace fs = std::filesystem;
+    const Scratch scratch;
+    const auto folder = scratch.path ("proj"), graph = scratch.write ("g.json", graphOf ("signal.constant"));
+    fs::create_directories (folder + ".new");
+    std::ofstream (folder + ".new/mine") << "precious";
+    REQUIRE (runTactus ({ "export", graph, "-o", folder, "--record", "a.out" }).status == 0);
+    CHECK (textOf (folder + ".new/mine") == "precious");
+
+    const auto outside = scratch.write ("outside", "precious"), listed = scratch.write ("listed", "precious");
+    fs::remove (folder + "/g.hpp");
+    fs::create_symlink (outside, folder + "/g.hpp");
+    fs::create_directory_symlink ("..", folder + "/up");
+    std::ofstream (folder + "/tactus_export.txt", std::ios::app) << "up/listed\n";
+    const auto ran = runTactus ({ "export", graph, "-o", folder, "--record", "a.out" });
+    INFO (ran.err);
+    CHECK (ran.status == 0);
+    CHECK (textOf (outside) == "precious");
+    CHECK (textOf (listed) == "precious");
+    CHECK_FALSE (fs::is_symlink (folder + "/g.hpp"));
+
+    fs::create_directory_symlink (folder, scratch.path ("link"));
+    checkRefused ({ "export", graph, "-o", scratch.path ("link") }, 1, "symbolic link", scratch.path ("none"));
+    checkRefused ({ "new-node", "mylab", "wood", folder, "--only-write" }, 1, "is not empty", folder + "/wood.hpp");
 }
 
 TEST_CASE ("export --float writes a class without doubles, and only the class", "[cli][export]")
