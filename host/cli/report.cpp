@@ -60,7 +60,12 @@ int report (const Messages& messages, const LoadedGraph& loaded, const std::stri
     return errors;
 }
 
-void warn (const std::string& file, const Message& m) { std::cerr << inOneLine (file) << ": warning: " << inOneLine (m.text) << idOf (m); }
+void warn (const std::string& file, const Message& m)
+{
+    std::cerr << inOneLine (file) << ": warning: " << inOneLine (m.text);
+    if (! m.remedy.empty()) std::cerr << "\n    " << printable (cut (m.remedy));
+    std::cerr << idOf (m);
+}
 
 void fail (const Message& e)
 {

@@ -45,6 +45,7 @@ Message Fuser::fail (Message why)
 
 std::optional<Message> Fuser::look (const std::shared_ptr<Plan>& plan, double now_s)
 {
+    if (! std::exchange (has_begun, true) && compiler.cacheTrouble()) return compiler.cacheTrouble();
     if (plan->serial() != serial)
     {
         const bool is_first = std::exchange (serial, plan->serial()) == 0;

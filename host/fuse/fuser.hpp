@@ -40,7 +40,8 @@ public:
     explicit Fuser (Options);
 
     /// Call it several times a second with the newest plan of a run and the time in s. If the plan cannot be fused, returns the reason, once. Ids:
-    /// those of FusionCompiler, fuse/too_long, fuse/too_large, fuse/nothing, fuse/cannot_load.
+    /// those of FusionCompiler, fuse/too_long, fuse/too_large, fuse/nothing, fuse/cannot_load. The first call returns what is wrong with the
+    /// cache: fuse/cache.
     std::optional<Message> look (const std::shared_ptr<Plan>&, double now_s);
 
     State state() const noexcept { return now; }
@@ -60,6 +61,7 @@ private:
     FusionCompiler compiler;
     FusedCode code;
     State now = State::rests;
+    bool has_begun = false;
     std::uint64_t serial = 0;                 // of the latest plan
     double since_s = 0.0;                     // since when the plan has been in use, or the compiler has been working
     double took_s = 0.0;                      // the last compilation

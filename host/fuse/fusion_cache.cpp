@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fusion_cache.hpp"
 
+#include <host/platform/private_folder.hpp>
+#include <tactus/file/text_file.hpp>
+#include <tactus/text/ownership.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -15,21 +19,6 @@ namespace fs = std::filesystem;
 namespace
 {
 constexpr std::size_t most_kept = 64;   // objects in the cache, of about 100 kB each
-
-/// True if the folder exists, and only this user can write to it.
-bool isPrivate (const fs::path& folder)
-{
-    std::error_code failed;
-    const auto status = fs::status (folder, failed);
-    return ! failed && fs::is_directory (status) && (status.permissions() & (fs::perms::group_write | fs::perms::others_write)) == fs::perms::none;
-}
-
-bool makePrivate (const fs::path& folder)
-{
-    std::error_code failed;
-    if (fs::create_directories (folder, failed)) fs::permissions (folder, fs::perms::owner_all, failed);
-    return isPrivate (folder);
-}
 
 void removeOldest (const fs::path& folder)
 {
@@ -74,24 +63,33 @@ fs::path FusionCache::usualFolder()
     return {};
 }
 
+FusionCache::FusionCache (fs::path f) : folder (std::move (f))
+{
+    if (folder.empty()) return;
+    const auto is_own = needOwnFolder (folder);
+    if (is_own) return;
+    wrong = Message::warning ("fuse/cache", folder.string(), is_own.error().text + ", so no compiled code is kept in the cache or taken from it",
+                              "remove the folder, change its owner or its permissions (chown, chmod go-w), or set XDG_CACHE_HOME to a folder of your own");
+    folder.clear();
+}
+
 std::optional<fs::path> FusionCache::find (const std::string& key) const
 {
     std::error_code unseen;
     auto kept = folder / (key + ".so");
-    if (folder.empty() || ! isPrivate (folder) || ! fs::exists (kept, unseen)) return std::nullopt;
+    if (folder.empty() || ! fs::is_regular_file (fs::symlink_status (kept, unseen)) || ! whoElseCanChange (kept).empty()) return std::nullopt;
     fs::last_write_time (kept, fs::file_time_type::clock::now(), unseen);   // the oldest are removed first
     return kept;
 }
 
-fs::path FusionCache::keep (const fs::path& object, const std::string& key, const std::string& unique) const
+fs::path FusionCache::keep (const fs::path& object, const std::string& key) const
 {
-    if (folder.empty() || ! makePrivate (folder)) return object;
+    if (folder.empty()) return object;
+    const auto kept = folder / (key + ".so");
+    const auto bytes = readTextFile (object);
+    if (! bytes || ! writeTextFile (kept, *bytes)) return object;
     std::error_code failed;
-    const auto kept = folder / (key + ".so"), part = folder / (key + "." + unique);
-    fs::copy_file (object, part, fs::copy_options::overwrite_existing, failed);
-    if (! failed) fs::rename (part, kept, failed);   // atomic, so that no other program sees half a file
-    std::error_code ignored;
-    if (failed) fs::remove (part, ignored);
+    fs::permissions (kept, fs::perms::owner_read | fs::perms::owner_write, failed);
     removeOldest (folder);
     return failed ? object : kept;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <tactus/text/message.hpp>
+
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -26,21 +28,24 @@ private:
 class FusionCache
 {
 public:
-    /// An empty path: nothing is kept.
-    explicit FusionCache (std::filesystem::path f) : folder (std::move (f)) {}
+    /// Makes the folder if it does not exist. An empty path: nothing is kept.
+    explicit FusionCache (std::filesystem::path);
 
     /// The user's cache: in TACTUS_HOME, XDG_CACHE_HOME or ~/.cache. Empty if the user's home is unknown.
     static std::filesystem::path usualFolder();
 
-    /// The object with this key, if there is one.
+    /// Why nothing is kept or found, if another user could have put code into the folder, or it cannot be made. Id: fuse/cache.
+    const std::optional<Message>& trouble() const noexcept { return wrong; }
+
+    /// The object with this key, if there is one that this user has made.
     std::optional<std::filesystem::path> find (const std::string& key) const;
 
-    /// Copies an object into the cache, and returns its new path. If that fails, the object stays where it is. `unique` is a name that no
-    /// other running program uses.
-    std::filesystem::path keep (const std::filesystem::path& object, const std::string& key, const std::string& unique) const;
+    /// Copies an object into the cache, and returns its new path. If that fails, the object stays where it is.
+    std::filesystem::path keep (const std::filesystem::path& object, const std::string& key) const;
 
 private:
-    const std::filesystem::path folder;
+    std::filesystem::path folder;
+    std::optional<Message> wrong;
 };
 
 /// A variable of the environment; empty if it is not set.

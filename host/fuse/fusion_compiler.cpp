@@ -157,7 +157,7 @@ Result<> FusionCompiler::write (const FusedCode& code)
     if (folder.empty()) folder = privateFolder ("tactus-fuse-");
     if (folder.empty())
         return Message::error ("fuse/no_folder", {}, "no temporary folder can be made for compiled code, so the graph is not fused",
-                               "free some space in " + quote (temporaryFolder().string()) + ", or set TMPDIR to a folder that this user may write");
+                               "free some space in " + quote (temporaryFolder().string()) + ", or set TMPDIR to a folder that only this user may write");
     if (auto done = writeHeaders (code); ! done) return done;
     return writeTextFile (sourceOf (code), code.text);
 }
@@ -210,7 +210,7 @@ std::optional<Result<fs::path>> FusionCompiler::finished()
     if (! status) return std::nullopt;
     program.reset();
     const auto object = folder / (std::to_string (count) + ".so");
-    if (*status == 0) return cache.keep (object, key, folder.filename().string());
+    if (*status == 0) return cache.keep (object, key);
     const auto said = beginOf (readTextFile (folder / "says").value_or (""));
     if (language == FusedCode::Language::llvm && (*status == no_library || *status == no_linker)) return Result<fs::path> { noLlvm (said) };
     const auto why = *status < 0 ? std::string ("the compiler was ended") : said.empty() ? "the compiler failed"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "home_folder.hpp"
 
+#include <tactus/text/ownership.hpp>
+
 #include <cstdlib>
 
 #if ! defined(_WIN32)
@@ -38,13 +40,30 @@ fs::path configurations()
 #endif
 #endif
 }
-}   // namespace
 
-std::filesystem::path homeFolder()
+fs::path usualHome()
 {
     if (auto told = fromEnvironment ("TACTUS_HOME"); ! told.empty()) return told;
     const auto folder = configurations();
     return folder.empty() ? folder : folder / "Tactus";
+}
+}   // namespace
+
+std::filesystem::path homeFolder()
+{
+    const auto folder = usualHome();
+    return folder.empty() || whoElseCanChange (folder).empty() ? folder : fs::path();
+}
+
+std::optional<Message> homeTrouble()
+{
+    const auto folder = usualHome();
+    std::error_code unseen;
+    if (folder.empty() || ! fs::exists (folder, unseen)) return std::nullopt;
+    auto who = whoElseCanChange (folder);
+    if (who.empty()) return std::nullopt;
+    return Message::warning ("home/foreign", folder.string(), std::move (who) + ", so settings, sessions and plugins there are not used",
+                             "change its owner or its permissions (chown, chmod go-w), or set TACTUS_HOME to a folder of your own");
 }
 
 }   // namespace tactus::host

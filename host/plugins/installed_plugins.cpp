@@ -85,6 +85,7 @@ Messages usePlugins (const std::vector<std::string>& more)
 {
     const auto home = homeFolder();
     auto loaded = loadFolders (pluginFolders (more), home.empty() ? home : home / "plugin-marks");
+    if (auto trouble = homeTrouble()) loaded.messages.push_back (std::move (*trouble));
     std::error_code unseen;
     for (const auto& folder : more)
         if (! fs::is_directory (folder, unseen))

@@ -91,7 +91,7 @@ Result<> LiveCompiler::needFolder (const LiveSource& s)
     if (folder.empty()) folder = privateFolder ("tactus-live-");
     if (folder.empty())
         return Message::error ("live/no_folder", s.file.string(), "no temporary folder can be made for compiled code, so edits of the C++ code have no effect",
-                               "free some space in " + quote (temporaryFolder().string()) + ", or set TMPDIR to a folder that this user may write");
+                               "free some space in " + quote (temporaryFolder().string()) + ", or set TMPDIR to a folder that only this user may write");
     if (std::error_code unknown; fs::exists (commonHeader(), unknown)) return {};
     return writeTextFile (commonHeader(), common_headers);
 }
@@ -113,6 +113,7 @@ Result<> LiveCompiler::prepareFor (const LiveSource& s)
 
 Result<> LiveCompiler::start (const LiveSource& s)
 {
+    if (auto trusted = s.trusted(); ! trusted) return trusted;
     if (auto missing = needFolder (s); ! missing) return missing;
     const bool is_prepared = s.isC() || precompiled_by == compilerOf (s);
     if (! precompiles || ! is_prepared) program.reset();

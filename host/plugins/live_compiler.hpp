@@ -39,7 +39,8 @@ public:
     /// output/unwritable.
     Result<> prepareFor (const LiveSource&);
 
-    /// Starts to compile; drops what is being compiled. Ids: live/no_compiler, live/no_headers, live/no_node, output/unwritable.
+    /// Starts to compile; drops what is being compiled. Ids: live/foreign, live/no_compiler, live/no_headers, live/no_node,
+    /// output/unwritable.
     Result<> start (const LiveSource&);
 
     /// The result of the compilation, returned only once; empty while the compiler works, or if it has nothing to do. Ids: live/compile.

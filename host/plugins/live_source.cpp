@@ -2,6 +2,7 @@
 #include "live_source.hpp"
 
 #include <tactus/file/text_file.hpp>
+#include <tactus/text/ownership.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
@@ -21,6 +22,12 @@ bool isHeader (const fs::path& file)
     const auto suffix = file.extension();
     return suffix == ".hpp" || suffix == ".h" || suffix == ".hxx" || suffix == ".hh";
 }
+
+Message foreign (const fs::path& where, const Message& why)
+{
+    return Message::error ("live/foreign", where.string(), why.text + ", so it is not compiled: its code could do all that you may do",
+                           "if you trust it, make a copy of your own, or change its owner or its permissions (chown, chmod go-w)");
+}
 }   // namespace
 
 std::vector<fs::path> LiveSource::watched() const
@@ -34,6 +41,13 @@ std::vector<fs::path> LiveSource::watched() const
         for (const auto& entry : fs::directory_iterator (folder, unseen))
             if (! sources.empty() && isHeader (entry.path()) && entry.is_regular_file (unseen)) all.push_back (entry.path());
     return all;
+}
+
+Result<> LiveSource::trusted() const
+{
+    for (const auto& code : sources.empty() ? std::vector { file } : sources)
+        if (const auto opened = TrustedFile::open (code); ! opened && opened.error().id == "file/foreign") return foreign (code, opened.error());
+    return {};
 }
 
 bool LiveSource::isC() const
@@ -52,7 +66,9 @@ Result<LiveSource> liveHeader (const fs::path& header)
 
 Result<LiveSource> liveBuild (const fs::path& plugin)
 {
-    const auto text = readTextFile (plugin.string() + ".build");
+    const auto build_file = TrustedFile::open (plugin.string() + ".build");   // it names a compiler, which is started
+    if (! build_file && build_file.error().id == "file/foreign") return foreign (plugin, build_file.error());
+    const auto text = build_file ? readTextFile (build_file->path()) : std::nullopt;
     if (! text)
         return Message::error ("live/no_build_file", plugin.string(), "no file next to the plugin says how to build it",
                                "build it with tactus_add_plugin of this version, or give its header with --live");

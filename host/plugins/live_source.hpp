@@ -24,12 +24,15 @@ struct LiveSource
     std::vector<std::filesystem::path> watched() const;
 
     bool isC() const;   ///< all sources are C
+
+    /// Whether only this user and root can have written the sources, or else the error live/foreign.
+    Result<> trusted() const;
 };
 
 /// The code of a node that is only a header. Ids: live/no_header.
 Result<LiveSource> liveHeader (const std::filesystem::path&);
 
-/// What tactus_add_plugin has written next to a plugin about how to build it. Ids: live/no_build_file.
+/// What tactus_add_plugin has written next to a plugin about how to build it. Ids: live/no_build_file, live/foreign.
 Result<LiveSource> liveBuild (const std::filesystem::path& plugin);
 
 /// The plugins in this catalogue that have been built on this machine, so that their code can be watched.

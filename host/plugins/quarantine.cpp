@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "quarantine.hpp"
 
+#include <host/platform/private_folder.hpp>
 #include <tactus/file/text_file.hpp>
 
 #include <fstream>
@@ -41,9 +42,7 @@ bool Quarantine::holds (const fs::path& file) const
 Quarantine::Loading::Loading (const Quarantine& quarantine, const fs::path& file) : mark (quarantine.markOf (file))
 {
     if (mark.empty()) return;
-    std::error_code unseen;
-    fs::create_directories (mark.parent_path(), unseen);
-    lock = FileLock::take (mark);
+    if (needOwnFolder (mark.parent_path())) lock = FileLock::take (mark);
     if (lock) std::ofstream (mark) << stampOf (file);
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "load.hpp"
+#include "support/other_user.hpp"
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <host/plugins/installed_plugins.hpp>
+#include <host/plugins/live_compiler.hpp>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -73,6 +75,62 @@ TEST_CASE ("a plugin that ends the program while it is loaded is not loaded agai
     CHECK (again.messages.empty());
     CHECK (again.types.size() == 2);
     CHECK (fs::is_empty (marks));
+}
+
+TEST_CASE ("a plugin that another user could have written is not loaded", "[plugins]")
+{
+    TemporaryFolder folder;
+    install ("in_c", folder / "a.tactus");
+    install ("throwing", folder / "b.tactus");
+    fs::permissions (folder / "a.tactus", fs::perms::others_write, fs::perm_options::add);
+    auto loaded = host::loadFolders ({ folder.path() }, folder / "marks");
+    CHECK (loaded.types.size() == 1);   // the other plugin is not affected
+    REQUIRE (loaded.messages.size() == 1);
+    CHECK (loaded.messages[0].id == "plugin/foreign");
+    CHECK (loaded.messages[0].where == (folder / "a.tactus").string());
+
+    fs::permissions (folder / "a.tactus", fs::perms::others_write, fs::perm_options::remove);
+    CHECK (host::loadFolders ({ folder.path() }, folder / "marks").messages.empty());
+    if (! test::giveAway (folder / "a.tactus")) return;
+    loaded = host::loadFolders ({ folder.path() }, folder / "marks");
+    REQUIRE (loaded.messages.size() == 1);
+    CHECK (loaded.messages[0].id == "plugin/foreign");
+}
+
+TEST_CASE ("plugins in a folder that another user could replace are loaded from the files that were checked", "[plugins]")
+{
+    TemporaryFolder folder;
+    const auto inner = folder / "inner";
+    fs::create_directory (inner);
+    install ("in_c", inner / "a.tactus");
+    install ("throwing", inner / "b.tactus");
+    fs::permissions (folder.path(), fs::perms::all);
+    for (int i = 0; i < 3; ++i)   // the loader must not take one for the other
+    {
+        const auto loaded = host::loadFolders ({ inner }, {});
+        INFO (host::textOf (loaded.messages));
+        REQUIRE (loaded.types.size() == 2);
+        CHECK (loaded.types[0].info.id == "c.twice");
+        CHECK (loaded.types[1].info.id == "bad.throwing");
+        CHECK (loaded.types[0].origin == (inner / "a.tactus").string());
+    }
+}
+
+TEST_CASE ("code that another user could have written is not compiled while a graph runs", "[plugins]")
+{
+    TemporaryFolder folder;
+    folder.write ("node.hpp", "TACTUS_NODE (mine::Node);");
+    const auto source = host::liveHeader (folder / "node.hpp");
+    REQUIRE (source);
+    CHECK (source->trusted());
+    fs::permissions (folder / "node.hpp", fs::perms::others_write, fs::perm_options::add);
+    CHECK (source->trusted().error().id == "live/foreign");
+    CHECK (host::LiveCompiler().start (*source).error().id == "live/foreign");
+
+    folder.write ("a.tactus.build", "compiler sh\nsource " + (folder / "node.hpp").string() + "\n");
+    CHECK (host::liveBuild (folder / "a.tactus"));
+    fs::permissions (folder / "a.tactus.build", fs::perms::others_write, fs::perm_options::add);
+    CHECK (host::liveBuild (folder / "a.tactus").error().id == "live/foreign");
 }
 
 TEST_CASE ("plugins are looked for in the folders of the command line, the environment, the user and the system", "[plugins]")

@@ -3,6 +3,7 @@
 
 #include <host/fuse/bitcode.hpp>
 #include <host/fuse/fuser.hpp>
+#include <support/other_user.hpp>
 #include <support/sketch.hpp>
 #include <support/temporary_folder.hpp>
 
@@ -53,6 +54,7 @@ public:
     }
 
     const Fuser::Options& options() const { return how; }
+    const fs::path& cache() const { return how.compiler.cache; }
 
     int runs() const
     {
@@ -161,6 +163,49 @@ TEST_CASE ("an edited plan runs by its records until there have been no edits fo
     CHECK (again->isFused());
     CHECK (compiler.runs() == 1);   // the code is the same: a parameter is not part of it
     CHECK (outputs (*again, 50) == outputs (*compared, 50));
+}
+
+TEST_CASE ("code that another user could have put into the cache is not loaded", "[fuse]")
+{
+    const auto foreign = GENERATE (as<std::string> {}, "writable folder", "writable folder above", "writable file", "link", "folder", "folder above", "file");
+    INFO (foreign);
+    const auto first = smallPlan();
+    const FakeCompiler compiler { copies (test::compiledFusion (host::FusedCode::of (*first))) };
+    const auto above = compiler.cache().parent_path();
+    REQUIRE_FALSE (finish (*std::make_unique<Fuser> (compiler.options()), first, 0.0));
+    REQUIRE (compiler.runs() == 1);
+    const auto kept = fs::directory_iterator (compiler.cache())->path();
+    REQUIRE (kept.extension() == ".so");
+    CHECK (fs::status (kept).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
+    fs::remove (kept);                                // it is loaded, so it must not be written to
+    std::ofstream (kept) << "code of another user";   // loading it would fail
+
+    if (foreign == "writable folder") fs::permissions (compiler.cache(), fs::perms::all);
+    if (foreign == "writable folder above") fs::permissions (above, fs::perms::all);
+    if (foreign == "writable file") fs::permissions (kept, fs::perms::all);
+    if (foreign == "link")
+    {
+        fs::rename (kept, above / "elsewhere.so");
+        fs::create_symlink (above / "elsewhere.so", kept);
+    }
+    if (foreign == "folder" && ! test::giveAway (compiler.cache())) return;
+    if (foreign == "folder above" && ! test::giveAway (above)) return;
+    if (foreign == "file" && ! test::giveAway (kept)) return;
+
+    Fuser fuser { compiler.options() };
+    const auto plan = smallPlan();
+    if (foreign.find ("folder") != std::string::npos)
+    {
+        const auto said = fuser.look (plan, 0.0);
+        REQUIRE (said);
+        CHECK (said->id == "fuse/cache");
+        CHECK (said->severity == Message::Severity::warning);
+        CHECK_FALSE (said->remedy.empty());
+    }
+    CHECK_FALSE (finish (fuser, plan, 0.0));
+    CHECK (fuser.state() == Fuser::State::fused);   // by the compiler
+    CHECK (compiler.runs() == 2);
+    fs::permissions (above, fs::perms::owner_all);
 }
 
 TEST_CASE ("if LLVM fails, is killed, makes nonsense or is not installed, the compiler takes its place", "[fuse]")
