@@ -2,6 +2,7 @@
 #include "profile_library.hpp"
 #include <host/hid/profile_difference.hpp>
 #include <host/platform/device_file.hpp>
+#include <tactus/text/ownership.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
@@ -143,10 +144,20 @@ LoadedProfiles joined (LoadedProfiles own, LoadedProfiles shipped)
     return all;
 }
 
+LoadedProfiles loadOwnProfiles (const fs::path& folder)
+{
+    auto who = whoElseCanChange (folder);
+    if (who.empty()) return loadProfiles (folder);
+    auto m = Message::error ("profile/foreign", "", std::move (who) + ", so the profiles there are not used",
+                             "change its owner or its permissions (chown, chmod go-w), or set TACTUS_PROFILES to a folder of your own");
+    m.file = folder.string();
+    return { {}, { std::move (m) } };
+}
+
 LoadedProfiles loadProfileLibrary()
 {
     LoadedProfiles own, shipped;
-    if (const auto folder = ownProfileFolder(); ! folder.empty() && isFolder (folder)) own = loadProfiles (folder);
+    if (const auto folder = ownProfileFolder(); ! folder.empty() && isFolder (folder)) own = loadOwnProfiles (folder);
     if (const auto folder = profileFolder(); ! folder.empty()) shipped = loadProfiles (folder);
     return joined (std::move (own), std::move (shipped));
 }

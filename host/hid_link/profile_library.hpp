@@ -21,6 +21,9 @@ std::filesystem::path ownProfileFolder();
 /// has the limits of both. Ids: the errors profile/shadows and profile/competes, the warnings profile/replaces and profile/competes.
 LoadedProfiles joined (LoadedProfiles own, LoadedProfiles shipped);
 
+/// The profiles of a user's folder, unless another user can change them. Ids: profile/foreign, and those of loadProfiles. [main thread]
+LoadedProfiles loadOwnProfiles (const std::filesystem::path& folder);
+
 /// All profiles in both folders, joined. [main thread]
 LoadedProfiles loadProfileLibrary();
 

@@ -4,7 +4,9 @@
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/json_text.hpp>
 #include <tactus/text/message.hpp>
+#include <tactus/text/ownership.hpp>
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -27,6 +29,14 @@ Message unreadable (const fs::path& file)
 {
     auto m = Message::error ("session/unreadable", "", "there is no readable session file",
                              "name an existing file, or create one: tactus session --file FILE --bind ROLE=hid:PROFILE");
+    m.file = file.string();
+    return m;
+}
+
+Message foreign (const fs::path& file, std::string who)
+{
+    auto m = Message::error ("session/foreign", "", std::move (who) + ", so it does not choose devices and their limits",
+                             "remove the file, or change its owner or its permissions (chown, chmod go-w); --session FILE uses any file");
     m.file = file.string();
     return m;
 }
@@ -72,6 +82,7 @@ LoadedSession loadDefaultSession (const fs::path& home)
 {
     const auto file = defaultSessionFile (home);
     if (home.empty() || ! isThere (file)) return { {}, file, {} };
+    if (auto who = whoElseCanChange (file); ! who.empty()) return { {}, file, { foreign (file, std::move (who)) } };
     const auto text = readTextFile (file);
     if (! text) return { {}, file, { unreadable (file) } };
     auto read = readAt (file, *text);
@@ -92,6 +103,8 @@ LoadedSession loadDefaultSession (const fs::path& home)
 Result<> saveSession (const LoadedSession& s)
 {
     const auto done = writeTextFile (fs::absolute (s.file), writeSession (s.session));   // absolute, so that the path has a folder
+    std::error_code ignored;
+    fs::permissions (s.file, fs::perms::group_write | fs::perms::others_write, fs::perm_options::remove, ignored);
     if (done) return {};
     auto m = Message::error ("session/unwritable", "", "the session " + done.error().text,
                              "make the folder writable, or set TACTUS_HOME to a folder that is writable");
@@ -101,6 +114,7 @@ Result<> saveSession (const LoadedSession& s)
 
 LoadedSession editSession (LoadedSession before, const std::function<void (DeviceSession&)>& edit)
 {
+    if (std::ranges::count (before.messages, "session/foreign", &Message::id) > 0) return before;
     auto now = isThere (before.file) ? loadSession (before.file) : LoadedSession { {}, before.file, {} };
     if (! now.isGood()) return now;
     edit (now.session);

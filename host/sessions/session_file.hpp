@@ -32,8 +32,8 @@ std::filesystem::path defaultSessionFile (const std::filesystem::path& home);
 LoadedSession loadSession (const std::filesystem::path& file);
 
 /// Loads the default session file, which may be missing. A damaged file is renamed to session.json.broken (or .broken-2 …)
-/// with a warning, and the session is empty. A file with errors that the user can fix stays in place. Ids: those
-/// of loadSession, and session/set_aside.
+/// with a warning, and the session is empty. A file with errors that the user can fix stays in place, and one that another user can
+/// change is not read. Ids: those of loadSession, session/set_aside, session/foreign.
 LoadedSession loadDefaultSession (const std::filesystem::path& home);
 
 /// Writes the file completely or not at all. Id: session/unwritable. [main thread]

@@ -5,6 +5,7 @@
 #include <host/audio/listening.hpp>
 #include <host/io/animated_png.hpp>
 #include <host/platform/background_program.hpp>
+#include <host/platform/private_folder.hpp>
 #include <tactus/file/csv.hpp>
 
 #include <chrono>
@@ -45,6 +46,15 @@ Result<> writeBytes (const fs::path& path, const std::string& bytes)
     auto file = AtomicFile::create (path);
     if (! file) return file.error();
     if (! file->stream().write (bytes.data(), static_cast<std::streamsize> (bytes.size()))) return file->writeError();
+    return file->commit();
+}
+
+Result<> copyTo (const fs::path& from, const fs::path& to)
+{
+    std::ifstream in (from, std::ios::binary);
+    auto file = AtomicFile::create (to);
+    if (! file) return file.error();
+    if (! (file->stream() << in.rdbuf())) return file->writeError();
     return file->commit();
 }
 
@@ -93,32 +103,30 @@ Result<> writeSound (const fs::path& path, const Film& film, Messages& notes)
 void writeVideo (const fs::path& named, const std::string& ffmpeg, const std::function<bool (double)>& progress, WrittenFilm& written)
 {
     const auto with = [&named] (const char* extension) { return filmFile (named, extension); };
-    const auto half_made = with (".partial.webm"), says = with (".partial.txt"), video = with (".webm");
+    const auto folder = privateFolder ("tactus-film-");   // next to the film, ffmpeg would follow the links of others
+    const auto half_made = folder / "film.webm", says = folder / "says.txt", video = with (".webm");
     const std::vector<std::string> command { ffmpeg, "-nostdin", "-loglevel", "error", "-y", "-f", "apng", "-ignore_loop", "1", "-i", with (".png").string(),
                                              "-i", with (".wav").string(), "-c:v", "libvpx-vp9", "-pix_fmt", "yuv420p", "-crf", "24", "-b:v", "0", "-deadline",
                                              "good", "-cpu-used", "4", "-row-mt", "1", "-c:a", "libopus", half_made.string() };
     const auto noVideo = [&] (const juce::String& why, const juce::String& remedy) {
         written.notes.push_back (Message::warning ("film/no_video", video.string(), why.toStdString(), remedy.toStdString()));
     };
-    auto program = BackgroundProgram::start (command, says);
+    auto program = folder.empty() ? nullptr : BackgroundProgram::start (command, says);
     std::error_code ignored;
     if (! program)
     {
-        fs::remove (says, ignored);
+        fs::remove_all (folder, ignored);
         return noVideo (TRANS ("no video was written, because ffmpeg is not installed"), TRANS ("install ffmpeg"));
     }
     auto status = program->status();
     for (; ! status && progress (0.95); status = program->status())
         std::this_thread::sleep_for (std::chrono::milliseconds (50));
     program.reset();
-    std::error_code failed;
-    if (status == 0) fs::rename (half_made, video, failed);
-    if (status == 0 && ! failed)
+    if (status == 0 && copyTo (half_made, video))
         written.files.push_back (video);
     else
         noVideo (TRANS ("no video was written: ffmpeg failed or was stopped"), TRANS ("make the video from the .png and the .wav"));
-    for (const auto& file : { half_made, says })
-        fs::remove (file, ignored);
+    fs::remove_all (folder, ignored);
 }
 }   // namespace
 

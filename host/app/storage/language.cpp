@@ -20,6 +20,7 @@ juce::LocalisedStrings read (const fs::path& file) { return { juce::File (file.s
 std::vector<std::pair<std::string, juce::String>> translationsIn (const fs::path& home)
 {
     std::vector<std::pair<std::string, juce::String>> all;
+    if (home.empty()) return all;
     std::error_code failed;
     for (const auto& entry : fs::directory_iterator (home / "text", failed))
     {
@@ -34,6 +35,7 @@ std::vector<std::pair<std::string, juce::String>> translationsIn (const fs::path
 
 fs::path translationFor (const std::string& language, const fs::path& home)
 {
+    if (home.empty()) return {};
     std::vector<std::string> codes { language };
     if (language.empty())
     {

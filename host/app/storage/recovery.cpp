@@ -4,8 +4,10 @@
 #include <host/app/text/filled.hpp>
 #include <host/app/text/translated.hpp>
 
+#include <host/platform/private_folder.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/file/text_file.hpp>
+#include <tactus/text/ownership.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -107,13 +109,13 @@ RecoverySession::RecoverySession (const fs::path& home)
     // otherwise pick it up.
     own = sessionsIn (home) / newName();
     const auto hidden = sessionsIn (home) / ('.' + own.filename().string());
+    if (! home.empty() && needOwnFolder (hidden)) lock = FileLock::take (lockIn (hidden));
     std::error_code failed;
-    fs::create_directories (hidden, failed);
-    lock = FileLock::take (lockIn (hidden));
-    fs::rename (hidden, own, failed);
+    if (lock) fs::rename (hidden, own, failed);
     if (failed) lock.reset();
-    if (! lock)
-        wrong = filled (TRANS ("Autosave is off: cannot write to %1. Save often, or set TACTUS_HOME to a writable folder."), own.string()).toStdString();
+    if (lock) return;
+    const auto text = TRANS ("Autosave is off: cannot write to %1. Save often, or set TACTUS_HOME to a writable folder.");
+    wrong = filled (text, home.empty() ? "~/.config/Tactus" : own.string()).toStdString();
 }
 
 Result<> RecoverySession::autosave (const AutosavedDocument& d)
@@ -154,10 +156,12 @@ void CrashedSession::discard()
 std::vector<CrashedSession> findCrashedSessions (const fs::path& home)
 {
     std::vector<CrashedSession> all;
+    if (home.empty()) return all;
     std::error_code failed;
     for (const auto& entry : fs::directory_iterator (sessionsIn (home), failed))
     {
-        if (! entry.is_directory (failed) || entry.path().filename().string().starts_with ('.')) continue;   // still being created
+        if (! fs::is_directory (entry.symlink_status (failed)) || entry.path().filename().string().starts_with ('.')) continue;   // still being created
+        if (! whoElseCanChange (entry.path()).empty()) continue;
         CrashedSession s;
         s.own = entry.path();
         s.lock = FileLock::take (lockIn (s.own));

@@ -165,7 +165,7 @@ std::string writeSettings (const Settings& s)
 
 ReadSettings loadSettings (const fs::path& home)
 {
-    const auto text = readTextFile (fileIn (home));
+    const auto text = home.empty() ? std::nullopt : readTextFile (fileIn (home));
     if (! text) return {};
     auto read = readSettings (*text);
     if (read.problem.empty()) return read;

@@ -2,8 +2,7 @@
 #include "take.hpp"
 
 #include <host/assets/nearest_by_embree.hpp>
-
-#include <juce_core/juce_core.h>
+#include <host/platform/private_folder.hpp>
 
 #include <utility>
 
@@ -22,7 +21,7 @@ Take::~Take() { discard(); }
 void Take::discard()
 {
     std::error_code ignored;
-    if (! file.empty()) std::filesystem::remove (file, ignored);
+    if (! file.empty()) std::filesystem::remove_all (file.parent_path(), ignored);
     file.clear();
     reader.reset();
     done = nullptr;
@@ -34,7 +33,8 @@ void Take::record()
 {
     playback.endPreview();
     discard();
-    file = juce::File::createTempFile (".jsonl").getFullPathName().toStdString();
+    const auto folder = privateFolder ("tactus-take-");
+    file = (folder.empty() ? temporaryFolder() / "tactus-take-without-a-folder" : folder) / "take.jsonl";   // the log says why it cannot be written
     playback.run().logNextTo (file, program);
     playback.restart();
     began = std::chrono::steady_clock::now();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/hid/profile_difference.hpp>
 #include <host/hid_link/profile_library.hpp>
+#include <support/temporary_folder.hpp>
 #include <tactus/file/text_file.hpp>
 
 #include <catch2/catch.hpp>
@@ -426,4 +427,17 @@ TEST_CASE ("user's profiles: a relative path in the environment names no folder,
     CHECK (ownProfileFolder().empty());
     const Environment absolute ("XDG_CONFIG_HOME", "/config");
     CHECK (ownProfileFolder() == "/config/tactus/profiles");
+}
+
+TEST_CASE ("profiles that another user can change are not used", "[hid]")
+{
+    namespace fs = std::filesystem;
+    const TemporaryFolder folder;
+    fs::copy_file (fs::path (TACTUS_SOURCE_DIR) / "host/profiles/tactus_board.json", folder / "board.json");
+    CHECK (loadOwnProfiles (folder.path()).profiles.size() == 1);
+    fs::permissions (folder.path(), fs::perms::all);
+    const auto loaded = loadOwnProfiles (folder.path());
+    CHECK (loaded.profiles.empty());
+    REQUIRE (loaded.messages.size() == 1);
+    CHECK (loaded.messages[0].id == "profile/foreign");
 }

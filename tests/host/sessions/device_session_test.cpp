@@ -12,6 +12,8 @@
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
 
+#include <sys/stat.h>
+
 #include <thread>
 
 using namespace tactus;
@@ -236,6 +238,28 @@ TEST_CASE ("a damaged session file is set aside every time and never lost, but o
     const auto edited = editSession (loaded, [] (DeviceSession& s) { s.setClock ("timer"); });
     CHECK_FALSE (edited.isGood());   // and the file is not overwritten
     CHECK (home.textOf ("session.json") == newer);
+}
+
+TEST_CASE ("a session that another user can change binds nothing, unless it is named", "[sessions]")
+{
+    const TemporaryFolder home;
+    const LoadedSession session { {}, defaultSessionFile (home.path()) };
+    const auto mask = ::umask (0);
+    REQUIRE (saveSession (session));
+    ::umask (mask);
+    CHECK (loadDefaultSession (home.path()).isGood());
+    for (const auto& open : { session.file, home.path() })
+    {
+        INFO (open.string());
+        using std::filesystem::perms, std::filesystem::perm_options;
+        permissions (open, perms::others_write, perm_options::add);
+        const auto loaded = loadDefaultSession (home.path());
+        CHECK_FALSE (loaded.isGood());
+        CHECK (idOf (loaded.messages) == "session/foreign");
+        CHECK (idOf (editSession (loaded, [] (DeviceSession& s) { s.setClock ("timer"); }).messages) == "session/foreign");
+        CHECK (loadSession (session.file).isGood());
+        permissions (open, perms::others_write, perm_options::remove);
+    }
 }
 
 TEST_CASE ("a named session file must exist, is only read, and can be created by an edit", "[sessions]")
