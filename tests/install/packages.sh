@@ -42,9 +42,10 @@ cp "$made"/*.deb tests/install/in_root.sh tests/install/complete.zsh tests/insta
 cp /etc/resolv.conf "$root/etc/"
 
 # The mounts end with the namespace.
-unshare --mount --pid --fork bash -euc "
-    mount --bind '$made/downloads' '$root/test/downloads'
-    mount --rbind /dev '$root/dev'
-    mount -t proc proc '$root/proc'
-    exec chroot '$root' /bin/bash /test/in_root.sh"
+# shellcheck disable=SC2016
+unshare --mount --pid --fork bash -euc '
+    mount --bind "$1/downloads" "$2/test/downloads"
+    mount --rbind /dev "$2/dev"
+    mount -t proc proc "$2/proc"
+    exec chroot "$2" /bin/bash /test/in_root.sh' bash "$made" "$root"
 took "installed, used and removed"

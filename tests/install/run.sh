@@ -81,8 +81,7 @@ else
 fi
 
 flags=$(PKG_CONFIG_PATH=$libs/pkgconfig pkg-config --cflags --libs tactus)
-# shellcheck disable=SC2086
-c++ "$examples/embed/main.cpp" $flags -o "$work/by_pkg_config"
+eval "c++ \"\$examples/embed/main.cpp\" $flags -o \"\$work/by_pkg_config\""   # pkg-config quotes folders for the shell
 LD_LIBRARY_PATH=$libs "$work/by_pkg_config" graphs/dry_wood.json | cmp - "$work/embed.txt"
 echo "pkg-config: built, same output"
 
@@ -92,7 +91,7 @@ cat >"$work/parent/CMakeLists.txt" <<CMAKE
 cmake_minimum_required (VERSION 3.25)
 project (Parent CXX)
 set (before "\${CMAKE_CXX_FLAGS}|\${CMAKE_CXX_STANDARD}|\${CMAKE_BUILD_TYPE}|\${CMAKE_RUNTIME_OUTPUT_DIRECTORY}|\${CMAKE_POSITION_INDEPENDENT_CODE}")
-add_subdirectory ($source tactus)
+add_subdirectory ("$source" tactus)
 add_executable (plain plain.cpp)
 get_directory_property (options COMPILE_OPTIONS)
 get_directory_property (link_options LINK_OPTIONS)

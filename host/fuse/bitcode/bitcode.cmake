@@ -23,7 +23,7 @@ set (bitcode_folder ${CMAKE_CURRENT_BINARY_DIR}/bitcode)
 function (tactus_run_clang output source)
     file (RELATIVE_PATH name ${PROJECT_BINARY_DIR} ${output})
     add_custom_command (OUTPUT ${output}
-        COMMAND ${clang} ${ARGN} -MD -MF ${output}.d -MT ${output} -c ${source} -o ${output}
+        COMMAND ${clang} ${ARGN} -MD -MF ${output}.d -MQ ${output} -c ${source} -o ${output}
         DEPENDS ${source} ${precompiled} DEPFILE ${output}.d COMMENT "Building bitcode ${name}" VERBATIM)
 endfunction ()
 
@@ -57,9 +57,8 @@ function (tactus_make_bitcode result)
 
     # The table also includes a header that changes with these files, because ccache does not see that the assembler reads them.
     set (digest ${bitcode_folder}/digest.hpp)
-    list (JOIN files " " list)
     set (script ${CMAKE_CURRENT_SOURCE_DIR}/bitcode/digest.cmake)
-    add_custom_command (OUTPUT ${digest} COMMAND ${CMAKE_COMMAND} -D "files=${list}" -D output=${digest} -P ${script} DEPENDS ${files} ${script} VERBATIM)
+    add_custom_command (OUTPUT ${digest} COMMAND ${CMAKE_COMMAND} -D "files=${files}" -D output=${digest} -P ${script} DEPENDS ${files} ${script} VERBATIM)
 
     set (number 0)
     foreach (file name IN ZIP_LISTS files names)

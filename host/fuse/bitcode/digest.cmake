@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Writes a header with the digests of files: cmake -D files="FILE FILE..." -D output=HEADER -P digest.cmake
-separate_arguments (files)
+# Writes a header with the digests of files: cmake -D "files=FILE;FILE..." -D output=HEADER -P digest.cmake
 foreach (file IN LISTS files)
     file (SHA256 ${file} digest)
     string (APPEND text "// ${digest}\n")

@@ -73,15 +73,20 @@ private:
     std::atomic<int> count = 0;
     std::jthread thread;
 };
+/// Plays with a limit on the size of files, in units of 512 bytes. It fails like a full disk and needs no disk.
+test::Ran playWithLimit (const std::string& limit, const std::vector<std::string>& options)
+{
+    std::vector<std::string> all { "-c", "ulimit -f " + limit + "; exec \"$0\" \"$@\"", TACTUS_PROGRAM, "play", wood, "--osc", "off", "--duration", "1" };
+    all.insert (all.end(), options.begin(), options.end());
+    return test::runProgram ("sh", all);
+}
 }   // namespace
 
 TEST_CASE ("a full disk ends a recording, but neither the run nor the other recording", "[cli][safety]")
 {
     const Scratch scratch;
     const auto csv = scratch.path ("live.csv"), wav = scratch.path ("live.wav");
-    // A limit on file size fails like a full disk and needs no disk. The CSV is four times as large as the WAV.
-    const auto options = " --osc off --duration 1 --record " + ports + " --out " + csv + " --out " + wav;
-    const auto ran = test::runProgram ("sh", { "-c", "ulimit -f 600; exec " TACTUS_PROGRAM " play " + wood + options });
+    const auto ran = playWithLimit ("600", { "--record", ports, "--out", csv, "--out", wav });   // the CSV is four times as large as the WAV
     INFO (ran.err);
     CHECK (ran.status == 1);
     CHECK (ran.err.find (csv + ": warning: cannot be written: ") != std::string::npos);
@@ -98,8 +103,7 @@ TEST_CASE ("a full disk ends a log after a complete line, but does not end the r
 {
     const Scratch scratch;
     const auto log = scratch.path ("run.jsonl"), wav = scratch.path ("live.wav");
-    const auto options = " --osc off --duration 1 --record drag.state --log " + log + " --out " + wav;
-    const auto ran = test::runProgram ("sh", { "-c", "ulimit -f 200; exec " TACTUS_PROGRAM " play " + wood + options });
+    const auto ran = playWithLimit ("200", { "--record", "drag.state", "--log", log, "--out", wav });
     INFO (ran.err);
     CHECK (ran.status == 1);
     CHECK (ran.err.find (log + ": warning: cannot be written: ") != std::string::npos);

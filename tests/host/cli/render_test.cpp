@@ -202,7 +202,7 @@ TEST_CASE ("the guard withholds a force that is not a number, and the run report
 TEST_CASE ("a failed write to standard output is an error", "[cli]")
 {
     if (! std::filesystem::exists ("/dev/full")) return;
-    CHECK (test::runProgram ("sh", { "-c", std::string (TACTUS_PROGRAM) + " nodes > /dev/full" }).status == 1);
+    CHECK (test::runProgram ("sh", { "-c", "exec \"$0\" nodes > /dev/full", TACTUS_PROGRAM }).status == 1);
 }
 
 TEST_CASE ("a WAV has the rate of a faster section if all its ports are in that section, else the rate of the graph", "[cli][rates]")
