@@ -40,6 +40,9 @@ double approached (double from, double to, double most) noexcept
     return std::abs (half_way) <= 0.5 * most ? to : from + std::copysign (most * just_under, half_way);
 }
 
+/// How much a value may change in this time. Without a limit, anything, even if no time has passed.
+double stepOf (double slew, double s) noexcept { return slew == GuardLimits::none ? slew : slew * s; }
+
 /// Limits each value of `to` separately: at most `most` from 0, and at most `most_step` from its last value.
 /// Values that are no longer commanded go to 0.
 [[gnu::noinline]] Channels approached (const Channels& from, const Channels& to, double most, double most_step) noexcept
@@ -517,12 +520,12 @@ void Guard::approach (const Effort& to, double step_s) noexcept
     // Half steps, because the difference of two finite numbers may be infinite.
     const Vec3 force = 0.5 * size * to_force - 0.5 * last.force, torque = 0.5 * size * to_torque - 0.5 * last.torque;
     const double half_s = 0.5 * step_s;
-    double step = std::min (shareWithin (force, limits.max_slew * half_s), shareWithin (torque, limits.max_torque_slew * half_s));
+    double step = std::min (shareWithin (force, stepOf (limits.max_slew, half_s)), shareWithin (torque, stepOf (limits.max_torque_slew, half_s)));
     Channels axes;
     if (has_channels)
     {
         axes = mixed (0.5 * size, to_axes, -0.5, last.axes);
-        step = std::min (step, shareWithin (axes, limits.max_axis_slew * half_s));
+        step = std::min (step, shareWithin (axes, stepOf (limits.max_axis_slew, half_s)));
     }
 
     const bool arrives = step == 1.0;
@@ -532,7 +535,7 @@ void Guard::approach (const Effort& to, double step_s) noexcept
     last.axes = ! arrives ? mixed (1.0, last.axes, 2.0 * step, axes) : size == 1.0 ? to_axes
                                                                                    : mixed (size, to_axes, 0.0, {});
     last.signals = approached (last.signals, is_falling ? withoutRise (to.signals, last.signals, 3) : to.signals,
-                               limits.max_signal, limits.max_signal_slew * step_s);
+                               limits.max_signal, stepOf (limits.max_signal_slew, step_s));
 }
 
 /// During a stop, and while the effort rises again.

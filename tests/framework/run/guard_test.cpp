@@ -185,6 +185,17 @@ TEST_CASE ("guard: a value that is not a number never reaches a device", "[frame
                         [] (const Tick&, const Effort&, const Effort& now) { RC_ASSERT (isFinite (now.force, now.torque, now.axes, now.signals)); });
               });
 
+    rc::prop ("any limits, and any time between two ticks: none, less than none, or not a number",
+              [] {
+                  auto guard = guardWith (*anyLimits());
+                  for (const auto& tick : anyRun())
+                  {
+                      const double passed = *rc::gen::element (0.0, 0.0, dt, 5e-324, -1.0, endless, not_a_number);
+                      const auto& now = guard (tick.wanted, tick.reading, passed);
+                      RC_ASSERT (isFinite (now.force, now.torque, now.axes, now.signals));
+                  }
+              });
+
     rc::prop ("limits, periods and ages that are not numbers",
               [] {
                   const auto wild = rc::gen::element (not_a_number, -1.0, endless, -endless, 0.0, 1.0, 1.7e308);
