@@ -22,6 +22,9 @@ using Clock = HidPort::Clock;
 
 constexpr std::size_t reports_waiting = 1024;   // one second of reports from a fast device: a run starts a while after its devices are opened
 constexpr auto longest_between_beats = 20ms;    // several times within Failsafe::patience
+constexpr auto longest_leave = 200ms;           // for how long the neutral reports are tried again when a port is closed
+constexpr auto between_tries = 5ms;
+constexpr int least_tries = 3;
 constexpr const char* check_device = "check that the connected device is the one that the profile describes, and plug it in again";
 
 double secondsOf (Clock::duration d) { return std::chrono::duration<double> (d).count(); }
@@ -299,8 +302,11 @@ bool HidPort::serve (Transport& t)
         attend (t, *outputs[i], i, now);
     if (driven && now - given > longest_silence)
     {
-        silences.fetch_add (1, std::memory_order_relaxed);
-        current_episode.fetch_add (1, std::memory_order_acq_rel);
+        if (! std::exchange (is_silent, true))
+        {
+            silences.fetch_add (1, std::memory_order_relaxed);
+            current_episode.fetch_add (1, std::memory_order_acq_rel);
+        }
         quieten (t);
     }
     return t.beat (driven);
@@ -315,7 +321,11 @@ void HidPort::attend (Transport& t, Output& o, std::size_t report, Clock::time_p
 
     const auto latest = o.offered.load();
     const bool is_new = latest.number != o.seen;
-    if (is_new) given = now;
+    if (is_new)
+    {
+        given = now;
+        is_silent = false;
+    }
     if (latest.number == 0 || latest.episode != episode())
     {
         o.seen = latest.number;
@@ -370,23 +380,30 @@ Result<> HidPort::send (Transport& t, std::size_t report, std::span<const std::u
     return sent;
 }
 
-/// Sends the neutral reports, regardless of what was offered. [with `writing` held]
-void HidPort::quieten (Transport& t)
+/// Sends the neutral reports, regardless of what was offered. False if the system did not take one of them: the device may still be
+/// driven, and they must be sent again. [with `writing` held]
+bool HidPort::quieten (Transport& t)
 {
+    driven = false;
     for (std::size_t i = 0; i < outputs.size(); ++i)
     {
         const auto bytes = quiet.neutral (i);
         outputs[i]->latest.assign (bytes.begin(), bytes.end());
-        if (send (t, i, bytes)) outputs[i]->pushes = false;   // counts and records its own failures
+        if (send (t, i, bytes))   // counts and records its own failures
+            outputs[i]->pushes = false;
+        else
+            driven = true;
     }
-    driven = false;
     t.beat (driven);
+    return ! driven;
 }
 
 /// [with `writing` held]
 void HidPort::leave (Transport& t)
 {
-    quieten (t);
+    const auto end = Clock::now() + longest_leave;
+    for (int tries = 1; ! quieten (t) && (tries < least_tries || Clock::now() < end); ++tries)
+        std::this_thread::sleep_for (between_tries);
     for (const auto& step : description->exit)
         if (const auto done = perform (t, step); ! done) note (done.error().text);
 }

@@ -70,7 +70,7 @@ struct PortCounts
 ///  - A device that is driven, but sends only when something changes, is asked for the reports that say where it is while they do not
 ///    come, once it has sent something. An answer is a report like any other. If it does not answer, or takes longer than the watchdog, it is not asked again
 ///    until it is reopened, and its readings get old when nothing changes.
-///  - If no effort is offered for longer than the watchdog, the port sends the neutral reports.
+///  - If no effort is offered for longer than the watchdog, the port sends the neutral reports, again and again until the system takes them.
 ///  - If the process dies or freezes, the failsafe sends the neutral reports (Transport::armFailsafe). A port whose device got
 ///    them, or that finds that the computer has slept, treats the device as gone away and back.
 ///
@@ -217,7 +217,7 @@ private:
     void attend (Transport&, Output&, std::size_t report, Clock::time_point now);
     Clock::time_point nextLook (Clock::time_point now) const;
     Result<> send (Transport&, std::size_t report, std::span<const std::uint8_t>);
-    void quieten (Transport&);
+    bool quieten (Transport&);
     void leave();
     void leave (Transport&);
     std::vector<OutgoingReport> neutralReports();
@@ -266,6 +266,7 @@ private:
     std::uint64_t connections = 0;          // [reading thread, which does not change it while the tick thread reads]
     bool driven = false;                    // true if the last report sent was not neutral
     Clock::time_point given;                // time of the latest new offer
+    bool is_silent = false;                 // there has been none for longer than the watchdog
 
     std::atomic<std::uint64_t> reports = 0, read_by_tick = 0, asked_for = 0, writes = 0, write_errors = 0, dropped = 0, silences = 0, departures = 0;
     std::atomic<std::uint64_t> answers_sent = 0;

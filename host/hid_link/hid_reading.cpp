@@ -226,6 +226,7 @@ void HidPort::lose (Transport& t, const std::string& why)
     const std::lock_guard lock (writing);
     current_episode.fetch_add (1, std::memory_order_acq_rel);
     quieten (t);
+    driven = false;   // whatever it took: it starts again from zero
 }
 
 const ConnectedDevice* HidPort::sameAmong (const std::vector<ConnectedDevice>& devices) const

@@ -19,11 +19,14 @@ namespace tactus::host::guardian
 namespace
 {
 constexpr int look_apart_ms = 10, looks_until_taken = static_cast<int> (Failsafe::patience.count()) / look_apart_ms;
+constexpr int most_tries = 10'000 / look_apart_ms;   // a device that has not taken its reports after 10 s never will
 
 struct Held
 {
     int file = -1;   // `reports` is valid only while this is an open file
     FinalReports reports {};
+    std::uint32_t due = 0;   // the reports that are still to be written
+    int tries = 0;
 };
 std::array<Held, Failsafe::most_devices> held;   // by the guardian process; unused in the other one
 
@@ -67,8 +70,22 @@ void lookAtBeats (Shared& shared) noexcept
         all[i] = { beat, stands_still ? all[i].times + 1 : 0 };
         if (held[i].file < 0 || all[i].times < looks_until_taken || ! shared.beats[i].compare_exchange_strong (beat, Shared::taken)) continue;
         shared.raiseAlarm (Shared::Cause::frozen, beat);
-        write (held[i].file, held[i].reports);
+        held[i].due = all_reports;
     }
+}
+
+/// Writes the reports that are due. A device that is too busy for one is tried again the next time. True if there is a next time.
+bool writeDue() noexcept
+{
+    bool again = false;
+    for (auto& [file, reports, due, tries] : held)
+    {
+        if (file < 0 || due == 0) continue;
+        due = write (file, reports, due);
+        if (++tries == most_tries) due = 0;
+        again = again || due != 0;
+    }
+    return again;
 }
 
 void takeOver (const FinalReports& reports, int file) noexcept
@@ -76,18 +93,21 @@ void takeOver (const FinalReports& reports, int file) noexcept
     if (reports.slot >= held.size()) return;
     auto& slot = held[reports.slot];
     if (slot.file >= 0) ::close (slot.file);
-    slot = { reports.count > 0 ? file : -1, reports };
+    slot = { reports.count > 0 ? file : -1, reports, 0, 0 };
 }
 }   // namespace
 
-void write (int file, const FinalReports& reports) noexcept
+std::uint32_t write (int file, const FinalReports& reports, std::uint32_t which) noexcept
 {
+    std::uint32_t left = 0;
     const auto* at = reports.bytes.data();
     for (std::size_t i = 0; i < reports.count; at += reports.sizes[i++])
-        if (reports.is_feature[i] != 0)
-            (void)::ioctl (file, HIDIOCSFEATURE (reports.sizes[i]), at);
-        else if (::write (file, at, reports.sizes[i]) < 0)
-            continue;   // there is nothing left to report the error to
+    {
+        const auto it = 1u << i;
+        if ((which & it) == 0) continue;
+        if ((reports.is_feature[i] != 0 ? ::ioctl (file, HIDIOCSFEATURE (reports.sizes[i]), at) : ::write (file, at, reports.sizes[i])) < 0) left |= it;
+    }
+    return left;
 }
 
 bool send (int to, const FinalReports& reports, int file) noexcept
@@ -134,14 +154,22 @@ bool send (int to, const FinalReports& reports, int file) noexcept
         const int ready = ::poll (&messages, 1, look_apart_ms);
         ++shared.looks;
         if (ready == 0)
+        {
             lookAtBeats (shared);
+            writeDue();
+        }
         else if (ready > 0 && receive (0, reports, file))
             takeOver (reports, file);
         else if (ready > 0 || errno != EINTR)
             break;
     }
-    for (const auto& [kept, last] : held)
-        if (kept >= 0) write (kept, last);
+    for (auto& each : held)
+    {
+        each.due = all_reports;
+        each.tries = 0;
+    }
+    while (writeDue())
+        ::poll (nullptr, 0, look_apart_ms);
     ::_exit (0);
 }
 

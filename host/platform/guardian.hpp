@@ -63,8 +63,11 @@ inline constexpr auto process_name = "force-guardian";
 /// The signals that mean a fault of the program.
 inline constexpr std::array faults { SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL };
 
-/// Writes all reports to a device file. [even in a signal handler]
-void write (int file, const FinalReports&) noexcept;
+/// The reports of a device, one bit each.
+inline constexpr std::uint32_t all_reports = (1u << Failsafe::most_reports) - 1u;
+
+/// Writes these reports to a device file, in order, and returns those that the system did not take. [even in a signal handler]
+std::uint32_t write (int file, const FinalReports&, std::uint32_t which = all_reports) noexcept;
 
 /// Sends the guardian a message that arms a slot, with its device file, or disarms it. False, with errno, if this failed.
 bool send (int to, const FinalReports&, int file) noexcept;

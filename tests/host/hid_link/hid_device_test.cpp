@@ -321,6 +321,34 @@ TEST_CASE ("a port without new efforts sends its device to rest, and later effor
     CHECK (board.until ([&] { return driven (board) > before; }));
 }
 
+TEST_CASE ("neutral reports that the system does not take are sent again: after a silence, and on closing", "[hid][safety]")
+{
+    const bool closes = GENERATE (false, true);
+    FakeBoard board;
+    std::atomic<int> refused = 0;
+    board.on_write = [&] (const Bytes& report) {   // the two reports that follow a force are not taken
+        const bool pushes = report.size() == 25 && report[2] == 1 && report[5] != 0;
+        refused = pushes ? 0 : refused + 1;
+        board.failWrites (! pushes && refused <= 2);
+    };
+    auto device = openBoard (board, { .watchdog = closes ? 3600.0 : 0.1, .steps = "" });
+    REQUIRE (board.until ([&] {
+        tell (board, *device, boardReport (1));
+        for (const double force : { 0.0, 1.0 })
+        {
+            device->read();
+            device->write ({ { force, 0.0, 0.0 }, Vec3::Zero() });
+        }
+        return ! board.told().empty() && board.told().back().force (0) == 1'000'000;
+    }));
+    if (closes) device.reset();
+
+    CHECK (board.until ([&] { return board.told().back().isNeutral(); }));   // without a tick; gives up after 10 s
+    if (closes) return;
+    CHECK (device->port().counts().silences == 1);
+    CHECK (device->port().counts().write_errors >= 2);
+}
+
 TEST_CASE ("while a device is slow to take reports, only the latest effort is kept and sent", "[hid]")
 {
     FakeBoard board;

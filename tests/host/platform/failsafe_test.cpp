@@ -16,7 +16,9 @@
 #include <sstream>
 #include <thread>
 
+#include <fcntl.h>
 #include <sched.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -102,6 +104,32 @@ TEST_CASE ("a killed process leaves its device at rest", "[platform]")
                file, [] { ::kill (::getpid(), SIGKILL); },
                "rest!")
            == "rest!");
+}
+
+TEST_CASE ("a device that is too busy for the last reports gets them as soon as it takes any", "[platform]")
+{
+    const TemporaryFolder folder;
+    const auto path = (folder / "device").string();
+    REQUIRE (::mkfifo (path.c_str(), 0600) == 0);
+    const int device = ::open (path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+    REQUIRE (device >= 0);
+    std::array<char, 4096> some {};
+    while (::write (device, some.data(), some.size()) > 0)   // until there is no room
+        ;
+    test::inChild ([&] {
+        const auto failsafe = Failsafe::arm (path, rest());
+        if (! failsafe) return 1;
+        ::kill (::getpid(), SIGKILL);
+        return 0;
+    });
+    std::this_thread::sleep_for (std::chrono::milliseconds (100));   // the first tries fail
+    std::string last;
+    CHECK (until ([&] {
+        for (ssize_t got = 0; (got = ::read (device, some.data(), some.size())) > 0;)
+            last.append (some.data(), static_cast<std::size_t> (got));
+        return last.ends_with ("rest!");
+    }));
+    ::close (device);
 }
 
 TEST_CASE ("a process that crashes brings its device to rest before it dies, and the guardian does so again", "[platform]")
