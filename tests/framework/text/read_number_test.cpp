@@ -51,7 +51,7 @@ TEST_CASE ("a number in a file, however small, is the nearest double, in all kin
 TEST_CASE ("a number that no double can hold is an error with its place", "[text][numbers]")
 {
     const auto long_one = "1" + std::string (400, '0');
-    for (const std::string& text : { std::string ("1e309"), std::string ("-1e99999999999999999999"), long_one, "0.01e311" })
+    for (const std::string& text : { std::string ("1e309"), std::string ("-1e99999999999999999999"), long_one, std::string ("0.01e311") })
     {
         CAPTURE (text);
         CHECK_FALSE (wholeNumber (text));

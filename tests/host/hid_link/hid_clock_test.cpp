@@ -71,6 +71,7 @@ struct Times final : Journal
     void outdone (std::size_t, std::size_t) noexcept override {}
     void struck (std::size_t, std::size_t, double) noexcept override {}
     void late (std::uint64_t) noexcept override {}
+    void tightened (std::size_t, const GuardLimits&) noexcept override {}
     void halted() noexcept override {}
     void resumed() noexcept override {}
     void emergency() noexcept override {}
