@@ -104,7 +104,7 @@ Run::RoleDevice Replay::openHand (const std::string& role)
         warnings.push_back (Message::warning ("log/no_role", log.name(),
                                               "the logged run had no role '" + role + "', so in the replay this role reads a hand at rest"));
     hands[role] = hand.get();
-    return { std::move (hand), limits };
+    return { .device = std::move (hand), .limits = limits, .is_logged = known && options.graph == nullptr };
 }
 
 Result<> Replay::fetch()

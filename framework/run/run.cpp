@@ -134,6 +134,7 @@ bool isStandIn (const Run::RoleDevice& opened, const Json* description)
 GuardLimits Run::asksFor (const std::string& role, const graph::Graph& graph, const std::vector<IncludedGuard>& guards, const RoleDevice& of,
                           Messages& messages) const
 {
+    if (of.is_logged) return {};
     Messages found;
     const auto described = describedLimits (role, graph, guards, of.device->layout(), found);
     const auto earlier = asked.find (role);

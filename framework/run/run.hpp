@@ -71,6 +71,7 @@ public:
         std::unique_ptr<Device> device {};   ///< null: the role reads a tool at rest at the origin, and its efforts have no effect
         GuardLimits limits {};
         Device* driver = nullptr;   ///< the same device without its adapters; null means `device`
+        bool is_logged = false;     ///< the limits are those of a log, which contain what its graphs asked for
     };
 
     /// Opens the device of a role and adds any problems to the messages. `plan` is the one that needs the device. The run tightens

@@ -7,6 +7,7 @@
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/text.hpp>
+#include <tactus/run/device/make_device.hpp>
 #include <tactus/run/replay.hpp>
 #include <tactus/run/run.hpp>
 
@@ -423,5 +424,49 @@ TEST_CASE ("a log replays edits that tightened a guard to the bit, also one that
         const double now = (*replay)->run().engine().role (0).applied.force.x();
         CAPTURE (k, now, forces[k]);
         REQUIRE (std::bit_cast<std::uint64_t> (now) == std::bit_cast<std::uint64_t> (forces[k]));
+    }
+}
+
+TEST_CASE ("a log replays to the bit on a simulated tool that lacks the buttons of the device that the graph describes", "[run][runlog][safety]")
+{
+    const TemporaryFolder folder;
+    const auto log = folder.path() / "run.jsonl";
+    const auto describing = [] (double newtons) {
+        return pushing (R"("tip": { "driver": "hid", "profile": "tactus_board", "guard": { "max_force": "2 N", "dead_man_button": "grip" } })", newtons);
+    };
+    auto graph = describing (8.0);
+    Run run (catalogue(), {}, [] (const auto&...) -> Run::RoleDevice {
+        return { makeDevice ({ { "driver", "sim" }, { "mass", 0.1 } }, {}).device, { .max_force = 5.0, .ramp = 0.01 } };
+    });
+    run.load (graph);
+    Messages found;
+    run.openDevices (graph, found);
+    REQUIRE_FALSE (hasErrors (found));
+    REQUIRE (says (found, "device/unknown_button"));
+    REQUIRE (run.startLog (log, "test", {}, graph));
+    std::vector<double> forces;
+    const auto tick = [&] (int count) {
+        for (int k = 0; k < count; ++k)
+        {
+            run.tick();
+            forces.push_back (run.engine().role (0).applied.force.x());
+        }
+    };
+    tick (20);
+    graph = describing (3.0);
+    if (auto edit = run.edit (graph); edit.plan() != nullptr) edit.commit();
+    tick (20);
+    REQUIRE (run.finish());
+    REQUIRE (forces[19] == Approx (5.0));
+    REQUIRE (forces.back() == Approx (3.0));
+
+    auto replay = Replay::open (log.string(), { .program = "test" });
+    REQUIRE (replay);
+    for (const double force : forces)
+    {
+        const auto played = (*replay)->tick();
+        REQUIRE (played);
+        REQUIRE (*played);
+        REQUIRE (std::bit_cast<std::uint64_t> ((*replay)->run().engine().role (0).applied.force.x()) == std::bit_cast<std::uint64_t> (force));
     }
 }
