@@ -167,6 +167,10 @@ public:
     /// [main thread]
     virtual void limitSignals (double /*max*/, double /*max_slew*/) {}
 
+    /// The slew limits with which the role's guard begins, per s and without limit if infinite. A guard lets batches of reports catch up, so
+    /// a driver that knows when an effort reaches the device must keep them by the wall clock. Called before prepare(). [main thread]
+    virtual void limitSlews (double /*force*/, double /*torque*/, double /*axis*/) {}
+
     /// What the device has in addition to a tool. Called when the role gets the device; must not change afterwards. [main thread]
     virtual DeviceLayout layout() const { return {}; }
 

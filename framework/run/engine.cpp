@@ -85,6 +85,7 @@ void Engine::equip (Channel& channel, Device& device, const GuardLimits& limits,
     channel.is_news = channel.to_announce = true;
     channel.limits = tightest (limits, {});   // as the guard reads them: a limit that is negative or not a number lets nothing through
     device.limitSignals (channel.limits.max_signal, channel.limits.max_signal_slew);
+    device.limitSlews (channel.limits.max_slew, channel.limits.max_torque_slew, channel.limits.max_axis_slew);
     device.prepare (dt_s);
 }
 

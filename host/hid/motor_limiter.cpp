@@ -51,6 +51,14 @@ MotorLimiter::MotorLimiter (const Profile& profile, const std::vector<std::strin
     groups.push_back (std::move (torque));
 }
 
+void MotorLimiter::tighten (double force, double torque, double axis) noexcept
+{
+    const auto axes = groups.size() - 2;
+    for (std::size_t i = 0; i < groups.size(); ++i)
+        groups[i].slew = std::min (groups[i].slew, i < axes ? axis : i == axes ? force
+                                                                               : torque);
+}
+
 /// A motor that cannot pull, for example on a string, does not reduce the others' force: its own field is clamped later.
 double MotorLimiter::shrink (EffortValues& values) const noexcept
 {

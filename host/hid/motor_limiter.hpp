@@ -30,6 +30,9 @@ class MotorLimiter
 public:
     MotorLimiter (const Profile&, const std::vector<std::string>& effort_names, const std::vector<std::string>& effort_units, const EffortValues& rest);
 
+    /// Adds the slew limits of the role's guard to those of the profile, per s. [main thread, before the first call]
+    void tighten (double force, double torque, double axis) noexcept;
+
     /// The factors k and s.
     struct Shares
     {
@@ -63,7 +66,7 @@ private:
     double stepShare (const EffortValues& values, double passed_s) const noexcept;
 
     std::vector<Motor> motors;
-    std::vector<Group> groups;
+    std::vector<Group> groups;    // of single axes, then of the force, then of the torque
     EffortValues at_rest, last;   // last: what was sent
 };
 

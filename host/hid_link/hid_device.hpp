@@ -72,6 +72,8 @@ public:
     /// `max` also limits the motor of a signal when the graph drives it as an effort. Steps are left to the guard. [main thread]
     void limitSignals (double max, double max_slew) override;
 
+    void limitSlews (double force, double torque, double axis) override { values.limitSlews (force, torque, axis); }   // [main thread]
+
     DeviceLayout layout() const override { return layoutOf (values); }
 
     HidPort& port() noexcept { return *link; }

@@ -84,6 +84,7 @@ void AwaitedDevice::look()
     auto made = hid::openDevice (description, {}, system, { .profiles = { wanted }, .messages = {} });
     if (auto* d = dynamic_cast<hid::HidDevice*> (made.device.get()))
     {
+        d->limitSlews (slews[0], slews[1], slews[2]);
         d->prepare (dt);
         opened = std::move (made.device);
         const std::lock_guard lock (mutex);

@@ -22,11 +22,12 @@ constexpr double dt = 1e-3, slew = 100.0;
 /// Ticks a board with a profile of 1 kHz in virtual time.
 struct Bench
 {
-    Bench()
+    explicit Bench (double slew_of_session = slew)
     {
         board.virtual_ns = 1'000'000'000;
         device = openBoard (board, { .ramp = 0.0, .max_slew = slew });
-        guard.prepare ({ .max_force = 3.0, .max_slew = slew }, dt);
+        guard.prepare ({ .max_force = 3.0, .max_slew = slew_of_session }, dt);
+        device->limitSlews (slew_of_session, GuardLimits::none, GuardLimits::none);
     }
 
     /// A tick, this long after the last one. Returns the force on the wire in N. Without `counts`, the guard believes that a period has passed.
@@ -77,6 +78,22 @@ TEST_CASE ("on the wire, no force changes faster than the slew per second of wal
                 force = b.tick (dt / 8.0, 3.0, counts);
             CHECK (force == Approx (slew * 20.0 * dt).epsilon (0.05));
         }
+    }
+}
+
+TEST_CASE ("a slew limit of the session or the graph holds on the wire per second, also after a pause", "[hid][safety]")
+{
+    constexpr double strict = 10.0;
+    Bench b (strict);
+    b.tick (dt, 0.0, true);
+    b.tick (dt, 0.0, true);
+    double last = b.tick (19.0 * dt, 3.0, true);
+    for (int k = 0; k < 40; ++k)
+    {
+        const double now = b.tick (dt / 8.0, 3.0, true);
+        CHECK (now - last <= strict * dt / 8.0 + 1e-9);
+        CHECK (now > last);
+        last = now;
     }
 }
 
