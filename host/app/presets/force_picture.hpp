@@ -20,12 +20,12 @@ struct ForcePicture
     static constexpr double longest_s = 4.0;
     static constexpr std::size_t columns = 192;
 
-    std::vector<float> peaks;   ///< maximum per time column, in `unit`
-    double peak = 0.0;          ///< the largest of `peaks`
-    double seconds = 0.0;       ///< the time that the picture covers
-    const char* unit = "N";     ///< "N m" if there is only torque
-    MaterialPicture material;   ///< the surface at the largest force
-    std::string problem;        ///< why there is no picture; empty if there is one
+    std::vector<float> peaks {};   ///< maximum per time column, in `unit`
+    double peak = 0.0;             ///< the largest of `peaks`
+    double seconds = 0.0;          ///< the time that the picture covers
+    const char* unit = "N";        ///< "N m" if there is only torque
+    MaterialPicture material {};   ///< the surface at the largest force
+    std::string problem {};        ///< why there is no picture; empty if there is one
 };
 
 /// Takes up to several seconds for a large mesh. Stops early with a problem once `cancelled` is true. [any thread, one call at a time]
