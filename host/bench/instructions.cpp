@@ -3,6 +3,8 @@
 #include "contest.hpp"
 #include "fused.hpp"
 
+#include <host/platform/private_folder.hpp>
+
 #include <juce_core/juce_core.h>
 
 #include <charconv>
@@ -28,10 +30,9 @@ namespace
 {
 struct Folder
 {
-    Folder() { path.createDirectory(); }
     ~Folder() { path.deleteRecursively(); }
 
-    juce::File path = juce::File::createTempFile ("");
+    const juce::File path { host::privateFolder ("tactus-bench-").string() };
 };
 
 /// The total of one callgrind dump.
@@ -63,6 +64,7 @@ void runToBeCounted()
 std::variant<std::map<std::string, Counted>, std::string> countInstructions()
 {
     const Folder folder;
+    if (! folder.path.isDirectory()) return "no temporary folder can be made";
     const auto out = folder.path.getChildFile ("out");
     juce::ChildProcess valgrind;
     const bool started = valgrind.start ({ "valgrind", "--tool=callgrind", "--toggle-collect=tactus_bench_counted", "--dump-after=tactus_bench_dump",

@@ -2,6 +2,7 @@
 #include "profile_library.hpp"
 #include <host/hid/profile_difference.hpp>
 #include <host/platform/device_file.hpp>
+#include <host/platform/preset_folder.hpp>
 #include <tactus/text/ownership.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -79,10 +80,7 @@ std::shared_ptr<const Profile> limitedBy (const std::vector<std::shared_ptr<cons
 
 fs::path profileFolder()
 {
-    const auto program = programFolder();
-    for (const auto* place : { "profiles", "../share/tactus/profiles", "../../../host/profiles" })
-        if (const auto folder = (program / place).lexically_normal(); ! program.empty() && isFolder (folder)) return folder;
-    return {};
+    return shipped ({ "profiles", "../share/tactus/profiles", "../../../host/profiles" });
 }
 
 fs::path ownProfileFolder()

@@ -3,6 +3,7 @@
 #include "compiler_output.hpp"
 
 #include <host/platform/device_file.hpp>
+#include <host/platform/preset_folder.hpp>
 #include <host/platform/private_folder.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/quote.hpp>
@@ -24,27 +25,26 @@ constexpr const char* common_headers = R"(#include <tactus/node/node.hpp>
 #include <tactus/plugin/lent_services.hpp>
 )";
 
-fs::path firstOf (const std::vector<fs::path>& candidates)
-{
-    std::error_code unseen;
-    for (const auto& candidate : candidates)
-        if (fs::exists (candidate, unseen)) return candidate.lexically_normal();
-    return {};
-}
-
 /// The development files next to this program, in an installation or in a build tree.
-fs::path includeFolder() { return firstOf ({ programFolder() / "../include/tactus/plugin/node_plugin.hpp" }).parent_path().parent_path().parent_path(); }
+fs::path includeFolder() { return shipped ({ "../include/tactus/plugin/node_plugin.hpp" }).parent_path().parent_path().parent_path(); }
 
 fs::path frameworkLibrary()
 {
-    const auto prefix = programFolder() / "..";
-    std::vector<fs::path> folders { prefix / "framework", prefix / "lib", prefix / "lib64" };
+    std::vector<std::string> folders { "../framework", "../lib", "../lib64" };
     std::error_code unseen;
-    for (const auto& entry : fs::directory_iterator (prefix / "lib", unseen))   // such as lib/x86_64-linux-gnu
-        if (entry.is_directory (unseen)) folders.push_back (entry.path());
+    for (const auto& entry : fs::directory_iterator (programFolder() / "../lib", unseen))   // such as lib/x86_64-linux-gnu
+        if (entry.is_directory (unseen)) folders.push_back ("../lib/" + entry.path().filename().string());
     for (auto& folder : folders)
-        folder /= "libtactus_framework.a";
-    return firstOf (folders);
+        folder += "/libtactus_framework.a";
+    return shipped (folders);
+}
+
+fs::path eigenFolder()
+{
+    std::error_code unseen;
+    for (const auto* folder : { "/usr/include/eigen3", "/usr/local/include/eigen3", "/opt/homebrew/include/eigen3" })
+        if (fs::exists (folder, unseen)) return folder;
+    return {};
 }
 
 std::string compilerOf (const LiveSource& source)
@@ -154,7 +154,7 @@ std::vector<std::string> LiveCompiler::commonFlags (const LiveSource& s) const
     if (flags.front().find ("clang") == std::string::npos) flags.insert (flags.end(), { "-fno-gnu-unique", "--param=inline-unit-growth=200" });
 #endif
     if (const auto include = includeFolder(); ! include.empty()) flags.push_back ("-I" + include.string());
-    if (const auto eigen = firstOf ({ "/usr/include/eigen3", "/usr/local/include/eigen3", "/opt/homebrew/include/eigen3" }); ! eigen.empty())
+    if (const auto eigen = eigenFolder(); ! eigen.empty())
         flags.insert (flags.end(), { "-isystem", eigen.string() });
     return flags;
 }

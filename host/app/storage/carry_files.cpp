@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "carry_files.hpp"
 
+#include <tactus/file/atomic_file.hpp>
+
 namespace tactus::host
 {
 
@@ -47,6 +49,17 @@ private:
                 carryNamedIn (part, from, to);
     }
 
+    static bool write (const fs::path& from, const fs::path& to)
+    {
+        std::error_code error;
+        fs::create_directories (to.parent_path(), error);
+        std::ifstream in (from, std::ios::binary);
+        auto file = AtomicFile::create (to);   // follows no link that leads to nothing, or that belongs to another user
+        if (! file) return false;
+        if (in.peek() != std::ifstream::traits_type::eof()) file->stream() << in.rdbuf();
+        return file->stream() && file->commit();
+    }
+
     /// Returns true if the file was copied.
     bool copy (const std::string& named, const fs::path& from, const fs::path& to)
     {
@@ -54,11 +67,7 @@ private:
         std::error_code error;
         if (named.empty() || named.size() > longest_path || name.is_absolute() || ! fs::is_regular_file (from / name, error)) return false;
         if (fs::exists (to / name, error)) return false;
-        if (*name.lexically_normal().begin() != "..")
-        {
-            fs::create_directories ((to / name).parent_path(), error);
-            if (fs::copy_file (from / name, to / name, error)) return true;
-        }
+        if (*name.lexically_normal().begin() != ".." && write (from / name, to / name)) return true;
         failed.push_back (named);
         return false;
     }

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <host/platform/home_folder.hpp>
+#include <host/platform/preset_folder.hpp>
 #include <host/platform/private_folder.hpp>
 
 #include <sys/stat.h>
@@ -54,6 +55,30 @@ TEST_CASE ("a home folder that another user can change is not used, and that is 
     fs::permissions (home, fs::perms::owner_all);
     if (! test::giveAway (home)) return;
     CHECK (host::homeFolder().empty());
+}
+
+TEST_CASE ("what another user puts next to a program is not taken for a part of it", "[platform]")
+{
+    const TemporaryFolder folder;   // as /tmp, with a build in it
+    fs::permissions (folder.path(), fs::perms::all | fs::perms::sticky_bit);
+    const auto program = folder / "tactus/out/bin";
+    for (const auto* name : { "tactus/out/bin", "tactus/out/share", "host/profiles" })
+        fs::create_directories (folder / name);
+    const auto place = folder / "host/profiles";
+    CHECK (host::shippedWith (program, { "profiles", "../../../host/profiles" }) == place);
+    CHECK (host::shippedWith (program, { "../share", "../../../host/profiles" }) == folder / "tactus/out/share");
+
+    fs::permissions (folder / "host", fs::perms::all);
+    CHECK (host::shippedWith (program, { "../../../host/profiles" }).empty());
+    fs::permissions (program, fs::perms::all);   // all can replace the program itself: as on file systems without permissions
+    CHECK (host::shippedWith (program, { "../../../host/profiles" }) == place);
+    fs::permissions (program, fs::perms::owner_all);
+    fs::permissions (folder / "host", fs::perms::owner_all);
+
+    if (! test::giveAway (folder / "host")) return;
+    CHECK (host::shippedWith (program, { "../../../host/profiles" }).empty());
+    CHECK (test::giveAway (folder.path()));   // a checkout of another user, with everything in it
+    CHECK (host::shippedWith (program, { "../../../host/profiles" }) == place);
 }
 
 TEST_CASE ("a folder of one's own is made so that nobody else can enter it, and is not made where another user could replace it", "[platform]")
