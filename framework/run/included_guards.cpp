@@ -5,6 +5,8 @@
 #include <tactus/plan/roles.hpp>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 namespace tactus
 {
@@ -16,12 +18,14 @@ const Json* guardOf (const Json& description)
     return description.is_object() && description.contains ("guard") ? &description.at ("guard") : nullptr;
 }
 
-/// True if a file that the graph includes has a guard. Most graphs include none, and then need no search.
-bool includesGuards (const graph::Graph& graph)
+/// True if a file that the graph includes has a guard. Most graphs include none, and then need no search. A file that is included in several
+/// places is looked at once, so the work does not grow with the number of paths to it.
+bool includesGuards (const graph::Graph& graph, std::set<const graph::Graph*>& seen)
 {
-    return std::ranges::any_of (graph.files, [] (const auto& included) {
+    return std::ranges::any_of (graph.files, [&] (const auto& included) {
+        if (! seen.insert (included.second.get()).second) return false;
         const auto hasGuard = [] (const auto& device) { return guardOf (device.second) != nullptr; };
-        return std::ranges::any_of (included.second->devices, hasGuard) || includesGuards (*included.second);
+        return std::ranges::any_of (included.second->devices, hasGuard) || includesGuards (*included.second, seen);
     });
 }
 
@@ -55,14 +59,16 @@ private:
             act (plan::rolesInside (node, roles, k));
     }
 
+    std::set<std::pair<const Json*, std::string>> known;
+
     void take (const graph::Graph& file, const std::string& name, const plan::Roles& roles)
     {
         for (const auto& [role, description] : file.devices)
             if (const auto* guard = guardOf (description))
             {
                 const auto outer = roles.find (role);
-                IncludedGuard one { outer == roles.end() ? role : outer->second, *guard, name, "/devices/" + role + "/guard" };
-                if (std::ranges::find (found, one) == found.end()) found.push_back (std::move (one));
+                const auto& mapped = outer == roles.end() ? role : outer->second;
+                if (known.emplace (guard, mapped).second) found.push_back ({ mapped, *guard, name, "/devices/" + role + "/guard" });
             }
     }
 };
@@ -76,7 +82,8 @@ Json withoutGuard (Json description)
 
 std::vector<IncludedGuard> includedGuards (const graph::Graph& graph)
 {
-    if (! includesGuards (graph)) return {};
+    std::set<const graph::Graph*> seen;
+    if (! includesGuards (graph, seen)) return {};
     Search search;
     search.in (graph, graph.root, {});
     return std::move (search.found);

@@ -181,10 +181,15 @@ Run::RoleDevice Run::openOne (const std::string& role, const graph::Graph& graph
 void Run::openDevices (const graph::Graph& graph, Messages& messages)
 {
     const auto& plan = running->newest();
+    // A role of an earlier run that is gone (keepLimits) may be here under another name, on the same device.
+    GuardLimits of_gone;
+    for (const auto& [name, limits] : asked)
+        if (std::ranges::find (plan.roles(), name, &Plan::RoleUse::name) == plan.roles().end()) of_gone = tightest (of_gone, limits);
     const auto guards = includedGuards (graph);
     for (const auto& role : plan.roles())
     {
         if (! open || hasDevice (role.name)) continue;
+        if (of_gone != GuardLimits {}) asked.try_emplace (role.name, of_gone);
         auto opened = openOne (role.name, graph, guards, plan, asked, messages);
         if (! opened.device) continue;
         running->attach (role.name, *opened.device, opened.limits);

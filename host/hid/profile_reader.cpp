@@ -9,6 +9,7 @@
 #include <tactus/file/text_file.hpp>
 #include <tactus/run/device/guard_limits.hpp>
 #include <tactus/text/json_text.hpp>
+#include <tactus/text/ownership.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/units.hpp>
 
@@ -271,7 +272,7 @@ LoadedProfile readProfileText (std::string_view text)
     return loaded;
 }
 
-LoadedProfiles loadProfiles (const std::filesystem::path& folder)
+LoadedProfiles loadProfiles (const std::filesystem::path& folder, bool are_own)
 {
     LoadedProfiles loaded;
     const auto complain = [&] (const std::filesystem::path& file, Message message) {
@@ -290,6 +291,12 @@ LoadedProfiles loadProfiles (const std::filesystem::path& folder)
 
     for (const auto& file : files)
     {
+        if (auto who = are_own ? whoElseCanChange (file) : std::string(); ! who.empty())
+        {
+            complain (file, Message::error ("profile/foreign", "", std::move (who) + ", so the profile is not used",
+                                            "change its owner or its permissions (chown, chmod go-w)"));
+            continue;
+        }
         const auto text = readTextFile (file);
         if (! text || text->empty())
         {

@@ -38,8 +38,9 @@ struct LoadedProfiles
 /// The profile with this id; null if there is none.
 std::shared_ptr<const Profile> profileNamed (const LoadedProfiles&, std::string_view id);
 
-/// Loads all *.json files of a folder except schemas. Ids: profile/unreadable if the folder or a file cannot be read;
-/// profile/duplicate for a second profile with the same id. [main thread]
-LoadedProfiles loadProfiles (const std::filesystem::path& folder);
+/// Loads all *.json files of a folder except schemas. Of a user's own folder, only those that no other user can change. Ids:
+/// profile/unreadable if the folder or a file cannot be read; profile/foreign if another user can change a file; profile/duplicate for a
+/// second profile with the same id. [main thread]
+LoadedProfiles loadProfiles (const std::filesystem::path& folder, bool are_own = false);
 
 }   // namespace tactus::host::hid

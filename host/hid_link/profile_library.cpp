@@ -145,7 +145,7 @@ LoadedProfiles joined (LoadedProfiles own, LoadedProfiles shipped)
 LoadedProfiles loadOwnProfiles (const fs::path& folder)
 {
     auto who = whoElseCanChange (folder);
-    if (who.empty()) return loadProfiles (folder);
+    if (who.empty()) return loadProfiles (folder, true);
     auto m = Message::error ("profile/foreign", "", std::move (who) + ", so the profiles there are not used",
                              "change its owner or its permissions (chown, chmod go-w), or set TACTUS_PROFILES to a folder of your own");
     m.file = folder.string();

@@ -25,7 +25,8 @@ void addNames (const Json& mapped, std::set<std::string>& names)
             addNames (inner, names);
 }
 
-void addRoles (const graph::Graph& g, std::set<std::string>& names)
+/// A file that is included in several places is looked at once.
+void addRoles (const graph::Graph& g, std::set<std::string>& names, std::set<const graph::Graph*>& seen)
 {
     const auto add = [&] (const graph::Patch& patch) {
         for (const auto& node : patch.nodes)
@@ -38,7 +39,7 @@ void addRoles (const graph::Graph& g, std::set<std::string>& names)
     for (const auto& [name, patch] : g.graphs)
         add (patch);
     for (const auto& [name, file] : g.files)
-        addRoles (*file, names);
+        if (seen.insert (file.get()).second) addRoles (*file, names, seen);
 }
 
 ClockChoice byOption (const ClockWish& wish, const std::vector<Described>& devices, const TickRate& rateOf)
@@ -98,7 +99,8 @@ ClockChoice bySession (const ClockWish& wish, const std::vector<Described>& devi
 std::vector<std::string> rolesNamed (const graph::Graph& g)
 {
     std::set<std::string> names;
-    addRoles (g, names);
+    std::set<const graph::Graph*> seen;
+    addRoles (g, names, seen);
     return { names.begin(), names.end() };
 }
 

@@ -76,12 +76,18 @@ void LiveRun::start (Hand who)
 /// graph's guards do not become looser.
 void LiveRun::restart (bool by_edit)
 {
-    held = by_edit && (held || isStoppedForGood());
+    held = by_edit && (held || isLatched());
     if (! by_edit) kept_limits.clear();
     if (by_edit && run) kept_limits = run->askedLimits();
     stop();
     begins = wanted = true;
     if (! isRunning()) begin();
+}
+
+void LiveRun::startAgain (bool is_latched)
+{
+    held = held || is_latched;
+    restart (true);
 }
 
 void LiveRun::stop() noexcept
@@ -93,6 +99,7 @@ void LiveRun::stop() noexcept
 void LiveRun::letGo()
 {
     stop();
+    if (run) kept_limits = run->askedLimits();
     end();
 }
 
@@ -310,11 +317,14 @@ void LiveRun::rearm() noexcept
     if (stop_switch != nullptr && stop_switch->isAhead()) run->engine().emergencyStop();   // pressed since canRearm(): a rearm must not undo it
 }
 
-bool LiveRun::isStoppedForGood() const
+/// Also for a run that has ended by itself.
+bool LiveRun::isLatched() const
 {
     const auto now = status();
-    return isRunning() && std::ranges::any_of (now->shown(), &RunStatus::Role::is_latched);
+    return now && std::ranges::any_of (now->shown(), &RunStatus::Role::is_latched);
 }
+
+bool LiveRun::isStoppedForGood() const { return isRunning() && isLatched(); }
 
 std::optional<RunStatus> LiveRun::status() const { return isLive() ? std::optional (run->live().status()) : std::nullopt; }
 

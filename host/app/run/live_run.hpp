@@ -78,7 +78,11 @@ public:
     /// The state of the run's sound; empty if it neither plays nor records.
     std::optional<audio::AudioStatus> audioStatus() const;
 
-    void start (Hand);      ///< restarts a run that is in progress, once its forces are zero
+    void start (Hand);   ///< restarts a run that is in progress, once its forces are zero
+
+    /// Runs again after something else ran: latched stops stay latched, and no limit becomes looser. `is_latched`: so was what ran before.
+    void startAgain (bool is_latched = false);
+
     void stop() noexcept;   ///< ramps the forces to zero, then stops; does not wait
 
     /// Brings all forces to zero smoothly while the graph keeps running. An alarm of the failsafe does this too. Like every latched
@@ -89,10 +93,15 @@ public:
     /// cannot undo the stop.
     void rearm() noexcept;
     bool canRearm() const noexcept;
-    bool isStoppedForGood() const;   ///< true after a latched stop, until rearm() or until the user starts another run
+    bool isHeld() const noexcept { return held; }   ///< the next run starts stopped, until rearm() or until the user starts it
+    bool isStoppedForGood() const;                  ///< true after a latched stop, until rearm() or until the user starts another run
 
     /// Stops, waits until the forces are zero, and releases the devices.
     void letGo();
+
+    /// By role, the limits that guards of this graph have asked for since the user started it. They stay when the run restarts by itself.
+    const std::map<std::string, GuardLimits>& keptLimits() const noexcept { return kept_limits; }
+    void keepLimits (std::map<std::string, GuardLimits> limits) { kept_limits = std::move (limits); }
 
     bool isRunning() const noexcept { return isLive() && ! run->live().isOver(); }
     bool isWanted() const noexcept { return wanted; }   ///< started and not stopped since; it may still fail to compile
@@ -199,6 +208,7 @@ private:
     void after (const Plan&, std::uint64_t tick, bool halts) noexcept override;
 
     bool isLive() const noexcept { return run && run->isLive(); }
+    bool isLatched() const;
     void restart (bool by_edit);
     void begin();
     void end();

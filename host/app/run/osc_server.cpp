@@ -169,9 +169,12 @@ Result<> OscServer::transport (const Transport& to)
     return {};
 }
 
+/// Only a person in the window ends a latched stop by a start, or lets a start loosen limits.
 Result<> OscServer::start()
 {
-    playback.restart();
+    if (live_run.isHeld() || live_run.isStoppedForGood() || ! live_run.canRearm())
+        return Message::error ("osc/stopped", {}, "the forces are stopped until somebody rearms", "press REARM or START in the window");
+    playback.startAgain();
     const auto& messages = live_run.messages();
     const auto error = std::ranges::find (messages, Message::Severity::error, &Message::severity);
     return error == messages.end() ? Result<> {} : *error;

@@ -46,17 +46,26 @@ void Playback::runInstead (graph::Graph g, bool on_devices)
     preview_run->obey (stop_switch);
     if (on_devices) preview_run->use (devices);
     before_run();
-    preview_run->start (LiveRun::Hand {});
+    if (! on_devices) return preview_run->start (LiveRun::Hand {});
+    preview_run->keepLimits (live_run.keptLimits());
+    preview_run->startAgain();
 }
 
 void Playback::endPreview()
 {
     if (! isPreviewing()) return;
+    const bool is_latched = trial && preview_run->isStoppedForGood();
     trial.reset();
     preview_run->letGo();
     preview_run.reset();
     preview_document.reset();
-    if (resumes) restart();
+    if (resumes) startAgain (is_latched);
+}
+
+void Playback::startAgain (bool is_latched)
+{
+    before_run();
+    live_run.startAgain (is_latched);
 }
 
 Result<> Playback::tryDevice (const std::string& role)

@@ -20,7 +20,8 @@ public:
 
     void start (LiveRun::Hand);
     void restart() { start (live_run.hand()); }
-    void stop() noexcept;   ///< stops the document's run or the preview, whichever is current
+    void startAgain (bool is_latched = false);   ///< see LiveRun::startAgain
+    void stop() noexcept;                        ///< stops the document's run or the preview, whichever is current
     void emergencyStop() noexcept;
 
     /// Stops the document, and runs another graph with its own gesture until endPreview().

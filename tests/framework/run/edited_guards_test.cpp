@@ -393,6 +393,17 @@ TEST_CASE ("a run that continues another one keeps what its graphs have asked fo
     CHECK (next.tick (30).forces().back() == Approx (1.0));
 }
 
+TEST_CASE ("a run that continues another one keeps its limits for a role that an edit has renamed", "[run][safety]")
+{
+    Bench first (pushing (guarded (R"("max_force": "1 N")")));
+    first.begin();
+    Bench next (pushing ("", 8.0, "pen"));   // maybe the same device
+    next.run.keepLimits (first.run.askedLimits());
+    Messages said;
+    next.run.openDevices (next.graph, said);
+    CHECK (next.tick (30).forces().back() == Approx (1.0));
+}
+
 TEST_CASE ("a log replays edits that tightened a guard to the bit, also one that was undone before it ran", "[run][runlog][safety]")
 {
     const TemporaryFolder folder;

@@ -108,3 +108,15 @@ TEST_CASE ("a wrong guard in an included graph is an error with the name of the 
     CHECK (messages[0].file == "part.json");
     CHECK (messages[0].where == "/devices/tip/guard/max_force");
 }
+
+TEST_CASE ("a file that is included along many paths is looked at once", "[run]")
+{
+    auto inner = pushing();
+    for (int level = 0; level < 60; ++level)   // 2^60 paths
+    {
+        auto outer = std::make_shared<graph::Graph> (read (""));
+        outer->files = { { "a.json", inner }, { "b.json", inner } };
+        inner = std::move (outer);
+    }
+    CHECK (includedGuards (*inner).empty());   // no node uses any of the files
+}

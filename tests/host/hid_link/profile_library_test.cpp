@@ -435,6 +435,10 @@ TEST_CASE ("profiles that another user can change are not used", "[hid]")
     const TemporaryFolder folder;
     fs::copy_file (fs::path (TACTUS_SOURCE_DIR) / "host/profiles/tactus_board.json", folder / "board.json");
     CHECK (loadOwnProfiles (folder.path()).profiles.size() == 1);
+    fs::permissions (folder / "board.json", fs::perms::all);
+    CHECK (loadOwnProfiles (folder.path()).profiles.empty());
+    fs::permissions (folder / "board.json", fs::perms::owner_all);
+    CHECK (loadOwnProfiles (folder.path()).profiles.size() == 1);
     fs::permissions (folder.path(), fs::perms::all);
     const auto loaded = loadOwnProfiles (folder.path());
     CHECK (loaded.profiles.empty());

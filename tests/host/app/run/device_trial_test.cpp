@@ -80,6 +80,21 @@ TEST_CASE ("a device is not tested while the forces are off, and a stop ends the
     CHECK_FALSE (r.playback.run().isWanted());
 }
 
+TEST_CASE ("a latched stop during the test of a device stays latched when the graph runs again, and its limits stay", "[app][device_trial][safety]")
+{
+    TrialRig r;
+    r.playback.start ({});
+    REQUIRE (r.until ([&] { return r.playback.run().isRunning(); }));
+    const auto asked = r.playback.run().mostForce();
+    REQUIRE (r.playback.tryDevice ("stylus"));
+    REQUIRE (r.until ([&] { return r.playback.current().isRunning(); }));
+    const_cast<LiveRun&> (r.playback.current()).emergencyStop();   // as an alarm of the failsafe does
+    REQUIRE (r.until ([&] { return ! r.playback.isTrying() && r.playback.run().isRunning(); }));
+    CHECK (r.until ([&] { return r.playback.run().isStoppedForGood(); }));
+    CHECK (r.playback.run().isHeld());
+    CHECK (r.playback.run().mostForce() == asked);
+}
+
 TEST_CASE ("a test reaches at most a tenth of the limits of the guard, and pushes nothing without a limit", "[app][device_trial]")
 {
     const auto force = DeviceTrial::of ({}, needing (true, 1)), signal = DeviceTrial::of ({}, needing (false, 1));

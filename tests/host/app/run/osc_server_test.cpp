@@ -172,3 +172,17 @@ TEST_CASE ("an emergency stop over OSC removes the force while the message threa
     std::this_thread::sleep_for (50ms);
     CHECK (isLatched());
 }
+
+TEST_CASE ("a start over OSC ends no latched stop", "[app][osc][safety]")
+{
+    Rig r { "dry_wood" };
+    CHECK_FALSE (isError (r.ask ("/tactus/start", r.me())));
+    REQUIRE (r.until ([&] { return r.live_run.status() && r.live_run.status()->force > 0.0; }));
+    r.live_run.emergencyStop();
+    REQUIRE (r.until ([&] { return r.live_run.isStoppedForGood(); }));
+    CHECK (isError (r.ask ("/tactus/start", r.me())));
+    CHECK (r.live_run.isStoppedForGood());
+    REQUIRE (r.until ([&] { return r.live_run.canRearm(); }));
+    CHECK (isError (r.ask ("/tactus/start", r.me())));
+    CHECK (r.live_run.isStoppedForGood());
+}
