@@ -4,6 +4,7 @@
 #include <host/app/window/places.hpp>
 #include <host/osc/osc_options.hpp>
 #include <host/platform/home_folder.hpp>
+#include <host/platform/patient_output.hpp>
 #include <host/platform/signals.hpp>
 #include <host/plugins/installed_plugins.hpp>
 #include <tactus/tactus.h>
@@ -90,6 +91,7 @@ private:
         useTranslation (translationFor (languageSetIn (how.home), how.home));
         window = std::make_unique<Window> (*look, how);
         watchForStop();
+        giveUpBlockedOutputs();
         startTimerHz (10);
     }
 

@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -18,6 +19,7 @@
 #include <limits.h>
 #include <memory>
 #include <streambuf>
+#include <string_view>
 #include <utility>
 #endif
 
@@ -73,16 +75,24 @@ public:
 private:
     const int file;
     const bool is_owned;
-    bool is_given_up = false;
+    std::atomic<bool> is_given_up = false;   // several threads write messages
 };
 
 class OutletBuffer final : public std::streambuf
 {
 public:
-    OutletBuffer (int file, bool owns) : outlet (file, owns) { setp (room.data(), room.data() + room.size()); }
+    OutletBuffer (int file, bool owns) : outlet (file, owns), is_terminal (::isatty (file) != 0) { setp (room.data(), room.data() + room.size()); }
     ~OutletBuffer() override { sync(); }
 
 private:
+    /// A person sees each line as soon as it is complete.
+    std::streamsize xsputn (const char* bytes, std::streamsize size) override
+    {
+        const auto put = std::streambuf::xsputn (bytes, size);
+        const bool ends_line = is_terminal && std::string_view (bytes, static_cast<std::size_t> (size)).find ('\n') != std::string_view::npos;
+        return ends_line && sync() != 0 ? 0 : put;
+    }
+
     int sync() override
     {
         const auto size = static_cast<std::size_t> (pptr() - pbase());
@@ -97,6 +107,7 @@ private:
     }
 
     Outlet outlet;
+    const bool is_terminal;
     std::array<char, 16384> room;
 };
 
@@ -116,7 +127,11 @@ std::unique_ptr<std::ostream> openPatiently (const std::filesystem::path& path)
     {
         const int file = ::open (path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
         if (file >= 0) return std::make_unique<Pipe> (file);
-        if (errno != ENXIO && errno != EINTR) return nullptr;
+        const int why = errno;
+        std::error_code unseen;
+        const bool waits = why == EINTR || (why == ENXIO && std::filesystem::is_fifo (path, unseen));
+        errno = why;
+        if (! waits) return nullptr;
         if (stopRequested())
         {
             errno = EINTR;

@@ -25,7 +25,7 @@ std::vector<std::pair<std::string, juce::String>> translationsIn (const fs::path
     for (const auto& entry : fs::directory_iterator (home / "text", failed))
     {
         const auto code = entry.path().stem().string();
-        if (entry.path().extension() != ".txt" || code == english || ! isLanguage (code)) continue;
+        if (! entry.is_regular_file (failed) || entry.path().extension() != ".txt" || code == english || ! isLanguage (code)) continue;
         const auto name = read (entry.path()).getLanguageName();
         all.emplace_back (code, name.isEmpty() ? juce::String (code) : name);
     }
