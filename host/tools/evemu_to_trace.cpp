@@ -74,7 +74,7 @@ int main (int argc, char** argv)
     if (! file && why.empty()) why = "the system gave no reason";
     if (! why.empty())
     {
-        std::cerr << printableName (in) << ": cannot be read: " << why << "; check the path [file/unreadable]\n";
+        std::cerr << printableName (in) << ": cannot be read: " << why << " [file/unreadable]\n";
         return input_at_fault;
     }
     std::istream& source = in == "-" ? std::cin : file;

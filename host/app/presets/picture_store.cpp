@@ -55,8 +55,11 @@ void PictureStore::run()
             wait (-1);
             continue;
         }
-        auto drawn = caught (file.string(), [&] { return pictureOf (file, types, cancelled); });
-        auto picture = std::make_shared<const ForcePicture> (drawn ? std::move (*drawn) : ForcePicture { .problem = drawn.error().text });
+        auto picture = std::make_shared<ForcePicture>();
+        if (auto drawn = caught (file.string(), [&] { return pictureOf (file, types, cancelled); }))
+            *picture = std::move (*drawn);
+        else
+            picture->problem = drawn.error().text;
         const std::scoped_lock guard (lock);
         pictures[file] = std::move (picture);
         std::erase (wanted, file);
