@@ -53,7 +53,7 @@ void DeviceSetup::scan (bool on)
     }
     changed.notify_all();
     if (on && ! scanner.joinable())
-        scanner = std::jthread ([this] { static_cast<void> (caught ("the search for devices", [this] { scanLoop(); })); });
+        scanner = std::jthread ([this] { static_cast<void> (caught ({}, [this] { scanLoop(); })); });
 }
 
 std::vector<hid::ConnectedDevice> DeviceSetup::connected() const
@@ -77,7 +77,7 @@ void DeviceSetup::scanLoop()
         changed.wait (lock, [this] { return ends || scans; });
         if (ends) return;
         lock.unlock();
-        auto look = caught ("the search for devices", [this] {
+        auto look = caught ({}, [this] {
             auto connected_now = hid::eachOnce (devices.connected(), known);
             auto without_profile = connected_now;
             std::erase_if (without_profile,

@@ -2,6 +2,7 @@
 #include "limit_watch.hpp"
 #include "device_setup.hpp"
 
+#include <host/app/text/filled.hpp>
 #include <tactus/text/caught.hpp>
 
 namespace tactus::host
@@ -115,7 +116,7 @@ void LimitWatch::run()
         if (list)
             result.list = std::move (*list);
         else
-            result.problem = "the graph was not checked: " + list.error().text;
+            result.problem = filled (TRANS ("the graph was not checked: %1"), list.error().text).toStdString();
         const std::scoped_lock guard (lock);
         done = std::move (result);
     }

@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-Autosaver::Autosaver (RecoverySession& s) : session (s), thread ([this] { static_cast<void> (caught ("the autosave", [this] { work(); })); }) {}
+Autosaver::Autosaver (RecoverySession& s) : session (s), thread ([this] { static_cast<void> (caught ({}, [this] { work(); })); }) {}
 
 Autosaver::~Autosaver()
 {
