@@ -3,6 +3,8 @@
 
 #include <tactus/file/atomic_file.hpp>
 
+#include <fstream>
+
 namespace tactus::host
 {
 
