@@ -401,7 +401,7 @@ TEST_CASE ("a run that continues another one keeps its limits for a role that an
     next.run.keepLimits (first.run.askedLimits());
     Messages said;
     next.run.openDevices (next.graph, said);
-    CHECK (next.tick (30).forces().back() == Approx (1.0));
+    CHECK (next.tick (30).forces ("pen").back() == Approx (1.0));
 }
 
 TEST_CASE ("a log replays edits that tightened a guard to the bit, also one that was undone before it ran", "[run][runlog][safety]")

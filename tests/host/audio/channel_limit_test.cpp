@@ -233,14 +233,14 @@ TEST_CASE ("a channel whose limits are tightened while it plays falls to them wi
     ChannelLimit limit;
     if (had_limits) limit.tighten (0.9, 5000.0);
     std::vector<float> block (480, 0.8f);
-    limit (block.data(), 480, card_hz);
+    limit (block.data(), 480, 1.0 / card_hz);
     REQUIRE (block.back() == 0.8f);
     limit.tighten (0.1, 0.2);   // the new slew alone would take seconds
     float before = block.back();
     for (int k = 0; k < 20; ++k)
     {
         std::ranges::fill (block, 0.8f);
-        limit (block.data(), 480, card_hz);
+        limit (block.data(), 480, 1.0 / card_hz);
         for (const float sample : block)
         {
             REQUIRE (sample <= before);
@@ -250,6 +250,6 @@ TEST_CASE ("a channel whose limits are tightened while it plays falls to them wi
     }
     CHECK (before == Approx (0.1));
     std::ranges::fill (block, 0.0f);
-    limit (block.data(), 480, card_hz);
+    limit (block.data(), 480, 1.0 / card_hz);
     CHECK (block.back() == Approx (0.1 - 0.2 * 480 / card_hz));   // the new slew, once the channel is within the new limit
 }
