@@ -13,7 +13,7 @@ namespace tactus::host::audio
 /// A sound card as the clock of a run: each block triggers as many ticks as fit into its length, on the audio thread, so ticks
 /// and samples never drift apart. When no blocks arrive, a timer ticks instead with all forces held at zero. The next block
 /// takes over again, and forces rise along the guards' ramps.
-class AudioClock final : public TickClock
+class AudioClock : public TickClock
 {
 public:
     /// The timer steps in after this time without a block, or if blocks are long, after this many block lengths.
