@@ -48,7 +48,7 @@ struct Pushed final : Device
 /// A card whose ticks are one period apart, however busy the machine is.
 struct EvenClock final : AudioClock
 {
-    EvenClock (double rate_hz, const Pushed& d) : AudioClock (rate_hz), device (d), rate (rate_hz) {}
+    EvenClock (double hz, const Pushed& d) : AudioClock (hz), device (d), rate (hz) {}
     double now() const noexcept override { return device.ticks / rate; }
 
     const Pushed& device;
