@@ -170,7 +170,7 @@ TEST_CASE ("if the system may have dropped the newest reports, a reading is not 
         return ages.size() < 3;
     });
     CHECK (ages[0] == 0.0);
-    CHECK (ages[1] == Approx (1e-3));   // counted in ticks
+    CHECK (ages[1] >= 1e-3);   // by the clock or in ticks, whichever is longer
     CHECK (ages[2] == 0.0);
 }
 
