@@ -25,7 +25,10 @@ inline Effort Engine::total (const Plan::RoleUse& role, Scratch& scratch) noexce
     return sumOfEfforts (std::span (scratch.efforts).first (n), scratch.numbers.data());
 }
 
-Engine::Engine (std::shared_ptr<Plan> p) : rate_hz (p->rateHz()), plans (makeRunning (std::move (p))), running (&plans.newest()), period (1.0 / rate_hz), passed_s (period) {}
+Engine::Engine (std::shared_ptr<Plan> p)
+    : rate_hz (p->rateHz()), plans (makeRunning (std::move (p))), running (&plans.newest()), period (1.0 / rate_hz), passed_s (period)
+{
+}
 
 Engine::Channel* Engine::find (std::string_view role) const noexcept
 {

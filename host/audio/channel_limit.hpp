@@ -66,7 +66,8 @@ public:
             if (most.isFalling()) most.advance (std::abs (last));
             if (most.isReached (std::abs (last)))
                 slew = asked_slew.load (std::memory_order_relaxed);
-            const double wanted = std::clamp (valid (samples[i]), -most.now(), most.now()), change = wanted - last, step = slew == GuardLimits::none ? slew : slew * period_s;
+            const double wanted = std::clamp (valid (samples[i]), -most.now(), most.now()), change = wanted - last;
+            const double step = slew == GuardLimits::none ? slew : slew * period_s;
             last = std::abs (change) <= step ? wanted : last + std::copysign (step, change);
             samples[i] = static_cast<float> (last);
         }

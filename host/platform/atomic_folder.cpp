@@ -247,7 +247,8 @@ Result<> AtomicFolder::Work::check()
     if (S_ISLNK (found.st_mode)) return exists (target, "it is a symbolic link, which is not followed", "name the folder that it leads to, or a new one");
     if (! S_ISDIR (found.st_mode)) return exists (target, "it is not a folder");
     if (found.st_uid != ::geteuid()) return exists (target, "the folder belongs to another user");
-    if (isAroundUs (found)) return exists (target, "the current folder is in it, and it is replaced as a whole", "go to the folder above it, and name it from there");
+    if (isAroundUs (found))
+        return exists (target, "the current folder is in it, and it is replaced as a whole", "go to the folder above it, and name it from there");
     auto folder = openFolder (parent.number(), name);
     if (! folder) return unwritable();
     const auto names = namesIn (folder.number());
@@ -298,7 +299,8 @@ Result<> AtomicFolder::Work::readList()
         if (read < 0) return unwritable ((target / list).string(), systemReason());
         if (read == 0) break;
         constexpr std::size_t longest = 1u << 24u;
-        if (text.append (block.data(), static_cast<std::size_t> (read)).size() > longest) return exists (target / list, "it is far too long for a list of files");
+        if (text.append (block.data(), static_cast<std::size_t> (read)).size() > longest)
+            return exists (target / list, "it is far too long for a list of files");
     }
     for (std::size_t i = 0; i < text.size();)
     {
@@ -341,7 +343,9 @@ Result<AtomicFolder::Work::Kept> AtomicFolder::Work::keep (int from, int to, con
     for (const auto& entry : *names)
     {
         const auto path = place + entry, where = (target / path).string();
-        const auto taken = [&] { return exists (where, "this file is not from an earlier export, and the new one has the same name", "move it, or name a new folder"); };
+        const auto taken = [&] {
+            return exists (where, "this file is not from an earlier export, and the new one has the same name", "move it, or name a new folder");
+        };
         const auto found = lookAt (from, entry);
         if (! S_ISDIR (found.st_mode))
         {
@@ -350,7 +354,8 @@ Result<AtomicFolder::Work::Kept> AtomicFolder::Work::keep (int from, int to, con
             kept = Kept::something;
             continue;
         }
-        if (found.st_dev != lookAt (old.number(), ".").st_dev) return exists (where, "another file system is mounted there", "unmount it, or name a new folder");
+        if (found.st_dev != lookAt (old.number(), ".").st_dev)
+            return exists (where, "another file system is mounted there", "unmount it, or name a new folder");
         const bool is_new = ::mkdirat (to, entry.c_str(), S_IRWXU) == 0;
         if (! is_new && errno != EEXIST) return unwritable (where, systemReason());
         const auto inner_from = openFolder (from, entry), inner_to = openFolder (to, entry);

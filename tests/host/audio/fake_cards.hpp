@@ -67,7 +67,8 @@ public:
 
     std::chrono::steady_clock::time_point now() const noexcept override
     {
-        return std::chrono::steady_clock::time_point (std::chrono::nanoseconds (static_cast<std::int64_t> (1e9 * static_cast<double> (heard) / (rate_hz * speed))));
+        const double s = static_cast<double> (heard) / (rate_hz * speed);
+        return std::chrono::steady_clock::time_point (std::chrono::nanoseconds (static_cast<std::int64_t> (1e9 * s)));
     }
 
     host::audio::CardWanted wanted;

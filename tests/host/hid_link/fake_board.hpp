@@ -52,7 +52,8 @@ struct BoardProfile
             + number (max_rate) + (keepalive > 0.0 ? R"(, "keepalive": )" + number (keepalive) : "") + R"(}],
             "position": ["x", "y", "z"], "valid": "homed", "force": ["fx", "fy", "fz"],
             "limits": {"max_force": 3.0, "ramp": )"
-            + number (ramp) + (max_slew > 0.0 ? R"(, "max_slew": )" + number (max_slew) : "") + R"(, "stale_input": )" + number (watchdog) + R"(}, "rate": )" + number (rate) + R"(, "sources": ["made up"]})");
+            + number (ramp) + (max_slew > 0.0 ? R"(, "max_slew": )" + number (max_slew) : "") + R"(, "stale_input": )"
+            + number (watchdog) + R"(}, "rate": )" + number (rate) + R"(, "sources": ["made up"]})");
         std::string wrong;
         for (const auto& m : loaded.messages)
             wrong += m.where + ": " + m.text + "\n";

@@ -225,7 +225,8 @@ TEST_CASE ("a full disk leaves the folder as it was, and nothing next to it", "[
 
 TEST_CASE ("a program that is killed at any moment leaves the old folder or the new one, and all files of the user", "[platform][folder]")
 {
-    const std::map<std::string, std::string> old_files { { "one", "old" }, { "in/two", "old" }, { "old", "old" } }, new_files { { "one", "new" }, { "in/two", "new" } };
+    const std::map<std::string, std::string> old_files { { "one", "old" }, { "in/two", "old" }, { "old", "old" } },
+        new_files { { "one", "new" }, { "in/two", "new" } };
     const auto with = [] (std::map<std::string, std::string> files) {
         std::string names;
         for (const auto& [name, text] : files)
