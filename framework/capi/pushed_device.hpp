@@ -7,6 +7,7 @@
 #include <tactus/node/device.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <utility>
 
@@ -19,18 +20,28 @@ class PushedDevice final : public Device
 public:
     explicit PushedDevice (DeviceLayout parts) : has (std::move (parts)) {}
 
-    void prepare (double dt_s) override { period = dt_s; }
+    void prepare (double dt_s) override { period = next_period = dt_s; }
 
-    /// A reading that is not renewed gets older with each tick, so that the guard's watchdog sees it.
+    /// From now on, a reading that is not renewed ages by the clock: a run may lose ticks. [main thread, before the ticks begin]
+    void useClock() noexcept { has_clock = true; }
+
+    /// The next tick comes this much later than the last one, in s. [tick thread]
+    void passTime (double s) noexcept { next_period = s; }
+
+    /// A reading that is not renewed gets older, so that the guard's watchdog sees it.
     Reading read() noexcept override
     {
         const auto now = readings.load();
-        silent = now.number == last ? silent + 1 : 0;
+        const double passed = std::exchange (next_period, period);
+        const bool is_new = now.number != last;
         last = now.number;
+        silent = is_new ? 0.0 : silent + passed;
         if (now.number == 0) return { .valid = false };
+        if (has_clock && is_new) arrived = Clock::now();
+        if (has_clock && ! is_new) silent = std::max (silent, std::chrono::duration<double> (Clock::now() - arrived).count());
         const auto& from = now.reading;
         Reading r { .position = Vec3 { from.position }, .rotation = Vec3 { from.rotation }, .pressure = from.pressure, .buttons = from.buttons };
-        r.age = from.age_s + static_cast<double> (silent) * period;
+        r.age = from.age_s + silent;
         r.valid = from.valid != 0;
         copy (from.axes, from.axis_count, r.axes);
         copy (from.signals, from.signal_count, r.signals);
@@ -54,6 +65,8 @@ public:
     tactus_effort effort() const noexcept { return efforts.load(); }                     ///< [any thread]
 
 private:
+    using Clock = std::chrono::steady_clock;
+
     struct Pushed
     {
         tactus_reading reading {};
@@ -77,8 +90,10 @@ private:
     Snapshot<tactus_effort> efforts;
     std::uint64_t pushes = 0;   // [pushing thread]
     std::uint64_t last = 0;     // number of the reading of the last tick   [tick thread]
-    std::uint64_t silent = 0;   // ticks since that reading arrived          [tick thread]
-    double period = 0.0;
+    double silent = 0.0;        // time since that reading arrived, in s      [tick thread]
+    double period = 0.0, next_period = 0.0;
+    bool has_clock = false;
+    Clock::time_point arrived;   // of that reading   [tick thread]
 
     static_assert (Channels::most == TACTUS_CHANNELS);
 };

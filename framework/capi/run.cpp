@@ -76,7 +76,7 @@ bool knowsRole (const tactus_run& r, const char* role, tactus_messages* messages
     return false;
 }
 
-bool isTickedByCaller (const tactus_run* r) noexcept { return r != nullptr && r->is_open && ! r->run->isLive(); }
+bool isTickedByCaller (const tactus_run* r) noexcept { return r != nullptr && r->is_open && ! r->has_ended && ! r->run->isLive(); }
 }   // namespace
 
 tactus_run* tactus::capi::makeRun (graph::Graph g, CompileOptions options, AssetReader reader, const Catalogue& types, tactus_messages* messages)
@@ -210,6 +210,16 @@ tactus_result tactus_run_tick (tactus_run* r)
     return TACTUS_OK;
 }
 
+tactus_result tactus_run_tick_after (tactus_run* r, double passed_s)
+{
+    if (! isTickedByCaller (r) || ! (passed_s >= 0.0)) return TACTUS_MISUSE;
+    for (const auto& [role, device] : r->pushed)
+        device->passTime (passed_s);
+    r->run->engine().passTime (passed_s);
+    r->run->tick();
+    return TACTUS_OK;
+}
+
 tactus_result tactus_run_set_feeds (tactus_run* r, const double* values)
 {
     if (! isTickedByCaller (r) || values == nullptr) return TACTUS_MISUSE;
@@ -258,6 +268,8 @@ tactus_result tactus_run_start (tactus_run* r, const tactus_start_options* given
         if (options.core >= 0) runner.core = options.core;
         if (options.buffer > 0) r->recorder.ring = std::make_unique<tactus::SpscRing<double>> (options.buffer, r->names.size());
         r->clock.emplace (1.0 / r->run->rate());
+        for (const auto& [role, device] : r->pushed)
+            device->useClock();
         for (auto& refused : r->run->start (*r->clock, runner))
             if (messages != nullptr) messages->list.push_back (Message::warning ("run/privilege", "", std::move (refused)));
         return TACTUS_OK;
@@ -297,6 +309,9 @@ tactus_result tactus_run_stop (tactus_run* r)
     if (r == nullptr) return TACTUS_MISUSE;
     return guarded (nullptr, TACTUS_FAILED, [&] {
         if (r->run->isLive() && ! r->has_ended) r->run->end();
+        if (! r->run->isLive())
+            for (const auto& [role, device] : r->pushed)
+                device->write ({});
         r->has_ended = true;
         return TACTUS_OK;
     });

@@ -283,8 +283,12 @@ TACTUS_API tactus_result tactus_run_take (const tactus_run*, const char* role, t
 
 /* ---------------------------------------------------------------------------- Ticking in your own loop */
 
-/** Runs one tick. Allocates nothing, takes no lock, reads no clock. [tick thread] */
+/** Runs one tick. Allocates nothing, takes no lock, reads no clock. Every tick counts as one period, for the guard, too. [tick thread] */
 TACTUS_API tactus_result tactus_run_tick (tactus_run*);
+
+/** The same, `passed_s` after the last tick. Use it if your loop drives a motor and can be late: the guard then counts seconds, not ticks,
+ *  for its slew, its watchdog and its windows. [tick thread] */
+TACTUS_API tactus_result tactus_run_tick_after (tactus_run*, double passed_s);
 
 /** Sets the feeds for the next tick, one value per feed. [tick thread] */
 TACTUS_API tactus_result tactus_run_set_feeds (tactus_run*, const double* values);
@@ -327,7 +331,8 @@ TACTUS_API size_t tactus_run_collect (tactus_run*, double* rows, size_t most);
 /** Recorded ticks that were lost because the buffer was full. [main thread] */
 TACTUS_API uint64_t tactus_run_lost (const tactus_run*);
 
-/** Brings all forces to zero and ends the tick thread. Waits for both. [main thread] */
+/** Brings all forces to zero and ends the tick thread. Waits for both. A run that you tick yourself has no thread: its efforts are zero at
+ *  once, so for a smooth end call tactus_run_emergency_stop and tick on until they are zero. [main thread] */
 TACTUS_API tactus_result tactus_run_stop (tactus_run*);
 
 typedef enum tactus_phase

@@ -182,10 +182,10 @@ void HandPanel::enlarge (bool large)
 void HandPanel::choose()
 {
     const int id = source.getSelectedId();
-    if (id == as_described) playback.start ({});
-    if (id == by_pointer) playback.start (LiveRun::Hand::pointer());
+    if (id == as_described) playback.moveBy ({});
+    if (id == by_pointer) playback.moveBy (LiveRun::Hand::pointer());
     if (const auto i = id - first_gesture; i >= 0 && i < static_cast<int> (gestures().size()))
-        playback.start ({ LiveRun::Hand::Kind::path, std::string (gestures()[static_cast<std::size_t> (i)].id) });
+        playback.moveBy ({ LiveRun::Hand::Kind::path, std::string (gestures()[static_cast<std::size_t> (i)].id) });
 }
 
 void HandPanel::refresh()
@@ -255,7 +255,7 @@ bool HandPanel::isInterestedInFileDrag (const juce::StringArray& files) { return
 
 void HandPanel::filesDropped (const juce::StringArray& files, int, int)
 {
-    playback.start ({ LiveRun::Hand::Kind::path, files[0].toStdString() });
+    playback.moveBy ({ LiveRun::Hand::Kind::path, files[0].toStdString() });
 }
 
 void HandPanel::paint (juce::Graphics& g)

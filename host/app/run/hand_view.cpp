@@ -55,7 +55,7 @@ void HandView::point (const juce::MouseEvent& e)
     const double scale = 2.0 * half_width_m / static_cast<double> (area.getWidth());
     const auto from_centre = e.position - area.getCentre();
     target = { static_cast<double> (from_centre.x) * scale, -static_cast<double> (from_centre.y) * scale, pressed ? -press_depth : hover_m };
-    if (! by_pointer && pressed) playback.start (LiveRun::Hand::pointer());
+    if (! by_pointer && pressed) playback.moveBy (LiveRun::Hand::pointer());
     moveTool();
     repaint();
 }
@@ -65,7 +65,7 @@ void HandView::steer (double x, double y, bool presses)
     pressed = presses;
     held = held && ! presses;
     target = { x, y, pressed || held ? -press_depth : hover_m };
-    if (! by_pointer && pressed) playback.start (LiveRun::Hand::pointer());
+    if (! by_pointer && pressed) playback.moveBy (LiveRun::Hand::pointer());
     moveTool();
 }
 

@@ -63,31 +63,51 @@ void LiveRun::setupChanged()
     };
     const auto sounds = [] (const DeviceSession& s) { return s.audio() != nullptr ? *s.audio() : Json(); };
     if (now.clock() != run_session.clock() || sounds (now) != sounds (run_session) || std::ranges::any_of (run->engine().newest().roles(), differs))
-        restart (true);
+        restart();
 }
 
 void LiveRun::start (Hand who)
 {
     moved_by = std::move (who);
-    restart (false);
+    held = false;
+    kept_limits.clear();
+    beginSoon();
 }
 
-/// Restarts the run, for changes that cannot be applied while it runs. Unless the user starts the run, a latched stop stays latched, and the
-/// graph's guards do not become looser.
-void LiveRun::restart (bool by_edit)
+void LiveRun::startOther (Hand who)
 {
-    held = by_edit && (held || isLatched());
-    if (! by_edit) kept_limits.clear();
-    if (by_edit && run) kept_limits = run->askedLimits();
-    stop();
-    begins = wanted = true;
-    if (! isRunning()) begin();
+    moved_by = std::move (who);
+    held = held || isLatched();
+    kept_limits.clear();
+    beginSoon();
+}
+
+void LiveRun::moveBy (Hand who)
+{
+    moved_by = std::move (who);
+    restart();
 }
 
 void LiveRun::startAgain (bool is_latched)
 {
     held = held || is_latched;
-    restart (true);
+    restart();
+}
+
+/// Restarts the run, for changes that cannot be applied while it runs. A latched stop stays latched, and the graph's guards do not become
+/// looser.
+void LiveRun::restart()
+{
+    held = held || isLatched();
+    if (run) kept_limits = run->askedLimits();
+    beginSoon();
+}
+
+void LiveRun::beginSoon()
+{
+    stop();
+    begins = wanted = true;
+    if (! isRunning()) begin();
 }
 
 void LiveRun::stop() noexcept
@@ -99,6 +119,7 @@ void LiveRun::stop() noexcept
 void LiveRun::letGo()
 {
     stop();
+    held = held || isLatched();
     if (run) kept_limits = run->askedLimits();
     end();
 }
@@ -255,7 +276,7 @@ void LiveRun::documentChanged()
         needed = needsOf (*checked.plan);
         scene_feed.show (*checked.plan);
     }
-    if (wanted) restart (true);   // the edited graph may compile now
+    if (wanted) restart();   // the edited graph may compile now
 }
 
 /// Shows the plan that runs, or else that of the document, if it compiles.
@@ -276,7 +297,7 @@ void LiveRun::takeOver()
     if (hand_role.empty() && ! handRoleOf (*edit.plan()).empty())   // the run had no hand
     {
         edit.drop();
-        return restart (true);
+        return restart();
     }
     note (*edit.plan());
     edit.openDevices();

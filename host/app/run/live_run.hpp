@@ -78,9 +78,13 @@ public:
     /// The state of the run's sound; empty if it neither plays nor records.
     std::optional<audio::AudioStatus> audioStatus() const;
 
-    void start (Hand);   ///< restarts a run that is in progress, once its forces are zero
+    /// The user presses START: this ends latched stops, and limits may become looser. Restarts a run that is in progress, once its forces are
+    /// zero. So do the next three, but they end no latched stop.
+    void start (Hand);
+    void startOther (Hand);   ///< another graph was opened, so the limits are those that it asks for
+    void moveBy (Hand);       ///< another hand moves the tool; no limit becomes looser
 
-    /// Runs again after something else ran: latched stops stay latched, and no limit becomes looser. `is_latched`: so was what ran before.
+    /// Runs again after something else ran; no limit becomes looser. `is_latched`: what ran before had a latched stop.
     void startAgain (bool is_latched = false);
 
     void stop() noexcept;   ///< ramps the forces to zero, then stops; does not wait
@@ -209,7 +213,8 @@ private:
 
     bool isLive() const noexcept { return run && run->isLive(); }
     bool isLatched() const;
-    void restart (bool by_edit);
+    void restart();
+    void beginSoon();
     void begin();
     void end();
     std::unique_ptr<Run> makeRun (Run::Queries);

@@ -14,7 +14,10 @@ namespace
 constexpr auto pause_between_steps = std::chrono::seconds (1);
 }
 
-OscServer::OscServer (std::unique_ptr<OscPort> port, Playback& p, Document& d) : osc (std::move (port)), playback (p), document (d) {}
+OscServer::OscServer (std::unique_ptr<OscPort> port, Playback& p, Document& d, std::function<bool()> asking)
+    : osc (std::move (port)), playback (p), document (d), is_asking (std::move (asking))
+{
+}
 
 void OscServer::attend (RemoteControl::Clock::time_point now)
 {
@@ -174,6 +177,7 @@ Result<> OscServer::start()
 {
     if (live_run.isHeld() || live_run.isStoppedForGood() || ! live_run.canRearm())
         return Message::error ("osc/stopped", {}, "the forces are stopped until somebody rearms", "press REARM or START in the window");
+    if (is_asking && is_asking()) return Message::error ("osc/question", {}, "the window asks something", "answer the question in the window first");
     playback.startAgain();
     const auto& messages = live_run.messages();
     const auto error = std::ranges::find (messages, Message::Severity::error, &Message::severity);

@@ -5,6 +5,7 @@
 
 #include <host/osc/remote_control.hpp>
 
+#include <functional>
 #include <map>
 
 namespace tactus::host
@@ -16,8 +17,8 @@ namespace tactus::host
 class OscServer final : private Controlled
 {
 public:
-    /// The playback and the document must outlive the server.
-    OscServer (std::unique_ptr<OscPort>, Playback&, Document&);
+    /// The playback and the document must outlive the server. While `is_asking`, the window waits for an answer, and nothing starts.
+    OscServer (std::unique_ptr<OscPort>, Playback&, Document&, std::function<bool()> is_asking = {});
 
     int port() const noexcept { return osc->number(); }
 
@@ -50,6 +51,7 @@ private:
     Playback& playback;
     LiveRun& live_run { playback.run() };
     Document& document;
+    std::function<bool()> is_asking;
     Traces::Client probed { live_run.traces() };
     std::vector<std::string> components;   // all components of the probed ports
     std::uint64_t sent = 0;                // all ticks before this one are sent

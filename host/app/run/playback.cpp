@@ -22,6 +22,18 @@ void Playback::start (LiveRun::Hand hand)
     live_run.start (std::move (hand));
 }
 
+void Playback::startOther (LiveRun::Hand hand)
+{
+    before_run();
+    live_run.startOther (std::move (hand));
+}
+
+void Playback::moveBy (LiveRun::Hand hand)
+{
+    before_run();
+    live_run.moveBy (std::move (hand));
+}
+
 void Playback::stop() noexcept
 {
     resumes = false;

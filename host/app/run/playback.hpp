@@ -18,10 +18,12 @@ public:
     LiveRun& run() noexcept { return live_run; }   ///< the run of the document, even during a preview
     LiveRun& current() noexcept { return preview_run ? *preview_run : live_run; }
 
-    void start (LiveRun::Hand);
+    void start (LiveRun::Hand);   ///< this and the next three: see LiveRun
+    void startOther (LiveRun::Hand);
+    void moveBy (LiveRun::Hand);
+    void startAgain (bool is_latched = false);
     void restart() { start (live_run.hand()); }
-    void startAgain (bool is_latched = false);   ///< see LiveRun::startAgain
-    void stop() noexcept;                        ///< stops the document's run or the preview, whichever is current
+    void stop() noexcept;   ///< stops the document's run or the preview, whichever is current
     void emergencyStop() noexcept;
 
     /// Stops the document, and runs another graph with its own gesture until endPreview().

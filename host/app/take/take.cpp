@@ -36,7 +36,7 @@ void Take::record()
     const auto folder = privateFolder ("tactus-take-");
     file = (folder.empty() ? temporaryFolder() / "tactus-take-without-a-folder" : folder) / "take.jsonl";   // the log says why it cannot be written
     playback.run().logNextTo (file, program);
-    playback.restart();
+    playback.startAgain();
     began = std::chrono::steady_clock::now();
     now = State::recording;
 }

@@ -18,7 +18,7 @@ Files::Callbacks MainView::fileCallbacks()
     return {
         .notify = [this] (const juce::String& text) { status.notify (text); },
         .stop = [this] { run().stop(); },
-        .run = [this] (bool by_pointer) { playback.start (by_pointer && ! hasBoundRole() ? LiveRun::Hand::pointer() : LiveRun::Hand {}); },
+        .run = [this] (bool by_pointer) { playback.startOther (by_pointer && ! hasBoundRole() ? LiveRun::Hand::pointer() : LiveRun::Hand {}); },
         .isRunning = [this] { return playback.current().isRunning(); },
         .onSettings = [this] {
             saveSettingsSoon();
@@ -132,7 +132,7 @@ void MainView::openOscPort (const OscListen& where)
 {
     auto opened = OscPort::open (where);
     if (! opened) return status.notify (juce::String (opened.error().where + ": " + messageText (opened.error())));
-    osc_server = std::make_unique<OscServer> (std::move (*opened), playback, edited);
+    osc_server = std::make_unique<OscServer> (std::move (*opened), playback, edited, [this] { return question.isOpen(); });
 }
 
 }   // namespace tactus::host

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "c_handles.hpp"
 
+#include <framework/capi/pushed_device.hpp>
 #include <support/temporary_folder.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/node/catalogue.hpp>
@@ -10,6 +11,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -85,6 +87,51 @@ TEST_CASE ("C API: a graph that names a real device opens and runs, with a tool 
     CHECK (tactus_messages_have_errors (m.get()) == 0);
     CHECK (said (m).find ("device/not_by_graph") != std::string::npos);
     CHECK (tactus_run_steps (run.get(), 10, nullptr, nullptr) == TACTUS_OK);
+}
+
+TEST_CASE ("C API: a loop of your own can say that ticks were late, and the guard counts seconds", "[c_api][safety]")
+{
+    const MessageList m { tactus_messages_create() };
+    const auto run = pushedSpring (R"({ "watchdog": "20 ms" })", m.get());
+    const auto reading = at (-1e-3);
+    REQUIRE (tactus_run_push (run.get(), "stylus", &reading) == TACTUS_OK);
+    CHECK (tactus_run_tick_after (run.get(), -1.0) == TACTUS_MISUSE);
+    CHECK (tactus_run_tick_after (run.get(), std::nan ("")) == TACTUS_MISUSE);
+    for (int k = 0; k < 10; ++k)   // the reading becomes 18 ms old
+        REQUIRE (tactus_run_tick_after (run.get(), 2e-3) == TACTUS_OK);
+    CHECK (forceZ (run.get()) == Approx (1.0));
+    for (int k = 0; k < 6; ++k)
+        REQUIRE (tactus_run_tick_after (run.get(), 2e-3) == TACTUS_OK);
+    CHECK (forceZ (run.get()) == 0.0);
+}
+
+TEST_CASE ("C API: a stop leaves no force behind in a run that the program ticks itself", "[c_api][safety]")
+{
+    const MessageList m { tactus_messages_create() };
+    const auto run = pushedSpring (nullptr, m.get());
+    const auto reading = at (-1e-3);
+    REQUIRE (tactus_run_push (run.get(), "stylus", &reading) == TACTUS_OK);
+    REQUIRE (tactus_run_tick (run.get()) == TACTUS_OK);
+    REQUIRE (forceZ (run.get()) == Approx (1.0));
+    REQUIRE (tactus_run_stop (run.get()) == TACTUS_OK);
+    CHECK (forceZ (run.get()) == 0.0);
+    CHECK (tactus_run_tick (run.get()) == TACTUS_MISUSE);
+}
+
+TEST_CASE ("C API: in real time, a reading that is not renewed ages by the clock, even if ticks are lost", "[c_api][safety]")
+{
+    tactus::capi::PushedDevice device { {} };
+    device.prepare (1e-3);
+    device.useClock();
+    const auto reading = at (0.0);
+    device.push (reading);
+    CHECK (device.read().age == 0.0);
+    const auto before = std::chrono::steady_clock::now();
+    std::this_thread::sleep_for (std::chrono::milliseconds (15));   // at 1 kHz, 15 ticks, of which one comes
+    const double slept = std::chrono::duration<double> (std::chrono::steady_clock::now() - before).count();
+    CHECK (device.read().age >= slept);
+    device.push (reading);
+    CHECK (device.read().age == 0.0);
 }
 
 TEST_CASE ("C API: a render has the same bits as the engine in C++", "[c_api]")

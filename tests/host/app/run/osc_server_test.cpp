@@ -26,7 +26,8 @@ struct Rig
     DeviceSetup setup;
     Playback playback { rig.document, catalogue(), sound, setup, [] {} };
     LiveRun& live_run { playback.run() };
-    OscServer server { std::move (*OscPort::open (0)), playback, rig.document };
+    bool asks = false;   // the window waits for an answer
+    OscServer server { std::move (*OscPort::open (0)), playback, rig.document, [this] { return asks; } };
     std::unique_ptr<OscPort> other = std::move (*OscPort::open (0));
 
     template <typename F>
@@ -171,6 +172,17 @@ TEST_CASE ("an emergency stop over OSC removes the force while the message threa
     r.live_run.rearm();   // the message thread has not noticed the stop yet, so rearm() must have no effect
     std::this_thread::sleep_for (50ms);
     CHECK (isLatched());
+}
+
+TEST_CASE ("nothing starts over OSC while the window asks a question", "[app][osc][safety]")
+{
+    Rig r { "dry_wood" };
+    r.asks = true;
+    CHECK (isError (r.ask ("/tactus/start", r.me())));
+    CHECK_FALSE (r.live_run.isWanted());
+    r.asks = false;
+    CHECK_FALSE (isError (r.ask ("/tactus/start", r.me())));
+    CHECK (r.live_run.isWanted());
 }
 
 TEST_CASE ("a start over OSC ends no latched stop", "[app][osc][safety]")
