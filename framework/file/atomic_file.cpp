@@ -79,19 +79,6 @@ bool createNew (const fs::path& path)
     return true;
 }
 
-/// Why the links at the end of a path must not be followed; empty if they may be. A link of another user would choose which file of this
-/// user is replaced. Linux itself does not follow such links in folders such as /tmp, but it cannot see that a rename would.
-std::string foreignLink (fs::path path)
-{
-    std::error_code failed;
-    for (int links = 0; links < 40 && fs::is_symlink (path, failed); ++links)
-    {
-        if (auto who = whoElseOwns (path); ! who.empty()) return who;
-        path = path.parent_path() / fs::read_symlink (path, failed);
-    }
-    return {};
-}
-
 /// The file that would be written: a rename would replace a symbolic link.
 fs::path behindLinks (const fs::path& target)
 {
@@ -146,13 +133,13 @@ Result<AtomicFile> AtomicFile::create (const fs::path& path, IfKilled if_killed)
 Result<> AtomicFile::open (IfKilled if_killed)
 {
     std::error_code ignored;
+    if (const auto who = whoElseLinks (target); ! who.empty()) return unwritable (who);
     const auto existing = fs::status (target, ignored);
     if (fs::is_directory (existing))
         return unwritable ("it is a folder");
     const bool direct = fs::exists (existing) && ! fs::is_regular_file (existing);
     if (fs::is_regular_file (existing))
     {
-        if (const auto who = foreignLink (target); ! who.empty()) return unwritable (who);
         target = behindLinks (target);
         errno = 0;   // a rename would ignore the write protection of a file
         if (! std::ofstream (target, std::ios::binary | std::ios::app)) return writeError();

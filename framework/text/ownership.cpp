@@ -28,6 +28,11 @@ namespace tactus
 
 namespace fs = std::filesystem;
 
+namespace
+{
+constexpr int most_links = 40;   // as in Linux
+}
+
 #if defined(_WIN32)
 
 std::string whoElseCanChange (const fs::path&)
@@ -153,7 +158,6 @@ std::string whoElseCanChange (const fs::path& path)
         if (auto who = whoElse (s, reached.string(), left.empty() ? Place::end : Place::on_the_way); ! who.empty()) return who;
         if (S_ISLNK (s.st_mode))
         {
-            constexpr int most_links = 40;   // as in Linux
             const fs::path target = targetOf (reached.string());
             if (target.empty() || ++links > most_links) return "the link " + quotePath (reached.string()) + " leads nowhere";
             const std::vector<fs::path> parts (target.begin(), target.end());
@@ -213,6 +217,17 @@ TrustedFile::~TrustedFile()
 }
 
 #endif
+
+std::string whoElseLinks (fs::path path)
+{
+    std::error_code failed;
+    for (int links = 0; links < most_links && fs::is_symlink (path, failed); ++links)
+    {
+        if (auto who = whoElseOwns (path); ! who.empty()) return who;
+        path = path.parent_path() / fs::read_symlink (path, failed);
+    }
+    return {};
+}
 
 TrustedFile::TrustedFile (TrustedFile&& other) noexcept
     : file (std::exchange (other.file, -1)), is_by_number (other.is_by_number), stable (std::move (other.stable))

@@ -18,6 +18,10 @@ std::string whoElseCanChange (const std::filesystem::path&);
 /// The same for the owner of what is at a path itself: a link is not followed, and permissions do not count. [any thread]
 std::string whoElseOwns (const std::filesystem::path&);
 
+/// The same for the links at the end of a path, all of which writing to it would follow. A link of another user would choose which file of
+/// this user is written. Linux itself does not follow such links in folders such as /tmp, but it cannot see that a rename would. [any thread]
+std::string whoElseLinks (std::filesystem::path);
+
 /// An open file with code, which only this user and root could have written: what it contains will run as this user. [any thread]
 class TrustedFile
 {

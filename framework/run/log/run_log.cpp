@@ -5,6 +5,7 @@
 #include <tactus/file/atomic_file.hpp>
 #include <tactus/plan/find_hit.hpp>
 #include <tactus/plan/find_param.hpp>
+#include <tactus/text/ownership.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -99,6 +100,8 @@ RunLog::RunLog (const std::filesystem::path& p, const RunHead& head)
 
 Result<std::unique_ptr<RunLog>> RunLog::create (const std::filesystem::path& path, const RunHead& head)
 {
+    if (const auto who = whoElseLinks (path); ! who.empty())
+        return Message::error ("output/unwritable", path.string(), "cannot be written: " + who, "choose another file");
     errno = 0;
     std::unique_ptr<RunLog> log { new RunLog (path, head) };
     if (auto problem = written (log->out && log->out->good(), path); ! problem) return std::move (problem.error());

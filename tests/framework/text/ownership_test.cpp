@@ -86,6 +86,21 @@ TEST_CASE ("what belongs to another user can be changed by that user", "[ownersh
     CHECK (refused.error().id == "file/foreign");
 }
 
+TEST_CASE ("a chain of links is this user's only if every link is", "[ownership]")
+{
+    const TemporaryFolder folder;
+    fs::create_directory (folder / "inner");
+    folder.write ("inner/file", "text");
+    fs::create_symlink ("inner/second", folder / "first");
+    fs::create_symlink ("third", folder / "inner/second");
+    fs::create_symlink ("file", folder / "inner/third");
+    fs::create_symlink ("circle", folder / "circle");
+    for (const auto* path : { "first", "inner/file", "none", "circle" })
+        CHECK (whoElseLinks (folder / path).empty());
+    if (! test::giveAway (folder / "inner/third")) return;
+    CHECK (contains (whoElseLinks (folder / "first"), "the link '" + (folder / "inner/third").string() + "'"));
+}
+
 TEST_CASE ("only a regular file that nobody else may write to is trusted, and a pipe does not block", "[ownership]")
 {
     const TemporaryFolder folder;

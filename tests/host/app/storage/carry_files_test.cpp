@@ -50,3 +50,15 @@ TEST_CASE ("a file outside the graph's folder is not copied, and is reported")
     CHECK (carryFiles (loadGraph (from / "sub/g.json").graph, to / "sub") == std::vector<std::string> { "../pen.csv" });
     CHECK_FALSE (fs::exists (to / "pen.csv"));
 }
+
+TEST_CASE ("a link that leads to nothing is replaced by the copy, not followed")
+{
+    TemporaryFolder from, to, outside;
+    from.write ("pen.csv", "t,x\n");
+    from.write ("g.json", R"({"format": "tactus-graph", "version": 1, "nodes": {}, "wires": [],
+        "devices": {"pen": {"driver": "trace", "path": "pen.csv"}}})");
+    fs::create_symlink (outside / "not_yet", to / "pen.csv");
+    CHECK (carryFiles (loadGraph (from / "g.json").graph, to.path()).empty());
+    CHECK (outside.isEmpty());
+    CHECK (to.textOf ("pen.csv") == "t,x\n");
+}

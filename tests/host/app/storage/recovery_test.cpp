@@ -217,3 +217,33 @@ TEST_CASE ("a session is not damaged by another instance that looks for crashed 
     stops = true;
     looking.join();
 }
+
+TEST_CASE ("a link or a folder that another user can change is not a crashed session, and nothing is written or removed there")
+{
+    const TemporaryFolder home, outside;
+    AutosavedDocument document;
+    document.changed = true;
+    for (const auto* session : { "linked", "open" })
+        REQUIRE (writeTextFile (outside / session / "kept.json", writeAutosave (document)));
+    fs::create_directory (home / "sessions");
+    fs::create_directory_symlink (outside / "linked", home / "sessions/linked");
+    fs::rename (outside / "open", home / "sessions/open");
+    fs::permissions (home / "sessions/open", fs::perms::all);
+    CHECK (findCrashedSessions (home.path()).empty());
+    CHECK (fs::exists (home / "sessions/linked/kept.json"));
+    CHECK_FALSE (fs::exists (outside / "linked/lock"));
+    CHECK (fs::exists (home / "sessions/open/kept.json"));
+}
+
+TEST_CASE ("without a home folder, nothing is autosaved in the current folder")
+{
+    const TemporaryFolder folder;
+    const auto current = fs::current_path();
+    fs::current_path (folder.path());
+    RecoverySession session { {} };
+    const auto found = findCrashedSessions ({});
+    fs::current_path (current);
+    CHECK_FALSE (session.problem().empty());
+    CHECK (found.empty());
+    CHECK (folder.isEmpty());
+}
