@@ -232,12 +232,13 @@ void HidDevice::limitSlews (const SlewLimits& any, const SlewLimits& falling)
 /// The limit of each amplitude on this tick. If it was tightened, it falls from the largest amplitude of the last tick, as in the guard.
 double HidDevice::limitOfVibration() noexcept
 {
+    const double asked = asked_max_signal.load (std::memory_order_relaxed);
+    if (asked >= max_signal.goal() && ! max_signal.isFalling()) return max_signal.now();
     double level = 0.0;
     for (const auto& motor : motors)
         if (motor.amplitude >= 0) level = std::max (level, std::abs (driven[static_cast<std::size_t> (motor.amplitude)]));
-    if (const double asked = asked_max_signal.load (std::memory_order_relaxed); asked < max_signal.goal())
-        max_signal.tighten (asked, level, Guard::fade_s / dt);
-    if (max_signal.isFalling()) max_signal.advance (level);
+    if (asked < max_signal.goal()) max_signal.tighten (asked, level, Guard::fade_s / dt);
+    max_signal.advance (level);
     return max_signal.now();
 }
 
