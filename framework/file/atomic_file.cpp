@@ -64,7 +64,7 @@ fs::path partialName (const fs::path& target, int number)
     return target.parent_path() / name;
 }
 
-/// The permissions of the file that is replaced. If another user has chosen them, they let nobody else write to the new one.
+/// The permissions of the file that is replaced. If that file belongs to another user, only this user may write to the new one.
 fs::perms permissionsLike (fs::perms old, const fs::path& target)
 {
     return whoElseOwns (target).empty() ? old : old & ~(fs::perms::group_write | fs::perms::others_write);

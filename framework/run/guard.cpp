@@ -504,8 +504,8 @@ const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, d
     if (reason != Stop::none) saved = 0.0;   // time that was left during a stop does not make the force rise faster after it
 
     withheld = std::max (0.0, withheld - step_s / fade_s);
-    if (reason == Stop::none) enabled = limits.ramp > 0.0 ? std::min (1.0, enabled + rising_s / limits.ramp) : 1.0;
-    enabled == 1.0 ? approach (wanted, step_s) : approach (crossfaded (wanted), step_s);
+    if (reason == Stop::none && enabled < 1.0) enabled = limits.ramp > 0.0 ? std::min (1.0, enabled + rising_s / limits.ramp) : 1.0;
+    enabled == 1.0 ? approach (wanted, step_s, limits) : approach (crossfaded (wanted), step_s, limitsNow());
     return last;
 }
 
@@ -521,12 +521,18 @@ double Guard::fit (Vec3& force, Vec3& torque, Channels& axes) const noexcept
     return std::min (size, shareWithin (axes, limits.max_axis_effort));
 }
 
-/// The slew limit that applies now.
-double Guard::slew (std::size_t part) const noexcept { return reason == Stop::none ? limits.*slew_limits[part] : stopSlew (limits, part); }
+/// The limits, and during a stop its slew limits in place of the others.
+[[gnu::noinline]] GuardLimits Guard::limitsNow() const noexcept
+{
+    auto now = limits;
+    for (std::size_t i = 0; reason != Stop::none && i < slew_limits.size(); ++i)
+        now.*slew_limits[i] = stopSlew (limits, i);
+    return now;
+}
 
 /// Moves the last effort towards this one, as far as the limits of size and slew allow. One factor scales force, torque and axes,
 /// so what they do together keeps its direction.
-void Guard::approach (const Effort& to, double step_s) noexcept
+void Guard::approach (const Effort& to, double step_s, const GuardLimits& slews) noexcept
 {
     const bool has_channels = hasChannels (last) || hasChannels (to);
     Vec3 to_force = to.force, to_torque = to.torque;
@@ -535,8 +541,7 @@ void Guard::approach (const Effort& to, double step_s) noexcept
     if (is_falling) to_axes = withoutRise (to_axes, last.axes, 2);
     const double size = fit (to_force, to_torque, to_axes);
 
-    const double force_slew = slew (0), torque_slew = slew (1);
-    if (force_slew == GuardLimits::none && torque_slew == GuardLimits::none && ! has_channels)
+    if (slews.max_slew == GuardLimits::none && slews.max_torque_slew == GuardLimits::none && ! has_channels)
     {
         last.force = size * to_force;
         last.torque = size * to_torque;
@@ -546,12 +551,12 @@ void Guard::approach (const Effort& to, double step_s) noexcept
     // Half steps, because the difference of two finite numbers may be infinite.
     const Vec3 force = 0.5 * size * to_force - 0.5 * last.force, torque = 0.5 * size * to_torque - 0.5 * last.torque;
     const double half_s = 0.5 * step_s;
-    double step = std::min (shareWithin (force, stepOf (force_slew, half_s)), shareWithin (torque, stepOf (torque_slew, half_s)));
+    double step = std::min (shareWithin (force, stepOf (slews.max_slew, half_s)), shareWithin (torque, stepOf (slews.max_torque_slew, half_s)));
     Channels axes;
     if (has_channels)
     {
         axes = mixed (0.5 * size, to_axes, -0.5, last.axes);
-        step = std::min (step, shareWithin (axes, stepOf (slew (2), half_s)));
+        step = std::min (step, shareWithin (axes, stepOf (slews.max_axis_slew, half_s)));
     }
 
     const bool arrives = step == 1.0;
@@ -561,7 +566,7 @@ void Guard::approach (const Effort& to, double step_s) noexcept
     last.axes = ! arrives ? mixed (1.0, last.axes, 2.0 * step, axes) : size == 1.0 ? to_axes
                                                                                    : mixed (size, to_axes, 0.0, {});
     last.signals = approached (last.signals, is_falling ? withoutRise (to.signals, last.signals, 3) : to.signals,
-                               limits.max_signal, stepOf (slew (3), step_s));
+                               limits.max_signal, stepOf (slews.max_signal_slew, step_s));
 }
 
 /// During a stop, and while the effort rises again.

@@ -235,8 +235,8 @@ private:
     void describeStale (Event&, const Reading&) const noexcept;
     Effort crossfaded (const Effort& wanted) const noexcept;
     double fit (Vec3& force, Vec3& torque, Channels& axes) const noexcept;
-    double slew (std::size_t part) const noexcept;
-    void approach (const Effort& to, double step_s) noexcept;
+    GuardLimits limitsNow() const noexcept;
+    void approach (const Effort& to, double step_s, const GuardLimits& slews) noexcept;
 
     GuardLimits limits;                     // as they apply on this tick
     GuardLimits final_limits;               // what they become, while `is_falling`

@@ -140,7 +140,7 @@ std::string targetOf (const std::string& link)
 }
 }   // namespace
 
-// From the root down: nobody else can change what belongs to this user or root in a folder that has passed, so what has passed stays as it is.
+// From the root down. No other user can change what belongs to this user or to root in a folder that was checked, so it stays as it was.
 std::string whoElseCanChange (const fs::path& path)
 {
     std::error_code failed;

@@ -69,7 +69,8 @@ FusionCache::FusionCache (fs::path f) : folder (std::move (f))
     const auto is_own = needOwnFolder (folder);
     if (is_own) return;
     wrong = Message::warning ("fuse/cache", folder.string(), is_own.error().text + ", so no compiled code is kept in the cache or taken from it",
-                              "remove the folder, change its owner or its permissions (chown, chmod go-w), or set XDG_CACHE_HOME (or TACTUS_HOME, if it is set) to a folder of your own");
+                              "remove the folder, change its owner or its permissions (chown, chmod go-w), or set XDG_CACHE_HOME (or TACTUS_HOME, if it is set) "
+                              "to a folder of your own");
     folder.clear();
 }
 

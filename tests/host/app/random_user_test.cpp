@@ -4,8 +4,12 @@
 #include "support/consistency.hpp"
 #include "support/monkey.hpp"
 
+#include <chrono>
+#include <condition_variable>
 #include <deque>
 #include <iostream>
+#include <mutex>
+#include <thread>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -22,24 +26,66 @@ int numberFrom (const char* variable, int otherwise)
     return text == nullptr ? otherwise : std::atoi (text);
 }
 
+/// The last actions. A thread of their own prints them once if nothing happens for a minute, because a test that is ended from outside says nothing.
+class Actions
+{
+public:
+    explicit Actions (unsigned s) : seed (s), watching ([this] (const std::stop_token& over) { watch (over); }) {}
+
+    void add (std::string action)
+    {
+        const std::lock_guard lock (mutex);
+        done.push_back (std::move (action));
+        if (done.size() > reported_actions) done.pop_front();
+        ++count;
+    }
+
+    std::string text() const
+    {
+        const std::lock_guard lock (mutex);
+        std::string all = "TACTUS_UI_SEED=" + std::to_string (seed) + " after";
+        for (const auto& action : done)
+            all += "\n  " + action;
+        return all;
+    }
+
+private:
+    void watch (const std::stop_token& over)
+    {
+        for (std::size_t before = 0;;)
+        {
+            std::unique_lock lock (mutex);
+            if (changed.wait_for (lock, over, std::chrono::minutes (1), [&] { return over.stop_requested(); })) return;
+            if (std::exchange (before, count) != count) continue;
+            lock.unlock();
+            std::cerr << "nothing happens: " << text() << std::endl;
+            return;
+        }
+    }
+
+    const unsigned seed;
+    mutable std::mutex mutex;
+    std::condition_variable_any changed;
+    std::deque<std::string> done;
+    std::size_t count = 1;
+    std::jthread watching;   // declared last: it uses the other members
+};
+
 void play (unsigned seed, int actions, bool prints)
 {
+    Actions done (seed);
     Monkey monkey (seed);
     FileAssets assets;
-    std::deque<std::string> done;
     const auto check = [&] (const std::string& fault) {
-        if (fault.empty()) return;
-        std::string log;
-        for (const auto& action : done)
-            log += "\n  " + action;
-        FAIL ("TACTUS_UI_SEED=" << seed << ": " << fault << "\nafter" << log);
+        if (! fault.empty()) FAIL (fault << "\n"
+                                         << done.text());
     };
     for (int n = 1; n <= actions; ++n)
     {
         if (prints) std::cerr << n << ": " << std::flush;
-        done.push_back (std::to_string (n) + ": " + monkey.act());
-        if (prints) std::cerr << done.back().substr (done.back().find (' ') + 1) << std::endl;
-        if (done.size() > reported_actions) done.pop_front();
+        const auto action = monkey.act();
+        if (prints) std::cerr << action << std::endl;
+        done.add (std::to_string (n) + ": " + action);
         if (n % 3 == 0) monkey.attend (1);
         check (disagreement (*monkey.view));
         if (n % 20 == 0) check (disagreementWithCompile (*monkey.view, assets));

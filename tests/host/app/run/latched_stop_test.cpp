@@ -19,25 +19,44 @@ using host::test::CanvasRig;
 
 namespace
 {
+/// At a rate that a busy machine can keep: a run that cannot keep up ends.
+graph::Graph slowWood()
+{
+    auto g = CanvasRig::preset ("dry_wood");
+    g.rate_hz = 200.0;
+    return g;
+}
+
 struct Rig
 {
     TemporaryFolder home;
-    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    CanvasRig rig { slowWood() };
     Sound sound;
     DeviceSetup setup;
     Playback playback { rig.document, catalogue(), sound, setup, [] {} };
     LiveRun& run { playback.run() };
 
+    /// Waits until something is so, and stays so for a while: a run that is asked to start again ends first.
     template <typename F>
     bool until (F&& isSo)
     {
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (20);
-        while (! isSo() && std::chrono::steady_clock::now() < end)
+        for (int times = 0; times < 20; times = isSo() ? times + 1 : 0)
         {
+            if (std::chrono::steady_clock::now() > end) return false;
             playback.attend();
             std::this_thread::sleep_for (std::chrono::milliseconds (2));
         }
-        return isSo();
+        return true;
+    }
+
+    std::string state()
+    {
+        std::string all = std::string (run.isRunning() ? "running" : "over") + (run.isWanted() ? ", wanted" : "") + (run.isHeld() ? ", held" : "")
+                          + (run.isStoppedForGood() ? ", latched" : "");
+        for (const auto& m : run.messages())
+            all += "; " + m.text;
+        return all;
     }
 
     void press()
@@ -83,14 +102,16 @@ TEST_CASE ("only START and REARM end a latched stop: no press into the tool view
     }
     if (is_previewed)
     {
-        r.playback.preview (CanvasRig::preset ("dry_wood"));
+        r.playback.preview (slowWood());
         r.playback.endPreview();
     }
 
     const auto [what, start] = r.starts()[static_cast<std::size_t> (which)];
     INFO (what << (is_over ? " after the run was over" : "") << (is_previewed ? " after a preview" : ""));
     start();
-    REQUIRE (r.until ([&] { return r.run.isRunning(); }));
+    const bool is_running = r.until ([&] { return r.run.isRunning(); });
+    INFO (r.state());
+    REQUIRE (is_running);
     CHECK (r.until ([&] { return r.run.isStoppedForGood(); }));
     for (int k = 0; k < 50; ++k)
     {
@@ -100,7 +121,9 @@ TEST_CASE ("only START and REARM end a latched stop: no press into the tool view
     }
 
     r.playback.restart();   // START
-    REQUIRE (r.until ([&] { return r.run.isRunning() && ! r.run.isStoppedForGood(); }));
+    const bool is_free = r.until ([&] { return r.run.isRunning() && ! r.run.isStoppedForGood(); });
+    INFO (r.state());
+    REQUIRE (is_free);
 }
 
 TEST_CASE ("a hand that is chosen while nothing is stopped starts the run", "[app][run]")

@@ -6,7 +6,8 @@
 #include <tactus/graph/endpoints.hpp>
 
 #include <algorithm>
-#include <set>
+#include <map>
+#include <ranges>
 #include <vector>
 
 namespace tactus::host::test
@@ -14,22 +15,23 @@ namespace tactus::host::test
 
 namespace
 {
-std::set<std::string> errorsOf (const Messages& messages)
+/// The texts of the errors, by id and place.
+std::map<std::string, std::string> errorsOf (const Messages& messages)
 {
-    std::set<std::string> found;
+    std::map<std::string, std::string> found;
     for (const auto& m : messages)
     {
         const bool is_device = m.where.starts_with ("/devices") || m.where.starts_with ("/hand");
-        if (m.severity == Message::Severity::error && ! is_device) found.insert (m.id + " at " + m.where);
+        if (m.severity == Message::Severity::error && ! is_device) found.emplace (m.id + " at " + m.where, m.text);
     }
     return found;
 }
 
-std::string joined (const std::set<std::string>& all)
+std::string joined (const std::map<std::string, std::string>& all)
 {
     std::string text;
-    for (const auto& one : all)
-        text += "\n    " + one;
+    for (const auto& [what, why] : all)
+        text += "\n    " + what + ": " + why;
     return text;
 }
 }   // namespace
@@ -75,8 +77,11 @@ std::string disagreementWithCompile (MainView& view, FileAssets& assets)
     const auto& graph = view.document().graph();
     const auto compiled = compile (graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } });
     const auto expected = errorsOf (compiled.messages), reported = errorsOf (view.run().messages());
-    if (expected == reported) return {};
-    return "compile reports:" + joined (expected) + "\n  and the run:" + joined (reported);
+    if (std::ranges::equal (std::views::keys (expected), std::views::keys (reported))) return {};
+    return "compile reports:" + joined (expected) + "\n  and the run at " + std::to_string (view.run().rate()) + " Hz, which "
+           + (view.run().isRunning() ? "runs" : view.run().isWanted() ? "is about to begin"
+                                                                      : "is over")
+           + ":" + joined (reported);
 }
 
 std::string instability (const graph::Graph& g)
