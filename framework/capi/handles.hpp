@@ -7,6 +7,7 @@
 #include "pushed_device.hpp"
 #include "tactus.h"
 
+#include <atomic>
 #include <tactus/graph/history.hpp>
 #include <tactus/kit/spsc_ring.hpp>
 #include <tactus/run/device/make_device.hpp>
@@ -66,7 +67,7 @@ struct tactus_run
     std::optional<tactus::AbsoluteTimer> clock;   // must outlive the run
     std::unique_ptr<tactus::Run> run;
     bool is_open = false;
-    bool has_ended = false;
+    std::atomic<bool> has_ended = false;
 };
 
 namespace tactus::capi

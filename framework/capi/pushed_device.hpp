@@ -7,6 +7,7 @@
 #include <tactus/node/device.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <utility>
@@ -37,8 +38,11 @@ public:
         last = now.number;
         silent = is_new ? 0.0 : silent + passed;
         if (now.number == 0) return { .valid = false };
-        if (has_clock && is_new) arrived = Clock::now();
-        if (has_clock && ! is_new) silent = std::max (silent, std::chrono::duration<double> (Clock::now() - arrived).count());
+        if (has_clock)   // a reading that came before a tick that is not late is new
+        {
+            const double old = std::chrono::duration<double> (Clock::now() - now.at).count();
+            silent = std::max (silent, is_new ? old - period : old);
+        }
         const auto& from = now.reading;
         Reading r { .position = Vec3 { from.position }, .rotation = Vec3 { from.rotation }, .pressure = from.pressure, .buttons = from.buttons };
         r.age = from.age_s + silent;
@@ -61,8 +65,18 @@ public:
 
     DeviceLayout layout() const override { return has; }
 
-    void push (const tactus_reading& r) noexcept { readings.store ({ r, ++pushes }); }   ///< [always the same thread]
-    tactus_effort effort() const noexcept { return efforts.load(); }                     ///< [any thread]
+    /// [always the same thread]
+    void push (const tactus_reading& r) noexcept { readings.store ({ r, ++pushes, Clock::now() }); }
+
+    /// [any thread]
+    tactus_effort effort() const noexcept
+    {
+        tactus_effort none {};
+        none.size = sizeof none;
+        return has_ended ? none : efforts.load();
+    }
+
+    void end() noexcept { has_ended = true; }   ///< from now on, there is no effort   [any thread]
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -71,6 +85,7 @@ private:
     {
         tactus_reading reading {};
         std::uint64_t number = 0;   // 0: nothing has been pushed yet
+        Clock::time_point at;
     };
 
     static void copy (const double* from, std::uint32_t count, Channels& to) noexcept
@@ -93,7 +108,7 @@ private:
     double silent = 0.0;        // time since that reading arrived, in s      [tick thread]
     double period = 0.0, next_period = 0.0;
     bool has_clock = false;
-    Clock::time_point arrived;   // of that reading   [tick thread]
+    std::atomic<bool> has_ended = false;
 
     static_assert (Channels::most == TACTUS_CHANNELS);
 };

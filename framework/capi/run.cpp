@@ -180,6 +180,8 @@ tactus_result tactus_run_open (tactus_run* r, tactus_messages* messages)
         const bool is_broken = tactus::hasErrors (found);
         add (messages, std::move (found));
         r->is_open = ! is_broken;
+        const auto isGone = [&] (const auto& p) { return std::ranges::count (r->run->devices(), p.first, [] (const auto& d) { return d.first; }) == 0; };
+        std::erase_if (r->pushed, isGone);   // a device that was refused is freed
         return is_broken ? TACTUS_FAILED : TACTUS_OK;
     });
 }
@@ -311,7 +313,7 @@ tactus_result tactus_run_stop (tactus_run* r)
         if (r->run->isLive() && ! r->has_ended) r->run->end();
         if (! r->run->isLive())
             for (const auto& [role, device] : r->pushed)
-                device->write ({});
+                device->end();
         r->has_ended = true;
         return TACTUS_OK;
     });

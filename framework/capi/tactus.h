@@ -332,7 +332,7 @@ TACTUS_API size_t tactus_run_collect (tactus_run*, double* rows, size_t most);
 TACTUS_API uint64_t tactus_run_lost (const tactus_run*);
 
 /** Brings all forces to zero and ends the tick thread. Waits for both. A run that you tick yourself has no thread: its efforts are zero at
- *  once, so for a smooth end call tactus_run_emergency_stop and tick on until they are zero. [main thread] */
+ *  once, so for a smooth end call tactus_run_emergency_stop, tick on until they are zero, and then stop. [main thread] */
 TACTUS_API tactus_result tactus_run_stop (tactus_run*);
 
 typedef enum tactus_phase

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -150,14 +149,6 @@ struct DeviceState
 inline const DeviceState no_device { .reading = { .valid = false }, .applied = {} };
 #endif
 
-/// How fast efforts may change, per s; infinite: without limit.
-struct SlewLimits
-{
-    double force = std::numeric_limits<double>::infinity();    ///< length of the vector, in N/s
-    double torque = std::numeric_limits<double>::infinity();   ///< length of the vector, in N m/s
-    double axis = std::numeric_limits<double>::infinity();     ///< each axis separately, in N/s or N m/s
-};
-
 /// A driver. On each tick the engine calls read, runs the graph, and calls write, in this order, on the tick thread. Neither
 /// may allocate, lock or wait.
 class Device
@@ -171,15 +162,14 @@ public:
     virtual void write (const Effort& guarded) noexcept = 0;
 
     /// The final limits of the role's guard for signals, each without limit if infinite: `max` in the unit of the calibration, and
-    /// `max_slew`, that of the device itself, per s. A driver that amplifies, filters or mixes signals after the guard must keep what reaches
-    /// a channel within them. Called before prepare(), and again with tighter limits while the device is in use; what exceeds them then falls,
-    /// without a step. [main thread]
+    /// `max_slew` per s. A driver that amplifies, filters or mixes signals after the guard must keep what reaches a channel within
+    /// them. Called before prepare(), and again with tighter limits while the device is in use; what exceeds them then falls, without a step.
+    /// [main thread]
     virtual void limitSignals (double /*max*/, double /*max_slew*/) {}
 
-    /// The slew limits of the role's guard. A guard lets batches of reports catch up, so a driver that knows when an effort reaches the device
-    /// must keep them by the wall clock. `falling` holds for efforts that go straight towards zero, as in a stop: the limits of the device
-    /// itself. Called before prepare(), and again with tighter limits while the device is in use. [main thread]
-    virtual void limitSlews (const SlewLimits& /*any*/, const SlewLimits& /*falling*/) {}
+    /// The slew limits with which the role's guard begins, per s and without limit if infinite. A guard lets batches of reports catch up, so
+    /// a driver that knows when an effort reaches the device must keep them by the wall clock. Called before prepare(). [main thread]
+    virtual void limitSlews (double /*force*/, double /*torque*/, double /*axis*/) {}
 
     /// What the device has in addition to a tool. Called when the role gets the device; must not change afterwards. [main thread]
     virtual DeviceLayout layout() const { return {}; }

@@ -14,17 +14,6 @@
 namespace tactus
 {
 
-namespace
-{
-/// Tells a device the limits that it must keep once more. A stop is as fast as the device's own slew limits allow, so what a graph asks for
-/// holds only for efforts that rise, and for signals in the guard alone.
-void limit (Device& device, const GuardLimits& limits)
-{
-    device.limitSignals (limits.max_signal, std::max (limits.max_signal_slew, limits.stop_signal_slew));
-    device.limitSlews (slewsOf (limits), stopSlewsOf (limits));
-}
-}   // namespace
-
 /// The sum of the efforts of all sinks of a role.
 inline Effort Engine::total (const Plan::RoleUse& role, Scratch& scratch) noexcept
 {
@@ -98,7 +87,8 @@ void Engine::equip (Channel& channel, Device& device, const GuardLimits& limits,
     channel.guard.prepare (limits, dt_s, layout);
     channel.is_news = channel.to_announce = true;
     channel.limits = tightest (limits, {});   // as the guard reads them: a limit that is negative or not a number lets nothing through
-    limit (device, channel.limits);
+    device.limitSignals (channel.limits.max_signal, channel.limits.max_signal_slew);
+    device.limitSlews (channel.limits.max_slew, channel.limits.max_torque_slew, channel.limits.max_axis_slew);
     device.prepare (dt_s);
 }
 
@@ -184,7 +174,7 @@ void Engine::tighten (std::string_view role, const GuardLimits& limits)
     if (tighter == channel->limits) return;
     channel->limits = tighter;
     channel->is_tightened = true;
-    if (channel->device) limit (*channel->device, tighter);
+    if (channel->device) channel->device->limitSignals (tighter.max_signal, tighter.max_signal_slew);
 }
 
 std::size_t Engine::clear()

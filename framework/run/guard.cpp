@@ -95,22 +95,8 @@ bool hasChannels (const Effort& e) noexcept { return (e.axes.size() | e.signals.
 /// What `sizes` of a guard limits, in this order, and the slew limits.
 constexpr std::array size_limits { &GuardLimits::max_force, &GuardLimits::max_torque, &GuardLimits::max_axis_effort, &GuardLimits::max_signal };
 constexpr std::array slew_limits { &GuardLimits::max_slew, &GuardLimits::max_torque_slew, &GuardLimits::max_axis_slew, &GuardLimits::max_signal_slew };
-constexpr std::array stop_slews { &GuardLimits::stop_slew, &GuardLimits::stop_torque_slew, &GuardLimits::stop_axis_slew, &GuardLimits::stop_signal_slew };
 
 double orNothing (double limit) noexcept { return limit >= 0.0 ? limit : 0.0; }
-
-/// The slew limit of a stop.
-double stopSlew (const GuardLimits& l, std::size_t part) noexcept
-{
-    return std::max (orNothing (l.*slew_limits[part]), orNothing (l.*stop_slews[part]));
-}
-
-/// Sets the slew limit of a stop. It is written only if it is above the limit at other times.
-void setStopSlew (GuardLimits& l, std::size_t part, double slew) noexcept
-{
-    l.*stop_slews[part] = slew > l.*slew_limits[part] ? slew : 0.0;
-}
-
 double orForever (double s) noexcept { return s >= 0.0 ? s : GuardLimits::none; }
 
 /// The window for a limit: infinity (the whole session) if `window` is 0; 0 if the limit is not set.
@@ -147,15 +133,12 @@ std::array<std::int8_t, Channels::most> axesOf (const DeviceLayout& layout)
 }
 }   // namespace
 
-SlewLimits slewsOf (const GuardLimits& l) noexcept { return { l.max_slew, l.max_torque_slew, l.max_axis_slew }; }
-SlewLimits stopSlewsOf (const GuardLimits& l) noexcept { return { stopSlew (l, 0), stopSlew (l, 1), stopSlew (l, 2) }; }
-
 GuardLimits tightest (const GuardLimits& a, const GuardLimits& b) noexcept
 {
     const auto less = [] (double x, double y) { return std::min (orNothing (x), orNothing (y)); };
     const auto longer = [] (double of_a, double in_a, double of_b, double in_b) { return asSet (std::max (windowOf (of_a, in_a), windowOf (of_b, in_b))); };
 
-    GuardLimits limits {
+    return {
         .max_force = less (a.max_force, b.max_force),
         .max_torque = less (a.max_torque, b.max_torque),
         .max_slew = less (a.max_slew, b.max_slew),
@@ -182,17 +165,12 @@ GuardLimits tightest (const GuardLimits& a, const GuardLimits& b) noexcept
         .dead_man_pressure = std::max (orForever (a.dead_man_pressure), orForever (b.dead_man_pressure)),
         .dead_man_buttons = a.dead_man_buttons | b.dead_man_buttons,
     };
-    for (std::size_t i = 0; i < stop_slews.size(); ++i)
-        setStopSlew (limits, i, std::min (stopSlew (a, i), stopSlew (b, i)));
-    return limits;
 }
 
 GuardLimits tightened (const GuardLimits& of_device, const GuardLimits& by) noexcept
 {
     auto limits = tightest (of_device, by);
     limits.workspace_scale = of_device.workspace_scale;
-    for (std::size_t i = 0; i < stop_slews.size(); ++i)
-        setStopSlew (limits, i, stopSlew (of_device, i));
     return limits;
 }
 
@@ -505,7 +483,7 @@ const Effort& Guard::operator() (const Effort& wanted, const Reading& reading, d
 
     withheld = std::max (0.0, withheld - step_s / fade_s);
     if (reason == Stop::none && enabled < 1.0) enabled = limits.ramp > 0.0 ? std::min (1.0, enabled + rising_s / limits.ramp) : 1.0;
-    enabled == 1.0 ? approach (wanted, step_s, limits) : approach (crossfaded (wanted), step_s, limitsNow());
+    enabled == 1.0 ? approach (wanted, step_s) : approach (crossfaded (wanted), step_s);
     return last;
 }
 
@@ -521,18 +499,9 @@ double Guard::fit (Vec3& force, Vec3& torque, Channels& axes) const noexcept
     return std::min (size, shareWithin (axes, limits.max_axis_effort));
 }
 
-/// The limits, and during a stop its slew limits in place of the others.
-[[gnu::noinline]] GuardLimits Guard::limitsNow() const noexcept
-{
-    auto now = limits;
-    for (std::size_t i = 0; reason != Stop::none && i < slew_limits.size(); ++i)
-        now.*slew_limits[i] = stopSlew (limits, i);
-    return now;
-}
-
 /// Moves the last effort towards this one, as far as the limits of size and slew allow. One factor scales force, torque and axes,
 /// so what they do together keeps its direction.
-void Guard::approach (const Effort& to, double step_s, const GuardLimits& slews) noexcept
+void Guard::approach (const Effort& to, double step_s) noexcept
 {
     const bool has_channels = hasChannels (last) || hasChannels (to);
     Vec3 to_force = to.force, to_torque = to.torque;
@@ -541,7 +510,7 @@ void Guard::approach (const Effort& to, double step_s, const GuardLimits& slews)
     if (is_falling) to_axes = withoutRise (to_axes, last.axes, 2);
     const double size = fit (to_force, to_torque, to_axes);
 
-    if (slews.max_slew == GuardLimits::none && slews.max_torque_slew == GuardLimits::none && ! has_channels)
+    if (limits.max_slew == GuardLimits::none && limits.max_torque_slew == GuardLimits::none && ! has_channels)
     {
         last.force = size * to_force;
         last.torque = size * to_torque;
@@ -551,12 +520,12 @@ void Guard::approach (const Effort& to, double step_s, const GuardLimits& slews)
     // Half steps, because the difference of two finite numbers may be infinite.
     const Vec3 force = 0.5 * size * to_force - 0.5 * last.force, torque = 0.5 * size * to_torque - 0.5 * last.torque;
     const double half_s = 0.5 * step_s;
-    double step = std::min (shareWithin (force, stepOf (slews.max_slew, half_s)), shareWithin (torque, stepOf (slews.max_torque_slew, half_s)));
+    double step = std::min (shareWithin (force, stepOf (limits.max_slew, half_s)), shareWithin (torque, stepOf (limits.max_torque_slew, half_s)));
     Channels axes;
     if (has_channels)
     {
         axes = mixed (0.5 * size, to_axes, -0.5, last.axes);
-        step = std::min (step, shareWithin (axes, stepOf (slews.max_axis_slew, half_s)));
+        step = std::min (step, shareWithin (axes, stepOf (limits.max_axis_slew, half_s)));
     }
 
     const bool arrives = step == 1.0;
@@ -566,7 +535,7 @@ void Guard::approach (const Effort& to, double step_s, const GuardLimits& slews)
     last.axes = ! arrives ? mixed (1.0, last.axes, 2.0 * step, axes) : size == 1.0 ? to_axes
                                                                                    : mixed (size, to_axes, 0.0, {});
     last.signals = approached (last.signals, is_falling ? withoutRise (to.signals, last.signals, 3) : to.signals,
-                               limits.max_signal, stepOf (slews.max_signal_slew, step_s));
+                               limits.max_signal, stepOf (limits.max_signal_slew, step_s));
 }
 
 /// During a stop, and while the effort rises again.

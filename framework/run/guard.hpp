@@ -47,28 +47,17 @@ struct GuardLimits
 
     double workspace_scale = 1.0;   ///< motion in the graph divided by motion of the device; the limits are those of the device
 
-    // The slew limits of the device itself where a graph has asked for slower ones, else 0. Stops keep these: a graph cannot make a stop slower.
-    double stop_slew = 0.0;          ///< in N/s
-    double stop_torque_slew = 0.0;   ///< in N m/s
-    double stop_axis_slew = 0.0;     ///< for each axis separately, in N/s or N m/s
-    double stop_signal_slew = 0.0;   ///< for each signal output separately, per s
-
     double dead_man_pressure = 0.0;       ///< how hard the hand must press before the guard allows any effort, in N; 0: not required
     std::uint64_t dead_man_buttons = 0;   ///< buttons that must all be held, as in Reading::buttons; 0: none
 
     bool operator== (const GuardLimits&) const = default;
 };
 
-/// The slew limits that are not those of signals, and those of stops.
-SlewLimits slewsOf (const GuardLimits&) noexcept;
-SlewLimits stopSlewsOf (const GuardLimits&) noexcept;
-
 /// The stricter of the two values of each limit; this is how a session tightens a profile. For limits with windows: the smaller
 /// limit and the longer window.
 GuardLimits tightest (const GuardLimits&, const GuardLimits&) noexcept;
 
-/// The limits of a device after a graph has asked for these: like tightest, but `workspace_scale` and the slew limits of stops stay those of
-/// the device.
+/// The limits of a device after a graph has asked for these: like tightest, but `workspace_scale` stays that of the device.
 GuardLimits tightened (const GuardLimits& of_device, const GuardLimits& by) noexcept;
 
 /// The last stage before a device, one per role, always present. It passes efforts that are finite and within the limits for
@@ -79,7 +68,7 @@ GuardLimits tightened (const GuardLimits& of_device, const GuardLimits& by) noex
 ///     cause      see below
 ///     length     k w            so that |force| <= max_force, |torque| <= max_torque, each |axis| <= max_axis_effort; w: wanted now
 ///     crossfade  e = enabled k w + withheld h        h: effort at the stop
-///     slew       e' + s (e - e')                     so that no part changes by more than its slew T (in a stop, its stop slew T); e': last tick
+///     slew       e' + s (e - e')                     so that no part changes by more than its slew T; e': last tick
 ///
 /// One factor k and one s scale force, torque and axes, so directions are kept, and the limits of size hold on the way as well.
 /// Each signal is limited by itself.
@@ -235,8 +224,7 @@ private:
     void describeStale (Event&, const Reading&) const noexcept;
     Effort crossfaded (const Effort& wanted) const noexcept;
     double fit (Vec3& force, Vec3& torque, Channels& axes) const noexcept;
-    GuardLimits limitsNow() const noexcept;
-    void approach (const Effort& to, double step_s, const GuardLimits& slews) noexcept;
+    void approach (const Effort& to, double step_s) noexcept;
 
     GuardLimits limits;                     // as they apply on this tick
     GuardLimits final_limits;               // what they become, while `is_falling`

@@ -94,7 +94,7 @@ std::string forLimits (const std::function<std::string (const std::string&)>& te
 {
     std::string all;
     for (const auto& [key, value] : guard_fields)
-        if (isTightenable (value)) all += text (std::string (key));
+        if (value != &GuardLimits::workspace_scale) all += text (std::string (key));
     return all;
 }
 

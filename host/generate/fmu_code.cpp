@@ -98,7 +98,7 @@ void addLimits (Variables& all, const Exported& e, std::size_t i)
     const auto& role = e.wiring.role_ports[i];
     const auto& limits = e.roles[i].limits;
     for (const auto& [key, value] : guard_fields)
-        if (isTightenable (value))
+        if (value != &GuardLimits::workspace_scale)
             all.reals.push_back ({ .name = "limit." + role + "." + std::string (key),
                                    .about = "limit of the guard; can only be tightened",
                                    .kind = Variable::Kind::limit,

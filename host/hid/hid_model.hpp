@@ -70,8 +70,8 @@ public:
     /// limited motor by motor. Call once per tick. `passed_s`: the time since the last call, in s. [tick thread]
     EffortValues drive (const HidEffort&, double passed_s) noexcept;
 
-    /// From now on, drive() also keeps these limits: MotorLimiter::tighten. [tick thread]
-    void limitSlews (const SlewLimits& any, const SlewLimits& falling) noexcept { limiter.tighten (any, falling); }
+    /// From now on, drive() also keeps these limits, per s: MotorLimiter::tighten. [main thread, before the first drive()]
+    void limitSlews (double of_force, double of_torque, double of_axis) noexcept { limiter.tighten (of_force, of_torque, of_axis); }
 
     /// Neutral reports are sent on this tick, so the motors start from rest on the next one. [tick thread]
     void rest() noexcept;

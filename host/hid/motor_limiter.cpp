@@ -21,8 +21,7 @@ const OutputField* fieldOf (const Profile& profile, const std::string& name)
 MotorLimiter::MotorLimiter (const Profile& profile, const std::vector<std::string>& names, const std::vector<std::string>& units, const EffortValues& rest)
     : at_rest (rest), last (rest)
 {
-    const auto of_profile = slewsOf (profile.limits.guard);
-    Group force { {}, of_profile.force, of_profile.force }, torque { {}, of_profile.torque, of_profile.torque };
+    Group force { {}, profile.limits.guard.max_slew }, torque { {}, profile.limits.guard.max_torque_slew };
     for (std::size_t i = 0; i < names.size(); ++i)
     {
         const auto isI = [&] (const std::string& name) { return name == names[i]; };
@@ -44,7 +43,7 @@ MotorLimiter::MotorLimiter (const Profile& profile, const std::vector<std::strin
         if (renders_torque)
             torque.efforts.push_back (i);
         else if (! renders_force)
-            groups.push_back ({ { i }, of_profile.axis, of_profile.axis });
+            groups.push_back ({ { i }, profile.limits.guard.max_axis_slew });
         else if (std::holds_alternative<Direct> (profile.kinematics))
             force.efforts.push_back (i);
     }
@@ -52,22 +51,12 @@ MotorLimiter::MotorLimiter (const Profile& profile, const std::vector<std::strin
     groups.push_back (std::move (torque));
 }
 
-void MotorLimiter::tighten (const SlewLimits& any, const SlewLimits& falling) noexcept
+void MotorLimiter::tighten (double force, double torque, double axis) noexcept
 {
     const auto axes = groups.size() - 2;
     for (std::size_t i = 0; i < groups.size(); ++i)
-    {
-        const auto part = i < axes ? &SlewLimits::axis : i == axes ? &SlewLimits::force
-                                                                   : &SlewLimits::torque;
-        groups[i].slew = std::min (groups[i].slew, any.*part);
-        groups[i].fall = std::min (groups[i].fall, falling.*part);
-    }
-}
-
-/// True if no effort of the group grows or changes its direction.
-bool MotorLimiter::isFalling (const Group& group, const EffortValues& to) const noexcept
-{
-    return std::ranges::all_of (group.efforts, [&] (std::size_t i) { return std::abs (to[i]) <= std::abs (last[i]) && to[i] * last[i] >= 0.0; });
+        groups[i].slew = std::min (groups[i].slew, i < axes ? axis : i == axes ? force
+                                                                               : torque);
 }
 
 /// A motor that cannot pull, for example on a string, does not reduce the others' force: its own field is clamped later.
@@ -94,12 +83,12 @@ double MotorLimiter::stepShare (const EffortValues& values, double passed_s) con
         const double step = std::abs (values[effort] - last[effort]);
         if (step > slew * passed_s && std::isfinite (step)) share = std::min (share, slew * passed_s / step);
     }
-    for (const auto& group : groups)
+    for (const auto& [efforts, slew] : groups)
     {
         double square = 0.0;
-        for (const auto i : group.efforts)
+        for (const auto i : efforts)
             square += (values[i] - last[i]) * (values[i] - last[i]);
-        const double step = std::sqrt (square), slew = step > group.slew * passed_s && isFalling (group, values) ? group.fall : group.slew;
+        const double step = std::sqrt (square);
         if (step > slew * passed_s && std::isfinite (step)) share = std::min (share, slew * passed_s / step);
     }
     return share;

@@ -30,8 +30,8 @@ class MotorLimiter
 public:
     MotorLimiter (const Profile&, const std::vector<std::string>& effort_names, const std::vector<std::string>& effort_units, const EffortValues& rest);
 
-    /// Adds the slew limits of the role's guard to those of the profile. `falling` is for efforts that go straight towards zero. [tick thread]
-    void tighten (const SlewLimits& any, const SlewLimits& falling) noexcept;
+    /// Adds the slew limits of the role's guard to those of the profile, per s. [main thread, before the first call]
+    void tighten (double force, double torque, double axis) noexcept;
 
     /// The factors k and s.
     struct Shares
@@ -61,10 +61,7 @@ private:
     {
         std::vector<std::size_t> efforts;   // indices
         double slew = GuardLimits::none;    // per s
-        double fall = GuardLimits::none;    // the same while all of them go straight towards zero
     };
-
-    bool isFalling (const Group&, const EffortValues& to) const noexcept;
 
     double stepShare (const EffortValues& values, double passed_s) const noexcept;
 

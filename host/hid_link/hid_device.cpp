@@ -223,12 +223,6 @@ void HidDevice::withhold() noexcept
 
 void HidDevice::limitSignals (double max, double /*max_slew*/) { asked_max_signal.store (max, std::memory_order_relaxed); }
 
-void HidDevice::limitSlews (const SlewLimits& any, const SlewLimits& falling)
-{
-    asked_slews.store ({ any, falling });
-    has_new_slews.store (true, std::memory_order_release);
-}
-
 /// The limit of each amplitude on this tick. If it was tightened, it falls from the largest amplitude of the last tick, as in the guard.
 double HidDevice::limitOfVibration() noexcept
 {
@@ -273,11 +267,6 @@ void HidDevice::write (const Effort& guarded) noexcept
     // The last limits hold per second of wall time, whatever drives the run. A pause counts as long as the port waits for efforts.
     const auto now = link->now();
     const double passed = written == 0 ? dt : 1e-9 * static_cast<double> (std::min (now - written, longest_pause));
-    if (has_new_slews.load (std::memory_order_relaxed) && has_new_slews.exchange (false, std::memory_order_acquire))
-    {
-        const auto [any, falling] = asked_slews.load();
-        values.limitSlews (any, falling);
-    }
     if (has_to_rest) values.rest();
     driven = has_to_rest ? EffortValues {} : values.drive (effort, passed);
     written = now;

@@ -72,7 +72,7 @@ public:
     /// `max` also limits the motor of a signal when the graph drives it as an effort. Steps are left to the guard. [main thread]
     void limitSignals (double max, double max_slew) override;
 
-    void limitSlews (const SlewLimits& any, const SlewLimits& falling) override;   // [main thread]
+    void limitSlews (double force, double torque, double axis) override { values.limitSlews (force, torque, axis); }   // [main thread]
 
     DeviceLayout layout() const override { return layoutOf (values); }
 
@@ -151,8 +151,6 @@ private:
     std::vector<Streamed> streams;
     std::vector<VibrationMotor> motors;
     std::atomic<double> asked_max_signal = GuardLimits::none;   // of each amplitude   [main thread writes, tick thread reads]
-    Snapshot<std::array<SlewLimits, 2>> asked_slews;            // of any effort, and of a falling one   [main thread writes, tick thread reads]
-    std::atomic<bool> has_new_slews = false;
     FallingLimit max_signal;
     EffortValues driven {};
 

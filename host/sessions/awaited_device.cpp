@@ -60,14 +60,6 @@ void AwaitedDevice::limitSignals (double max, double max_slew)
     if (auto* d = device()) d->limitSignals (max, max_slew);
 }
 
-void AwaitedDevice::limitSlews (const SlewLimits& any, const SlewLimits& falling)
-{
-    const std::lock_guard lock (mutex);
-    slews = any;
-    falling_slews = falling;
-    if (auto* d = device()) d->limitSlews (any, falling);
-}
-
 DeviceLayout AwaitedDevice::layout() const { return hid::layoutOf (hid::HidModel (wanted)); }
 
 std::string AwaitedDevice::trouble() const
@@ -92,11 +84,11 @@ void AwaitedDevice::look()
     auto made = hid::openDevice (description, {}, system, { .profiles = { wanted }, .messages = {} });
     if (auto* d = dynamic_cast<hid::HidDevice*> (made.device.get()))
     {
+        d->limitSlews (slews[0], slews[1], slews[2]);
         d->prepare (dt);
         opened = std::move (made.device);
         const std::lock_guard lock (mutex);
         d->limitSignals (max_signal, max_signal_slew);
-        d->limitSlews (slews, falling_slews);
         there.store (d, std::memory_order_release);
         return;
     }

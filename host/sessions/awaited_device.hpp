@@ -33,9 +33,9 @@ public:
     void write (const Effort& guarded) noexcept override;   // [tick thread]
     void withhold() noexcept override;                      // [tick thread]
 
-    void limitSignals (double max, double max_slew) override;                      // [main thread]
-    void limitSlews (const SlewLimits& any, const SlewLimits& falling) override;   // [main thread]
-    DeviceLayout layout() const override;                                          // [main thread]
+    void limitSignals (double max, double max_slew) override;                                                  // [main thread]
+    void limitSlews (double force, double torque, double axis) override { slews = { force, torque, axis }; }   // [main thread]
+    DeviceLayout layout() const override;                                                                      // [main thread]
 
     /// The device, once it is open; null until then. Valid as long as this object. [any thread]
     hid::HidDevice* device() const noexcept { return there.load (std::memory_order_acquire); }
@@ -56,12 +56,12 @@ private:
     hid::HidSystem& system;
     const std::chrono::milliseconds pause;
     double dt = 1e-3;
+    std::array<double, 3> slews { GuardLimits::none, GuardLimits::none, GuardLimits::none };   // set before the search begins
 
     double age = 0.0;   // time spent waiting for the device to open, without a reading, in s   [tick thread]
 
     mutable std::mutex mutex;   // protects the limits, `last_trouble` and `stopping`
     double max_signal = GuardLimits::none, max_signal_slew = GuardLimits::none;
-    SlewLimits slews, falling_slews;
     std::condition_variable stopped;
     bool stopping = false;
     std::string last_trouble;

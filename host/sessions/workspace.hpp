@@ -49,7 +49,7 @@ public:
     void write (const Effort& guarded) noexcept override { device->write (guarded); }   // [tick thread]
     void withhold() noexcept override { device->withhold(); }                           // [tick thread]
     void limitSignals (double max, double max_slew) override { device->limitSignals (max, max_slew); }
-    void limitSlews (const SlewLimits& any, const SlewLimits& falling) override { device->limitSlews (any, falling); }
+    void limitSlews (double force, double torque, double axis) override { device->limitSlews (force, torque, axis); }
     DeviceLayout layout() const override;
     double duration() const noexcept override { return device->duration(); }
 

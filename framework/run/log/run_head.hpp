@@ -61,19 +61,7 @@ inline constexpr GuardField guard_fields[] {
     { "still_torque", &GuardLimits::still_torque },
     { "workspace_scale", &GuardLimits::workspace_scale },
     { "dead_man_pressure", &GuardLimits::dead_man_pressure },
-    { "stop_slew", &GuardLimits::stop_slew },
-    { "stop_torque_slew", &GuardLimits::stop_torque_slew },
-    { "stop_axis_slew", &GuardLimits::stop_axis_slew },
-    { "stop_signal_slew", &GuardLimits::stop_signal_slew },
 };
-
-/// False for what only the device and the session decide, so that nothing can tighten it.
-constexpr bool isTightenable (double GuardLimits::*field) noexcept
-{
-    return field != &GuardLimits::workspace_scale && field != &GuardLimits::stop_slew && field != &GuardLimits::stop_torque_slew
-           && field != &GuardLimits::stop_axis_slew && field != &GuardLimits::stop_signal_slew;
-}
-
 inline constexpr std::string_view dead_man_buttons = "dead_man_buttons";   ///< the only limit that is not a double
 static_assert (sizeof (GuardLimits) == std::size (guard_fields) * sizeof (double) + sizeof (std::uint64_t),
                "a new limit of a guard must be added to the log too");

@@ -71,7 +71,7 @@ void LiveRun::start (Hand who)
     moved_by = std::move (who);
     held = false;
     kept_limits.clear();
-    beginSoon();
+    beginSoon (true);
 }
 
 void LiveRun::startOther (Hand who)
@@ -79,7 +79,7 @@ void LiveRun::startOther (Hand who)
     moved_by = std::move (who);
     held = held || isLatched();
     kept_limits.clear();
-    beginSoon();
+    beginSoon (false);
 }
 
 void LiveRun::moveBy (Hand who)
@@ -88,11 +88,7 @@ void LiveRun::moveBy (Hand who)
     restart();
 }
 
-void LiveRun::startAgain (bool is_latched)
-{
-    held = held || is_latched;
-    restart();
-}
+void LiveRun::startAgain() { restart(); }
 
 /// Restarts the run, for changes that cannot be applied while it runs. A latched stop stays latched, and the graph's guards do not become
 /// looser.
@@ -100,13 +96,14 @@ void LiveRun::restart()
 {
     held = held || isLatched();
     if (run) kept_limits = run->askedLimits();
-    beginSoon();
+    beginSoon (false);
 }
 
-void LiveRun::beginSoon()
+void LiveRun::beginSoon (bool by_start)
 {
     stop();
     begins = wanted = true;
+    ends_stops = by_start;
     if (! isRunning()) begin();
 }
 
@@ -195,6 +192,7 @@ std::unique_ptr<Run> LiveRun::makeRun (Run::Queries queries)
 void LiveRun::begin()
 {
     if (stop_switch != nullptr && stop_switch->isAhead()) return stop();
+    if (! std::exchange (ends_stops, false)) held = held || isLatched();   // also a stop that latched while the forces fell
     end();
     begins = false;
     const auto& graph = document.graph();
@@ -447,7 +445,7 @@ std::optional<audio::AudioStatus> LiveRun::audioStatus() const
 void LiveRun::noticeAlarms()
 {
     const auto now = Failsafe::alarms();
-    if (std::exchange (alarms_told, now) == now || ! isRunning()) return;
+    if (std::exchange (alarms_told, now) == now || (! isRunning() && ! begins)) return;
     emergencyStop();
     auto alarm = Failsafe::alarm();
     std::erase_if (said, [&] (const Message& m) { return m.id == alarm.id; });

@@ -84,8 +84,7 @@ public:
     void startOther (Hand);   ///< another graph was opened, so the limits are those that it asks for
     void moveBy (Hand);       ///< another hand moves the tool; no limit becomes looser
 
-    /// Runs again after something else ran; no limit becomes looser. `is_latched`: what ran before had a latched stop.
-    void startAgain (bool is_latched = false);
+    void startAgain();   ///< after something else ran; no limit becomes looser
 
     void stop() noexcept;   ///< ramps the forces to zero, then stops; does not wait
 
@@ -97,8 +96,9 @@ public:
     /// cannot undo the stop.
     void rearm() noexcept;
     bool canRearm() const noexcept;
-    bool isHeld() const noexcept { return held; }   ///< the next run starts stopped, until rearm() or until the user starts it
-    bool isStoppedForGood() const;                  ///< true after a latched stop, until rearm() or until the user starts another run
+    void hold() noexcept { held = true; }   ///< the next run starts stopped, until rearm() or until the user starts it
+    bool isHeld() const noexcept { return held; }
+    bool isStoppedForGood() const;   ///< true after a latched stop, until rearm() or until the user starts another run
 
     /// Stops, waits until the forces are zero, and releases the devices.
     void letGo();
@@ -214,7 +214,7 @@ private:
     bool isLive() const noexcept { return run && run->isLive(); }
     bool isLatched() const;
     void restart();
-    void beginSoon();
+    void beginSoon (bool by_start);
     void begin();
     void end();
     std::unique_ptr<Run> makeRun (Run::Queries);
@@ -251,7 +251,8 @@ private:
     std::map<std::string, GuardLimits> kept_limits {};   // by role, what the graphs have asked for since the user started
     Hand moved_by;
     std::chrono::steady_clock::time_point stopped_at = std::chrono::steady_clock::time_point::min();
-    bool held = false;   // an emergency stop or another latched stop holds the forces at zero until rearm()
+    bool held = false;         // an emergency stop or another latched stop holds the forces at zero until rearm()
+    bool ends_stops = false;   // START was pressed, so the run that begins next ends the latched stops of the one before
     const StopSwitch* stop_switch = nullptr;
     StopSwitch::Presses obeyed;                              // by the tick thread   [tick thread]
     std::uint32_t alarms_told = 0, alarms_stopped = 0;       // alarms of the failsafe; the second is for the tick thread

@@ -43,7 +43,8 @@ void Playback::stop() noexcept
 void Playback::emergencyStop() noexcept
 {
     resumes = false;
-    current().emergencyStop();
+    live_run.emergencyStop();   // also if it does not run: a preview ends, and then only START or REARM lets it have forces
+    if (preview_run) preview_run->emergencyStop();
 }
 
 void Playback::preview (graph::Graph g) { runInstead (std::move (g), false); }
@@ -66,18 +67,19 @@ void Playback::runInstead (graph::Graph g, bool on_devices)
 void Playback::endPreview()
 {
     if (! isPreviewing()) return;
-    const bool is_latched = trial && preview_run->isStoppedForGood();
+    const bool was_on_devices = trial.has_value();
     trial.reset();
     preview_run->letGo();
+    if (was_on_devices && preview_run->isHeld()) live_run.hold();
     preview_run.reset();
     preview_document.reset();
-    if (resumes) startAgain (is_latched);
+    if (resumes) startAgain();
 }
 
-void Playback::startAgain (bool is_latched)
+void Playback::startAgain()
 {
     before_run();
-    live_run.startAgain (is_latched);
+    live_run.startAgain();
 }
 
 Result<> Playback::tryDevice (const std::string& role)

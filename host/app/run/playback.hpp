@@ -21,7 +21,7 @@ public:
     void start (LiveRun::Hand);   ///< this and the next three: see LiveRun
     void startOther (LiveRun::Hand);
     void moveBy (LiveRun::Hand);
-    void startAgain (bool is_latched = false);
+    void startAgain();
     void restart() { start (live_run.hand()); }
     void stop() noexcept;   ///< stops the document's run or the preview, whichever is current
     void emergencyStop() noexcept;

@@ -118,6 +118,20 @@ TEST_CASE ("C API: a stop leaves no force behind in a run that the program ticks
     CHECK (tactus_run_tick (run.get()) == TACTUS_MISUSE);
 }
 
+TEST_CASE ("C API: a pushed device that was refused is gone, and nothing touches it any more", "[c_api][safety]")
+{
+    const MessageList m { tactus_messages_create() };
+    const auto g = spring (m.get());
+    REQUIRE (tactus_graph_set_device (g.get(), "stylus", R"({ "driver": "sim", "guard": { "max_slew": "5 N/s" } })", m.get()) == TACTUS_OK);
+    const RunHandle run { tactus_run_create (g.get(), nullptr, m.get()) };
+    REQUIRE (tactus_run_pushed_device (run.get(), "stylus", nullptr, m.get()) == TACTUS_OK);
+    REQUIRE (tactus_run_open (run.get(), m.get()) == TACTUS_FAILED);
+    CHECK (said (m).find ("device/slow_stop") != std::string::npos);
+    const auto reading = at (0.0);
+    CHECK (tactus_run_push (run.get(), "stylus", &reading) == TACTUS_MISUSE);
+    CHECK (tactus_run_stop (run.get()) == TACTUS_OK);
+}
+
 TEST_CASE ("C API: in real time, a reading that is not renewed ages by the clock, even if ticks are lost", "[c_api][safety]")
 {
     tactus::capi::PushedDevice device { {} };

@@ -206,48 +206,6 @@ TEST_CASE ("guard: a force above a tightened limit falls along the slew limit so
     CHECK (0.1 - now <= 0.2e-3 * (1.0 + 1e-9));   // from now on, the new one
 }
 
-TEST_CASE ("guard: whatever slews graphs ask for, a stop is as fast as that of the device alone", "[framework][guard][property][safety]")
-{
-    rc::prop ("at any limits, and for any part of the effort", [] {
-        const auto slew = [] { return *rc::gen::element (GuardLimits::none, 500.0, 100.0, 20.0); };
-        const GuardLimits of_device { .max_slew = slew(), .max_torque_slew = slew(), .max_axis_slew = slew(), .max_signal_slew = slew() };
-        const auto asked = [] { return *rc::gen::element (GuardLimits::none, 1000.0, 10.0, 2.0); };
-        const auto of_graph = [&] {
-            return GuardLimits { .max_slew = asked(), .max_torque_slew = asked(), .max_axis_slew = asked(), .max_signal_slew = asked() };
-        };
-        const auto at_start = of_graph(), by_edit = of_graph();
-
-        Guard guard, alone;
-        guard.prepare (tightened (of_device, at_start), dt);
-        const bool is_edited = *rc::gen::arbitrary<bool>();
-        if (is_edited) guard.tighten (by_edit);
-        const auto within = is_edited ? tightest (at_start, by_edit) : at_start;
-        alone.prepare (of_device, dt);
-        Effort before;
-        for (int k = 0; k < 4000; ++k)
-        {
-            const auto now = guard (pushOf (3.0), {});
-            RC_ASSERT (length (now.force - before.force) <= std::min (of_device.max_slew, within.max_slew) * dt * (1.0 + 1e-9));
-            RC_ASSERT (length (now.torque - before.torque) <= std::min (of_device.max_torque_slew, within.max_torque_slew) * dt * (1.0 + 1e-9));
-            before = now;
-            alone (pushOf (3.0), {});
-        }
-        guard.emergencyStop();
-        alone.emergencyStop();
-        int ticks = 0;
-        for (; ! alone.isAtRest(); ++ticks)
-        {
-            const auto now = guard (pushOf (3.0), {});
-            alone (pushOf (3.0), {});
-            RC_ASSERT (length (now.force - before.force) <= of_device.max_slew * dt * (1.0 + 1e-9));
-            RC_ASSERT (length (now.torque - before.torque) <= of_device.max_torque_slew * dt * (1.0 + 1e-9));
-            before = now;
-        }
-        RC_ASSERT (guard.isAtRest());
-        RC_ASSERT (ticks <= 200);
-    });
-}
-
 TEST_CASE ("guard: however often it is tightened while it pushes, no force is above what was there before or what all allow", "[framework][guard][property]")
 {
     rc::check ([] {
@@ -477,39 +435,6 @@ TEST_CASE ("a log replays edits that tightened a guard to the bit, also one that
         const double now = (*replay)->run().engine().role (0).applied.force.x();
         CAPTURE (k, now, forces[k]);
         REQUIRE (std::bit_cast<std::uint64_t> (now) == std::bit_cast<std::uint64_t> (forces[k]));
-    }
-}
-
-TEST_CASE ("a graph that asks for a slow slew does not slow a stop down, and its log replays to the bit", "[run][runlog][safety]")
-{
-    const TemporaryFolder folder;
-    const auto log = folder.path() / "run.jsonl";
-    const double of_device = GENERATE (500.0, GuardLimits::none);
-    Bench bench (pushing (guarded (R"("max_force": "3 N", "max_slew": "6 N/s")")), { .max_slew = of_device });
-    Messages found;
-    bench.run.openDevices (bench.graph, found);
-    REQUIRE_FALSE (hasErrors (found));
-    REQUIRE (bench.run.startLog (log, "test", {}, bench.graph));
-    bench.tick (600);
-    if (GENERATE (false, true)) bench.edit (pushing (guarded (R"("max_force": "3 N", "max_slew": "6 N/s", "max_torque": "1 N m")")));
-    bench.tick (10);
-    REQUIRE (bench.forces().back() == Approx (3.0));
-    bench.run.engine().emergencyStop();
-    bench.tick (7);
-    CHECK (bench.forces().back() == 0.0);
-    bench.run.engine().rearm();
-    bench.tick (100);
-    CHECK (bench.forces().back() == Approx (0.6).epsilon (0.02));   // and it rises as slowly as the graph asks
-    REQUIRE (bench.run.finish());
-
-    auto replay = Replay::open (log.string(), { .program = "test" });
-    REQUIRE (replay);
-    for (const double force : bench.forces())
-    {
-        const auto played = (*replay)->tick();
-        REQUIRE (played);
-        REQUIRE (*played);
-        REQUIRE (std::bit_cast<std::uint64_t> ((*replay)->run().engine().role (0).applied.force.x()) == std::bit_cast<std::uint64_t> (force));
     }
 }
 

@@ -78,20 +78,21 @@ bool letChildrenSleep()
     return static_cast<bool> (std::ofstream ("/proc/self/timens_offsets") << "boottime 100 0" << std::flush);
 }
 
-/// Forks a process that arms a failsafe on a file and dies. Returns what was written to the file.
+/// Forks a process that arms a failsafe on a file and dies. Returns what was written to the file, or with which status the process has ended by
+/// itself.
 std::string afterDying (const std::string& file, const std::function<void()>& die, const std::string& awaited)
 {
     std::ofstream { file };
-    test::inChild ([&] {
+    const auto end = test::inChild ([&] {
         for (const int fault : { SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL })
             ::signal (fault, SIG_DFL);   // without the test runner's handlers
         const auto failsafe = Failsafe::arm (file, rest());
         if (! failsafe) return 1;
         die();
-        return 0;
+        return 2;
     });
-    for (int i = 0; i < 1000 && contentOf (file) != awaited; ++i)   // the guardian writes a moment later
-        std::this_thread::sleep_for (std::chrono::milliseconds (2));
+    if (end.status > 0) return "status " + std::to_string (end.status);
+    until ([&] { return contentOf (file) == awaited; });   // the guardian writes a moment later
     return contentOf (file);
 }
 }   // namespace
@@ -253,10 +254,11 @@ TEST_CASE ("if the guardian is killed or frozen, there is an alarm, and another 
     const auto loseGuardianFirst = [&] {
         const auto guardian = [] { return test::guardianOf (::getpid()); };
         pid_t first = -1;
-        if (! until ([&] { return (first = guardian()) > 0; }) || Failsafe::alarms() != 0) return;
+        if (! until ([&] { return (first = guardian()) > 0; }) || Failsafe::alarms() != 0) ::_exit (3);
         ::kill (first, signal);
         const auto hasNext = [&] { return guardian() > 0 && guardian() != first; };
-        if (! until ([&] { return Failsafe::alarms() == 1 && hasNext(); }) || Failsafe::alarm().id != "run/unguarded") return;
+        if (! until ([&] { return Failsafe::alarms() == 1 && hasNext(); })) ::_exit (4);
+        if (! until ([] { return Failsafe::alarm().id == "run/unguarded"; })) ::_exit (5);
         static_cast<void> (Failsafe::arm (file, {}));   // returns only after the next guardian has been told everything
         ::kill (::getpid(), SIGKILL);
     };

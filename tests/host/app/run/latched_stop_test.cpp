@@ -126,6 +126,28 @@ TEST_CASE ("only START and REARM end a latched stop: no press into the tool view
     REQUIRE (is_free);
 }
 
+TEST_CASE ("an emergency stop during the test of a device or a preview holds the graph until START", "[app][run][safety]")
+{
+    const bool is_trial = GENERATE (false, true);
+    Rig r;
+    r.playback.start ({});
+    REQUIRE (r.until ([&] { return r.run.isRunning(); }));
+    if (is_trial)
+        REQUIRE (r.playback.tryDevice ("stylus"));
+    else
+        r.playback.preview (slowWood());
+    REQUIRE (r.until ([&] { return r.playback.current().isRunning(); }));
+    r.playback.emergencyStop();
+    if (! is_trial) r.playback.endPreview();
+    REQUIRE (r.until ([&] { return ! r.playback.isPreviewing(); }));
+    CHECK_FALSE (r.run.isWanted());
+    CHECK (r.run.isHeld());
+    r.press();
+    CHECK (r.until ([&] { return r.run.isStoppedForGood(); }));
+    r.playback.restart();   // START
+    CHECK (r.until ([&] { return r.run.isRunning() && ! r.run.isStoppedForGood(); }));
+}
+
 TEST_CASE ("a hand that is chosen while nothing is stopped starts the run", "[app][run]")
 {
     Rig r;
