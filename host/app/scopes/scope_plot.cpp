@@ -12,10 +12,12 @@
 namespace tactus::host
 {
 
+/// What is far outside a zoomed lane, or has no place in it, is drawn far outside: JUCE draws only finite numbers.
 juce::Point<float> Lane::toPixels (double at_x, double at_y) const noexcept
 {
+    const auto within = [far = 1e4] (double part) { return static_cast<float> (part > -far ? std::min (part, far) : -far); };
     const double part = is_logarithmic ? std::log (std::max (at_x, 1e-300) / x.low) / std::log (x.high / x.low) : (at_x - x.low) / x.size();
-    return { area.getX() + static_cast<float> (part) * area.getWidth(), area.getBottom() - static_cast<float> ((at_y - y.low) / y.size()) * area.getHeight() };
+    return { area.getX() + within (part) * area.getWidth(), area.getBottom() - within ((at_y - y.low) / y.size()) * area.getHeight() };
 }
 
 double Lane::xAt (float pixel) const noexcept

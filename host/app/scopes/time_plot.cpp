@@ -106,7 +106,7 @@ void TimePlot::mouseDrag (const juce::MouseEvent& e)
         spec.trigger.level = lane.yAt (std::clamp (e.position.y, lane.area.getY(), lane.area.getBottom()));
     else if (spec.is_frozen)
     {
-        const double dragged_s = static_cast<double> (e.getOffsetFromDragStart().x) / static_cast<double> (lane.area.getWidth()) * spec.seconds;
+        const double dragged_s = static_cast<double> (e.getOffsetFromDragStart().x) / std::max (1.0, static_cast<double> (lane.area.getWidth())) * spec.seconds;
         spec.back_s = std::clamp (back_before + dragged_s, 0.0, std::max (0.0, Trace::seconds - spec.seconds));
     }
     repaint();

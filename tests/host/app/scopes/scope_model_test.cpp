@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <host/app/scopes/scope_model.hpp>
+#include <host/app/scopes/scope_plot.hpp>
 
 #include <rapidcheck/catch.h>
+
+#include <cmath>
+#include <limits>
 
 using namespace tactus::host;
 
@@ -106,4 +110,15 @@ TEST_CASE ("scopes: a spectrogram shows one port, and a probe replaces it", "[ap
     CHECK (portsOf (*model.scopes[0], {}) == std::vector<std::string> { "b.x" });
     CHECK_FALSE (model.probe ("b.x"));
     CHECK (model.scopes[0]->ports.empty());
+}
+
+TEST_CASE ("scopes: every value has a finite place in a lane, also in one that is empty or zoomed", "[app][scopes]")
+{
+    for (const Extent range : { Extent {}, Extent { 0.0, 0.0 }, Extent { 0.0, 1e-14 }, Extent { -1e299, 1e299 }, Extent { 1.0, 2.0 } })
+        for (const bool is_logarithmic : { false, true })
+        {
+            const Lane lane { .area = { 10.0f, 10.0f, 100.0f, 50.0f }, .x = range, .y = range, .unit = {}, .x_unit = {}, .is_logarithmic = is_logarithmic };
+            for (const double v : { 0.0, 1.5, -1e300, 1e300, std::numeric_limits<double>::infinity(), std::nan ("") })
+                CHECK (lane.toPixels (v, v).isFinite());
+        }
 }
