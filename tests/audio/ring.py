@@ -89,7 +89,7 @@ def play(program, server, out, clock):
         raise SystemExit(said)
     account = [line for line in said.splitlines() if "xruns" in line or "ratio" in line or "clipped" in line]
     print("\n".join("  " + line.strip() for line in account), flush=True)
-    ratio = float(re.search(r"ratio ([0-9.]+)", said)[1])
+    ratio = float(re.search(r"ratio of the card's clock to the tick clock: ([0-9.]+)", said)[1])
     worst = (0.0, 0.0)
     heard = samples(file, len(FULL_SCALE))
     for lane, (channel, full_scale) in enumerate(sorted(FULL_SCALE.items())):
