@@ -62,6 +62,7 @@ Compiled Run::compile (const graph::Graph& graph, const Plan* plan_before, const
 Messages Run::load (const graph::Graph& graph)
 {
     auto compiled = compile (graph, nullptr, nullptr, {});
+    running.reset();   // an engine of an earlier load may have another rate
     if (compiled.plan) begin (std::move (compiled.plan));
     return std::move (compiled.messages);
 }

@@ -106,7 +106,8 @@ public:
     /// The tick rate in Hz for the next load(). 0: the graph's own rate.
     void setRate (double hz) noexcept { options.rate_hz = hz; }
 
-    /// Compiles the first plan. May be called again, for instance at a different rate, until devices are open.
+    /// Compiles the first plan. May be called again, for instance at a different rate, until devices are open. Without a plan, there is nothing
+    /// to run, even if an earlier load had one.
     Messages load (const graph::Graph&);
 
     /// Starts from a plan compiled elsewhere with the same options.

@@ -222,6 +222,21 @@ TEST_CASE ("an edit may remove a port of a listener, but not a recorded one", "[
     }
 }
 
+TEST_CASE ("a graph that does not compile at the rate of a clock does not run at its own rate", "[run]")
+{
+    Sketch s;
+    s.add (s.subgraph ("part"), "gain", "signal.gain");
+    s.node ("slow", "graph:part");
+    s.graph.root.nodes.back().extra = Json { { "every", 500 } };
+    Run run { catalogue(), {} };
+    REQUIRE_FALSE (hasErrors (run.load (s.graph)));   // 1000 Hz / 500
+    REQUIRE (run.hasEngine());
+    run.setRate (100.0);
+    const auto messages = run.load (s.graph);
+    CHECK (std::ranges::count (messages, "rate/value", &Message::id) == 1);
+    CHECK_FALSE (run.hasEngine());
+}
+
 TEST_CASE ("probes see the values of ports, and a failed probe leaves the earlier ones running", "[run]")
 {
     const auto s = spring();
