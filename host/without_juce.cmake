@@ -3,6 +3,6 @@
 # reports, and the threads of runs and devices.
 find_package (PkgConfig REQUIRED)
 pkg_check_modules (hidapi REQUIRED IMPORTED_TARGET hidapi-hidraw)
-foreach (part io assets hid platform hid_link audio sessions tools)
+foreach (part io assets hid platform hid_link sessions tools)
     add_subdirectory (host/${part})
 endforeach ()

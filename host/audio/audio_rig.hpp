@@ -8,8 +8,8 @@
 #include "port_mixer.hpp"
 #include "stream.hpp"
 
+#include <host/live/run_sound.hpp>
 #include <tactus/run/passed_time.hpp>
-#include <tactus/run/run.hpp>
 #include <tactus/text/result.hpp>
 
 #include <array>
@@ -40,7 +40,7 @@ struct AudioStatus
 /// Everything that a run plays and records: the ports routed to channels, the roles with the driver "audio", one card, and
 /// the streams that keep the clocks in step. Life cycle: construct; open roles; begin; on each tick before() and after();
 /// end.
-class AudioRig final : public RunListener, private CardUser
+class AudioRig final : public RunSound, private CardUser
 {
 public:
     /// The card system must outlive the rig. [main thread]
@@ -51,20 +51,23 @@ public:
     void choose (AudioSettings s) { wanted = std::move (s); }
 
     /// Makes the blocks tick the run. Call before begin(). Returns the clock of the run. [main thread]
-    AudioClock& tickBy (double tick_rate_hz);
+    AudioClock& tickBy (double tick_rate_hz) override;
 
-    AudioClock* clock() const noexcept { return own_clock.get(); }   ///< null if another clock ticks the run [main thread]
+    AudioClock* clock() const noexcept override { return own_clock.get(); }   ///< null if another clock ticks the run [main thread]
 
     /// Opens the device of a role, before begin(). After begin() it returns null with a message (audio/late), until the next
     /// run. The device must outlive the ticks, and the rig must outlive the device. [main thread]
     std::unique_ptr<AudioDevice> open (AudioRole, Messages&);
+
+    /// The same for a description: openAudio, with the channels that the nodes of the role use if it names none. [main thread]
+    MadeDevice open (const Json& description, const std::string& role, const Plan&) override;
 
     /// Selects a card by name (see parseCard). If one has already been selected, it must be the same one (audio/two_cards). Call
     /// before begin(). [main thread]
     Result<> nameCard (const std::string&);
 
     const AudioSettings& settings() const noexcept { return wanted; }
-    bool isNeeded() const noexcept { return ! wanted.routes.empty() || ! devices.empty() || own_clock != nullptr; }
+    bool isNeeded() const noexcept override { return ! wanted.routes.empty() || ! devices.empty() || own_clock != nullptr; }
 
     /// The ports of all routes. [main thread]
     std::vector<std::string> ports() const override;
@@ -76,10 +79,10 @@ public:
     /// Opens the card. The roles must have their limits (Engine::attach), and the plan must be compiled with the ports of the
     /// routes. The engine, if given, provides the emergency stop. Ids: audio/port, audio/unit, audio/rate, and those of
     /// CardSystem::open. If only opening the card fails, it is retried, like a card that went away. [main thread, before ticking]
-    Messages begin (const Plan&, double tick_rate_hz, const Engine* = nullptr);
+    Messages begin (const Plan&, double tick_rate_hz, const Engine* = nullptr) override;
 
     /// Call this instead of begin() if isNeeded() is false: no role can be opened from now on. [main thread]
-    void seal() noexcept { has_begun = true; }
+    void seal() noexcept override { has_begun = true; }
 
     /// Records the card's output to a file until the end. Call after begin(). Ids: see CardCapture. [main thread]
     Result<> captureTo (const std::filesystem::path&);
@@ -91,10 +94,11 @@ public:
 
     /// Call this many times a second. Returns an error of the capture once, including audio/capture_rate if the card came
     /// back at a different rate. [main thread]
-    Result<> attend (CardKeeper::Clock::time_point now = CardKeeper::Clock::now());
+    Result<> attend (CardKeeper::Clock::time_point now);
+    Result<> attend() override { return attend (CardKeeper::Clock::now()); }
 
     /// Closes the card and the capture. Returns an error of the capture. Call this when the run no longer ticks. [main thread]
-    Result<> end();
+    Result<> end() override;
 
     /// True if a role with a max_signal plays on one of the first `count` channels. Call after begin(). [main thread]
     bool limitsFirst (int count) const noexcept;

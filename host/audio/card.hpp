@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "audio_settings.hpp"
+#include <host/sessions/audio_settings.hpp>
 
 #include <tactus/text/result.hpp>
 

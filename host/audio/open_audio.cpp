@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "open_audio.hpp"
-#include "check_audio.hpp"
+#include <host/sessions/check_audio.hpp>
 
 #include <tactus/text/message.hpp>
 
@@ -48,6 +48,11 @@ MadeDevice openAudio (const Json& description, AudioRig& rig)
     made.about = std::to_string (role.outputs.size()) + " outputs and " + std::to_string (role.inputs.size()) + " inputs of a sound card.";
     made.device = rig.open (std::move (role), made.messages);
     return made;
+}
+
+MadeDevice AudioRig::open (const Json& description, const std::string& role, const Plan& plan)
+{
+    return openAudio (withChannels (description, plan, role), *this);
 }
 
 Json withChannels (const Json& description, const Plan& plan, const std::string& role)

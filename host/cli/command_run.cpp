@@ -4,12 +4,10 @@
 #include "report.hpp"
 
 #include <host/assets/nearest_by_embree.hpp>
+#include <host/hid_link/profile_library.hpp>
 #include <host/platform/home_folder.hpp>
-#include <host/sessions/needs.hpp>
 #include <host/sessions/numbers_device.hpp>
 #include <tactus/graph/reconcile.hpp>
-#include <tactus/plan/missing_parts.hpp>
-#include <tactus/run/included_guards.hpp>
 #include <tactus/run/replay.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/number_text.hpp>
@@ -31,26 +29,18 @@ void warnOnly (Messages& messages)
 }
 }   // namespace
 
-CommandRun::CommandRun (const RunOptions& o, Pace pace) : options (o), loaded (loadGraph (o.graph)), rig ({}), real (pace == Pace::live, rig)
+CommandRun::CommandRun (const RunOptions& o, Pace pace, StopSwitch* stops) : options (o), loaded (loadGraph (o.graph)), rig ({})
 {
     if (report (loaded.messages, loaded, options.graph) > 0) throw Stop {};
     readFeed();
     if (pace == Pace::live)
     {
-        readDeviceSession();
-        chooseAudio();
-        decideClock();
+        device_session = readDeviceSession();
+        chooseAudio (device_session);
     }
-
-    CompileOptions compile { .rate_hz = asked_rate_hz,
-                             .records = options.records,
-                             .overrides = readSets (options.sets),
-                             .assets = &assets,
-                             .services = { .nearest_triangle = nearestByEmbree } };
-    if (feed) compile.feeds = feed->drives();
-    const auto opener = [this] (const std::string& role, const graph::Graph& graph, const Plan& plan,
-                                Messages& messages) { return open (role, graph, plan, messages); };
-    running = std::make_unique<Run> (catalogue(), std::move (compile), opener, pace == Pace::live ? Run::Queries::on_thread : Run::Queries::within_tick);
+    device_options = readDeviceOptions();
+    const auto hardware = pace == Pace::live ? Hardware { hid::thisComputer(), [this]() -> const hid::LoadedProfiles& { return profiles(); }, &rig } : Hardware {};
+    playing = std::make_unique<LiveSession> (catalogue(), hardware, sessionOptions (pace, stops));
     load();
     openDevices();
     decideLength (pace);
@@ -59,36 +49,33 @@ CommandRun::CommandRun (const RunOptions& o, Pace pace) : options (o), loaded (l
         if (! file->empty()) outputs.push_back (*file);
     refuseOverwriting (outputs, inputs());
     if (pace == Pace::live) reportUnfinished (outputs);
-    if (! options.log.empty()) orFail (running->startLog (options.log, TACTUS_VERSION, options.sets, loaded.graph));
+    if (! options.log.empty()) orFail (playing->log (options.log, TACTUS_VERSION, options.sets));
     if (pace == Pace::live) startAudio();
 }
 
+int CommandRun::reportOn (const Messages& messages) const { return report (messages, loaded, options.graph); }
+
 void CommandRun::readFeed()
 {
-    asked_rate_hz = options.rate_hz;
     if (options.feed.empty()) return;
     feed = orFail (Feed::make (orFail (readTable (std::filesystem::path (options.feed))), options.feed, options.rate_hz, loaded.graph.rate_hz));
-    asked_rate_hz = feed->rate();
 }
 
-/// Loads the device session of the run.
-void CommandRun::readDeviceSession()
+/// The device session of the run.
+LoadedSession CommandRun::readDeviceSession()
 {
-    if (options.session == "off") return;
-    device_session = options.session.empty() ? loadDefaultSession (homeFolder()) : loadSession (options.session);
-    if (report (device_session.messages, loaded, options.graph) == 0) return;
+    if (options.session == "off") return {};
+    auto read = options.session.empty() ? loadDefaultSession (homeFolder()) : loadSession (options.session);
+    if (reportOn (read.messages) == 0) return read;
     std::cerr << "    the run did not start; to run without a session, give --session off\n";
     throw Stop {};
 }
 
 /// The sound settings of the session, with changes from options.
-void CommandRun::chooseAudio()
+void CommandRun::chooseAudio (const LoadedSession& session)
 {
     Messages messages;
-    const auto* written = device_session.session.audio();
-    auto settings = written != nullptr ? audio::readAudioSettings (*written, "/audio", messages) : audio::AudioSettings {};
-    for (auto& m : messages)
-        place (m, device_session);
+    auto settings = audio::readAudioSettings (session, messages);
     for (const auto& text : options.routes)
     {
         auto route = audio::parseRoute (text);
@@ -97,7 +84,7 @@ void CommandRun::chooseAudio()
         else
             messages.push_back (std::move (route).error());
     }
-    if (report (messages, loaded, options.graph) > 0) throw Stop {};
+    if (reportOn (messages) > 0) throw Stop {};
     if (! options.card.empty())
     {
         const auto named = audio::parseCard (options.card, audio::soundCards().types());
@@ -107,154 +94,88 @@ void CommandRun::chooseAudio()
     rig.choose (std::move (settings));
 }
 
-/// The device for each role, described by an option, the session or the graph, in this order of precedence.
-std::vector<Described> CommandRun::devicesByRole()
+const hid::LoadedProfiles& CommandRun::profiles()
 {
-    Messages reported_later;
-    std::vector<Described> described;
-    for (const auto& [role, description] : loaded.graph.devices)
-        described.emplace_back (role, describedByGraph (&description, role, reported_later));
-    const auto describe = [&] (const std::string& role, const Json& description) {
-        const auto at = std::ranges::find (described, role, &Described::first);
-        if (at != described.end())
-            at->second = description;
-        else
-            described.emplace_back (role, description);
-    };
-    for (const auto& role : rolesNamed (loaded.graph))
-        if (const auto bound = bindingOf (device_session, role)) describe (role, bound->description);
+    if (! loaded_profiles) loaded_profiles = hid::loadProfileLibrary();
+    return *loaded_profiles;
+}
+
+std::vector<DeviceOption> CommandRun::readDeviceOptions()
+{
+    std::vector<DeviceOption> all;
     for (const auto& text : options.devices)
-        if (const auto parsed = optionOf (text, reported_later)) describe (parsed->role, parsed->description);
-    return described;
+    {
+        Messages notes;
+        auto parsed = host::parseDeviceOption (text, loaded.graph.devices, folder(), [this]() -> const hid::LoadedProfiles& { return profiles(); }, notes);
+        reportOn (notes);
+        if (! parsed) fail (Message::error (parsed.error().id, "--device " + text, parsed.error().text, parsed.error().remedy));
+        all.push_back (std::move (*parsed));
+    }
+    return all;
 }
 
-Result<DeviceOption> CommandRun::optionOf (const std::string& text, Messages& notes)
+LiveSession::Options CommandRun::sessionOptions (Pace pace, StopSwitch* stops)
 {
-    return host::parseDeviceOption (
-        text, loaded.graph.devices, folder(), [this]() -> const hid::LoadedProfiles& { return real.profiles(); }, notes);
-}
-
-/// A device with its own clock ticks the run at its own rate, unless an option or the session says otherwise.
-void CommandRun::decideClock()
-{
-    const auto rateOf = [&] (const Described& d, bool may_wait) {
-        const bool is_bound = device_session.session.binding (d.first) != nullptr;
-        return real.tickRate (d.second, may_wait && is_bound && ! options.strict);
-    };
-    ClockWish wish { options.clock, device_session.session.clock(), {} };
-    if (options.rate_hz > 0.0 || feed) wish.rate_hz = asked_rate_hz;
-    auto choice = host::chooseClock (wish, devicesByRole(), rateOf);
-    for (auto& m : choice.messages)
-        if (m.id == "session/clock") place (m, device_session);
-    if (report (choice.messages, loaded, options.graph) > 0) throw Stop {};
-    if (choice.by_sound_card) rig.tickBy (asked_rate_hz > 0.0 ? asked_rate_hz : loaded.graph.rate_hz);
-    if (choice.role.empty()) return;
-    clock_role = choice.role;
-    asked_rate_hz = choice.rate_hz;
+    LiveSession::Options to;
+    to.devices = { .given = device_options,
+                   .session = device_session,
+                   .absence = options.strict ? Absence::refuses : Absence::waits,
+                   .remedy = "describe a device for it under `devices`, or give --device ROLE=gesture:stroke" };
+    to.compile = { .rate_hz = feed ? feed->rate() : options.rate_hz,
+                   .records = options.records,
+                   .overrides = readSets (options.sets),
+                   .assets = &assets,
+                   .services = { .nearest_triangle = nearestByEmbree } };
+    if (feed)
+    {
+        to.compile.feeds = feed->drives();
+        to.listeners.push_back (&*feed);
+    }
+    to.clock = options.clock;
+    to.keeps_records = ! options.outputs.empty();
+    to.listeners.push_back (&port_probes);
+    to.stops = stops;
+    to.queries = pace == Pace::live ? Run::Queries::on_thread : Run::Queries::within_tick;
+    return to;
 }
 
 void CommandRun::load()
 {
-    if (feed) running->add (*feed);
-    // First without the ports that the sound card plays, because the plan taps the inputs of all sinks only if no ports are named.
-    auto messages = running->load (loaded.graph);
-    if (running->hasEngine() && ! options.outputs.empty()) running->keepRecords();
-    running->add (rig);
-    running->add (port_probes);
-    if (running->hasEngine() && ! rig.settings().routes.empty()) messages = running->load (loaded.graph);
-    with_placeholders = hasErrors (messages);
-    if (running->hasEngine()) warnOnly (messages);
-    report (messages, loaded, options.graph);
-    if (! running->hasEngine()) throw Stop {};
+    auto messages = playing->load (loaded.graph);
+    if (playing->hasPlaceholders()) warnOnly (messages);
+    reportOn (messages);
+    if (! playing->isLoaded()) throw Stop {};
 }
 
-void CommandRun::checkDeviceOptions()
+/// Each --device must name a role of the graph.
+void CommandRun::checkRoles() const
 {
     std::vector<std::string> roles;
-    for (const auto& role : engine().newest().roles())
+    for (const auto& role : playing->run().engine().newest().roles())
         roles.push_back (role.name);
-    for (const auto& text : options.devices)
+    for (std::size_t i = 0; i < device_options.size(); ++i)
     {
-        Messages notes;
-        auto parsed = optionOf (text, notes);
-        report (notes, loaded, options.graph);
-        if (! parsed) fail (Message::error (parsed.error().id, "--device " + text, parsed.error().text, parsed.error().remedy));
-        device_options.push_back (std::move (*parsed));
-        const auto& role = device_options.back().role;
+        const auto& role = device_options[i].role;
         if (std::ranges::count (roles, role) > 0) continue;
         std::string all;
         for (const auto& r : roles)
             all += (all.empty() ? "" : ", ") + r;
-        fail (Message::error ("device/unknown_role", "--device " + text, "the graph has no role '" + role + "'" + didYouMean (role, roles),
+        fail (Message::error ("device/unknown_role", "--device " + options.devices[i], "the graph has no role '" + role + "'" + didYouMean (role, roles),
                               roles.empty() ? "remove the option: the graph has no device nodes" : "name one of its roles: " + all));
     }
 }
 
 void CommandRun::openDevices()
 {
-    checkDeviceOptions();
-    Messages messages;
-    running->openDevices (loaded.graph, messages);
-    device_options.clear();   // a role that is added later has no options
-    if (report (messages, loaded, options.graph) > 0) throw Stop {};
-    const auto& plan = engine().newest();
-    report (missingParts (plan), loaded, options.graph);
-    const auto needs = needsOf (plan);
-    for (const auto& device : realDevices())
-        if (const auto role = std::ranges::find (needs, device.role, &RoleNeeds::role); role != needs.end())
-            report (missingTools (*role, partsOf (device.profile())), loaded, options.graph);
-}
-
-/// The device named by an option, else by the session, else by the graph, else a simulated tool at rest.
-Run::RoleDevice CommandRun::open (const std::string& role, const graph::Graph& graph, const Plan& plan, Messages& messages)
-{
-    const auto option = std::ranges::find (device_options, role, &DeviceOption::role);
-    const bool by_option = option != device_options.end();
-    if (! by_option)
-        if (auto binding = bindingOf (device_session, role)) return openBySession (role, std::move (*binding), plan, messages);
-
-    const auto* described = graph.device (role);
-    if (! by_option && described == nullptr)
-        messages.push_back (Message::warning ("device/undescribed", "/devices",
-                                              "no device is given for the role '" + role + "', so it gets a simulated tool at rest",
-                                              "describe a device for it under `devices`, or give --device " + role + "=gesture:stroke"));
-
-    auto made = by_option ? openByOption (*option, plan) : makeDevice (describedByGraph (described, role, messages), folder());
-    for (auto& m : made.messages)
-        m.where = (by_option ? "--device " : "/devices/") + role + m.where;
-    std::ranges::move (made.messages, std::back_inserter (messages));
-    if (made.device && ! by_option) described_by_graph.insert (role);
-    return { std::move (made.device), made.limits };
-}
-
-MadeDevice CommandRun::openByOption (const DeviceOption& option, const Plan& plan)
-{
-    const auto& d = option.description;
-    return real.open (audio::isAudio (d) ? audio::withChannels (d, plan, option.role) : d, option.folder);
-}
-
-Run::RoleDevice CommandRun::openBySession (const std::string& role, RoleBinding binding, const Plan& plan, Messages& messages)
-{
-    if (audio::isAudio (binding.description)) binding.description = audio::withChannels (binding.description, plan, role);
-    const auto openOne = [this] (const Json& description, const std::filesystem::path& from) { return real.open (description, from); };
-    auto bound = openBound (device_session, role, binding, openOne, hid::thisComputer(), real.profiles(), options.strict ? Absence::refuses : Absence::waits);
-    std::ranges::move (bound.messages, std::back_inserter (messages));
-    return { std::move (bound.device), bound.limits, bound.driver };
-}
-
-std::vector<RealDevice> CommandRun::realDevices() const
-{
-    std::vector<RealDevice> all;
-    for (const auto& [role, d] : running->devices())
-        if (auto device = realDevice (role, d.driver != nullptr ? *d.driver : *d.device)) all.push_back (std::move (*device));
-    return all;
+    checkRoles();
+    if (reportOn (playing->openDevices()) > 0) throw Stop {};
 }
 
 void CommandRun::decideLength (Pace pace)
 {
     double seconds = options.duration_s;
     if (seconds == 0.0)
-        for (const auto& [role, d] : running->devices())
+        for (const auto& [role, d] : run().devices())
             seconds = std::max (seconds, d.device->duration());
 
     // A small file must not keep the computer busy for hours. A user who gives --duration wants a run of that length.
@@ -286,61 +207,30 @@ std::size_t CommandRun::ticksOrFail() const
 
 void CommandRun::startAudio()
 {
-    if (! rig.isNeeded() && options.capture.empty()) return rig.seal();
-    auto messages = rig.begin (engine().plan(), rate(), &engine());
+    auto messages = playing->beginSound (! options.capture.empty());
     for (auto& m : messages)
         if (m.where.empty()) m.where = options.card.empty() ? "the sound card" : "--audio " + options.card;
-    if (report (messages, loaded, options.graph) > 0) throw Stop {};
-    if (options.capture.empty()) return;
-    orFail (rig.captureTo (options.capture));
-}
-
-void CommandRun::attend()
-{
-    if (const auto trouble = running->attend())
-    {
-        const auto ending = trouble->id == "log/broken" ? "; the run continues\n    " + trouble->remedy : ", and the log ends here; the run continues";
-        std::cerr << printableName (options.log) << ": warning: " << inOneLine (trouble->text) << printable (ending) << " [" << trouble->id << "]\n";
-    }
+    if (reportOn (messages) > 0) throw Stop {};
+    if (! options.capture.empty()) orFail (rig.captureTo (options.capture));
 }
 
 bool CommandRun::reload()
 {
     auto next = loadGraph (options.graph);
     if (report (next.messages, next, options.graph) > 0) return false;
-    graph::reconcile (next.graph, loaded.graph);
+    graph::reconcile (next.graph, graph());
 
     auto probed = port_probes.clear();   // drops ports of the previous graph
-    auto edit = running->edit (next.graph);
-    const bool placeholders = edit.plan() != nullptr && hasErrors (edit.messages());
-    if (placeholders && with_placeholders) warnOnly (edit.messages());
-    if (edit.plan() != nullptr) edit.openDevices();
-    if (report (edit.messages(), next, options.graph) > 0)
+    const auto edited = playing->edit (next.graph, LiveSession::Accepts::no_errors);
+    report (edited.messages, next, options.graph);
+    if (! edited.is_taken_over)
     {
         port_probes.restore (std::move (probed));
         return false;
     }
-    running->endCapture();
-    edit.commit();
-    report (missingParts (*edit.plan()), next, options.graph);
-    report (notTakenOver (next.graph), next, options.graph);
+    run().endCapture();
     loaded = std::move (next);
-    with_placeholders = placeholders;
     return true;
-}
-
-Messages CommandRun::notTakenOver (const graph::Graph& graph) const
-{
-    Messages messages;
-    for (const auto& role : described_by_graph)
-    {
-        const auto *present = graph.device (role), *before = loaded.graph.device (role);
-        if (present != nullptr && (before == nullptr || withoutGuard (*present) != withoutGuard (*before)))
-            messages.push_back (Message::warning ("watch/device", "/devices/" + role,
-                                                  "the device of the role '" + role + "' has a new description, but the run keeps the old device",
-                                                  "restart the run to use the new description"));
-    }
-    return messages;
 }
 
 std::vector<std::filesystem::path> CommandRun::files() const
@@ -355,7 +245,7 @@ std::vector<std::filesystem::path> CommandRun::files() const
             self (self, *file);
         }
     };
-    add (add, loaded.graph);
+    add (add, graph());
     return all;
 }
 
@@ -363,14 +253,14 @@ std::vector<std::filesystem::path> CommandRun::inputs() const
 {
     auto all = files();
     if (! options.feed.empty()) all.emplace_back (options.feed);
-    const auto& assets_read = running->assetPaths();
+    const auto& assets_read = run().assetPaths();
     all.insert (all.end(), assets_read.begin(), assets_read.end());
     const auto add = [&] (const std::filesystem::path& from, const Json& description) {
         for (const auto* at : { "/path", "/hand/path" })
             if (const JsonPointer path (at); description.is_object() && description.contains (path) && description.at (path).is_string())
                 all.push_back (from / description.at (path).get<std::string>());
     };
-    for (const auto& [role, description] : loaded.graph.devices)
+    for (const auto& [role, description] : graph().devices)
         add (folder(), description);
     if (! device_session.file.empty()) all.push_back (device_session.file);
     for (const auto& role : device_session.session.roles())
@@ -378,7 +268,7 @@ std::vector<std::filesystem::path> CommandRun::inputs() const
     for (const auto& text : options.devices)
     {
         all.emplace_back (text.substr (text.find ('=') + 1));
-        if (const auto parsed = tactus::parseDeviceOption (text, loaded.graph.devices, folder())) add (parsed->folder, parsed->description);
+        if (const auto parsed = tactus::parseDeviceOption (text, graph().devices, folder())) add (parsed->folder, parsed->description);
     }
     return all;
 }
@@ -386,10 +276,10 @@ std::vector<std::filesystem::path> CommandRun::inputs() const
 void CommandRun::reportRun() const
 {
     constexpr Guard::Stop no_limits[] { Guard::Stop::none, Guard::Stop::halted, Guard::Stop::released };
-    for (const auto& [role, d] : running->devices())
-        if (const auto& event = running->engine().guardOf (role).latest(); std::ranges::count (no_limits, event.why) == 0)
+    for (const auto& [role, d] : run().devices())
+        if (const auto& event = run().engine().guardOf (role).latest(); std::ranges::count (no_limits, event.why) == 0)
             std::cerr << printableName (role) << ": warning: the guard withheld the force: " << describe (event) << '\n';
-    const auto late = running->lateTicks();
+    const auto late = run().lateTicks();
     if (late == 0) return;
     std::cerr << "warning: an async query (a search on a large surface) was answered too late " << late << (late == 1 ? " time\n" : " times\n");
     std::cerr << "    allow it more ticks in the settings of the node, such as search_ticks [run/late_answers]\n";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command_run.hpp"
 #include "commands.hpp"
+#include "device_account.hpp"
 #include "emergency.hpp"
 #include "live_recording.hpp"
 #include "play_status.hpp"
@@ -58,16 +59,6 @@ std::unique_ptr<OscPort> openPort (const PlayOptions& options)
     return nullptr;
 }
 
-/// The clock among the devices of the run; null if no device ticks it.
-std::unique_ptr<RunClock> clockOf (const CommandRun& command)
-{
-    for (const auto& real : command.realDevices())
-        if (real.role == command.clockRole())
-            return real.present != nullptr ? std::make_unique<RunClock> (*real.present, command.rate())
-                                           : std::make_unique<RunClock> (*real.awaited, command.rate());
-    return nullptr;
-}
-
 [[noreturn]] void failOverrun (Runner& runner, double rate_hz)
 {
     char took[32];
@@ -110,9 +101,6 @@ std::unique_ptr<LivePlugins> openLive (const PlayOptions& options)
     return live;
 }
 
-/// Seconds since some moment.
-double seconds() { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
 constexpr double look_apart_s = 0.02;   // interval between two checks of the run
 
 /// A play command, from its first tick to its last.
@@ -123,21 +111,20 @@ public:
     {
         watchForStop();                                    // before this there is nothing to shut down
         giveUpBlockedOutputs (std::chrono::seconds (5));   // longer than usual: a recording cannot be repeated
-        command.run().add (emergency);
         if (! options.outputs.empty()) command.run().add (recording.emplace (command.run(), options.outputs));
         if (port) control.emplace (*port, remote, token);
-        if (options.fuse) fuser.emplace (Fuser::Options { .compiler = { .cache = FusionCompiler::usualCache() } });
+        if (options.fuse) session.fuse (Fuser::Options { .compiler = { .cache = FusionCompiler::usualCache() } });
         file_watch.watch (command.files());
     }
 
-    ~Playing() { command.run().end(); }   // before the clock and the listeners are destroyed
+    ~Playing() { session.end(); }   // before the listeners are destroyed
     Playing (const Playing&) = delete;
     Playing& operator= (const Playing&) = delete;
 
     void play()
     {
         announce();
-        for (const auto& refused : command.run().start (clock(), { .length = command.ticks(), .core = options.core, .stop_wanted = stopRequested }))
+        for (const auto& refused : session.start ({ .length = command.ticks(), .core = options.core, .stop_wanted = stopRequested }))
             std::fprintf (stderr, "note: %s\n", refused.c_str());
         for (int i = 0; ! command.run().live().isOver(); ++i)
         {
@@ -149,21 +136,14 @@ public:
     }
 
 private:
-    TickClock& clock()
-    {
-        if (auto* by_card = command.audio().clock()) return *by_card;
-        if (device_clock) return *device_clock;
-        return timer;
-    }
-
-    void announce() const
+    void announce()
     {
         const auto& name = command.name().empty() ? options.graph : command.name();
         std::string more;
         if (command.audio().clock() != nullptr)
             more += ", ticked by the sound card";
-        else if (device_clock)
-            more += ", ticked by " + printableName (command.clockRole());
+        else if (! session.clockRole().empty())
+            more += ", ticked by " + printableName (session.clockRole());
         if (port) more += ", OSC on " + port->listensTo().address + ":" + std::to_string (port->number());
         if (port && port->listensTo().isLoopback()) more += " (token to rearm: " + token + ")";
         if (options.watch) more += ", reloading the graph file when it is edited";
@@ -172,46 +152,54 @@ private:
         std::fprintf (stderr, "%s at %g Hz%s; %s\n", printableName (name).c_str(), command.rate(), more.c_str(), keys);
     }
 
-    void printNotes()
+    void print (const std::string& lines)
     {
-        if (const auto notes = emergency.takeNotes(); ! notes.empty()) std::fprintf (stderr, "%s%s", terminal ? "\r\033[K" : "", notes.c_str());
+        if (! lines.empty()) std::fprintf (stderr, "%s%s", terminal ? "\r\033[K" : "", lines.c_str());
+    }
+
+    void tell (const LiveSession::News& news)
+    {
+        if (news.alarm) print ("warning: " + sentence (*news.alarm) + (emergency.hasKeys() ? " (R)" : "") + " [" + news.alarm->id + "]\n");
+        if (news.sound) warnOfCapture (options.capture, *news.sound);
+        if (news.log)
+        {
+            const auto ending = news.log->id == "log/broken" ? "; the run continues\n    " + news.log->remedy : ", and the log ends here; the run continues";
+            print (printableName (options.log) + ": warning: " + inOneLine (news.log->text) + printable (ending) + " [" + news.log->id + "]\n");
+        }
+        if (news.fusion)
+        {
+            if (terminal) std::fprintf (stderr, "\r\033[K");
+            warn (options.graph, *news.fusion);
+        }
     }
 
     /// The work that is done every 20 ms.
     void attend (int i)
     {
-        printNotes();
+        print (emergency.takeNotes());
         if (recording) recording->drain();
-        command.attend();
-        if (const auto attended = command.audio().attend(); ! attended) warnOfCapture (options.capture, attended.error());
+        tell (session.attend());
         if (options.watch && i % 10 == 0 && file_watch.look()) reload();
         if (i % 2 == 0)
             if (auto news = live.look()) takeOver (*news);
-        if (fuser) fuse();
+        if (options.fuse) tellFusion();
         if (control)
         {
             command.probes().drain ([&] (std::uint64_t tick, std::span<const double> values) { control->values (tick, values); });
             control->attend();
         }
-        if (i % 5 != 0) return;
-        health.look (command.realDevices());
-        if (terminal)
-        {
-            const auto fusion = fuser ? "   " + fuser->describe() : std::string {};
-            const auto more = statusOf (health.health(), device_clock.get()) + statusOf (command.audio().status()) + fusion;
-            printStatus (command.run().live(), command.rate(), true, more, false);
-        }
+        if (i % 5 != 0 || ! terminal) return;
+        const auto fusion = options.fuse ? "   " + session.fuser()->describe() : std::string {};
+        const auto more = statusOf (session.health(), session.deviceClock()) + statusOf (command.audio().status()) + fusion;
+        printStatus (command.run().live(), command.rate(), true, more, false);
     }
 
-    /// Looks after the compiled code of the plan that runs.
-    void fuse()
+    /// Says once that compiled code has taken over.
+    void tellFusion()
     {
-        const bool was_fused = fuser->state() == Fuser::State::fused;
-        const auto trouble = fuser->look (command.engine().newestShared(), seconds());
-        const bool is_new = ! was_fused && fuser->state() == Fuser::State::fused;
-        if ((trouble || is_new) && terminal) std::fprintf (stderr, "\r\033[K");
-        if (trouble) warn (options.graph, *trouble);
-        if (is_new) std::fprintf (stderr, "%s: fused %s\n", printableName (options.graph).c_str(), fuser->account().c_str());
+        const bool is_fused = session.fuser()->state() == Fuser::State::fused;
+        if (is_fused && ! std::exchange (was_fused, is_fused)) print (printableName (options.graph) + ": fused " + session.fuser()->account() + "\n");
+        was_fused = is_fused;
     }
 
     void reload()
@@ -257,14 +245,14 @@ private:
 
     void finish()
     {
-        printNotes();
+        print (emergency.takeNotes());
         const auto sound = command.audio().status();   // before the card is released
-        if (const auto ended = command.audio().end(); ! ended) warnOfCapture (options.capture, ended.error());
-        const auto logged = command.run().finish();
+        const auto ended = session.end();
+        if (! ended.sound) warnOfCapture (options.capture, ended.sound.error());
         auto& runner = command.run().live();
         printStatus (runner, command.rate(), terminal, "", true);
 
-        std::fputs (accountOf (command.realDevices(), health.health(), device_clock.get()).c_str(), stderr);
+        std::fputs (accountOf (session.realDevices(), session.health(), session.deviceClock()).c_str(), stderr);
         std::fputs (accountOf (sound).c_str(), stderr);
         command.reportRun();
         const auto end = runner.status();
@@ -273,7 +261,7 @@ private:
                           Runner::longest_halt_s);
         const auto not_recorded = recording ? recording->commit() : std::nullopt;
         if (options.costs) printCosts (runner);
-        if (! logged) fail (logged.error());
+        if (! ended.log) fail (ended.log.error());
         if (not_recorded) fail (*not_recorded);
         if (end.end == RunStatus::End::overrun) failOverrun (runner, command.rate());
     }
@@ -281,17 +269,16 @@ private:
     const PlayOptions& options;
     LivePlugins& live;
     FileWatch file_watch { { options.graph } };   // before the file is read, so that no edit is missed
-    CommandRun command { options, CommandRun::Pace::live };
+    StopSwitch stops;
+    CommandRun command { options, CommandRun::Pace::live, &stops };
+    LiveSession& session = command.session();
     std::optional<LiveRecording> recording;
     const std::unique_ptr<OscPort> port = openPort (options);
-    AbsoluteTimer timer { 1.0 / command.rate() };
-    const std::unique_ptr<RunClock> device_clock = clockOf (command);
-    Emergency emergency { command.engine() };
-    Remote remote { command, emergency };
+    Emergency emergency { session, stops };
+    Remote remote { command, stops };
     const std::string token = randomToken();
     std::optional<RemoteControl> control;
-    std::optional<Fuser> fuser;
-    HealthWatch health { command.clockRole() };
+    bool was_fused = false;
     const bool terminal = stderrIsTerminal();
 
     std::uint64_t last_ticks = 0;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "command_run.hpp"
-#include "emergency.hpp"
 
 #include <host/osc/remote_control.hpp>
 #include <tactus/run/runner.hpp>
@@ -16,7 +15,7 @@ namespace tactus::host
 class Remote final : public Controlled
 {
 public:
-    Remote (CommandRun& r, Emergency& e) : command (r), emergency (e) {}
+    Remote (CommandRun& r, StopSwitch& s) : command (r), stops (s) {}
 
     Result<> setParam (const std::string& name, const Json& value) override { return turnParam (command.engine(), name, value); }
     Result<> turnControl (const std::string& id, double value) override { return tactus::turnControl (command.engine(), command.graph(), id, value); }
@@ -35,10 +34,10 @@ public:
                                "open the graph in tactus-host");
     }
     Result<> start() override { return Message::error ("osc/start", {}, "the run has already started", "/tactus/stop ends it"); }
-    void stop() override { command.run().live().stop(); }
-    void emergencyStop() override { emergency.press(); }
-    void emergencyNow() noexcept override { emergency.press(); }
-    Result<> rearm (std::chrono::steady_clock::time_point asked) override { return emergency.rearm (asked); }
+    void stop() override { command.session().stop(); }
+    void emergencyStop() override { stops.emergencyStop(); }
+    void emergencyNow() noexcept override { stops.emergencyStop(); }
+    Result<> rearm (std::chrono::steady_clock::time_point asked) override { return command.session().rearm (asked); }
     std::vector<Role> roles() override { return rolesOf (command.run().live().status()); }
 
     Status status() override
@@ -49,7 +48,7 @@ public:
 
 private:
     CommandRun& command;
-    Emergency& emergency;
+    StopSwitch& stops;
 };
 
 }   // namespace tactus::host

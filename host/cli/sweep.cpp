@@ -11,7 +11,7 @@
 
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
-#include <host/audio/audio_settings.hpp>
+#include <host/sessions/audio_settings.hpp>
 #include <host/fitting/surface_preset.hpp>
 #include <host/platform/signals.hpp>
 #include <tactus/file/graph_file.hpp>

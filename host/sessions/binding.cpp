@@ -2,7 +2,7 @@
 #include "binding.hpp"
 #include "awaited_device.hpp"
 
-#include <host/audio/audio_settings.hpp>
+#include <host/sessions/audio_settings.hpp>
 #include <tactus/run/device/guard_limits.hpp>
 
 #include <algorithm>

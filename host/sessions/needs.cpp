@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "needs.hpp"
 
-#include <host/audio/audio_settings.hpp>
+#include <host/sessions/audio_settings.hpp>
 #include <host/hid/hid_model.hpp>
 #include <host/hid_link/hid_device.hpp>
 #include <host/hid_link/open_device.hpp>

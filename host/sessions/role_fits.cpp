@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "role_fits.hpp"
 
-#include <host/audio/check_audio.hpp>
+#include <host/sessions/check_audio.hpp>
 #include <host/hid_link/force_feedback.hpp>
 
 #include <algorithm>

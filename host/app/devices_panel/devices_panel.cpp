@@ -6,7 +6,7 @@
 #include <host/app/look/text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/audio/audio_settings.hpp>
+#include <host/sessions/audio_settings.hpp>
 #include <host/hid_link/force_feedback.hpp>
 
 #include <algorithm>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "stop_switch.hpp"
-
+#include <host/live/stop_switch.hpp>
 #include <host/platform/window_stop.hpp>
 #include <juce_gui_basics/juce_gui_basics.h>
 

@@ -4,11 +4,8 @@
 
 #include <host/app/text/filled.hpp>
 #include <host/assets/nearest_by_embree.hpp>
-#include <host/platform/failsafe.hpp>
 #include <host/platform/signals.hpp>
-#include <host/sessions/binding.hpp>
 #include <tactus/check/factors.hpp>
-#include <tactus/plan/missing_parts.hpp>
 #include <tactus/run/included_guards.hpp>
 #include <tactus/run/turn.hpp>
 #include <tactus/text/message.hpp>
@@ -22,8 +19,6 @@ namespace tactus::host
 
 namespace
 {
-constexpr int looks_apart = 3;   // every third call to attend() checks the devices: ten times a second
-
 std::vector<std::pair<std::string, Json>> withoutGuards (std::vector<std::pair<std::string, Json>> devices)
 {
     for (auto& [role, description] : devices)
@@ -62,7 +57,7 @@ void LiveRun::setupChanged()
         return before == nullptr || after == nullptr ? before != after : *before != *after;
     };
     const auto sounds = [] (const DeviceSession& s) { return s.audio() != nullptr ? *s.audio() : Json(); };
-    if (now.clock() != run_session.clock() || sounds (now) != sounds (run_session) || std::ranges::any_of (run->engine().newest().roles(), differs))
+    if (now.clock() != run_session.clock() || sounds (now) != sounds (run_session) || std::ranges::any_of (session->engine().newest().roles(), differs))
         restart();
 }
 
@@ -95,7 +90,7 @@ void LiveRun::startAgain() { restart(); }
 void LiveRun::restart()
 {
     held = held || isLatched();
-    if (run) kept_limits = run->askedLimits();
+    if (session) kept_limits = session->run().askedLimits();
     beginSoon (false);
 }
 
@@ -110,25 +105,22 @@ void LiveRun::beginSoon (bool by_start)
 void LiveRun::stop() noexcept
 {
     begins = wanted = false;
-    if (isLive()) run->live().stop();
+    if (session) session->stop();
 }
 
 void LiveRun::letGo()
 {
     stop();
     held = held || isLatched();
-    if (run) kept_limits = run->askedLimits();
+    if (session) kept_limits = session->run().askedLimits();
     end();
 }
 
-/// The sound settings from the session.
+/// The sound settings from the session; none if they have errors.
 audio::AudioSettings LiveRun::audioWanted (Messages& messages) const
 {
-    const auto* written = setup != nullptr ? run_session.audio() : nullptr;
-    if (written == nullptr) return {};
-    auto settings = audio::readAudioSettings (*written, "/audio", messages);
-    for (auto& m : messages)
-        place (m, setup->session());
+    if (setup == nullptr) return {};
+    auto settings = audio::readAudioSettings (setup->session(), messages);
     return hasErrors (messages) ? audio::AudioSettings {} : settings;
 }
 
@@ -137,14 +129,13 @@ audio::AudioSettings LiveRun::audioWanted (Messages& messages) const
 void LiveRun::beginSound()
 {
     mutes_sound = false;
-    if (! rig->isNeeded()) return rig->seal();
-    for (auto& m : rig->begin (run->engine().plan(), run->rate(), &run->engine()))
+    for (auto& m : session->beginSound())
     {
         m.severity = Message::Severity::warning;
         if (setup != nullptr && m.where.starts_with ("/")) place (m, setup->session());
         said.push_back (std::move (m));
     }
-    mutes_sound = rig->limitsFirst (Sound::channels);
+    mutes_sound = rig->isNeeded() && rig->limitsFirst (Sound::channels);
     if (mutes_sound && sound != nullptr && sound->isOn())
         said.push_back (Message::warning ("audio/force_silent", "",
                                           TRANS ("the force is not played, because a role with a max_signal uses channel 1 or 2 of a sound card").toStdString(),
@@ -161,7 +152,7 @@ void LiveRun::beginLog()
 {
     const auto file = std::exchange (log_next, {});
     if (file.empty()) return;
-    if (auto started = run->startLog (file, log_program, {}, document.graph()); ! started)
+    if (auto started = session->log (file, log_program, {}); ! started)
         said.push_back (std::move (started).error());
     else
         is_logged = true;
@@ -171,27 +162,39 @@ void LiveRun::beginLog()
 void LiveRun::endLog()
 {
     if (! std::exchange (is_logged, false)) return;
-    if (auto finished = run->finish(); ! finished) said.push_back (std::move (finished).error());
+    if (auto ended = session->end(); ! ended.log) said.push_back (std::move (ended.log).error());
 }
 
-std::unique_ptr<Run> LiveRun::makeRun (Run::Queries queries)
+/// Compiles the graph as the runs do, to find out what is wrong with it.
+Compiled LiveRun::check (const graph::Graph& graph)
 {
-    CompileOptions options { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } };
-    auto made = std::make_unique<Run> (
-        catalogue, std::move (options),
-        [this] (const std::string& role, const graph::Graph&, const Plan& plan, Messages& messages) { return open (role, plan, messages); },
-        queries);
-    made->add (probes);
-    made->add (scene_feed);
-    made->add (port_feed);
-    if (rig) made->add (*rig);
-    made->add (*this);
-    return made;
+    Run checker { catalogue, sessionOptions().compile };
+    for (auto* listener : sessionOptions().listeners)
+        checker.add (*listener);
+    if (rig) checker.add (*rig);
+    return checker.check (graph);
+}
+
+LiveSession::Options LiveRun::sessionOptions()
+{
+    LiveSession::Options to;
+    if (setup != nullptr) to.devices.session = setup->session();
+    to.devices.is_by_graph = [this] (const std::string& role) { return isMovedOtherwise (role); };
+    to.devices.adopt = [this] (const std::string& role, Run::RoleDevice& opened, const Workspace& in, Messages& messages) {
+        adopt (role, opened, in, messages);
+    };
+    to.devices.remedy.clear();   // a role without a device is usual while a graph is being built
+    to.compile = { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } };
+    to.listeners = { &probes, &scene_feed, &port_feed, this };
+    to.stops = stops;
+    to.kept_limits = kept_limits;
+    to.is_stopped = held;
+    return to;
 }
 
 void LiveRun::begin()
 {
-    if (stop_switch != nullptr && stop_switch->isAhead()) return stop();
+    if (stops->isAhead()) return stop();
     if (! std::exchange (ends_stops, false)) held = held || isLatched();   // also a stop that latched while the forces fell
     end();
     begins = false;
@@ -202,58 +205,35 @@ void LiveRun::begin()
     Messages of_sound;
     rig = std::make_unique<audio::AudioRig> (audioWanted (of_sound));
     rig->setLenient (true);
-    run = makeRun (Run::Queries::on_thread);
-    said = run->load (graph);
-    if (run->hasEngine())
-    {
-        hand_role = handRoleOf (run->engine().newest());
-        auto choice = decideClock (run->engine().newest());
-        clock_role = choice.role;
-        if (! choice.role.empty() && choice.rate_hz != run->rate())
-        {
-            run->setRate (choice.rate_hz);
-            said = run->load (graph);
-        }
-        if (choice.by_sound_card) rig->tickBy (run->rate());
-        std::ranges::move (choice.messages, std::back_inserter (said));
-    }
+    const Hardware hardware { setup != nullptr ? setup->system() : hid::thisComputer(),
+                              [this]() -> const hid::LoadedProfiles& { return setup != nullptr ? setup->profiles() : deviceProfiles(); }, rig.get() };
+    session = std::make_unique<LiveSession> (catalogue, hardware, sessionOptions());
+    said = session->load (graph);
     std::ranges::move (of_sound, std::back_inserter (said));
-    if (! run->hasEngine())
+    if (! session->isLoaded())
     {
         log_next.clear();
-        return run.reset();
+        return session.reset();
     }
 
-    note (run->engine().newest());
+    note (session->engine().newest());
+    hand_role = handRoleOf (session->engine().newest());
     probes.clear();
-    run->keepLimits (kept_limits);
-    run->openDevices (graph, said);
+    std::ranges::move (session->openDevices(), std::back_inserter (said));
     beginLog();
-    if (stop_switch != nullptr) obeyed = stop_switch->noticed();
-    alarms_told = alarms_stopped = Failsafe::alarms();   // earlier alarms have nothing to do with the devices of this run
-    if (held) run->engine().emergencyStop();
-    std::ranges::move (missingParts (run->engine().newest()), std::back_inserter (said));
-    for (const auto& real : realDevices())
-        if (const auto role = std::ranges::find (needed, real.role, &RoleNeeds::role); role != needed.end())
-            std::ranges::move (missingTools (*role, partsOf (real.profile())), std::back_inserter (said));
-    if (sound != nullptr) sound->setTickRate (run->rate());
-    film_tape.begin (run->rate());
+    if (sound != nullptr) sound->setTickRate (session->rate());
+    film_tape.begin (session->rate());
     beginSound();
-    clock = rig->clock() == nullptr ? makeClock() : nullptr;
-    watch = HealthWatch { clock_role };
-    run->start (clock ? *clock : *rig->clock(), { .stop_wanted = stopRequested });
+    session->fuse (fuses);
+    session->start ({ .stop_wanted = stopRequested });
 }
 
 void LiveRun::end()
 {
-    if (run) run->end();   // waits until the forces are zero
+    if (session) static_cast<void> (session->end());   // waits until the forces are zero
     endLog();
-    if (rig) static_cast<void> (rig->end());
-    run.reset();
-    clock.reset();
+    session.reset();
     rig.reset();
-    watch = HealthWatch {};
-    clock_role.clear();
     hand_damping = 0.0;
     scene_feed.clear();
     port_feed.clear();
@@ -262,12 +242,24 @@ void LiveRun::end()
     delay_ticks.reset();
 }
 
+const std::vector<DeviceHealth>& LiveRun::health() const noexcept
+{
+    static const std::vector<DeviceHealth> none;
+    return session ? session->health() : none;
+}
+
+const std::string& LiveRun::clockRole() const noexcept
+{
+    static const std::string none;
+    return session ? session->clockRole() : none;
+}
+
 void LiveRun::documentChanged()
 {
     const auto& graph = document.graph();
     const bool is_same_run = isLive() && graph.rate_hz == graph_rate_hz && withoutGuards (graph.devices) == run_devices;
     if (is_same_run) return takeOver();
-    auto checked = makeRun (Run::Queries::within_tick)->check (graph);   // reports problems now: the previous run may take a moment to end
+    auto checked = check (graph);   // reports problems now: the previous run may take a moment to end
     said = std::move (checked.messages);
     if (checked.plan)
     {
@@ -280,29 +272,22 @@ void LiveRun::documentChanged()
 /// Shows the plan that runs, or else that of the document, if it compiles.
 void LiveRun::showScene()
 {
-    if (isLive()) return scene_feed.show (run->engine().newest());
-    if (const auto checked = makeRun (Run::Queries::within_tick)->check (document.graph()); checked.plan) scene_feed.show (*checked.plan);
+    if (isLive()) return scene_feed.show (session->engine().newest());
+    if (const auto checked = check (document.graph()); checked.plan) scene_feed.show (*checked.plan);
 }
 
 void LiveRun::takeOver()
 {
-    auto edit = run->edit (document.graph());
-    if (edit.plan() == nullptr)
-    {
-        said = std::move (edit.messages());
-        return;
-    }
-    if (hand_role.empty() && ! handRoleOf (*edit.plan()).empty())   // the run had no hand
-    {
-        edit.drop();
-        return restart();
-    }
-    note (*edit.plan());
-    edit.openDevices();
-    edit.commit();
+    bool has_first_hand = false;   // and the run had none
+    auto edited = session->edit (document.graph(), LiveSession::Accepts::errors, [&] (const Plan& plan) {
+        has_first_hand = hand_role.empty() && ! handRoleOf (plan).empty();
+        return ! has_first_hand;
+    });
+    if (has_first_hand) return restart();
+    said = std::move (edited.messages);
+    if (! edited.is_taken_over) return;
+    note (session->engine().newest());
     if (rig->limitsFirst (Sound::channels)) mutes_sound = true;
-    said = std::move (edit.messages());
-    std::ranges::move (missingParts (run->engine().newest()), std::back_inserter (said));
 }
 
 void LiveRun::note (const Plan& plan)
@@ -317,35 +302,23 @@ void LiveRun::note (const Plan& plan)
 void LiveRun::emergencyStop() noexcept
 {
     held = true;
-    stopped_at = std::chrono::steady_clock::now();
+    stops->note();
     if (begins || ! isRunning()) return stop();   // otherwise a run that is about to begin would miss the emergency stop
-    run->engine().emergencyStop();
+    session->emergencyStop();
 }
 
-bool LiveRun::canRearm() const noexcept
-{
-    return std::chrono::steady_clock::now() - std::chrono::seconds (1) > stopped_at && (stop_switch == nullptr || ! stop_switch->isAhead());
-}
+bool LiveRun::canRearm() const noexcept { return stops->mayRearm().has_value() && ! stops->isAhead(); }
 
 void LiveRun::rearm() noexcept
 {
     if (! canRearm()) return;
     held = false;
-    if (! isLive()) return;
-    run->engine().rearm();
-    if (stop_switch != nullptr && stop_switch->isAhead()) run->engine().emergencyStop();   // pressed since canRearm(): a rearm must not undo it
-}
-
-/// Also for a run that has ended by itself.
-bool LiveRun::isLatched() const
-{
-    const auto now = status();
-    return now && std::ranges::any_of (now->shown(), &RunStatus::Role::is_latched);
+    if (session) static_cast<void> (session->rearm());
 }
 
 bool LiveRun::isStoppedForGood() const { return isRunning() && isLatched(); }
 
-std::optional<RunStatus> LiveRun::status() const { return isLive() ? std::optional (run->live().status()) : std::nullopt; }
+std::optional<RunStatus> LiveRun::status() const { return isLive() ? std::optional (session->run().live().status()) : std::nullopt; }
 
 /// If a sound card ticks the run, all ticks of a block use the same reading, which adds the length of a block.
 std::optional<std::int64_t> LiveRun::delay() const
@@ -358,15 +331,15 @@ std::optional<std::int64_t> LiveRun::delay() const
 std::optional<double> LiveRun::stiffnessLeft() const
 {
     const auto ticks = delay();
-    if (! run || hand_damping <= 0.0 || ! ticks) return std::nullopt;
+    if (! session || hand_damping <= 0.0 || ! ticks) return std::nullopt;
     return check::stiffestWall (hand_damping, 1.0 / rate(), static_cast<double> (*ticks));
 }
 
 std::optional<double> LiveRun::mostForce() const
 {
     std::optional<double> most;
-    if (run)
-        for (const auto& [role, d] : run->devices())
+    if (session)
+        for (const auto& [role, d] : session->run().devices())
             if (std::isfinite (d.limits.max_force)) most = std::max (most.value_or (0.0), d.limits.max_force);
     return most;
 }
@@ -374,32 +347,32 @@ std::optional<double> LiveRun::mostForce() const
 std::optional<double> LiveRun::mostSignal() const
 {
     std::optional<double> most;
-    if (run)
-        for (const auto& [role, d] : run->devices())
+    if (session)
+        for (const auto& [role, d] : session->run().devices())
             if (std::isfinite (d.limits.max_signal)) most = std::max (most.value_or (0.0), d.limits.max_signal);
     return most;
 }
 
-std::vector<NodeCost> LiveRun::costs() { return isLive() ? run->live().costs() : std::vector<NodeCost> {}; }
+std::vector<NodeCost> LiveRun::costs() { return isLive() ? session->run().live().costs() : std::vector<NodeCost> {}; }
 
-Result<> LiveRun::turn (const std::string& param, const Json& value) { return isRunning() ? turnParam (run->engine(), param, value) : Result<> (stopped()); }
+Result<> LiveRun::turn (const std::string& param, const Json& value) { return isRunning() ? turnParam (session->engine(), param, value) : Result<> (stopped()); }
 
 Result<> LiveRun::turnControl (const std::string& id, double value)
 {
-    return isRunning() ? tactus::turnControl (run->engine(), document.graph(), id, value) : Result<> (stopped());
+    return isRunning() ? tactus::turnControl (session->engine(), document.graph(), id, value) : Result<> (stopped());
 }
 
-Result<> LiveRun::strike (const std::string& input, double speed) { return isRunning() ? tactus::strike (run->engine(), input, speed) : Result<> (stopped()); }
+Result<> LiveRun::strike (const std::string& input, double speed) { return isRunning() ? tactus::strike (session->engine(), input, speed) : Result<> (stopped()); }
 
 Result<std::vector<std::string>> LiveRun::capture (const std::string& port, const std::string& watched, const Trigger& trigger)
 {
     if (! isRunning()) return stopped();
-    return run->capture (document.graph(), port, watched, trigger);
+    return session->run().capture (document.graph(), port, watched, trigger);
 }
 
 void LiveRun::endCapture()
 {
-    if (run) run->endCapture();
+    if (session) session->run().endCapture();
 }
 
 void LiveRun::point (const Vec3& p)
@@ -410,19 +383,9 @@ void LiveRun::point (const Vec3& p)
 std::optional<LiveRun::Tool> LiveRun::tool() const
 {
     const auto hasDevice = [this] (const auto& d) { return d.first == hand_role; };
-    if (! isRunning() || std::ranges::none_of (run->devices(), hasDevice)) return std::nullopt;
+    if (! isRunning() || std::ranges::none_of (session->run().devices(), hasDevice)) return std::nullopt;
     const auto values = seen.load();
     return Tool { Vec3 (values.data()), Vec3 (values.data() + 3) };
-}
-
-void LiveRun::before (Plan&, std::uint64_t) noexcept
-{
-    if (const auto now = Failsafe::alarms(); std::exchange (alarms_stopped, now) != now) run->engine().emergencyStop();
-    if (stop_switch == nullptr) return;
-    const auto now = stop_switch->presses();
-    const auto before = std::exchange (obeyed, now);
-    if (now.emergencies != before.emergencies) run->engine().emergencyStop();
-    if (now.stops != before.stops) run->live().stop();
 }
 
 void LiveRun::after (const Plan& plan, std::uint64_t tick, bool) noexcept
@@ -442,42 +405,34 @@ std::optional<audio::AudioStatus> LiveRun::audioStatus() const
     return rig->status();
 }
 
-void LiveRun::noticeAlarms()
-{
-    const auto now = Failsafe::alarms();
-    if (std::exchange (alarms_told, now) == now || (! isRunning() && ! begins)) return;
-    emergencyStop();
-    auto alarm = Failsafe::alarm();
-    std::erase_if (said, [&] (const Message& m) { return m.id == alarm.id; });
-    said.push_back (std::move (alarm));
-}
-
 void LiveRun::fuse (std::optional<Fuser::Options> how)
 {
-    fuser.reset();
-    if (isLive()) run->engine().newestShared()->fuse (nullptr);
-    if (how) fuser.emplace (std::move (*how));
+    fuses = std::move (how);
+    if (session) session->fuse (fuses);
 }
 
-void LiveRun::attendFusion()
+std::string LiveRun::fusion() const
 {
-    if (! fuser || ! isRunning()) return;
-    const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
-    if (auto trouble = fuser->look (run->engine().newestShared(), now.count())) said.push_back (std::move (*trouble));
+    if (! fuses) return {};
+    return session && session->fuser() != nullptr ? session->fuser()->describe() : "plan";
+}
+
+void LiveRun::tell (LiveSession::News news)
+{
+    if (news.alarm)
+    {
+        emergencyStop();
+        std::erase_if (said, [&] (const Message& m) { return m.id == news.alarm->id; });
+    }
+    for (auto* each : { &news.alarm, &news.log, &news.fusion })
+        if (*each) said.push_back (std::move (**each));
 }
 
 void LiveRun::attend()
 {
-    noticeAlarms();
+    if (session) tell (session->attend());
     if (begins && ! isRunning()) begin();
-    if (isLive())
-    {
-        if (auto trouble = run->attend()) said.push_back (std::move (*trouble));
-        if (run->live().isOver()) endLog();
-        if (++attended % looks_apart == 0) watch.look (realDevices());
-        attendFusion();
-    }
-    if (rig) static_cast<void> (rig->attend());
+    if (isLive() && ! isRunning()) endLog();
     if (sound != nullptr) sound->attend();
     probes.collect();
     film_tape.collect();

@@ -5,7 +5,6 @@
 #include "port_feed.hpp"
 #include "scene_feed.hpp"
 #include "sound.hpp"
-#include "stop_switch.hpp"
 #include "traces.hpp"
 #include "transport_path.hpp"
 
@@ -13,17 +12,9 @@
 #include <host/app/model/document.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/audio/open_audio.hpp>
-#include <host/fuse/fuser.hpp>
-#include <host/sessions/choose_clock.hpp>
-#include <host/sessions/device_health.hpp>
-#include <host/sessions/device_session.hpp>
-#include <host/sessions/needs.hpp>
-#include <host/sessions/run_clock.hpp>
+#include <host/live/live_session.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/device/sim.hpp>
-#include <tactus/run/run.hpp>
-#include <tactus/run/runner.hpp>
-#include <tactus/run/taps.hpp>
 
 #include <atomic>
 #include <chrono>
@@ -70,10 +61,9 @@ public:
     void use (const DeviceSetup&);
     void setupChanged();
 
-    /// From now on, the tick thread checks this switch before every tick, and no run starts while the switch has a new press
-    /// (StopSwitch::isAhead). When there is one, the caller must call notice() on the switch, and then stop() or emergencyStop(). The
-    /// switch must outlive this object.
-    void obey (const StopSwitch& s) noexcept { stop_switch = &s; }
+    /// From now on, the runs obey this switch, and no run starts while the switch has a new press (StopSwitch::isAhead). When there is one, the
+    /// caller must call notice() on the switch, and then stop() or emergencyStop(). The switch must outlive this object.
+    void obey (StopSwitch& s) noexcept { stops = &s; }
 
     /// The state of the run's sound; empty if it neither plays nor records.
     std::optional<audio::AudioStatus> audioStatus() const;
@@ -92,8 +82,7 @@ public:
     /// stop, this ends with rearm() or when the user starts again; an edit does not end it.
     void emergencyStop() noexcept;
 
-    /// Lets the forces rise again. Does nothing within a second of emergencyStop(), so that a double click or a second key press
-    /// cannot undo the stop.
+    /// Lets the forces rise again, if StopSwitch::mayRearm allows it.
     void rearm() noexcept;
     bool canRearm() const noexcept;
     void hold() noexcept { held = true; }   ///< the next run starts stopped, until rearm() or until the user starts it
@@ -107,7 +96,7 @@ public:
     const std::map<std::string, GuardLimits>& keptLimits() const noexcept { return kept_limits; }
     void keepLimits (std::map<std::string, GuardLimits> limits) { kept_limits = std::move (limits); }
 
-    bool isRunning() const noexcept { return isLive() && ! run->live().isOver(); }
+    bool isRunning() const noexcept { return session && session->isRunning(); }
     bool isWanted() const noexcept { return wanted; }   ///< started and not stopped since; it may still fail to compile
     const Hand& hand() const noexcept { return moved_by; }
 
@@ -125,17 +114,17 @@ public:
     const std::vector<RoleNeeds>& needs() const noexcept { return needed; }
 
     /// The state of the real devices, whether present or awaited; empty while nothing runs.
-    const std::vector<DeviceHealth>& health() const noexcept { return watch.health(); }
+    const std::vector<DeviceHealth>& health() const noexcept;
 
     /// True while the run drives something that can push or shake: a device, present or awaited, or a sound card. False if all roles are
     /// simulated.
-    bool drivesDevice() const;
+    bool drivesDevice() const { return session && session->drivesDevice(); }
 
     /// The role whose device ticks the run; empty if a timer does.
-    const std::string& clockRole() const noexcept { return clock_role; }
+    const std::string& clockRole() const noexcept;
 
     /// The run's tick rate, in Hz.
-    double rate() const noexcept { return run && run->hasEngine() ? run->rate() : document.graph().rate_hz; }
+    double rate() const noexcept { return session ? session->rate() : document.graph().rate_hz; }
 
     /// The delay of the slowest source-sink pair, in ticks; each pair counts by its shortest path. Empty if no source is
     /// connected to a sink.
@@ -187,8 +176,8 @@ public:
     /// Captures a port around an edge of another one, replacing any earlier capture. Returns the names of the captured
     /// components, or an error. The capture ends with the run, or when an edit affects a port that it watches.
     Result<std::vector<std::string>> capture (const std::string& port, const std::string& watched, const Trigger&);
-    const TriggeredCapture* captured() const noexcept { return run ? run->captured() : nullptr; }   ///< null until it has triggered
-    bool isCapturing() const noexcept { return run && run->isCapturing(); }
+    const TriggeredCapture* captured() const noexcept { return session ? session->run().captured() : nullptr; }   ///< null until it has triggered
+    bool isCapturing() const noexcept { return session && session->run().isCapturing(); }
     void endCapture();
 
     /// The next run to start is logged to this file, from its first tick to its end; `program` is this program and its version.
@@ -199,42 +188,34 @@ public:
     void fuse (std::optional<Fuser::Options>);
 
     /// What runs: "plan", "plan, fusing" or "fused"; empty if fuse() is not wanted.
-    std::string fusion() const { return fuser ? fuser->describe() : std::string {}; }
+    std::string fusion() const;
 
     /// Frees what is no longer used, and collects new samples. Call this many times a second.
     void attend();
 
 private:
-    void noticeAlarms();
-    void attendFusion();
+    void tell (LiveSession::News);
     void documentChanged() override;
-    void before (Plan&, std::uint64_t tick) noexcept override;
     void after (const Plan&, std::uint64_t tick, bool halts) noexcept override;
 
-    bool isLive() const noexcept { return run && run->isLive(); }
-    bool isLatched() const;
+    bool isLive() const noexcept { return session && session->isLive(); }
+    bool isLatched() const { return session && session->isLatched(); }
     void restart();
     void beginSoon (bool by_start);
     void begin();
     void end();
-    std::unique_ptr<Run> makeRun (Run::Queries);
+    LiveSession::Options sessionOptions();
+    Compiled check (const graph::Graph&);
     std::string handRoleOf (const Plan&) const;
     bool isSoundCard (const std::string& role) const;
     void takeOver();
     void showScene();
-    Run::RoleDevice open (const std::string& role, const Plan&, Messages&);
-    Run::RoleDevice openDescribed (const std::string& role, Messages&);
-    Run::RoleDevice openBySession (const std::string& role, const Plan&, Messages&);
-    MadeDevice make (const Json& description, const std::filesystem::path& folder, const std::string& role, const Plan&);
     audio::AudioSettings audioWanted (Messages&) const;
     void beginSound();
     void beginLog();
     void endLog();
-    ClockChoice decideClock (const Plan&) const;
-    std::unique_ptr<TickClock> makeClock();
-    std::vector<RealDevice> realDevices() const;
-    bool isBound (const std::string& role) const;
     bool isMovedOtherwise (const std::string& role) const;
+    void adopt (const std::string& role, Run::RoleDevice&, const Workspace&, Messages&);
     std::unique_ptr<Device> chosenHand (const SimulatedDevice* described, double& damping, Messages&);
     void note (const Plan&);
 
@@ -250,34 +231,29 @@ private:
     std::atomic<bool> mutes_sound = false;               // a role of this run limits a channel that the sound may share
     std::map<std::string, GuardLimits> kept_limits {};   // by role, what the graphs have asked for since the user started
     Hand moved_by;
-    std::chrono::steady_clock::time_point stopped_at = std::chrono::steady_clock::time_point::min();
     bool held = false;         // an emergency stop or another latched stop holds the forces at zero until rearm()
     bool ends_stops = false;   // START was pressed, so the run that begins next ends the latched stops of the one before
-    const StopSwitch* stop_switch = nullptr;
-    StopSwitch::Presses obeyed;                              // by the tick thread   [tick thread]
-    std::uint32_t alarms_told = 0, alarms_stopped = 0;       // alarms of the failsafe; the second is for the tick thread
+    StopSwitch own_stops;   // until obey()
+    StopSwitch* stops = &own_stops;
     bool begins = false;                                     // starts once the previous run is over
     bool wanted = false;                                     // started and not stopped: the run begins as soon as the graph compiles
     std::vector<std::pair<std::string, Json>> run_devices;   // the graph's devices at the start of the run
     const DeviceSetup* setup = nullptr;
     DeviceSession run_session;    // the session at the start of the run
     double graph_rate_hz = 0.0;   // the graph's rate at the start of the run
-    std::string clock_role, hand_role;
+    std::string hand_role;
     std::filesystem::path log_next;   // of the next run; empty: none
     std::string log_program;
     bool is_logged = false;      // this run writes a log
     double hand_damping = 0.0;   // damping of the hand role's device, as seen in the graph's workspace, in N s/m
-    HealthWatch watch;
     std::vector<RoleNeeds> needed;
-    int attended = 0;
-    std::optional<Fuser> fuser;
+    std::optional<Fuser::Options> fuses;   // empty: runs by the plan
     std::optional<std::int64_t> delay_ticks;
     std::shared_ptr<PointerPath> pointer;
     std::shared_ptr<TransportPath> transported;
     Snapshot<std::array<double, 6>> seen;   // the tool's position and the force on it
-    std::unique_ptr<audio::AudioRig> rig;   // declared before the run, because it drives some of the run's devices
-    std::unique_ptr<TickClock> clock;       // empty if the rig provides the clock
-    std::unique_ptr<Run> run;               // declared last, because it ticks the other members
+    std::unique_ptr<audio::AudioRig> rig;   // declared before the session, because it drives some of the run's devices
+    std::unique_ptr<LiveSession> session;   // declared last, because it ticks the other members
 };
 
 }   // namespace tactus::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The devices of a live run: which hand or session moves a role, and what ticks the run.
+// The tool of a live run: which hand moves it.
 #include "device_setup.hpp"
 #include "live_run.hpp"
 
@@ -24,8 +24,6 @@ constexpr double hover = 5e-3;
 constexpr double usual_stiffness = 400.0, usual_damping = 4.0;   // N/m, N s/m
 }   // namespace
 
-bool LiveRun::isBound (const std::string& role) const { return setup != nullptr && setup->session().session.binding (role) != nullptr; }
-
 /// The first role that is not a sound card. Its tool is the one that is drawn and heard, and that the mouse can move.
 std::string LiveRun::handRoleOf (const Plan& plan) const
 {
@@ -35,116 +33,29 @@ std::string LiveRun::handRoleOf (const Plan& plan) const
 
 bool LiveRun::isSoundCard (const std::string& role) const
 {
-    const auto* description = isBound (role) ? setup->session().session.binding (role) : document.graph().device (role);
+    const auto* bound = setup != nullptr ? setup->session().session.binding (role) : nullptr;
+    const auto* description = bound != nullptr ? bound : document.graph().device (role);
     return description != nullptr && audio::isAudio (*description);
 }
 
 /// True if the mouse, or a path that the user has chosen, moves the tool.
 bool LiveRun::isMovedOtherwise (const std::string& role) const { return role == hand_role && moved_by.kind != Hand::Kind::described; }
 
-MadeDevice LiveRun::make (const Json& description, const std::filesystem::path& folder, const std::string& role, const Plan& plan)
+/// Puts the chosen hand on the tool of the first role.
+void LiveRun::adopt (const std::string& role, Run::RoleDevice& opened, const Workspace& in, Messages& messages)
 {
-    if (audio::isAudio (description)) return audio::openAudio (audio::withChannels (description, plan, role), *rig);
-    return hid::openDevice (description, folder, setup != nullptr ? setup->system() : hid::thisComputer(),
-                            setup != nullptr ? setup->profiles() : deviceProfiles());
-}
-
-/// Opens the device that the session binds a role to. Returns none, with a message, if it cannot be opened.
-Run::RoleDevice LiveRun::openBySession (const std::string& role, const Plan& plan, Messages& messages)
-{
-    const auto& session = setup->session();
-    const auto openOne = [&] (const Json& description, const std::filesystem::path& folder) { return make (description, folder, role, plan); };
-    const auto binding = bindingOf (session, role);
-    auto bound = openBound (session, role, *binding, openOne, setup->system(), setup->profiles(), Absence::waits);
-    std::ranges::move (bound.messages, std::back_inserter (messages));
-    if (! bound.device) return {};
-
-    Run::RoleDevice opened { std::move (bound.device), bound.limits, bound.driver };
-    if (role != hand_role) return opened;
-    if (const auto real = realDevice (role, *opened.driver)) hand_damping = real->profile().limits.device_damping / binding->workspace.scale;
-    const auto* simulated = dynamic_cast<const SimulatedDevice*> (opened.driver);
-    if (simulated == nullptr) return opened;
-    hand_damping = simulated->simulation().damping;
-    if (auto hand = chosenHand (simulated, hand_damping, messages))
-    {
-        opened.driver = hand.get();
-        if (binding->workspace.isPlain())
-            opened.device = std::move (hand);
-        else
-            opened.device = std::make_unique<WorkspaceDevice> (std::move (hand), binding->workspace);
-    }
-    return opened;
-}
-
-Run::RoleDevice LiveRun::openDescribed (const std::string& role, Messages& messages)
-{
-    const auto* described = document.graph().device (role);
-    auto made = makeDevice (describedByGraph (described, role, messages), document.graph().folder);
-    for (auto& m : made.messages)
-        m.where = "/devices/" + role + m.where;
-    std::ranges::move (made.messages, std::back_inserter (messages));
-    if (! made.device || role != hand_role) return { std::move (made.device), made.limits };
-
-    const auto* simulated = dynamic_cast<SimulatedDevice*> (made.device.get());
+    if (role != hand_role) return;
+    auto& driver = opened.driver != nullptr ? *opened.driver : *opened.device;
+    const auto* simulated = dynamic_cast<const SimulatedDevice*> (&driver);
     hand_damping = simulated != nullptr ? simulated->simulation().damping : 0.0;
-    if (auto hand = chosenHand (simulated, hand_damping, messages)) made.device = std::move (hand);
-    return { std::move (made.device), made.limits };
-}
-
-Run::RoleDevice LiveRun::open (const std::string& role, const Plan& plan, Messages& messages)
-{
-    return ! isMovedOtherwise (role) && isBound (role) ? openBySession (role, plan, messages) : openDescribed (role, messages);
-}
-
-/// A device that has its own clock ticks the run, as on the command line.
-ClockChoice LiveRun::decideClock (const Plan& plan) const
-{
-    auto& system = setup != nullptr ? setup->system() : hid::thisComputer();
-    const auto& profiles = setup != nullptr ? setup->profiles() : deviceProfiles();
-    std::vector<Described> described;
-    for (const auto& role : plan.roles())
-    {
-        const auto bound = setup != nullptr && ! isMovedOtherwise (role.name) ? bindingOf (setup->session(), role.name) : std::nullopt;
-        described.emplace_back (role.name, bound ? bound->description : Json { { "driver", "sim" } });
-    }
-    const auto rateOf = [&] (const Described& d, bool may_wait) {
-        const bool is_bound = setup != nullptr && setup->session().session.binding (d.first) != nullptr;
-        return tickRateOf (d.second, system, profiles, may_wait && is_bound);
-    };
-    return chooseClock ({ {}, setup != nullptr ? setup->session().session.clock() : std::string(), {} }, described, rateOf);
-}
-
-std::vector<RealDevice> LiveRun::realDevices() const
-{
-    std::vector<RealDevice> all;
-    if (run)
-        for (const auto& [role, d] : run->devices())
-            if (auto real = realDevice (role, d.driver != nullptr ? *d.driver : *d.device)) all.push_back (std::move (*real));
-    return all;
-}
-
-bool LiveRun::drivesDevice() const
-{
-    if (! run) return false;
-    const auto isReal = [] (const auto& role) {
-        const auto& [name, d] = role;
-        auto* driver = d.driver != nullptr ? d.driver : d.device.get();
-        return dynamic_cast<SimulatedDevice*> (driver) == nullptr && dynamic_cast<GestureDevice*> (driver) == nullptr
-               && dynamic_cast<TraceDevice*> (driver) == nullptr;
-    };
-    return audioStatus().has_value() || std::ranges::any_of (run->devices(), isReal);
-}
-
-std::unique_ptr<TickClock> LiveRun::makeClock()
-{
-    for (const auto& real : realDevices())
-        if (real.role == clock_role)
-        {
-            if (real.present != nullptr) return std::make_unique<RunClock> (*real.present, run->rate());
-            return std::make_unique<RunClock> (*real.awaited, run->rate());
-        }
-    clock_role.clear();
-    return std::make_unique<AbsoluteTimer> (1.0 / run->rate());
+    if (const auto real = realDevice (role, driver)) hand_damping = real->profile().limits.device_damping / in.scale;
+    auto hand = chosenHand (simulated, hand_damping, messages);
+    if (! hand) return;
+    opened.driver = hand.get();
+    if (in.isPlain())
+        opened.device = std::move (hand);
+    else
+        opened.device = std::make_unique<WorkspaceDevice> (std::move (hand), in);
 }
 
 /// The simulated tool of the first role, held by the chosen hand; null if the described device should be used.

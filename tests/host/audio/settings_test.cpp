@@ -3,7 +3,7 @@
 
 #include "support/sketch.hpp"
 
-#include <host/audio/check_audio.hpp>
+#include <host/sessions/check_audio.hpp>
 #include <host/audio/open_audio.hpp>
 #include <tactus/run/device/make_device.hpp>
 

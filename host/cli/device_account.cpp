@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hardware.hpp"
+#include "device_account.hpp"
 
 #include <host/hid_link/hid_device.hpp>
-#include <host/hid_link/profile_library.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
@@ -40,25 +39,6 @@ std::string clockOf (const DeviceHealth& h)
     return "    " + line + (line.empty() ? "" : "; ") + "readings up to " + milliseconds (h.oldest) + " ms old\n";
 }
 }   // namespace
-
-const hid::LoadedProfiles& Hardware::profiles()
-{
-    if (! loaded) loaded = hid::loadProfileLibrary();
-    return *loaded;
-}
-
-MadeDevice Hardware::open (const Json& description, const std::filesystem::path& folder)
-{
-    if (allowed && audio::isAudio (description)) return audio::openAudio (description, rig);
-    if (! allowed || ! hid::isHid (description)) return makeDevice (description, folder);
-    return hid::openDevice (description, folder, hid::thisComputer(), profiles());
-}
-
-std::optional<double> Hardware::tickRate (const Json& description, bool may_wait)
-{
-    if (! hid::isHid (description)) return std::nullopt;   // so that profiles are read only if needed
-    return tickRateOf (description, hid::thisComputer(), profiles(), may_wait);
-}
 
 std::string statusOf (std::span<const DeviceHealth> devices, const RunClock* clock)
 {

@@ -130,6 +130,20 @@ AudioSettings readAudioSettings (const Json& json, const std::string& where, Mes
     return settings;
 }
 
+AudioSettings readAudioSettings (const LoadedSession& from, Messages& messages)
+{
+    const auto* written = from.session.audio();
+    if (written == nullptr) return {};
+    Messages found;
+    auto settings = readAudioSettings (*written, "/audio", found);
+    for (auto& m : found)
+    {
+        place (m, from);
+        messages.push_back (std::move (m));
+    }
+    return settings;
+}
+
 bool isAudio (const Json& description)
 {
     if (! description.is_object()) return false;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "session_file.hpp"
+
 #include <tactus/text/json.hpp>
 #include <tactus/text/result.hpp>
 #include <tactus/text/units.hpp>
@@ -77,6 +79,9 @@ inline constexpr int most_channels = 64;
 /// Everything but the port and channel of a route is optional. Ids: those of ObjectReader, and audio/full_scale. Unknown keys are
 /// warnings.
 AudioSettings readAudioSettings (const Json&, const std::string& where, Messages&);
+
+/// The sound settings of a session; the default ones if it has none. Messages name the file of the session.
+AudioSettings readAudioSettings (const LoadedSession&, Messages&);
 
 /// True for a description with the driver "audio".
 bool isAudio (const Json& description);

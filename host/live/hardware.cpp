@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "hardware.hpp"
+
+#include <host/sessions/choose_clock.hpp>
+#include <host/sessions/audio_settings.hpp>
+#include <tactus/text/message.hpp>
+
+namespace tactus::host
+{
+
+MadeDevice Hardware::open (const Json& description, const std::filesystem::path& folder, const std::string& role, const Plan& plan)
+{
+    if (! isThere()) return makeDevice (description, folder);   // refuses real devices
+    if (! audio::isAudio (description)) return hid::openDevice (description, folder, system(), profiles());
+    if (run_sound != nullptr) return run_sound->open (description, role, plan);
+    MadeDevice none;
+    none.messages.push_back (Message::error ("audio/none", "/driver", "this program has no sound cards", "give the role another device"));
+    return none;
+}
+
+std::optional<double> Hardware::tickRate (const Json& description, bool may_wait) const
+{
+    if (! isThere() || ! hid::isHid (description)) return std::nullopt;   // profiles are read only if needed
+    return tickRateOf (description, system(), profiles(), may_wait);
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <tactus/text/result.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+namespace tactus::host
+{
+
+/// The stop button of live runs, however busy the main thread is. Any thread can press it. The tick thread of each run checks it before every
+/// tick; the main thread notices a press when it has time. It outlives the runs, so a press between two runs is not lost, and a rearm cannot come
+/// too early because another run has begun meanwhile.
+class StopSwitch
+{
+public:
+    /// How often each kind of stop was pressed.
+    struct Presses
+    {
+        std::uint32_t stops = 0, emergencies = 0;
+
+        bool operator== (const Presses&) const = default;
+    };
+
+    /// The shortest time from an emergency stop, or from a rearm, to the next rearm. So a double click or two keys pressed in a hurry do not
+    /// undo a stop.
+    static constexpr std::chrono::seconds pause { 1 };
+
+    // [any thread, even in a signal handler]
+    void stop() noexcept { stops.fetch_add (1); }
+    void emergencyStop() noexcept
+    {
+        note();   // before the press itself: mayRearm() compares this time
+        emergencies.fetch_add (1);
+    }
+    Presses presses() const noexcept { return { stops.load(), emergencies.load() }; }
+
+    /// Notes an emergency stop that needs no press, because its caller stops the run.
+    void note() noexcept { pressed_at.store (now()); }   ///< [any thread, even in a signal handler]
+
+    /// When the latest emergency stop was. Only for comparison with an earlier answer. [any thread]
+    std::chrono::steady_clock::rep latest() const noexcept { return pressed_at.load(); }
+
+    /// Allows a rearm that was asked for at this time, or refuses because it was asked for within a pause of an emergency stop, or before the
+    /// stop, or comes within a pause of the last rearm. Id: run/rearm_too_early. [any thread]
+    Result<> mayRearm (std::chrono::steady_clock::time_point asked = std::chrono::steady_clock::now()) const;
+    void rearmed() noexcept { rearmed_at.store (now()); }   ///< [any thread]
+
+    /// The presses that the main thread knew of at its last notice(). A new run counts these as obeyed. So it also obeys a press that comes
+    /// between notice() and its first tick. [main thread]
+    const Presses& noticed() const noexcept { return known; }
+    bool isAhead() const noexcept { return presses() != known; }   ///< true if there is a press to notice   [main thread]
+
+    /// Marks all presses as noticed, and returns what noticed() returned before. [main thread]
+    Presses notice() noexcept { return std::exchange (known, presses()); }
+
+private:
+    using Time = std::chrono::steady_clock::rep;
+    static_assert (std::atomic<Time>::is_always_lock_free && std::atomic<std::uint32_t>::is_always_lock_free, "a signal handler writes them");
+
+    static constexpr Time never = std::numeric_limits<Time>::min();
+    static Time now() noexcept { return std::chrono::steady_clock::now().time_since_epoch().count(); }
+    static bool isWithinPause (Time since, Time at) noexcept;
+
+    std::atomic<std::uint32_t> stops { 0 }, emergencies { 0 };
+    std::atomic<Time> pressed_at { never }, rearmed_at { never };
+    Presses known;
+};
+
+}   // namespace tactus::host
