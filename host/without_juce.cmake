@@ -2,7 +2,7 @@
 # If the host is switched off, the sanitizers and fuzzers still cover its parts that need no JUCE: the readers of files and
 # reports, and the threads of runs and devices.
 find_package (PkgConfig REQUIRED)
-pkg_check_modules (hidapi REQUIRED IMPORTED_TARGET hidapi-hidraw)
-foreach (part io assets hid platform hid_link sessions tools)
+pkg_check_modules (hidapi REQUIRED IMPORTED_TARGET GLOBAL hidapi-hidraw)
+foreach (part io assets hid platform guardian hid_link sessions tools)
     add_subdirectory (host/${part})
 endforeach ()

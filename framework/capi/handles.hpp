@@ -48,6 +48,25 @@ public:
         ring->commit();
     }
 
+    /// Moves recorded ticks, the oldest first, into up to `most` rows. Returns how many. [main thread]
+    std::size_t collect (double* rows, std::size_t most) noexcept
+    {
+        if (rows == nullptr || ! ring) return 0;
+        std::size_t count = 0;
+        while (count < most)
+        {
+            const auto values = ring->front();
+            const auto frames = std::min (values.size() / ring->width(), most - count);
+            if (frames == 0) break;
+            std::copy_n (values.begin(), frames * ring->width(), rows + count * ring->width());
+            ring->take (frames);
+            count += frames;
+        }
+        return count;
+    }
+
+    std::uint64_t lost() const noexcept { return ring ? ring->lost() : 0; }
+
     std::unique_ptr<tactus::SpscRing<double>> ring;
 };
 
@@ -119,6 +138,32 @@ R guarded (tactus_messages* messages, R on_failure, F&& f) noexcept
 
 /// Compiles a graph. The catalogue must outlive the run. Null, with the reasons in `messages`, if the graph does not compile.
 tactus_run* makeRun (graph::Graph, CompileOptions, AssetReader, const Catalogue&, tactus_messages*);
+
+/// The state of a run. [any thread]
+inline tactus_status statusOf (const Run& run) noexcept
+{
+    tactus_status status TACTUS_STATUS;
+    if (run.isLive())
+    {
+        const auto now = run.live().status();
+        status.phase = static_cast<tactus_phase> (static_cast<std::uint32_t> (now.phase) + 1);
+        status.ticks = now.ticks;
+        status.late_ticks = now.misses;
+        status.force = now.force;
+        status.peak_force = now.peak;
+    }
+    status.is_emergency = run.engine().isEmergency();
+    return status;
+}
+
+/// A list of texts of the caller.
+inline std::vector<std::string> list (const char* const* texts, std::size_t count)
+{
+    std::vector<std::string> all;
+    for (std::size_t i = 0; texts != nullptr && i < count; ++i)
+        all.push_back (text (texts[i]));
+    return all;
+}
 
 /// A copy that C code frees with tactus_text_free.
 inline char* copied (const std::string& text)

@@ -16,14 +16,6 @@ using tactus::Run;
 
 namespace
 {
-std::vector<std::string> list (const char* const* texts, size_t count)
-{
-    std::vector<std::string> all;
-    for (size_t i = 0; texts != nullptr && i < count; ++i)
-        all.push_back (text (texts[i]));
-    return all;
-}
-
 /// The pushed device of a role, else the one that tactus_run_device describes, else the one that the graph describes, else a simulated
 /// tool at rest.
 Run::RoleDevice open (tactus_run& r, const std::string& role, const tactus::graph::Graph& graph, Messages& messages)
@@ -287,24 +279,8 @@ tactus_result tactus_run_attend (tactus_run* r, tactus_messages* messages)
     });
 }
 
-size_t tactus_run_collect (tactus_run* r, double* rows, size_t most)
-{
-    if (r == nullptr || rows == nullptr || ! r->recorder.ring) return 0;
-    auto& ring = *r->recorder.ring;
-    size_t count = 0;
-    while (count < most)
-    {
-        const auto values = ring.front();
-        const auto frames = std::min (values.size() / ring.width(), most - count);
-        if (frames == 0) break;
-        std::copy_n (values.begin(), frames * ring.width(), rows + count * ring.width());
-        ring.take (frames);
-        count += frames;
-    }
-    return count;
-}
-
-uint64_t tactus_run_lost (const tactus_run* r) { return r != nullptr && r->recorder.ring ? r->recorder.ring->lost() : 0; }
+size_t tactus_run_collect (tactus_run* r, double* rows, size_t most) { return r != nullptr ? r->recorder.collect (rows, most) : 0; }
+uint64_t tactus_run_lost (const tactus_run* r) { return r != nullptr ? r->recorder.lost() : 0; }
 
 tactus_result tactus_run_stop (tactus_run* r)
 {
@@ -322,18 +298,7 @@ tactus_result tactus_run_stop (tactus_run* r)
 tactus_result tactus_run_status (const tactus_run* r, tactus_status* to)
 {
     if (r == nullptr || to == nullptr) return TACTUS_MISUSE;
-    tactus_status status TACTUS_STATUS;
-    if (r->run->isLive())
-    {
-        const auto now = r->run->live().status();
-        status.phase = static_cast<tactus_phase> (static_cast<std::uint32_t> (now.phase) + 1);
-        status.ticks = now.ticks;
-        status.late_ticks = now.misses;
-        status.force = now.force;
-        status.peak_force = now.peak;
-    }
-    status.is_emergency = r->run->engine().isEmergency();
-    give (to, status);
+    give (to, statusOf (*r->run));
     return TACTUS_OK;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/sessions/audio_settings.hpp>
 #include "channel_limit.hpp"
 #include "high_pass.hpp"
+#include <host/sessions/audio_settings.hpp>
 
 #include <tactus/node/device.hpp>
 #include <tactus/run/guard.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/sessions/audio_settings.hpp>
 #include "high_pass.hpp"
+#include <host/sessions/audio_settings.hpp>
 
 #include <tactus/plan/plan.hpp>
 

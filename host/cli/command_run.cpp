@@ -106,7 +106,8 @@ std::vector<DeviceOption> CommandRun::readDeviceOptions()
     for (const auto& text : options.devices)
     {
         Messages notes;
-        auto parsed = host::parseDeviceOption (text, loaded.graph.devices, folder(), [this]() -> const hid::LoadedProfiles& { return profiles(); }, notes);
+        auto parsed = host::parseDeviceOption (
+            text, loaded.graph.devices, folder(), [this]() -> const hid::LoadedProfiles& { return profiles(); }, notes);
         reportOn (notes);
         if (! parsed) fail (Message::error (parsed.error().id, "--device " + text, parsed.error().text, parsed.error().remedy));
         all.push_back (std::move (*parsed));

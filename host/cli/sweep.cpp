@@ -11,9 +11,9 @@
 
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
-#include <host/sessions/audio_settings.hpp>
 #include <host/fitting/surface_preset.hpp>
 #include <host/platform/signals.hpp>
+#include <host/sessions/audio_settings.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/run/run.hpp>
 #include <tactus/text/budget.hpp>

@@ -16,7 +16,7 @@ struct Bitcode
     std::string_view bytes;
 };
 
-/// All bitcode, by header. Empty if the program was built without clang. [any thread]
+/// All bitcode, by header. Empty if the program was built without clang, or links tactus_no_bitcode. [any thread]
 std::span<const Bitcode> allBitcode() noexcept;
 
 /// The bitcode of a header; empty if there is none.

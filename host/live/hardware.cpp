@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hardware.hpp"
 
-#include <host/sessions/choose_clock.hpp>
 #include <host/sessions/audio_settings.hpp>
+#include <host/sessions/choose_clock.hpp>
 #include <tactus/text/message.hpp>
 
 namespace tactus::host

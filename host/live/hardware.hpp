@@ -32,8 +32,8 @@ public:
     std::optional<double> tickRate (const Json& description, bool may_wait) const;
 
     bool isThere() const noexcept { return hid_system != nullptr; }
-    hid::HidSystem& system() const noexcept { return *hid_system; }               ///< only if it is there
-    const hid::LoadedProfiles& profiles() const { return read_profiles(); }       ///< only if it is there
+    hid::HidSystem& system() const noexcept { return *hid_system; }           ///< only if it is there
+    const hid::LoadedProfiles& profiles() const { return read_profiles(); }   ///< only if it is there
     RunSound* sound() const noexcept { return run_sound; }
 
 private:

@@ -42,13 +42,13 @@ public:
     struct Options
     {
         RoleDevices::Choice devices {};
-        CompileOptions compile {};             ///< its rate is a fixed rate of the run, or 0
-        std::string clock {};                  ///< the role whose device ticks the run, "timer" or "audio"; "": the session's choice, or else that of chooseClock
-        bool keeps_records = false;            ///< the ports that the first plan taps without listeners stay tapped (Run::keepRecords)
-        std::vector<RunListener*> listeners {};   ///< in the order in which they are called; must outlive this object
-        StopSwitch* stops = nullptr;           ///< obeyed from the first tick on; may be null; must outlive this object
+        CompileOptions compile {};                           ///< its rate is a fixed rate of the run, or 0
+        std::string clock {};                                ///< the role whose device ticks the run, "timer" or "audio"; "": the session's choice, or else that of chooseClock
+        bool keeps_records = false;                          ///< the ports that the first plan taps without listeners stay tapped (Run::keepRecords)
+        std::vector<RunListener*> listeners {};              ///< in the order in which they are called; must outlive this object
+        StopSwitch* stops = nullptr;                         ///< obeyed from the first tick on; may be null; must outlive this object
         std::map<std::string, GuardLimits> kept_limits {};   ///< see Run::keepLimits
-        bool is_stopped = false;               ///< the run starts with its forces at zero, until rearm()
+        bool is_stopped = false;                             ///< the run starts with its forces at zero, until rearm()
         Run::Queries queries = Run::Queries::on_thread;
     };
 

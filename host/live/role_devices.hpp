@@ -23,10 +23,10 @@ class RoleDevices
 public:
     struct Choice
     {
-        std::vector<DeviceOption> given {};   ///< by the user of the program, by role
-        LoadedSession session {};             ///< of the user; may be empty
+        std::vector<DeviceOption> given {};                             ///< by the user of the program, by role
+        LoadedSession session {};                                       ///< of the user; may be empty
         std::function<bool (const std::string& role)> is_by_graph {};   ///< true: the role gets the device in the graph, even if the session binds it
-        Absence absence = Absence::waits;     ///< of a device that the session binds
+        Absence absence = Absence::waits;                               ///< of a device that the session binds
 
         /// May replace the device that was opened for a role, or put another one around it. `workspace` is that of the session. May be null.
         std::function<void (const std::string& role, Run::RoleDevice&, const Workspace&, Messages&)> adopt {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "device_file.hpp"
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -42,17 +43,6 @@ bool isReportFile (const std::string& path) noexcept
 #else
     (void)path;
     return false;
-#endif
-}
-
-std::filesystem::path programFolder()
-{
-#if defined(__linux__)
-    std::error_code failed;
-    const auto program = std::filesystem::read_symlink ("/proc/self/exe", failed);
-    return failed ? std::filesystem::path {} : program.parent_path();
-#else
-    return {};
 #endif
 }
 

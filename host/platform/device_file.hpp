@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 namespace tactus::host
@@ -16,8 +15,5 @@ std::string reportDescriptorOf (const std::string& path);
 
 /// True if each read from this file takes one whole report, as from /dev/hidraw3. [any thread]
 bool isReportFile (const std::string& path) noexcept;
-
-/// The folder of the running program; empty if the system does not provide it. [any thread]
-std::filesystem::path programFolder();
 
 }   // namespace tactus::host

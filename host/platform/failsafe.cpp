@@ -1,25 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "failsafe.hpp"
 #include "guardian.hpp"
+#include "start_program.hpp"
 
 #include <tactus/text/caught.hpp>
+#include <tactus/text/ownership.hpp>
 
 #include <utility>
 
 #if defined(__linux__)
 #include <fcntl.h>
 #include <poll.h>
+#include <pthread.h>
+#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
 #include <mutex>
 #include <new>
 #include <system_error>
@@ -52,8 +58,10 @@ constexpr std::int64_t longest_pause = 1'000'000'000;         // ns between two 
 
 std::mutex changing;
 std::atomic<Shared*> shared { nullptr };   // from the first guardian on
-int to_guardian = -1;
+int to_guardian = -1, memory_file = -1;
 pid_t guardian_process = -1;
+std::atomic<bool> is_child { false };   // of a process that used devices before it forked
+bool handles_faults = false;
 
 std::array<struct sigaction, faults.size()> handled_before;
 
@@ -97,30 +105,58 @@ extern "C" void afterFault (int signal)
 
 std::string reason (int error) { return std::generic_category().message (error); }
 
-/// Forks a guardian and gives it what is armed. Returns an errno; 0 if it worked. [with `changing` held]
-int startGuardian()
+/// The guardian's program: with the other programs, or where it is installed.
+std::string guardianProgram()
+{
+    std::error_code ignored;
+    auto beside = besideThisProgram (guardian::program_name);
+    auto installed = (programFolder() / "../libexec/tactus" / guardian::program_name).lexically_normal();
+    return std::filesystem::exists (installed, ignored) && ! std::filesystem::exists (beside, ignored) ? installed.string() : beside.string();
+}
+
+/// Starts a program with these two files, in a session of its own, and with all signals blocked. Returns an errno; 0 if it worked.
+int spawn (const char* program, int socket, pid_t& child)
+{
+    posix_spawn_file_actions_t files;
+    posix_spawnattr_t how;
+    sigset_t all;
+    ::sigfillset (&all);
+    ::posix_spawn_file_actions_init (&files);
+    ::posix_spawnattr_init (&how);
+    const int free = std::max ({ socket, memory_file, guardian::memory_file }) + 1;   // each file may have the number that the other one gets
+    ::posix_spawn_file_actions_adddup2 (&files, memory_file, free);
+    ::posix_spawn_file_actions_adddup2 (&files, socket, guardian::message_socket);
+    ::posix_spawn_file_actions_adddup2 (&files, free, guardian::memory_file);
+    ::posix_spawnattr_setflags (&how, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSID);
+    ::posix_spawnattr_setsigmask (&how, &all);
+    std::string name = guardian::program_name;
+    std::array<char*, 2> arguments { name.data(), nullptr };
+    std::array<char*, 1> environment { nullptr };
+    const int error = ::posix_spawn (&child, program, &files, &how, arguments.data(), environment.data());
+    ::posix_spawnattr_destroy (&how);
+    ::posix_spawn_file_actions_destroy (&files);
+    return error;
+}
+
+/// Starts a guardian and gives it what is armed. Returns why it cannot; empty if it worked. [with `changing` held]
+std::string startGuardian()
 {
     std::array<int, 2> ends {};
-    if (::socketpair (AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return errno;
-    auto& with = *shared.load();
-    const auto child = ::fork();
-    if (child == 0)
-    {
-        ::close (ends[0]);
-        guardian::guard (ends[1], with);
-    }
-    const int error = errno;
+    if (::socketpair (AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return reason (errno);
+    const auto program = TrustedFile::open (guardianProgram());
+    pid_t child = -1;
+    const int error = program ? spawn (program->path().c_str(), ends[1], child) : 0;
     ::close (ends[1]);
-    if (child < 0)
+    if (! program || error != 0)
     {
         ::close (ends[0]);
-        return error;
+        return program ? guardianProgram() + ": " + reason (error) : program.error().text;
     }
     to_guardian = ends[0];
     guardian_process = child;
     for (const auto& entry : armed)
         if (const int file = entry.file.load(); file >= 0) guardian::send (to_guardian, entry.reports, file);
-    return 0;
+    return {};
 }
 
 /// Waits until the guardian is dead. Kills it if it gives no sign of life: frozen, it would let a force stay on. [without `changing` held]
@@ -157,9 +193,9 @@ void watchGuardian()
         lock.lock();
         ::close (std::exchange (to_guardian, -1));
         while (to_guardian < 0)
-            if (const int error = startGuardian(); error != 0)
+            if (! startGuardian().empty())
             {
-                shared.load()->raiseAlarm (Shared::Cause::unguarded, error);
+                shared.load()->raiseAlarm (Shared::Cause::unguarded, EAGAIN);
                 lock.unlock();
                 std::this_thread::sleep_for (std::chrono::milliseconds (250));
                 lock.lock();
@@ -167,33 +203,68 @@ void watchGuardian()
     }
 }
 
+/// Forgets everything in the child of a fork: the devices and the guardian are the parent's, and the child has none of the threads. Otherwise the
+/// guardian would not notice the end of the parent while the child lives, and a fault of the child would write to the parent's devices.
+void forgetInChild() noexcept
+{
+    for (auto& entry : armed)
+        if (const int file = entry.file.exchange (-1); file >= 0) ::close (file);
+    if (to_guardian >= 0) ::close (std::exchange (to_guardian, -1));
+    if (memory_file >= 0) ::close (std::exchange (memory_file, -1));
+    is_child = true;
+}
+
+/// Creates the memory that is shared with the guardians. Returns an errno; 0 if it worked. [with `changing` held]
+int shareMemory()
+{
+    memory_file = ::memfd_create ("tactus", MFD_CLOEXEC);
+    if (memory_file < 0 || ::ftruncate (memory_file, sizeof (Shared)) != 0) return errno;
+    void* const memory = ::mmap (nullptr, sizeof (Shared), PROT_READ | PROT_WRITE, MAP_SHARED, memory_file, 0);
+    if (memory == MAP_FAILED) return errno;
+    auto* const fresh = new (memory) Shared;
+    fresh->asleep = hasSleptFor();
+    shared = fresh;
+    return 0;
+}
+
 /// Starts the first guardian, unless there is one. Returns why this failed; empty if it did not. [with `changing` held]
 std::string needGuardian()
 {
     if (shared.load() == nullptr)
-    {
-        void* const memory = ::mmap (nullptr, sizeof (Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-        if (memory == MAP_FAILED) return reason (errno);
-        auto* const fresh = new (memory) Shared;
-        fresh->asleep = hasSleptFor();
-        shared = fresh;
-    }
+        if (const int error = shareMemory(); error != 0) return reason (error);
     if (guardian_process >= 0) return {};   // if it has just died, watchGuardian() starts another one
-    if (const int error = startGuardian(); error != 0) return reason (error);
-
-    for (std::size_t i = 0; i < faults.size(); ++i)
-    {
-        struct sigaction action
-        {
-        };
-        action.sa_handler = afterFault;
-        ::sigaction (faults[i], &action, &handled_before[i]);
-    }
+    if (auto why = startGuardian(); ! why.empty()) return why;
+    ::pthread_atfork (nullptr, nullptr, forgetInChild);
     std::thread ([] {
         for (;;)
             if (! caught ("the watch over the guardian", watchGuardian)) shared.load()->raiseAlarm (Shared::Cause::unguarded, EAGAIN);
     }).detach();
     return {};
+}
+
+/// Sets the handlers of faults while anything is armed, and then those of before again, unless somebody has replaced ours. [with `changing` held]
+void handleFaults (bool on) noexcept
+{
+    if (std::exchange (handles_faults, on) == on) return;
+    for (std::size_t i = 0; i < faults.size(); ++i)
+    {
+        struct sigaction ours
+        {
+        };
+        ours.sa_handler = afterFault;
+        struct sigaction now
+        {
+        };
+        if (on)
+            ::sigaction (faults[i], &ours, &handled_before[i]);
+        else if (::sigaction (faults[i], nullptr, &now) == 0 && now.sa_handler == afterFault)
+            ::sigaction (faults[i], &handled_before[i], nullptr);
+    }
+}
+
+bool isAnythingArmed() noexcept
+{
+    return std::ranges::any_of (armed, [] (const auto& entry) { return entry.file.load() >= 0; });
 }
 }   // namespace
 
@@ -202,6 +273,7 @@ Result<Failsafe> Failsafe::arm (const std::string& device_file, const std::vecto
     const auto failed = [&] (std::string why) { return Message::error ("device/failsafe", device_file, std::move (why)); };
 
     const std::lock_guard lock (changing);
+    if (is_child) return failed ("a process that was forked from one that has used devices cannot open devices; start a new one");
     std::size_t slot = 0, used = 0;
     while (slot < armed.size() && armed[slot].file.load() >= 0)
         ++slot;
@@ -236,17 +308,19 @@ Result<Failsafe> Failsafe::arm (const std::string& device_file, const std::vecto
         return failed (why);
     }
     entry.file = file;
+    handleFaults (true);
     return Failsafe (static_cast<int> (slot), shared.load()->asleep);
 }
 
 Failsafe::~Failsafe()
 {
-    if (slot == none) return;
+    if (slot == none || is_child) return;
     const std::lock_guard lock (changing);
     auto& entry = armed[static_cast<std::size_t> (slot)];
     shared.load()->beats[static_cast<std::size_t> (slot)] = Shared::at_rest;
     if (const int file = entry.file.exchange (-1); file >= 0) ::close (file);
     guardian::send (to_guardian, { .slot = static_cast<std::uint32_t> (slot), .count = 0 }, -1);
+    if (! isAnythingArmed()) handleFaults (false);
 }
 
 bool Failsafe::beat (bool driven) noexcept
@@ -254,6 +328,7 @@ bool Failsafe::beat (bool driven) noexcept
     if (slot == none) return true;
     auto& with = *shared.load();
     noticeSleep (with);
+    if (is_child) return false;
     const auto now = nanoseconds (CLOCK_MONOTONIC);
     auto& latest = with.beats[static_cast<std::size_t> (slot)];
     auto before = latest.load();

@@ -15,7 +15,7 @@ namespace tactus::host::guardian
 
 #if defined(__linux__)
 
-/// Plain bytes, because a signal handler reads it and it is sent through a socket.
+/// Plain bytes, because a signal handler reads it and it is sent through a socket. The two programs are of the same version.
 struct FinalReports
 {
     std::uint32_t slot = 0, count = 0;   // count 0: disarmed
@@ -56,9 +56,12 @@ struct Shared
 };
 static_assert (std::atomic<std::int64_t>::is_always_lock_free && std::atomic<Shared::Cause>::is_always_lock_free, "two processes share them");
 
-/// The name of the guardian process. It does not contain that of the program, so that `pkill -STOP tactus` or `pkill -KILL tactus`
-/// does not reach both.
-inline constexpr auto process_name = "force-guardian";
+/// The program of the guardian. Its name does not contain that of Tactus, so that `pkill -STOP tactus` or `pkill -KILL tactus` does not reach
+/// both.
+inline constexpr auto program_name = "force-guardian";
+
+/// The files that the guardian starts with: its messages, and memory that contains Shared.
+inline constexpr int message_socket = 0, memory_file = 1;
 
 /// The signals that mean a fault of the program.
 inline constexpr std::array faults { SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL };
@@ -71,10 +74,6 @@ std::uint32_t write (int file, const FinalReports&, std::uint32_t which = all_re
 
 /// Sends the guardian a message that arms a slot, with its device file, or disarms it. False, with errno, if this failed.
 bool send (int to, const FinalReports&, int file) noexcept;
-
-/// The whole guardian process, from the fork to its end. It is forked from a process with threads, so nothing in it may allocate or
-/// lock. `socket` brings its messages.
-[[noreturn]] void guard (int socket, Shared&) noexcept;
 
 #endif
 

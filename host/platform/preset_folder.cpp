@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "preset_folder.hpp"
 
-#include "device_file.hpp"
+#include "start_program.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -12,6 +12,7 @@
 #include <mach-o/dyld.h>
 #include <unistd.h>
 #else
+#include <dlfcn.h>
 #include <unistd.h>
 #endif
 
@@ -36,14 +37,38 @@ fs::path thisProgram()
     return fs::read_symlink ("/proc/self/exe", failed);
 #endif
 }
+
+/// The shared library that this code is in; empty if it is in the program itself.
+fs::path thisLibrary()
+{
+#if defined(__linux__)
+    Dl_info code {};
+    std::error_code failed;
+    if (::dladdr (reinterpret_cast<const void*> (&thisLibrary), &code) == 0 || code.dli_fname == nullptr) return {};
+    auto file = fs::canonical (code.dli_fname, failed);
+    return failed || file == fs::canonical (thisProgram(), failed) || file.string().find (".so") == std::string::npos ? fs::path {} : file;
+#else
+    return {};
+#endif
+}
 }   // namespace
+
+fs::path programFolder()
+{
+    const auto library = thisLibrary();
+    if (library.empty()) return thisProgram().parent_path();
+    const auto folder = library.parent_path();
+    for (const auto& lib : { folder, folder.parent_path() })   // lib, or lib/x86_64-linux-gnu
+        if (lib.filename() == "lib" || lib.filename() == "lib64") return lib.parent_path() / "bin";
+    return folder;
+}
 
 fs::path besideThisProgram (const std::string& name)
 {
 #if defined(_WIN32)
-    return thisProgram().parent_path() / (name + ".exe");
+    return programFolder() / (name + ".exe");
 #else
-    return thisProgram().parent_path() / name;
+    return programFolder() / name;
 #endif
 }
 

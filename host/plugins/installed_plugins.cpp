@@ -2,7 +2,7 @@
 #include "installed_plugins.hpp"
 #include "quarantine.hpp"
 
-#include <host/platform/device_file.hpp>
+#include <host/platform/start_program.hpp>
 #include <host/platform/home_folder.hpp>
 #include <tactus/text/quote.hpp>
 

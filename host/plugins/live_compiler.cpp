@@ -2,7 +2,7 @@
 #include "live_compiler.hpp"
 #include "compiler_output.hpp"
 
-#include <host/platform/device_file.hpp>
+#include <host/platform/start_program.hpp>
 #include <host/platform/preset_folder.hpp>
 #include <host/platform/private_folder.hpp>
 #include <tactus/file/text_file.hpp>

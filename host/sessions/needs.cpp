@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "needs.hpp"
 
-#include <host/sessions/audio_settings.hpp>
 #include <host/hid/hid_model.hpp>
 #include <host/hid_link/hid_device.hpp>
 #include <host/hid_link/open_device.hpp>
+#include <host/sessions/audio_settings.hpp>
 #include <tactus/node/device_parts.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/text/quote.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "role_fits.hpp"
 
-#include <host/sessions/check_audio.hpp>
 #include <host/hid_link/force_feedback.hpp>
+#include <host/sessions/check_audio.hpp>
 
 #include <algorithm>
 #include <utility>

@@ -15,7 +15,7 @@ mkdir -p "$place"/{tests/guest,host,build/release/bin}
 cp tests/guest/in_guest.sh "$place/tests/guest"
 cp -r host/profiles "$place/host"
 cp -r graphs "$place"
-cp "$build"/bin/{tactus,guest_device} "$place/build/release/bin"
+cp "$build"/bin/{tactus,force-guardian,guest_device} "$place/build/release/bin"
 cp ../shared/data/hid_ffb/openffboard_1axis.bin "$place/descriptor" 2>/dev/null || true
 status=0
 tests/guest/run_guest.sh $guest "$place/tests/guest/in_guest.sh" "$results" || status=$?

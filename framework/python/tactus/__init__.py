@@ -19,11 +19,12 @@ from ._graph import Graph
 from ._messages import Error, Message, TactusWarning
 from ._nodes import nodes
 from ._own import Node, choice, scalar, vector
+from ._play import Health, Session, play
 from ._plot import plot
 from ._records import Records
 from ._sweep import Point, sweep
 
 __version__ = _tactus.version()
 
-__all__ = ["Effort", "Engine", "Error", "Graph", "Mesh", "Message", "Node", "Point", "PushedDevice", "Records", "Signal", "Status",
-           "TactusWarning", "choice", "nodes", "plot", "scalar", "set_limits", "sweep", "vector"]
+__all__ = ["Effort", "Engine", "Error", "Graph", "Health", "Mesh", "Message", "Node", "Point", "PushedDevice", "Records", "Session", "Signal",
+           "Status", "TactusWarning", "choice", "nodes", "play", "plot", "scalar", "set_limits", "sweep", "vector"]

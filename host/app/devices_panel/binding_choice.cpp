@@ -3,9 +3,9 @@
 
 #include <host/app/text/filled.hpp>
 #include <host/app/text/translated.hpp>
-#include <host/sessions/audio_settings.hpp>
 #include <host/hid/physics.hpp>
 #include <host/hid_link/force_feedback.hpp>
+#include <host/sessions/audio_settings.hpp>
 #include <host/sessions/numbers_device.hpp>
 #include <host/sessions/role_fits.hpp>
 

@@ -6,8 +6,8 @@
 #include <host/app/look/text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/sessions/audio_settings.hpp>
 #include <host/hid_link/force_feedback.hpp>
+#include <host/sessions/audio_settings.hpp>
 
 #include <algorithm>
 

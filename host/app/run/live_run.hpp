@@ -233,7 +233,7 @@ private:
     Hand moved_by;
     bool held = false;         // an emergency stop or another latched stop holds the forces at zero until rearm()
     bool ends_stops = false;   // START was pressed, so the run that begins next ends the latched stops of the one before
-    StopSwitch own_stops;   // until obey()
+    StopSwitch own_stops;      // until obey()
     StopSwitch* stops = &own_stops;
     bool begins = false;                                     // starts once the previous run is over
     bool wanted = false;                                     // started and not stopped: the run begins as soon as the graph compiles

@@ -3,8 +3,8 @@
 
 #include "support/sketch.hpp"
 
-#include <host/sessions/check_audio.hpp>
 #include <host/audio/open_audio.hpp>
+#include <host/sessions/check_audio.hpp>
 #include <tactus/run/device/make_device.hpp>
 
 #include <catch2/catch.hpp>

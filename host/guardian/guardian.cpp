@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The guardian of a program that drives devices: a process of its own, which brings the devices to rest if the program dies or freezes. See
+// host/platform/failsafe.hpp.
+#include <host/platform/guardian.hpp>
+
+#if defined(__linux__)
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+using namespace tactus::host;
+using guardian::FinalReports;
+using guardian::Shared;
+
+namespace
+{
+constexpr int look_apart_ms = 10, looks_until_taken = static_cast<int> (Failsafe::patience.count()) / look_apart_ms;
+constexpr int most_tries = 10'000 / look_apart_ms;   // a device that has not taken its reports after 10 s never will
+
+struct Held
+{
+    int file = -1;   // `reports` is valid only while this is an open file
+    FinalReports reports {};
+    std::uint32_t due = 0;   // the reports that are still to be written
+    int tries = 0;
+};
+std::array<Held, Failsafe::most_devices> held;
+
+/// Receives a message and, if it arms a failsafe, the device file. False once the other end is closed.
+bool receive (int from, FinalReports& reports, int& file) noexcept
+{
+    iovec part { &reports, sizeof reports };
+    alignas (cmsghdr) std::array<char, CMSG_SPACE (sizeof (int))> room {};
+    msghdr message {};
+    message.msg_iov = &part;
+    message.msg_iovlen = 1;
+    message.msg_control = room.data();
+    message.msg_controllen = room.size();
+
+    ssize_t got = 0;
+    while ((got = ::recvmsg (from, &message, 0)) < 0 && errno == EINTR)
+        ;
+    if (got != sizeof reports) return false;
+
+    file = -1;
+    if (const auto* header = CMSG_FIRSTHDR (&message); header != nullptr && header->cmsg_type == SCM_RIGHTS)
+        std::memcpy (&file, CMSG_DATA (header), sizeof file);
+    return true;
+}
+
+/// Takes each device whose beats have stopped while an effort was on it. If a beat comes at the last moment, the exchange fails.
+/// Later beats see that the device is taken, so the program and the guardian never both drive it.
+void lookAtBeats (Shared& shared) noexcept
+{
+    struct Seen
+    {
+        std::int64_t beat = Shared::at_rest;
+        int times = 0;
+    };
+    static std::array<Seen, Failsafe::most_devices> all;
+
+    for (std::size_t i = 0; i < held.size(); ++i)
+    {
+        auto beat = shared.beats[i].load();
+        const bool stands_still = beat > Shared::at_rest && beat == all[i].beat;
+        all[i] = { beat, stands_still ? all[i].times + 1 : 0 };
+        if (held[i].file < 0 || all[i].times < looks_until_taken || ! shared.beats[i].compare_exchange_strong (beat, Shared::taken)) continue;
+        shared.raiseAlarm (Shared::Cause::frozen, beat);
+        held[i].due = guardian::all_reports;
+    }
+}
+
+/// Writes the reports that are due. A device that is too busy for one is tried again the next time. True if there is a next time.
+bool writeDue() noexcept
+{
+    bool again = false;
+    for (auto& [file, reports, due, tries] : held)
+    {
+        if (file < 0 || due == 0) continue;
+        due = guardian::write (file, reports, due);
+        if (++tries == most_tries) due = 0;
+        again = again || due != 0;
+    }
+    return again;
+}
+
+void takeOver (const FinalReports& reports, int file) noexcept
+{
+    if (reports.slot >= held.size()) return;
+    auto& slot = held[reports.slot];
+    if (slot.file >= 0) ::close (slot.file);
+    slot = { reports.count > 0 ? file : -1, reports, 0, 0 };
+}
+
+/// The memory that is shared with the program; null if it is not there.
+Shared* sharedMemory() noexcept
+{
+    struct stat about
+    {
+    };
+    if (::fstat (guardian::memory_file, &about) != 0 || about.st_size < static_cast<off_t> (sizeof (Shared))) return nullptr;
+    void* const memory = ::mmap (nullptr, sizeof (Shared), PROT_READ | PROT_WRITE, MAP_SHARED, guardian::memory_file, 0);
+    return memory != MAP_FAILED ? static_cast<Shared*> (memory) : nullptr;
+}
+
+/// Ctrl-C, Ctrl-Z and every signal to the process group, even SIGSTOP, are meant for the program: an own session keeps them away.
+void ignoreSignals() noexcept
+{
+    ::setsid();
+    for (int signal = 1; signal <= SIGRTMAX; ++signal)
+        ::signal (signal, SIG_IGN);
+    for (const int signal : guardian::faults)
+        ::signal (signal, SIG_DFL);
+    sigset_t all;
+    sigfillset (&all);
+    ::sigprocmask (SIG_UNBLOCK, &all, nullptr);
+}
+}   // namespace
+
+int main()
+{
+    ignoreSignals();
+    auto* const shared = sharedMemory();
+    if (shared == nullptr || ::chdir ("/") != 0) return 1;
+    ::close_range (1, ~0U, 0);   // what the program had open must not stay open here
+
+    static FinalReports reports;
+    int file = -1;
+    for (;;)
+    {
+        pollfd messages { .fd = guardian::message_socket, .events = POLLIN, .revents = 0 };
+        const int ready = ::poll (&messages, 1, look_apart_ms);
+        ++shared->looks;
+        if (ready == 0)
+        {
+            lookAtBeats (*shared);
+            writeDue();
+        }
+        else if (ready > 0 && receive (guardian::message_socket, reports, file))
+            takeOver (reports, file);
+        else if (ready > 0 || errno != EINTR)
+            break;
+    }
+    for (auto& each : held)
+    {
+        each.due = guardian::all_reports;
+        each.tries = 0;
+    }
+    while (writeDue())
+        ::poll (nullptr, 0, look_apart_ms);
+    return 0;
+}
+
+#else
+int main() { return 1; }
+#endif

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef TACTUS_LIVE_H
+#define TACTUS_LIVE_H
+
+/**
+ * The C API of live sessions: play graphs on the devices of this computer, with the guards, the failsafe and the guardian process of
+ * `tactus play`. libtactus_live also contains all functions of tactus.h: link it instead of libtactus.
+ *
+ *     tactus_messages* messages = tactus_messages_create();
+ *     tactus_graph* graph = tactus_graph_load ("dry_wood.json", messages);
+ *     const char* devices[] = { "stylus=hid:auto" };
+ *     tactus_session_options options = TACTUS_SESSION_OPTIONS;
+ *     options.devices = devices;
+ *     options.device_count = 1;
+ *     tactus_session* session = tactus_session_open (graph, &options, messages);
+ *     tactus_session_start (session, messages);
+ *     ...                                            // set parameters, edit the graph, read probes
+ *     tactus_session_close (session);                // all forces go to zero first
+ *
+ * Conventions
+ *  - Those of tactus.h. Text that a function returns stays valid until the next call of the same function for the same session.
+ *  - [one thread]: one thread at a time per session; it may wait for a few ms. [any thread]: any thread at any time while the session exists.
+ *  - A session has a thread of its own that looks after it, so nothing needs to be called regularly. A program that does nothing, waits in a
+ *    function of its own or stops at a breakpoint does not affect the ticks.
+ *  - Graphs never choose or calibrate real devices. Only `devices` and the user's session file do.
+ *  - If the process ends, is killed or freezes, a guardian process brings the devices to rest (docs/hazards.md).
+ *  - After fork(), only the parent has the sessions. In the child, every function returns TACTUS_MISUSE, NULL or 0.
+ *  - No signal handlers are installed except those for faults (SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL), while a device is open. They write
+ *    the last reports and then run the handler that was there before.
+ */
+
+#include "tactus.h"
+
+typedef struct tactus_session tactus_session; /**< a graph that plays on devices */
+
+/** Anything that can be NULL or 0 may be left out. */
+typedef struct tactus_session_options
+{
+    uint32_t size;
+    const char* const* devices; /**< devices of roles, as for the option --device: "stylus=hid:auto", "stylus=gesture:circle" */
+    size_t device_count;
+    const char* session; /**< which file binds the other roles to devices: NULL: the user's session, "off": none, or the name of a file */
+    const char* clock;   /**< what ticks the run: a role (its device), or "timer"; NULL: as the session says, or the first device that can */
+    double rate_hz;      /**< 0: that of the clock, or else the graph's */
+    double duration_s;   /**< 0: until it is stopped */
+    int32_t core;        /**< CPU core for the tick thread, plus 1; 0: any */
+    int32_t is_strict;   /**< 1: a missing device of the session is an error. 0: its role gets no force until the device is there */
+    int32_t fuses;       /**< 1: compiled code replaces the plan while it runs (docs/fusion.md) */
+    const char* const* sets; /**< values that replace those of the graph: "drag.mu=0.3" */
+    size_t set_count;
+    const char* const* records; /**< ports to record: "motor.force" */
+    size_t record_count;
+    double buffer_s; /**< how much of the records is kept until tactus_session_collect, in s; 0: none */
+    const char* log; /**< a file for the log of all inputs (docs/replay.md) */
+    tactus_asset_reader assets; /**< as in tactus_run_options */
+    void* asset_context;
+} tactus_session_options;
+
+#define TACTUS_SESSION_OPTIONS                                                                  \
+    {                                                                                           \
+        sizeof (tactus_session_options), 0, 0, 0, 0, 0.0, 0.0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0, 0, 0 \
+    }
+
+/** Chooses the clock, compiles the graph and opens its devices. Nothing moves yet. The graph may be freed or edited afterwards. NULL if there are
+ *  errors. [one thread] */
+TACTUS_API tactus_session* tactus_session_open (const tactus_graph*, const tactus_session_options*, tactus_messages*);
+
+/** Starts the ticks. Real-time privileges that the system refuses are warnings. Call it once. [one thread] */
+TACTUS_API tactus_result tactus_session_start (tactus_session*, tactus_messages*);
+
+/** Ramps all forces to zero, ends the ticks, and completes the log. Waits for it. [one thread] */
+TACTUS_API tactus_result tactus_session_stop (tactus_session*, tactus_messages*);
+
+/** Stops, releases the devices, and frees the session. [one thread] */
+TACTUS_API void tactus_session_close (tactus_session*);
+
+/** Fades all forces to zero and keeps them there until tactus_session_rearm. The graph keeps running. Safe in a signal handler. [any thread] */
+TACTUS_API tactus_result tactus_session_emergency_stop (tactus_session*);
+
+/** Ends emergency stops and all other latched stops. Only a person should decide this. Refused within a second of an emergency stop or of the
+ *  last rearm. [any thread] */
+TACTUS_API tactus_result tactus_session_rearm (tactus_session*, tactus_messages*);
+
+/** The file of a graph: `name` itself or, if it is a bare name such as "dry_wood" and no file is called that, that of the preset. Free it with
+ *  tactus_text_free. [any thread] */
+TACTUS_API char* tactus_graph_file (const char* name);
+
+/* ---------------------------------------------------------------------------- While it plays */
+
+/** Plays an edited graph from the next tick on. What both graphs contain continues, and no force jumps. Limits that the graph asks for only
+ *  tighten until the next start. [one thread] */
+TACTUS_API tactus_result tactus_session_edit (tactus_session*, const tactus_graph*, tactus_messages*);
+
+/** Sets a parameter to a value in JSON: "drag.mu" to "0.4", "cut.normal" to "[0, 0, 1]". The value ramps to it. [one thread] */
+TACTUS_API tactus_result tactus_session_set (tactus_session*, const char* param, const char* value, tactus_messages*);
+
+/** Turns a control of the graph. [one thread] */
+TACTUS_API tactus_result tactus_session_turn (tactus_session*, const char* control, double value, tactus_messages*);
+
+/** Triggers a hit input, with a speed in m/s. [one thread] */
+TACTUS_API tactus_result tactus_session_hit (tactus_session*, const char* input, double speed, tactus_messages*);
+
+/** From now on, tactus_session_probed returns the values of these ports, instead of earlier ones. If this fails, the earlier ones stay.
+ *  [one thread] */
+TACTUS_API tactus_result tactus_session_probe (tactus_session*, const char* const* ports, size_t count, tactus_messages*);
+
+/** How many values the probes have: a port with three components has three. [one thread] */
+TACTUS_API size_t tactus_session_probe_count (const tactus_session*);
+TACTUS_API const char* tactus_session_probe_name (const tactus_session*, size_t index); /**< "motor.force.x" [one thread] */
+
+/** The latest values of the probes. [one thread] */
+TACTUS_API tactus_result tactus_session_probed (tactus_session*, double* values);
+
+TACTUS_API size_t tactus_session_record_count (const tactus_session*);                   /**< components, not ports [one thread] */
+TACTUS_API const char* tactus_session_record_name (const tactus_session*, size_t index); /**< [one thread] */
+TACTUS_API const char* tactus_session_record_unit (const tactus_session*, size_t index); /**< "N"; "" if unknown [one thread] */
+
+/** Moves recorded ticks, the oldest first, into `rows` (up to `most` rows of record count values). Returns how many. [one thread] */
+TACTUS_API size_t tactus_session_collect (tactus_session*, double* rows, size_t most);
+TACTUS_API uint64_t tactus_session_lost (const tactus_session*); /**< recorded ticks that were lost because the buffer was full [one thread] */
+
+/* ---------------------------------------------------------------------------- What it does */
+
+TACTUS_API tactus_result tactus_session_status (const tactus_session*, tactus_status*); /**< [any thread] */
+TACTUS_API double tactus_session_rate (const tactus_session*);                          /**< in Hz [any thread] */
+TACTUS_API const char* tactus_session_clock (const tactus_session*);                    /**< the role whose device ticks the run; "" if a timer does [any thread] */
+
+/** The state of a real device. */
+typedef struct tactus_health
+{
+    uint32_t size;
+    const char* role;
+    const char* profile; /**< id of its profile or driver */
+    int32_t is_connected;
+    double age_s, oldest_s; /**< age of its readings: now, and the oldest so far */
+    double rate_hz;         /**< of its reports; 0: unknown */
+    uint64_t reports, lost, departures;
+    const char* trouble; /**< the latest failure, or "" */
+} tactus_health;
+
+#define TACTUS_HEALTH                                          \
+    {                                                          \
+        sizeof (tactus_health), 0, 0, 0, 0.0, 0.0, 0.0, 0, 0, 0, 0 \
+    }
+
+TACTUS_API size_t tactus_session_health_count (tactus_session*);                                 /**< real devices, present or awaited [one thread] */
+TACTUS_API tactus_result tactus_session_health (tactus_session*, size_t index, tactus_health*); /**< [one thread] */
+
+/** Moves what has happened since the last call to `messages`: alarms of the guardian, stops of the guards, trouble with devices and the log.
+ *  Returns how many. Messages wait until they are asked for; of more than 1000, the oldest are lost. [one thread] */
+TACTUS_API size_t tactus_session_events (tactus_session*, tactus_messages*);
+
+#endif
