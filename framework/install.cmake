@@ -6,7 +6,7 @@ include (CMakePackageConfigHelpers)
 set (package ${CMAKE_INSTALL_LIBDIR}/cmake/Tactus)
 install (DIRECTORY framework/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COMPONENT development
     FILES_MATCHING PATTERN "*.hpp" PATTERN capi EXCLUDE PATTERN examine EXCLUDE PATTERN python EXCLUDE)
-install (FILES framework/capi/tactus.h framework/plugin/tactus_plugin.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COMPONENT development)
+install (FILES framework/capi/tactus.h framework/plugin/tactus_plugin.h $<$<TARGET_EXISTS:tactus_live_shared>:${PROJECT_SOURCE_DIR}/host/live/tactus_live.h> DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COMPONENT development)
 install (DIRECTORY nodes/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus/nodes COMPONENT development FILES_MATCHING PATTERN "*.hpp")
 
 foreach (part framework nodes run c)
@@ -19,6 +19,13 @@ if (TARGET tactus_shared)
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
         RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT library)
+    if (TARGET tactus_live_shared)
+        install (TARGETS tactus_live_shared EXPORT TactusLive
+            LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT live NAMELINK_COMPONENT development
+            RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT live)
+        install (TARGETS force-guardian RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/tactus COMPONENT live)
+        install (EXPORT TactusLive NAMESPACE tactus:: DESTINATION ${package} FILE TactusLive.cmake COMPONENT development)
+    endif ()
     install (EXPORT TactusShared NAMESPACE tactus:: DESTINATION ${package} FILE TactusShared.cmake COMPONENT development)
 endif ()
 
@@ -30,3 +37,7 @@ configure_file (framework/tactus.pc.in ${PROJECT_BINARY_DIR}/tactus.pc @ONLY)
 install (FILES ${PROJECT_BINARY_DIR}/TactusConfig.cmake ${PROJECT_BINARY_DIR}/TactusConfigVersion.cmake framework/node/catalogue.cmake
     framework/plugin/plugin.cmake framework/plugin/plugin.map DESTINATION ${package} COMPONENT development)
 install (FILES ${PROJECT_BINARY_DIR}/tactus.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+if (TARGET tactus_live_shared)
+    configure_file (host/live/tactus-live.pc.in ${PROJECT_BINARY_DIR}/tactus-live.pc @ONLY)
+    install (FILES ${PROJECT_BINARY_DIR}/tactus-live.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+endif ()

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "nearest_by_embree.hpp"
 
 #include <embree3/rtcore.h>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "open_audio.hpp"
 #include <host/sessions/check_audio.hpp>
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // tactus-check-plugin, the program that `tactus check-plugin` starts.
 #include "check_plugin.hpp"
 

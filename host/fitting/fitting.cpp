@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "fitting.hpp"
 #include "fit_presets.hpp"
 #include "surface_preset.hpp"

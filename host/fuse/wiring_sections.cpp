@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "wiring_writer.hpp"
 
 // As in fused_sections.cpp, the values in a section are all in memory.

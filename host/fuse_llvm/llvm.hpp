@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 /// The part of LLVM's C interface that is used here. LLVM is loaded when the program starts and not linked, so any version from 14 on that

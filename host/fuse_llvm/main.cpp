@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 /// tactus-fuse-llvm FUNCTION OUTPUT.so WIRING.ll BITCODE...
 ///
 /// Makes a shared object from the code of a graph (host/fuse): optimises its wiring together with the bitcode of its nodes, by LLVM, and

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "c_api_code.hpp"
 
 #include <tactus/run/log/run_head.hpp>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "class_code.hpp"
 #include "setting_code.hpp"
 #include "tick_code.hpp"

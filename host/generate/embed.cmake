@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT
 # Writes a C++ file with the texts of source files, for the folders that `tactus export` writes:
 #     cmake -D root=SOURCE_FOLDER -D list=FILE_WITH_PATHS -D output=FILE.cpp -P embed.cmake
 # A file framework/kit/law.hpp is listed as tactus/kit/law.hpp, which is how sources include it.

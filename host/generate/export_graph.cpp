@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "export_graph.hpp"
 #include "adapted_source.hpp"
 #include "arduino_code.hpp"

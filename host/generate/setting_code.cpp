@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "setting_code.hpp"
 
 #include <tactus/kit/at.hpp>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "single_precision.hpp"
 #include "adapted_source.hpp"
 #include "sources.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "wiring.hpp"
 #include "address_map.hpp"
 #include "sources.hpp"

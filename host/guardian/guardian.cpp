@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // The guardian of a program that drives devices: a process of its own, which brings the devices to rest if the program dies or freezes. See
 // host/platform/failsafe.hpp.
 #include <host/platform/guardian.hpp>

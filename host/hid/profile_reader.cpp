@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "profile_reader.hpp"
 #include "hex.hpp"
 #include "kinematics_reader.hpp"

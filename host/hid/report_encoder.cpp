@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "report_encoder.hpp"
 #include "bits.hpp"
 #include "crc32.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "force_feedback.hpp"
 #include <host/hid/report_descriptor.hpp>
 #include <tactus/text/closest_match.hpp>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // How a port reads: on its reading thread, or on the tick thread that the device ticks.
 #include "hid_port.hpp"
 

@@ -9,6 +9,7 @@ math (EXPR next_minor "${PROJECT_VERSION_MINOR} + 1")
 
 file (WRITE ${made}/shlibs "libtactus ${PROJECT_VERSION_MAJOR} libtactus${PROJECT_VERSION_MAJOR} (>= ${PROJECT_VERSION}), \
 libtactus${PROJECT_VERSION_MAJOR} (<< ${PROJECT_VERSION_MAJOR}.${next_minor}~)\n")
+file (WRITE ${made}/live/shlibs "libtactus_live ${PROJECT_VERSION_MAJOR} libtactus-live${PROJECT_VERSION_MAJOR} (>= ${PROJECT_VERSION})\n")
 file (WRITE ${made}/triggers "activate-noawait ldconfig\n")
 
 set (CPACK_GENERATOR DEB)
@@ -49,19 +50,23 @@ models of touch are nodes, and a graph of them computes a force for every
 sample of the hand's position.\n")
 tactus_package (program tactus science "haptic effects, patched like a modular synthesiser" "${about}
 This package contains the command line, the presets, and the profiles of\nhaptic devices."
-    RECOMMENDS "python3" SUGGESTS "tactus-host, valgrind, libllvm14 | libllvm15 | libllvm16, binutils, g++, libeigen3-dev")
+    DEPENDS "libtactus-live${PROJECT_VERSION_MAJOR} (= ${debian_version})" RECOMMENDS "python3" SUGGESTS "tactus-host, valgrind, libllvm14 | libllvm15 | libllvm16, binutils, g++, libeigen3-dev")
 tactus_package (host tactus-host science "editor for graphs of haptic effects" "${about}
 This package contains the window in which graphs are edited and played."
     DEPENDS "tactus (= ${debian_version}), libx11-6, libxext6, libxrandr2, libxrender1"
     RECOMMENDS "libjack-jackd2-0 | libjack-0.125, zenity | kdialog")
 tactus_package (library libtactus${PROJECT_VERSION_MAJOR} libs "library that plays graphs of haptic effects" "${about}
 This package contains the shared library.")
+tactus_package (live libtactus-live${PROJECT_VERSION_MAJOR} libs "library that plays graphs of haptic effects on devices" "${about}
+This package contains the shared library for haptic devices, and the program\nthat brings them to rest if a program ends or freezes.")
 tactus_package (development libtactus-dev libdevel "headers of the library that plays graphs of haptic effects" "${about}
 This package contains headers, static libraries, examples, and the files with\nwhich CMake and pkg-config find the library."
-    DEPENDS "libtactus${PROJECT_VERSION_MAJOR} (= ${debian_version}), libeigen3-dev (>= 3.4)")
+    DEPENDS "libtactus${PROJECT_VERSION_MAJOR} (= ${debian_version}), libtactus-live${PROJECT_VERSION_MAJOR} (= ${debian_version}), libeigen3-dev (>= 3.4)")
 install (FILES ${packaging}/libtactus-dev.overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides RENAME libtactus-dev COMPONENT development)
 set (CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${made}/shlibs ${made}/triggers)
 set (CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set (CPACK_DEBIAN_LIVE_PACKAGE_CONTROL_EXTRA ${made}/live/shlibs ${made}/triggers)
+set (CPACK_DEBIAN_LIVE_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 # The Python module, if it is built, is installed as the component `python`. As with every Python package of Debian, its byte code is written
 # when it is installed, and removed with it.
@@ -70,7 +75,7 @@ if ("python" IN_LIST components)   # quoted, because install.cmake has a variabl
     math (EXPR next_python "${TACTUS_PYTHON_MINOR} + 1")
     tactus_package (python python3-tactus python "haptic effects from Python" "${about}
 This package contains the Python module."
-        DEPENDS "python3 (>= 3.${TACTUS_PYTHON_MINOR}~), python3 (<< 3.${next_python}), python3-numpy" RECOMMENDS "python3-matplotlib")
+        DEPENDS "python3 (>= 3.${TACTUS_PYTHON_MINOR}~), python3 (<< 3.${next_python}), python3-numpy" RECOMMENDS "python3-matplotlib, libtactus-live${PROJECT_VERSION_MAJOR}")
     file (WRITE ${made}/postinst "#!/bin/sh\nset -e\nif [ \"$1\" = configure ] && command -v py3compile >/dev/null; then py3compile -p python3-tactus; fi\n")
     file (WRITE ${made}/prerm "#!/bin/sh\nset -e\nif command -v py3clean >/dev/null; then py3clean -p python3-tactus; fi\n")
     set (CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${made}/postinst ${made}/prerm)

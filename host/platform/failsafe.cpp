@@ -1,10 +1,9 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "failsafe.hpp"
 #include "guardian.hpp"
-#include "start_program.hpp"
+#include "preset_folder.hpp"
 
 #include <tactus/text/caught.hpp>
-#include <tactus/text/ownership.hpp>
 
 #include <utility>
 
@@ -25,7 +24,6 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
-#include <filesystem>
 #include <mutex>
 #include <new>
 #include <system_error>
@@ -105,15 +103,6 @@ extern "C" void afterFault (int signal)
 
 std::string reason (int error) { return std::generic_category().message (error); }
 
-/// The guardian's program: with the other programs, or where it is installed.
-std::string guardianProgram()
-{
-    std::error_code ignored;
-    auto beside = besideThisProgram (guardian::program_name);
-    auto installed = (programFolder() / "../libexec/tactus" / guardian::program_name).lexically_normal();
-    return std::filesystem::exists (installed, ignored) && ! std::filesystem::exists (beside, ignored) ? installed.string() : beside.string();
-}
-
 /// Starts a program with these two files, in a session of its own, and with all signals blocked. Returns an errno; 0 if it worked.
 int spawn (const char* program, int socket, pid_t& child)
 {
@@ -143,14 +132,15 @@ std::string startGuardian()
 {
     std::array<int, 2> ends {};
     if (::socketpair (AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return reason (errno);
-    const auto program = TrustedFile::open (guardianProgram());
+    const auto name = std::string (guardian::program_name);
+    const auto program = shipped ({ name, "../libexec/tactus/" + name });
     pid_t child = -1;
-    const int error = program ? spawn (program->path().c_str(), ends[1], child) : 0;
+    const int error = program.empty() ? ENOENT : spawn (program.c_str(), ends[1], child);
     ::close (ends[1]);
-    if (! program || error != 0)
+    if (error != 0)
     {
         ::close (ends[0]);
-        return program ? guardianProgram() + ": " + reason (error) : program.error().text;
+        return "the program " + name + ", which belongs to Tactus: " + reason (error);
     }
     to_guardian = ends[0];
     guardian_process = child;

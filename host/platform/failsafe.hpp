@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <tactus/text/result.hpp>
@@ -26,9 +26,12 @@ namespace tactus::host
 /// Good to know
 ///  - After a fault both the handler and the guardian write, so the device must tolerate receiving the reports twice.
 ///  - After a stack overflow the handler has no stack, so only the guardian writes.
-///  - The guardian is forked when the first failsafe is armed, and ends with this process. It has its own session and ignores all
-///    signals but KILL, STOP and faults, so nothing that is sent to the group or the terminal of this process reaches it. If it is
-///    killed, a thread of this process forks another one at once; if it is frozen, within about 2 s.
+///  - The guardian is a program of its own (host/guardian). It starts when the first failsafe is armed, and ends with this process. It has its own
+///    session and ignores all signals but KILL, STOP and faults, so nothing that is sent to the group or the terminal of this process reaches it.
+///    If it is killed, a thread of this process starts another one at once; if it is frozen, within about 2 s.
+///  - The handlers for faults are set while anything is armed. Then those of before are back, unless the program has replaced ours meanwhile.
+///  - The child of a fork has none of this: it writes nothing to the devices, cannot arm any, and does not keep the guardian from noticing the end
+///    of its parent.
 ///  - The guardian counts its own looks at the beats and reads no clock, so it takes no device when the whole computer pauses.
 ///    While program and guardian are frozen together, nothing is sent. Afterwards, beat() detects a pause of more than a second.
 class Failsafe

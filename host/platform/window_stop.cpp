@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "window_stop.hpp"
 
 #include <tactus/run/realtime.hpp>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "role_fits.hpp"
 
 #include <host/hid_link/force_feedback.hpp>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "session_file.hpp"
 
 #include <tactus/file/text_file.hpp>

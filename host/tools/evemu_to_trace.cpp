@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Converts a recording of a pen tablet to a trace: evemu_to_trace pen.events --out pen.csv
 #include "evemu.hpp"
 #include "measure_option.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "switch_loop.hpp"
 
 #include <tactus/file/graph_file.hpp>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Converts a measured force curve of a key switch to a graph: switch_to_graph switch.csv --out key.json
 #include "measure_option.hpp"
 #include "switch_loop.hpp"

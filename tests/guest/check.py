@@ -181,6 +181,24 @@ check(not any([h for h in heard if h[0] == "driven"][-1][2]), "guardian: the for
 check(heard[-1][0] == "neutral", "guardian: the last report to the board is neutral, from the next guardian")
 check("run/unguarded" in text("guardian.play.err"), "guardian: the program says that its guardian was killed")
 
+for name in sorted(f.removesuffix(".board.csv") for f in os.listdir(folder) if f.startswith("own_") and f.endswith(".board.csv")):
+    heard = Board(name).heard
+    pushed = [i for i, h in enumerate(heard) if h[0] == "driven" and any(h[2])]
+    check(len(pushed) > 10, f"{name}: the board received {len(pushed)} forces")
+    rest = next((h for h in heard[pushed[-1] + 1:] if h[0] == "neutral" or not any(h[2])), None) if pushed else None
+    check(rest is not None and rest[3] - heard[pushed[-1]][3] < 0.15 and heard[-1][0] == "neutral", f"{name}: then the board rests, at once and to the end")
+    if name in ("own_close", "own_hang", "own_script_raise", "own_script_exit"):   # ramps, and is not cut off
+        most, last = max(max(map(abs, heard[i][2])) for i in pushed), max(map(abs, heard[pushed[-1]][2]))
+        check(last < most / 4, f"{name}: the force falls from {most} to {last} uN before it ends")
+check("the handler of the program ran" in text("own_fault.play.err"), "own_fault: the program's own handler of faults runs, too")
+check("emergency stop: 0" in text("own_hang.play.err"), "own_hang: another thread stops a program that hangs")
+if os.path.exists(os.path.join(folder, "own_script_raise.play.err")):
+    check("RuntimeError: an exception of the script" in text("own_script_raise.play.err"), "own_script_raise: the exception is the script's")
+    check("by ['tactus_board']" in text("own_script_raise.play.err"), "own_script_raise: Python sees the forces and the health of the board")
+else:
+    print("skipped: scripts, because the Python package is not built")
+
+
 class Joystick:
     """What a joystick received, according to OpenFFBoard's descriptor: 05 block magnitude, 0a block operation, 0b block, 0c control."""
 

@@ -101,6 +101,40 @@ end_under_force KILL
 unplug
 keep guardian
 
+# Programs of others, which play through libtactus_live.
+own () { build/release/bin/own_program $work/dry_wood.json "$1" 2>$work/play.err; }
+script () { PYTHONPATH=build/release/python /usr/bin/python3 -B tests/guest/own_script.py $work/dry_wood.json "$1" 2>$work/play.err; }
+# attack NAME PROGRAM WHAT [SIGNAL]: plays with WHAT; once the board has received forces, sends SIGNAL, or waits until the program ends by itself.
+attack ()
+{
+    say "an own program: $1"
+    plug --mark $work/pushed
+    $2 "$3" & player=$!
+    wait_for "$work/pushed"
+    rm -f $work/pushed
+    if [ -n "${4:-}" ]; then
+        sleep 0.3
+        kill -"$4" "$(pgrep -f "own_(program|script).* $3\$" | head -1)"
+        [ "$4" = STOP ] && { sleep 1; kill -KILL "$(pgrep -f "own_(program|script).* $3\$" | head -1)"; }
+    elif [ "$3" = hang ]; then
+        sleep 3
+        kill -KILL "$(pgrep -f "own_program.* hang\$" | head -1)"
+    fi
+    wait $player
+    sleep 0.5
+    unplug
+    pkill -f 'own_program.* fork'
+    keep "own_$1"
+}
+for signal in KILL HUP STOP; do attack $signal own play $signal; done
+for what in close fault abort hang; do attack $what own $what; done
+for what in fork two; do attack $what own $what KILL; done
+if [ -d build/release/python ]; then
+    (cd / && PYTHONPATH=$OLDPWD/build/release/python /usr/bin/python3 -B -c 'import tactus, numpy; tactus._play._live()')   # reads the files once
+    for what in raise exit; do attack script_$what script $what; done
+    attack script_KILL script play KILL
+fi
+
 # gadget: creates a board on its own bus, behind the kernel's USB stack.
 gadget=/sys/kernel/config/usb_gadget/board
 make_gadget ()

@@ -15,7 +15,11 @@ mkdir -p "$place"/{tests/guest,host,build/release/bin}
 cp tests/guest/in_guest.sh "$place/tests/guest"
 cp -r host/profiles "$place/host"
 cp -r graphs "$place"
-cp "$build"/bin/{tactus,force-guardian,guest_device} "$place/build/release/bin"
+cp tests/guest/own_script.py "$place/tests/guest"
+cp "$build"/bin/{tactus,force-guardian,guest_device,libtactus_live.so.0} "$place/build/release/bin"
+cc -Wall -Wextra -Werror tests/guest/own_program.c -I"$build/include" -o "$place/build/release/bin/own_program" \
+    -L"$build/bin" -ltactus_live -lpthread -Wl,-rpath,"\$ORIGIN"
+if [ -d "$build/python" ]; then cp -rL "$build/python" "$place/build/release"; fi
 cp ../shared/data/hid_ffb/openffboard_1axis.bin "$place/descriptor" 2>/dev/null || true
 status=0
 tests/guest/run_guest.sh $guest "$place/tests/guest/in_guest.sh" "$results" || status=$?

@@ -117,11 +117,17 @@ python3 same_bits.py render.csv embed_c.csv
 # shellcheck disable=SC2046
 gcc /usr/share/doc/libtactus-dev/examples/embed_c/main.c $(pkg-config --cflags --libs tactus | sed 's/-std=[^ ]*//') -o by_pkg_config
 ./by_pkg_config /usr/share/tactus/graphs/dry_wood.json | cmp - embed_c.csv
+# shellcheck disable=SC2046
+gcc /usr/share/doc/libtactus-dev/examples/live_c/main.c $(pkg-config --cflags --libs tactus-live) -o live_c
+./live_c dry_wood stylus=gesture:stroke 0.5   # a preset
+ldd live_c | grep libhidapi >/dev/null || fail "libtactus_live has no devices"
+[ -x /usr/libexec/tactus/force-guardian ] || fail "there is no guardian"
 took "the examples, by CMake and by pkg-config"
 
 if grep -q python3-tactus <<<"$ours"; then
     python3 -c 'import tactus; assert tactus.Graph ("/usr/share/tactus/graphs/dry_wood.json").render (duration=0.1)'
     python3 -c 'import tactus; assert tactus.Graph ("/usr/share/tactus/graphs/liver.json").render (duration=0.1)'   # reads a mesh
+    python3 -c 'import tactus; s = tactus.play ("dry_wood", ["stylus=gesture:stroke"], session="off", duration=0.3); assert s.wait (60); s.close()'
     took "the Python module"
 fi
 

@@ -80,6 +80,16 @@ else
     echo "docs/examples/python: skipped, because the Python package is not built"
 fi
 
+# Sessions on devices, here on a gesture. The library finds the guardian and the presets where they are installed.
+cmake --install "$build" --component live --prefix "$work/prefix" >/dev/null
+cmake -S "$examples/live_c" -B "$work/live_c" -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix" >/dev/null
+cmake --build "$work/live_c" >/dev/null
+"$work/live_c/live_c" "$source/graphs/dry_wood.json" stylus=gesture:stroke 0.5 >"$work/live_c.txt"
+flags=$(PKG_CONFIG_PATH=$libs/pkgconfig pkg-config --cflags --libs tactus-live)
+eval "cc -Wall -Wextra -Werror \"\$examples/live_c/main.c\" $flags -o \"\$work/live_by_pkg_config\""
+LD_LIBRARY_PATH=$libs "$work/live_by_pkg_config" "$source/graphs/dry_wood.json" stylus=gesture:stroke 0.5 >/dev/null
+echo "docs/examples/live_c: built by CMake and by pkg-config; $(cat "$work/live_c.txt")"
+
 flags=$(PKG_CONFIG_PATH=$libs/pkgconfig pkg-config --cflags --libs tactus)
 eval "c++ \"\$examples/embed/main.cpp\" $flags -o \"\$work/by_pkg_config\""   # pkg-config quotes folders for the shell
 LD_LIBRARY_PATH=$libs "$work/by_pkg_config" graphs/dry_wood.json | cmp - "$work/embed.txt"

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT
 # Compiles the ticks of all nodes to LLVM's bitcode, which the programs contain (bitcode.hpp). This takes clang, and is left out without it.
 
 # The oldest clang that is installed: each LLVM reads the bitcode of older ones.

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT
 # Writes a header with the digests of files: cmake -D "files=FILE;FILE..." -D output=HEADER -P digest.cmake
 foreach (file IN LISTS files)
     file (SHA256 ${file} digest)

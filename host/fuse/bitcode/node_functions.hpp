@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 /// The functions of a node that wiring calls (host/fuse/wiring_writer.hpp). The build compiles them to bitcode, for each node.

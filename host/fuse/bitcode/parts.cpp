@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // The steps of a plan that are not nodes, for wiring (host/fuse/wiring_writer.hpp). The build compiles this file to bitcode.
 #include <tactus/run/fused_parts.hpp>
 

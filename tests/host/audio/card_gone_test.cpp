@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Measures what a device outputs when its sound card goes away: the table on sound cards in docs/safety.md.
 //
 //     TACTUS_UPDATE=1 build/release/bin/tactus_tests "the table of sound cards*"       rewrites it

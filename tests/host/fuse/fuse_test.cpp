@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Fused code is compared with the records of a second plan of the same graph, bit for bit, while parameters move, inputs are hit, and the
 // first plan changes between its records and the fused code every few ticks.
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // The self-test of an exported graph compares every output with that of the engine, bit for bit, while parameters and controls move and
 // inputs are hit. Here, the self-tests of several graphs run in one program.
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Random graphs drive random devices through the engine; the test decodes the reports on the wire.
 
 #include "hid.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // The effort that a graph requests goes through the guard to the bytes on the wire. The test converts them back to the force at the tool.
 
 #include "hid.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Reports that are well-formed but cannot be trusted: what their alarms, numbers, clock, losses and pose say.
 #include "hid.hpp"
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <host/hid/profile_difference.hpp>
 #include <host/hid_link/profile_library.hpp>
 #include <support/temporary_folder.hpp>

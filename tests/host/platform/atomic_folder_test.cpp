@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Folders that are written completely or not at all, and never outside of them.
 #include "support/no_system_calls.hpp"
 #include "support/other_user.hpp"

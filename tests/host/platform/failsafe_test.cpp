@@ -107,6 +107,86 @@ TEST_CASE ("a killed process leaves its device at rest", "[platform]")
            == "rest!");
 }
 
+TEST_CASE ("a process that dies leaves its device at rest, even if a child of it lives on with all that it had open", "[platform]")
+{
+    const TemporaryFolder folder;
+    const auto file = (folder / "device").string();
+    const auto pid_file = (folder / "child").string();
+    const auto forkThenDie = [&] {
+        const auto child = ::fork();
+        if (child == 0)
+        {
+            std::this_thread::sleep_for (std::chrono::seconds (60));
+            ::_exit (0);
+        }
+        std::ofstream (pid_file) << child << std::flush;
+        ::kill (::getpid(), SIGKILL);
+    };
+    CHECK (afterDying (file, forkThenDie, "rest!") == "rest!");
+    const int child = std::stoi (contentOf (pid_file));
+    CHECK (::kill (child, SIGKILL) == 0);   // it was still there
+}
+
+TEST_CASE ("the child of a fork neither arms a device nor writes to those of its parent", "[platform]")
+{
+    const TemporaryFolder folder;
+    const auto file = (folder / "device").string();
+    std::ofstream { file };
+    const auto end = test::inChild ([&] {
+        const auto failsafe = Failsafe::arm (file, rest());
+        if (! failsafe) return 1;
+        const auto child = ::fork();
+        if (child == 0)
+        {
+            if (Failsafe::arm (file, rest())) ::_exit (3);
+            ::signal (SIGSEGV, SIG_DFL);   // the default, after the handler that the child still has
+            ::raise (SIGSEGV);
+        }
+        int status = 0;
+        ::waitpid (child, &status, 0);
+        if (! WIFSIGNALED (status)) return 4;
+        return contentOf (file).empty() ? 0 : 5;
+    });
+    CHECK (end.status == 0);
+}
+
+TEST_CASE ("the handlers of a program run after the last reports, and are back when nothing is armed", "[platform]")
+{
+    const TemporaryFolder folder;
+    const auto file = (folder / "device").string();
+    std::ofstream { file };
+    static constexpr int by_handler = 42;
+    const auto own = [] (int) { ::_exit (by_handler); };
+    const auto faults = test::inChild ([&] {
+        ::signal (SIGBUS, own);
+        const auto failsafe = Failsafe::arm (file, rest());
+        ::raise (SIGBUS);
+        return 1;
+    });
+    CHECK (faults.status == by_handler);
+    CHECK (until ([&] { return contentOf (file).starts_with ("rest!"); }));
+
+    const auto restored = test::inChild ([&] {
+        ::signal (SIGBUS, own);
+        {
+            const auto failsafe = Failsafe::arm (file, rest());
+        }
+        struct sigaction now
+        {
+        };
+        ::sigaction (SIGBUS, nullptr, &now);
+        if (now.sa_handler != static_cast<void (*) (int)> (own)) return 1;
+        const auto again = Failsafe::arm (file, rest());
+        ::signal (SIGBUS, SIG_IGN);   // the program takes over while a device is armed
+        {
+            auto moved = Failsafe::arm (file, rest());
+        }
+        ::sigaction (SIGBUS, nullptr, &now);
+        return now.sa_handler == SIG_IGN ? 0 : 2;
+    });
+    CHECK (restored.status == 0);
+}
+
 TEST_CASE ("a device that is too busy for the last reports gets them as soon as it takes any", "[platform]")
 {
     const TemporaryFolder folder;

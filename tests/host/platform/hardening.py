@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT
 """Checks that programs are hardened.
 
 Usage: hardening.py PROGRAM... Prints what is missing. Exit status 77 if this computer has no readelf or objdump.

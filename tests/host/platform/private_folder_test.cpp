@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // What live C++ leaves to the system: a private folder, and a limit on the compiler.
 #include "support/temporary_folder.hpp"
 

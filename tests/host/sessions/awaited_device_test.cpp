@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // A role whose device is missing when the run begins, or whose clock goes away: no force until everything works again.
 
 #include "host/hid_link/fake_board.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // The needs of a graph's roles, whether the bound devices meet them, and the choice of the clock.
 
 #include "host/hid_link/fake_board.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <host/hid/physics.hpp>
 #include <host/sessions/numbers_device.hpp>
 #include <tactus/run/device/sim.hpp>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // A device's workspace in a graph: scaling, the force on the hand, and limits that must not be loosened.
 
 #include <host/sessions/workspace.hpp>
