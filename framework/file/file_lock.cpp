@@ -28,18 +28,20 @@ std::optional<FileLock> FileLock::takeOpened (const std::filesystem::path& path,
     const int opened = ::open (path.c_str(), O_RDWR | (make ? O_CREAT : 0) | O_CLOEXEC, 0600);
     if (opened < 0) return std::nullopt;
     FileLock lock (opened);
+    lock.owner = ::getpid();
     if (::flock (opened, LOCK_EX | LOCK_NB) != 0) return std::nullopt;
     return lock;
 #endif
 }
 
-FileLock::FileLock (FileLock&& other) noexcept : handle (std::exchange (other.handle, none)) {}
+FileLock::FileLock (FileLock&& other) noexcept : handle (std::exchange (other.handle, none)), owner (other.owner) {}
 
 FileLock& FileLock::operator= (FileLock&& other) noexcept
 {
     if (this == &other) return *this;
     release();
     handle = std::exchange (other.handle, none);
+    owner = other.owner;
     return *this;
 }
 
@@ -51,6 +53,7 @@ void FileLock::release() noexcept
 #if defined(_WIN32)
     CloseHandle (reinterpret_cast<HANDLE> (handle));
 #else
+    if (owner == ::getpid()) ::flock (static_cast<int> (handle), LOCK_UN);   // the child of a fork may still have the file open
     ::close (static_cast<int> (handle));
 #endif
     handle = none;

@@ -37,6 +37,7 @@ private:
 
     static constexpr std::intptr_t none = -1;
     std::intptr_t handle = none;
+    long owner = 0;   // the process that took it: the lock is not that of a child that it forks
 };
 
 }   // namespace tactus

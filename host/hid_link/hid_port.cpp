@@ -94,7 +94,10 @@ Result<std::unique_ptr<HidPort>> HidPort::open (HidSystem& system, const Connect
     }
 
     std::unique_ptr<HidPort> port (new HidPort (system, device, std::move (profile), options));
-    if (const auto woken = port->wake (**opened); ! woken)
+    if (const auto woken = port->wake (**opened); ! woken && woken.error().id == "device/failsafe")
+        return Message::error (woken.error().id, device.path, device.path + " (" + device.product + "): " + woken.error().text,
+                               "install Tactus with the program force-guardian, and open devices only in a process that was not forked from one with open devices");
+    else if (! woken)
         return Message::error (woken.error().id, device.path,
                                device.path + " (" + device.product + ") fails the init steps of its profile " + port->profile()->id + ": " + woken.error().text,
                                woken.error().remedy);
@@ -142,11 +145,17 @@ Bytes HidPort::wireOf (const Step& step) const
     return addressed (bytes, step.given);
 }
 
-/// Returns why there is no failsafe; empty if there is one.
-std::string HidPort::armFailsafe (Transport& t)
+/// An error if nothing would bring a device with motors to rest if this program died. Where the system has no failsafe at all, it is only noted.
+Result<> HidPort::armFailsafe (Transport& t)
 {
-    const auto armed = t.armFailsafe (neutralReports());
-    return armed ? std::string() : "if this program dies, nothing brings the device to rest: " + armed.error().text;
+    const auto last = neutralReports();
+    auto armed = t.armFailsafe (last);
+    if (armed || last.empty()) return {};
+    auto why = std::move (armed).error();
+    why.text = "if this program dies, nothing brings the device to rest: " + why.text;
+    if (why.id != "device/no_failsafe") return why;
+    note (why.text);
+    return {};
 }
 
 /// Performs the init steps.
@@ -155,12 +164,10 @@ Result<> HidPort::wake (Transport& t)
     const std::lock_guard lock (writing);
     quiet.reset();
     assigned = 0;
-    auto no_failsafe = armFailsafe (t);
+    if (auto armed = armFailsafe (t); ! armed) return armed;
     for (const auto& step : description->init)
         if (auto done = perform (t, step); ! done) return done;
-    if (assigned != 0) no_failsafe = armFailsafe (t);
-    if (! no_failsafe.empty()) note (no_failsafe);
-    return {};
+    return assigned != 0 ? armFailsafe (t) : Result<> {};
 }
 
 Result<> HidPort::perform (Transport& t, const Step& step)

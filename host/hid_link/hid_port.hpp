@@ -191,7 +191,7 @@ private:
     Result<> wake (Transport&);
     Result<> perform (Transport&, const Step&);
     Result<> ask (Transport&, const Step&);
-    std::string armFailsafe (Transport&);
+    Result<> armFailsafe (Transport&);
     Bytes addressed (std::span<const std::uint8_t> wire, const std::optional<Bits>& place) const;
     Bytes wireOf (const Step&) const;
     void become (Opened);

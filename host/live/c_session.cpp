@@ -7,6 +7,7 @@
 #include <host/hid_link/profile_library.hpp>
 #include <host/platform/home_folder.hpp>
 #include <host/platform/preset_folder.hpp>
+#include <host/platform/signals.hpp>
 #include <host/sessions/numbers_device.hpp>
 #include <tactus/kit/nearest_by_boxes.hpp>
 #include <tactus/node/catalogue.hpp>
@@ -16,6 +17,7 @@
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <condition_variable>
 #include <map>
@@ -41,6 +43,7 @@ namespace
 {
 constexpr std::size_t most_events = 1000;
 constexpr double most_number = 1e9;
+constexpr std::chrono::duration<double> longest_stop { tactus::Runner::longest_halt_s + 5.0 };
 constexpr auto look_apart = std::chrono::milliseconds (20);
 
 long thisProcess() noexcept
@@ -74,6 +77,7 @@ struct tactus_session
     }
 
     bool isOurs() const noexcept { return owner == thisProcess(); }
+    bool isTicking() const noexcept { return has_started && live->isRunning(); }
 
     void attendOnce();
     void tellStops();
@@ -87,7 +91,10 @@ struct tactus_session
     std::vector<double> values;                        // of the probes
     std::unique_ptr<LiveSession> live;                 // set before the caller has the session
     LiveSession::Start start;
-    bool has_started = false;
+    bool starts = false;                           // tactus_session_start was called
+    std::atomic<bool> has_started { false };       // the run is live   [any thread]
+    double rate = 0.0;                             // in Hz; fixed when the caller has the session, as is the clock
+    std::map<std::string, std::string> troubles;   // of devices, by role, that the caller was told about
     Messages events;
     std::map<std::string, tactus::Guard::Stop> told;   // by role: the stop that the caller was told about
     bool is_over = false;
@@ -120,6 +127,9 @@ void tactus_session::attendOnce()
     for (auto* each : { &news.alarm, &news.log, &news.fusion, &news.sound })
         if (*each) events.push_back (std::move (**each));
     tellStops();
+    for (const auto& h : live->health())
+        if (auto& told_trouble = troubles[h.role]; std::exchange (told_trouble, h.trouble) != h.trouble && ! h.trouble.empty())
+            events.push_back (Message::warning ("device/trouble", "/devices/" + h.role, h.trouble));
     probes.drain ([&] (std::uint64_t, std::span<const double> now) { std::ranges::copy (now.first (std::min (now.size(), values.size())), values.begin()); });
     if (events.size() > most_events) events.erase (events.begin(), events.end() - most_events);
 }
@@ -197,6 +207,7 @@ tactus_session* open (const tactus_graph& g, const tactus_session_options& given
     if (given.log != nullptr)
         if (auto logs = live.log (given.log, "libtactus_live " TACTUS_LIBRARY_VERSION, list (given.sets, given.set_count)); ! logs)
             return refuse (std::move (logs).error());
+    made->rate = live.rate();
     for (const auto& tap : live.run().recorded())
     {
         made->records.push_back (tap.name);
@@ -221,49 +232,68 @@ tactus_result with (tactus_session* s, tactus_messages* messages, F&& f)
     });
 }
 
+bool isOurs (const tactus_session* s) noexcept { return s != nullptr && s->isOurs(); }
+
 const char* nameAt (const std::vector<std::string>& names, size_t i) { return i < names.size() ? names[i].c_str() : nullptr; }
 }   // namespace
 
 tactus_session* tactus_session_open (const tactus_graph* g, const tactus_session_options* given, tactus_messages* messages)
 {
     if (g == nullptr) return nullptr;
-    return guarded<tactus_session*> (messages, nullptr, [&] { return open (*g, known (given, tactus_session_options TACTUS_SESSION_OPTIONS), messages); });
+    return guarded<tactus_session*> (messages, nullptr, [&] {
+        const HeldSignals held;
+        return open (*g, known (given, tactus_session_options TACTUS_SESSION_OPTIONS), messages);
+    });
 }
 
 tactus_result tactus_session_start (tactus_session* s, tactus_messages* messages)
 {
-    if (s == nullptr || ! s->isOurs() || s->has_started) return TACTUS_MISUSE;
+    if (s == nullptr || ! s->isOurs() || std::exchange (s->starts, true)) return TACTUS_MISUSE;
     return guarded (messages, TACTUS_FAILED, [&] {
-        s->has_started = true;
-        for (auto& refused : s->live->start (s->start))
-            if (messages != nullptr) messages->list.push_back (Message::warning ("run/privilege", "", std::move (refused)));
+        const HeldSignals held;   // by the threads that start here: the handlers of the program run on its own threads
         s->attending = std::jthread ([s] (const std::stop_token& stop) {
             static_cast<void> (tactus::caught ("the thread of the session", [&] {
                 std::unique_lock lock (s->mutex);
                 while (! stop.stop_requested())
                 {
-                    s->attendOnce();
+                    if (auto done = tactus::caught ("the session", [&] { s->attendOnce(); }); ! done) s->events.push_back (std::move (done).error());
                     s->wake.wait_for (lock, stop, look_apart, [&] { return stop.stop_requested(); });
                 }
             }));
         });
+        const std::lock_guard lock (s->mutex);
+        for (auto& refused : s->live->start (s->start))
+            if (messages != nullptr) messages->list.push_back (Message::warning ("run/privilege", "", std::move (refused)));
+        s->has_started = true;
         return TACTUS_OK;
     });
 }
 
 tactus_result tactus_session_stop (tactus_session* s, tactus_messages* messages)
 {
-    return with (s, messages, [&] (LiveSession& live) {
-        auto ended = live.end();
-        return ended.log ? TACTUS_OK : failed (messages, std::move (ended.log).error());
+    const auto stopping = with (s, messages, [&] (LiveSession& live) {
+        live.stop();
+        return TACTUS_OK;
+    });
+    if (stopping != TACTUS_OK) return stopping;
+    return guarded (messages, TACTUS_FAILED, [&]() -> tactus_result {
+        // Without the lock, so that the session is attended to meanwhile.
+        for (const auto began = std::chrono::steady_clock::now(); s->isTicking(); std::this_thread::sleep_for (std::chrono::milliseconds (2)))
+            if (std::chrono::steady_clock::now() - began > longest_stop)
+                return failed (messages, Message::error ("run/stuck", "", "a tick does not end, so the session cannot end either",
+                                                         "the graph asks for too much in one tick, or a plugin loops; `tactus check-plugin` examines plugins"));
+        return with (s, messages, [&] (LiveSession& live) {
+            auto ended = live.end();
+            return ended.log ? TACTUS_OK : failed (messages, std::move (ended.log).error());
+        });
     });
 }
 
 void tactus_session_close (tactus_session* s)
 {
     if (s == nullptr || ! s->isOurs()) return;
-    tactus_session_stop (s, nullptr);
-    delete s;
+    static_cast<void> (tactus_session_stop (s, nullptr));
+    if (! s->isTicking()) delete s;
 }
 
 tactus_result tactus_session_emergency_stop (tactus_session* s)
@@ -326,34 +356,35 @@ tactus_result tactus_session_probe (tactus_session* s, const char* const* ports,
     });
 }
 
-size_t tactus_session_probe_count (const tactus_session* s) { return s != nullptr ? s->probed.size() : 0; }
-const char* tactus_session_probe_name (const tactus_session* s, size_t i) { return s != nullptr ? nameAt (s->probed, i) : nullptr; }
+size_t tactus_session_probe_count (const tactus_session* s) { return isOurs (s) ? s->probed.size() : 0; }
+const char* tactus_session_probe_name (const tactus_session* s, size_t i) { return isOurs (s) ? nameAt (s->probed, i) : nullptr; }
 
-tactus_result tactus_session_probed (tactus_session* s, double* values)
+tactus_result tactus_session_probed (tactus_session* s, double* values, size_t count)
 {
     if (values == nullptr) return TACTUS_MISUSE;
     return with (s, nullptr, [&] (LiveSession&) {
+        if (count < s->values.size()) return TACTUS_MISUSE;
         std::ranges::copy (s->values, values);
         return TACTUS_OK;
     });
 }
 
-size_t tactus_session_record_count (const tactus_session* s) { return s != nullptr ? s->records.size() : 0; }
-const char* tactus_session_record_name (const tactus_session* s, size_t i) { return s != nullptr ? nameAt (s->records, i) : nullptr; }
-const char* tactus_session_record_unit (const tactus_session* s, size_t i) { return s != nullptr ? nameAt (s->units, i) : nullptr; }
-size_t tactus_session_collect (tactus_session* s, double* rows, size_t most) { return s != nullptr ? s->recorder.collect (rows, most) : 0; }
-uint64_t tactus_session_lost (const tactus_session* s) { return s != nullptr ? s->recorder.lost() : 0; }
+size_t tactus_session_record_count (const tactus_session* s) { return isOurs (s) ? s->records.size() : 0; }
+const char* tactus_session_record_name (const tactus_session* s, size_t i) { return isOurs (s) ? nameAt (s->records, i) : nullptr; }
+const char* tactus_session_record_unit (const tactus_session* s, size_t i) { return isOurs (s) ? nameAt (s->units, i) : nullptr; }
+size_t tactus_session_collect (tactus_session* s, double* rows, size_t most) { return isOurs (s) ? s->recorder.collect (rows, most) : 0; }
+uint64_t tactus_session_lost (const tactus_session* s) { return isOurs (s) ? s->recorder.lost() : 0; }
 
 //==============================================================================
 tactus_result tactus_session_status (const tactus_session* s, tactus_status* to)
 {
     if (s == nullptr || to == nullptr || ! s->isOurs()) return TACTUS_MISUSE;
-    give (to, tactus::capi::statusOf (s->live->run()));
+    give (to, s->has_started ? tactus::capi::statusOf (s->live->run()) : tactus_status TACTUS_STATUS);
     return TACTUS_OK;
 }
 
-double tactus_session_rate (const tactus_session* s) { return s != nullptr ? s->live->rate() : 0.0; }
-const char* tactus_session_clock (const tactus_session* s) { return s != nullptr ? s->live->clockRole().c_str() : nullptr; }
+double tactus_session_rate (const tactus_session* s) { return isOurs (s) ? s->rate : 0.0; }
+const char* tactus_session_clock (const tactus_session* s) { return isOurs (s) ? s->live->clockRole().c_str() : nullptr; }
 
 size_t tactus_session_health_count (tactus_session* s)
 {

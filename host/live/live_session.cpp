@@ -2,7 +2,6 @@
 #include "live_session.hpp"
 
 #include <host/platform/failsafe.hpp>
-#include <tactus/graph/reconcile.hpp>
 #include <tactus/plan/missing_parts.hpp>
 #include <tactus/run/device/gesture_device.hpp>
 #include <tactus/run/device/sim.hpp>
@@ -38,14 +37,18 @@ LiveSession::LiveSession (const Catalogue& c, Hardware h, Options o)
 LiveSession::~LiveSession() { static_cast<void> (end()); }
 
 //==============================================================================
-Messages LiveSession::load (graph::Graph graph)
+Messages LiveSession::load (const graph::Graph& graph)
 {
-    playing = std::move (graph);
+    playing = graph;
     auto& fixed_rate = options.compile.rate_hz;
     auto choice = devices.chooseClock (playing, options.clock, fixed_rate > 0.0 ? std::optional (fixed_rate) : std::nullopt);
     auto messages = std::move (choice.messages);
     if (hasErrors (messages)) return messages;
-    if (choice.by_sound_card && hardware.sound() != nullptr) hardware.sound()->tickBy (fixed_rate > 0.0 ? fixed_rate : playing.rate_hz);
+    if (choice.by_sound_card && hardware.sound() == nullptr)
+        messages.push_back (Message::warning ("audio/none", options.clock.empty() ? "/clock" : "--clock " + options.clock,
+                                              "the sound card cannot tick the run, because this program has no sound cards", "a timer ticks the run"));
+    else if (choice.by_sound_card)
+        hardware.sound()->tickBy (fixed_rate > 0.0 ? fixed_rate : playing.rate_hz);
     clock_role = choice.role;
     if (! clock_role.empty()) options.compile.rate_hz = choice.rate_hz;
 
@@ -54,7 +57,7 @@ Messages LiveSession::load (graph::Graph graph)
     std::optional<Messages> compiled;
     if (options.keeps_records)   // before there are listeners: the plan taps the inputs of all sinks only if no ports are named
     {
-        compiled = running->load (playing);
+        compiled = running->load (graph);
         if (running->hasEngine()) running->keepRecords();
     }
     auto listeners = options.listeners;
@@ -63,7 +66,7 @@ Messages LiveSession::load (graph::Graph graph)
     for (auto* listener : listeners)
         running->add (*listener);
     const bool names_ports = std::ranges::any_of (listeners, [] (const auto* l) { return ! l->ports().empty(); });
-    if (! compiled || (names_ports && running->hasEngine())) compiled = running->load (playing);
+    if (! compiled || (names_ports && running->hasEngine())) compiled = running->load (graph);
     has_placeholders = running->hasEngine() && hasErrors (*compiled);
     std::ranges::move (*compiled, std::back_inserter (messages));
     return messages;
@@ -72,10 +75,10 @@ Messages LiveSession::load (graph::Graph graph)
 Messages LiveSession::openDevices()
 {
     Messages messages;
+    alarms_told = alarms_stopped = Failsafe::alarms();   // earlier alarms have nothing to do with the devices of this run
     running->keepLimits (options.kept_limits);
     running->openDevices (playing, messages);
     obeyed = stops.noticed();
-    alarms_told = alarms_stopped = Failsafe::alarms();   // earlier alarms have nothing to do with the devices of this run
     if (options.is_stopped) engine().emergencyStop();
 
     const auto& plan = engine().newest();
@@ -127,7 +130,11 @@ std::vector<std::string> LiveSession::start (const Start& how)
 //==============================================================================
 void LiveSession::before (Plan&, std::uint64_t) noexcept
 {
-    if (const auto now = Failsafe::alarms(); std::exchange (alarms_stopped, now) != now) engine().emergencyStop();
+    if (const auto now = Failsafe::alarms(); std::exchange (alarms_stopped, now) != now)
+    {
+        stops.note();   // from now on, nothing rearms for a while, however long the main thread is busy
+        engine().emergencyStop();
+    }
     const auto now = stops.presses();
     const auto earlier = std::exchange (obeyed, now);
     if (now.emergencies != earlier.emergencies) engine().emergencyStop();
@@ -149,11 +156,12 @@ void LiveSession::emergencyStop() noexcept
 Result<> LiveSession::rearm (std::chrono::steady_clock::time_point asked)
 {
     const auto seen = stops.latest();
+    const auto alarms = Failsafe::alarms();
     if (auto may = stops.mayRearm (asked); ! may) return may;
     stops.rearmed();
     if (! isLoaded()) return {};
     engine().rearm();
-    if (stops.latest() != seen) engine().emergencyStop();
+    if (stops.latest() != seen || Failsafe::alarms() != alarms) engine().emergencyStop();
     return {};
 }
 
@@ -167,7 +175,7 @@ bool LiveSession::isLatched() const
 std::optional<Message> LiveSession::noticeAlarm()
 {
     const auto now = Failsafe::alarms();
-    if (std::exchange (alarms_told, now) == now || ! isRunning()) return std::nullopt;
+    if (std::exchange (alarms_told, now) == now) return std::nullopt;
     emergencyStop();
     return Failsafe::alarm();
 }
@@ -196,7 +204,7 @@ LiveSession::News LiveSession::attend()
     return news;
 }
 
-LiveSession::Edited LiveSession::edit (graph::Graph next, Accepts accepts, const std::function<bool (const Plan&)>& agrees)
+LiveSession::Edited LiveSession::edit (const graph::Graph& next, Accepts accepts, const std::function<bool (const Plan&)>& agrees)
 {
     const bool placeholders_run = has_placeholders;
     auto edit = running->edit (next);
@@ -214,7 +222,7 @@ LiveSession::Edited LiveSession::edit (graph::Graph next, Accepts accepts, const
     Edited edited { true, std::move (messages) };
     std::ranges::move (missingParts (engine().newest()), std::back_inserter (edited.messages));
     std::ranges::move (devices.notTakenOver (playing, next), std::back_inserter (edited.messages));
-    playing = std::move (next);
+    playing = next;
     has_placeholders = placeholders;
     return edited;
 }

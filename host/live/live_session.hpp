@@ -27,11 +27,11 @@ namespace tactus::host
 /// this class.
 ///
 ///     LiveSession session { catalogue, hardware, { .devices = { .session = loadDefaultSession (home) }, .stops = &stops } };
-///     auto messages = session.load (graph);                  // chooses the clock, and compiles
-///     session.openDevices (messages);
-///     session.begin (messages);                              // the sound
+///     auto messages = session.load (graph);        // chooses the clock, and compiles
+///     messages = session.openDevices();
+///     messages = session.beginSound();
 ///     session.start ({});
-///     while (! session.isOver()) session.attend();           // many times a second
+///     while (session.isRunning()) session.attend();   // many times a second
 ///     session.end();
 ///
 /// Each step returns messages. After errors, the caller decides whether to take the next step: the window plays a graph with placeholders for
@@ -61,7 +61,7 @@ public:
     // Before the first tick.
 
     /// Chooses the clock and compiles the graph. Without isLoaded(), there is nothing to run. Ids: those of chooseClock and compile().
-    Messages load (graph::Graph);
+    Messages load (const graph::Graph&);
     bool isLoaded() const noexcept { return running != nullptr && running->hasEngine(); }
 
     /// Opens the devices of all roles. Also tells which parts of the graph and of the devices are missing. Ids: those of RoleDevices::open,
@@ -123,7 +123,10 @@ public:
     };
 
     /// Plays an edited graph from the next tick on. Roles keep their devices, and a new role gets one.
-    Edited edit (graph::Graph, Accepts, const std::function<bool (const Plan&)>& agrees = {});
+    Edited edit (const graph::Graph&, Accepts, const std::function<bool (const Plan&)>& agrees = {});
+
+    /// The user's session has changed: roles that come later get their devices from the new one.
+    void rebind (LoadedSession s) { devices.rebind (std::move (s)); }
 
     /// From now on, replaces the plan that runs by compiled code (docs/fusion.md); empty: runs by the plan. The forces do not change.
     void fuse (std::optional<Fuser::Options>);

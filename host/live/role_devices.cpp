@@ -24,15 +24,12 @@ std::optional<RoleBinding> RoleDevices::boundTo (const std::string& role) const
 
 std::vector<Described> RoleDevices::describe (const graph::Graph& graph) const
 {
-    std::vector<std::string> roles;
-    const auto add = [&] (const std::string& role) {
-        if (std::ranges::count (roles, role) == 0) roles.push_back (role);
-    };
+    const auto named = rolesNamed (graph);
+    std::vector<std::string> roles;   // those that the graph describes come first
     for (const auto& [role, description] : graph.devices)
-        add (role);
-    std::ranges::for_each (rolesNamed (graph), add);
-    for (const auto& given : choice.given)
-        add (given.role);
+        if (std::ranges::count (named, role) > 0) roles.push_back (role);
+    for (const auto& role : named)
+        if (std::ranges::count (roles, role) == 0) roles.push_back (role);
 
     std::vector<Described> all;
     for (const auto& role : roles)

@@ -35,7 +35,10 @@ public:
 
     RoleDevices (Hardware h, Choice c) : hardware (std::move (h)), choice (std::move (c)) {}
 
-    /// The descriptions of the devices of all roles of a graph.
+    /// The session has changed: devices that are opened from now on are those of the new one.
+    void rebind (LoadedSession s) { choice.session = std::move (s); }
+
+    /// The descriptions of the devices of all roles that nodes of a graph name.
     std::vector<Described> describe (const graph::Graph&) const;
 
     /// The clock that ticks a run of the graph: the one that is asked for, else the session's, else the first device that can tick the run, unless

@@ -40,10 +40,11 @@ public:
     Presses presses() const noexcept { return { stops.load(), emergencies.load() }; }
 
     /// Notes an emergency stop that needs no press, because its caller stops the run.
-    void note() noexcept { pressed_at.store (now()); }   ///< [any thread, even in a signal handler]
+    void note() noexcept { pressed_at.exchange (now()); }   ///< [any thread, even in a signal handler]
 
-    /// When the latest emergency stop was. Only for comparison with an earlier answer. [any thread]
-    std::chrono::steady_clock::rep latest() const noexcept { return pressed_at.load(); }
+    /// When the latest emergency stop was. Only for comparison with an earlier answer. It writes, so that it comes neither before nor after what its
+    /// thread does before and after it. [any thread]
+    std::chrono::steady_clock::rep latest() noexcept { return pressed_at.fetch_add (0); }
 
     /// Allows a rearm that was asked for at this time, or refuses because it was asked for within a pause of an emergency stop, or before the
     /// stop, or comes within a pause of the last rearm. Id: run/rearm_too_early. [any thread]

@@ -20,8 +20,8 @@
  * Conventions
  *  - Those of tactus.h. Text that a function returns stays valid until the next call of the same function for the same session.
  *  - [one thread]: one thread at a time per session; it may wait for a few ms. [any thread]: any thread at any time while the session exists.
- *  - A session has a thread of its own that looks after it, so nothing needs to be called regularly. A program that does nothing, waits in a
- *    function of its own or stops at a breakpoint does not affect the ticks.
+ *  - A session has a thread of its own that looks after it, so nothing needs to be called regularly. A program that does nothing or waits in a
+ *    function of its own does not affect the ticks. A debugger that stops the whole process does: the devices are brought to rest.
  *  - Graphs never choose or calibrate real devices. Only `devices` and the user's session file do.
  *  - If the process ends, is killed or freezes, a guardian process brings the devices to rest (docs/hazards.md).
  *  - After fork(), only the parent has the sessions. In the child, every function returns TACTUS_MISUSE, NULL or 0.
@@ -68,10 +68,13 @@ TACTUS_API tactus_session* tactus_session_open (const tactus_graph*, const tactu
 /** Starts the ticks. Real-time privileges that the system refuses are warnings. Call it once. [one thread] */
 TACTUS_API tactus_result tactus_session_start (tactus_session*, tactus_messages*);
 
-/** Ramps all forces to zero, ends the ticks, and completes the log. Waits for it. [one thread] */
+/** Ramps all forces to zero, ends the ticks, and completes the log. Waits for it: usually for less than a second, with a low slew limit for up to
+ *  30 s. If a tick does not end, because a plugin loops, it fails after that time (run/stuck); the device got its last reports long before. [one
+ *  thread] */
 TACTUS_API tactus_result tactus_session_stop (tactus_session*, tactus_messages*);
 
-/** Stops, releases the devices, and frees the session. [one thread] */
+/** Stops, releases the devices, and frees the session. No other function may be called at the same time or later. If a tick does not end, the
+ *  session stays in memory. [one thread] */
 TACTUS_API void tactus_session_close (tactus_session*);
 
 /** Fades all forces to zero and keeps them there until tactus_session_rearm. The graph keeps running. Safe in a signal handler. [any thread] */
@@ -108,8 +111,8 @@ TACTUS_API tactus_result tactus_session_probe (tactus_session*, const char* cons
 TACTUS_API size_t tactus_session_probe_count (const tactus_session*);
 TACTUS_API const char* tactus_session_probe_name (const tactus_session*, size_t index); /**< "motor.force.x" [one thread] */
 
-/** The latest values of the probes. [one thread] */
-TACTUS_API tactus_result tactus_session_probed (tactus_session*, double* values);
+/** The latest values of the probes. There must be room for all of them. [one thread] */
+TACTUS_API tactus_result tactus_session_probed (tactus_session*, double* values, size_t count);
 
 TACTUS_API size_t tactus_session_record_count (const tactus_session*);                   /**< components, not ports [one thread] */
 TACTUS_API const char* tactus_session_record_name (const tactus_session*, size_t index); /**< [one thread] */

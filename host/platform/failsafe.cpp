@@ -59,7 +59,8 @@ std::atomic<Shared*> shared { nullptr };   // from the first guardian on
 int to_guardian = -1, memory_file = -1;
 pid_t guardian_process = -1;
 std::atomic<bool> is_child { false };   // of a process that used devices before it forked
-bool handles_faults = false;
+bool handles_faults = false, is_watched = false;
+std::string why_unguarded;   // why the last guardian could not be started; empty: it was
 
 std::array<struct sigaction, faults.size()> handled_before;
 
@@ -91,14 +92,29 @@ void writeAll() noexcept
         if (const int file = entry.file.load(); file >= 0) guardian::write (file, entry.reports);
 }
 
-extern "C" void afterFault (int signal)
+/// Writes the last reports, and then calls the handler that was there before ours. If that one faults or calls ours again, the default action follows.
+extern "C" void afterFault (int signal, siginfo_t* info, void* context)
 {
+    static std::array<volatile std::sig_atomic_t, faults.size()> handling {};
     const int kept = errno;
     writeAll();
-    for (std::size_t i = 0; i < faults.size(); ++i)
-        if (faults[i] == signal) ::sigaction (signal, &handled_before[i], nullptr);
+    const auto at = static_cast<std::size_t> (std::ranges::find (faults, signal) - faults.begin());
+    const auto& before = handled_before[at];
+    const bool is_default = (before.sa_flags & SA_SIGINFO) == 0 && (before.sa_handler == SIG_DFL || before.sa_handler == SIG_IGN);
+    if (is_default || handling[at] != 0)
+    {
+        ::signal (signal, SIG_DFL);
+        errno = kept;
+        ::raise (signal);   // takes effect when this handler returns
+        return;
+    }
+    handling[at] = 1;
     errno = kept;
-    ::raise (signal);   // takes effect when this handler returns
+    if ((before.sa_flags & SA_SIGINFO) != 0)
+        before.sa_sigaction (signal, info, context);
+    else
+        before.sa_handler (signal);
+    handling[at] = 0;   // a program that goes on after a fault, as those in managed languages do
 }
 
 std::string reason (int error) { return std::generic_category().message (error); }
@@ -128,25 +144,34 @@ int spawn (const char* program, int socket, pid_t& child)
 }
 
 /// Starts a guardian and gives it what is armed. Returns why it cannot; empty if it worked. [with `changing` held]
-std::string startGuardian()
+std::string tryGuardian()
 {
-    std::array<int, 2> ends {};
-    if (::socketpair (AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return reason (errno);
     const auto name = std::string (guardian::program_name);
     const auto program = shipped ({ name, "../libexec/tactus/" + name });
+    if (program.empty()) return "the program " + name + " is not next to those of Tactus";
+    std::array<int, 2> ends {};
+    if (::socketpair (AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return reason (errno);
     pid_t child = -1;
-    const int error = program.empty() ? ENOENT : spawn (program.c_str(), ends[1], child);
+    const int error = spawn (program.c_str(), ends[1], child);
     ::close (ends[1]);
     if (error != 0)
     {
         ::close (ends[0]);
-        return "the program " + name + ", which belongs to Tactus: " + reason (error);
+        return program.string() + ": " + reason (error);
     }
     to_guardian = ends[0];
     guardian_process = child;
     for (const auto& entry : armed)
         if (const int file = entry.file.load(); file >= 0) guardian::send (to_guardian, entry.reports, file);
     return {};
+}
+
+/// The same without exceptions; notes the answer. [with `changing` held]
+bool startGuardian()
+{
+    auto started = caught ("the guardian", tryGuardian);
+    why_unguarded = started ? std::move (*started) : started.error().text;
+    return why_unguarded.empty();
 }
 
 /// Waits until the guardian is dead. Kills it if it gives no sign of life: frozen, it would let a force stay on. [without `changing` held]
@@ -171,23 +196,29 @@ void waitForEndOf (pid_t guardian, int socket) noexcept
 /// because nothing rearms within a second of an alarm, the forces stay at zero.
 void watchGuardian()
 {
+    constexpr auto pause = std::chrono::milliseconds (250);
     std::unique_lock lock (changing);
     for (;;)
     {
-        const auto socket = to_guardian;
-        const auto child = guardian_process;
-        lock.unlock();
-        waitForEndOf (child, socket);
-        shared.load()->raiseAlarm (Shared::Cause::unguarded, 0);
-        ::waitpid (child, nullptr, 0);
-        lock.lock();
-        ::close (std::exchange (to_guardian, -1));
+        if (to_guardian >= 0)
+        {
+            const auto socket = to_guardian;
+            const auto child = guardian_process;
+            const auto began = std::chrono::steady_clock::now();
+            lock.unlock();
+            waitForEndOf (child, socket);
+            shared.load()->raiseAlarm (Shared::Cause::unguarded, 0);
+            ::waitpid (child, nullptr, 0);
+            if (std::chrono::steady_clock::now() - began < pause) std::this_thread::sleep_for (pause);   // it ends as soon as it starts
+            lock.lock();
+            ::close (std::exchange (to_guardian, -1));
+        }
         while (to_guardian < 0)
-            if (! startGuardian().empty())
+            if (! startGuardian())
             {
-                shared.load()->raiseAlarm (Shared::Cause::unguarded, EAGAIN);
+                shared.load()->raiseAlarm (Shared::Cause::unguarded, 1);
                 lock.unlock();
-                std::this_thread::sleep_for (std::chrono::milliseconds (250));
+                std::this_thread::sleep_for (pause);
                 lock.lock();
             }
     }
@@ -217,19 +248,28 @@ int shareMemory()
     return 0;
 }
 
-/// Starts the first guardian, unless there is one. Returns why this failed; empty if it did not. [with `changing` held]
+/// Starts the first guardian and the thread that watches it, unless they are there. Returns why this failed; empty if it did not. [with `changing`
+/// held]
 std::string needGuardian()
 {
+    static const int forks = ::pthread_atfork ([] { changing.lock(); }, [] { changing.unlock(); },
+                                               [] {
+                                                   forgetInChild();
+                                                   changing.unlock();
+                                               });
+    if (forks != 0) return reason (forks);
     if (shared.load() == nullptr)
         if (const int error = shareMemory(); error != 0) return reason (error);
-    if (guardian_process >= 0) return {};   // if it has just died, watchGuardian() starts another one
-    if (auto why = startGuardian(); ! why.empty()) return why;
-    ::pthread_atfork (nullptr, nullptr, forgetInChild);
-    std::thread ([] {
-        for (;;)
-            if (! caught ("the watch over the guardian", watchGuardian)) shared.load()->raiseAlarm (Shared::Cause::unguarded, EAGAIN);
-    }).detach();
-    return {};
+    if (guardian_process < 0 && ! startGuardian()) return why_unguarded;   // if it has just died, watchGuardian() starts another one
+    if (is_watched) return {};
+    const auto watched = caught ("the watch over the guardian", [] {
+        std::thread ([] {
+            for (;;)
+                if (! caught ("the watch over the guardian", watchGuardian)) shared.load()->raiseAlarm (Shared::Cause::unguarded, 1);
+        }).detach();
+    });
+    is_watched = watched.has_value();
+    return is_watched ? std::string() : watched.error().text;
 }
 
 /// Sets the handlers of faults while anything is armed, and then those of before again, unless somebody has replaced ours. [with `changing` held]
@@ -241,15 +281,22 @@ void handleFaults (bool on) noexcept
         struct sigaction ours
         {
         };
-        ours.sa_handler = afterFault;
+        ours.sa_sigaction = afterFault;
+        ours.sa_flags = SA_SIGINFO | SA_ONSTACK;   // a program may have a stack for handlers, and its handler may need it
         struct sigaction now
         {
         };
         if (on)
             ::sigaction (faults[i], &ours, &handled_before[i]);
-        else if (::sigaction (faults[i], nullptr, &now) == 0 && now.sa_handler == afterFault)
+        else if (::sigaction (faults[i], nullptr, &now) == 0 && (now.sa_flags & SA_SIGINFO) != 0 && now.sa_sigaction == afterFault)
             ::sigaction (faults[i], &handled_before[i], nullptr);
     }
+}
+
+std::string whyUnguarded()
+{
+    const std::lock_guard lock (changing);
+    return why_unguarded;
 }
 
 bool isAnythingArmed() noexcept
@@ -262,8 +309,8 @@ Result<Failsafe> Failsafe::arm (const std::string& device_file, const std::vecto
 {
     const auto failed = [&] (std::string why) { return Message::error ("device/failsafe", device_file, std::move (why)); };
 
-    const std::lock_guard lock (changing);
     if (is_child) return failed ("a process that was forked from one that has used devices cannot open devices; start a new one");
+    const std::lock_guard lock (changing);
     std::size_t slot = 0, used = 0;
     while (slot < armed.size() && armed[slot].file.load() >= 0)
         ++slot;
@@ -352,7 +399,7 @@ Message Failsafe::alarm()
     case Shared::Cause::unguarded:
         return Message::warning ("run/unguarded", {},
                                  "the guardian process, which brings the devices to rest if this program dies, has been killed or frozen; "
-                                     + (detail == 0 ? "another one takes its place" : "another one cannot be started: " + reason (static_cast<int> (detail)))
+                                     + (detail == 0 ? "another one takes its place" : "another one cannot be started: " + whyUnguarded())
                                      + "; all forces are held at zero",
                                  remedy);
     case Shared::Cause::slept:
@@ -365,7 +412,7 @@ Message Failsafe::alarm()
 
 Result<Failsafe> Failsafe::arm (const std::string& device_file, const std::vector<Report>&)
 {
-    return Message::error ("device/failsafe", device_file, "there is no failsafe on this system");
+    return Message::error ("device/no_failsafe", device_file, "there is no failsafe on this system");
 }
 
 Failsafe::~Failsafe() = default;

@@ -48,7 +48,7 @@ public:
     /// While an effort is on a device, the guardian takes the device about this long after its last beat.
     static constexpr std::chrono::milliseconds patience { 100 };
 
-    /// Arms the failsafe. Writes nothing now. Id: device/failsafe. [main thread, or one that opens devices]
+    /// Arms the failsafe. Writes nothing now. Ids: device/failsafe; device/no_failsafe on systems without one. [main thread, or one that opens devices]
     static Result<Failsafe> arm (const std::string& device_file, const std::vector<Report>&);
 
     Failsafe (Failsafe&&) noexcept;

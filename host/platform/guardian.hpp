@@ -39,7 +39,7 @@ struct Shared
     std::atomic<std::uint32_t> looks { 0 };   ///< the guardian's own sign of life: a counter that it increases many times a second
     std::atomic<std::int64_t> asleep { 0 };   ///< how long the computer has slept, in ns, as far as anyone has noticed
 
-    /// The latest alarm. The detail is, if frozen: the last beat; unguarded: an errno, or 0; slept: for how long, in ns.
+    /// The latest alarm. The detail is, if frozen: the last beat; unguarded: 1 if no other guardian can be started, or 0; slept: for how long, in ns.
     std::atomic<Cause> cause { Cause::frozen };
     std::atomic<std::int64_t> detail { 0 };
     std::atomic<std::uint32_t> alarms { 0 };   ///< counts them

@@ -69,6 +69,22 @@ void maskEmergencySignals ([[maybe_unused]] bool blocks) noexcept
 void holdEmergencySignals() noexcept { maskEmergencySignals (true); }
 void takeEmergencySignals() noexcept { maskEmergencySignals (false); }
 
+#if defined(__unix__) || defined(__APPLE__)
+HeldSignals::HeldSignals() noexcept
+{
+    sigset_t all;
+    sigfillset (&all);
+    for (const int fault : { SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL })
+        sigdelset (&all, fault);
+    pthread_sigmask (SIG_BLOCK, &all, &before);
+}
+
+HeldSignals::~HeldSignals() { pthread_sigmask (SIG_SETMASK, &before, nullptr); }
+#else
+HeldSignals::HeldSignals() noexcept = default;
+HeldSignals::~HeldSignals() = default;
+#endif
+
 void watchForStop() noexcept
 {
     unblockOthers();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <csignal>
+
 namespace tactus::host
 {
 
@@ -21,6 +23,22 @@ void holdEmergencySignals() noexcept;
 
 /// From now on, the calling thread handles the signals that the other threads hold. [any thread]
 void takeEmergencySignals() noexcept;
+
+/// While it exists, the calling thread and those that it starts receive no signals but those of faults. So the handlers of a program that uses
+/// libtactus_live run on its own threads, and not on one that ticks. [any thread]
+class HeldSignals
+{
+public:
+    HeldSignals() noexcept;
+    ~HeldSignals();
+    HeldSignals (const HeldSignals&) = delete;
+    HeldSignals& operator= (const HeldSignals&) = delete;
+
+private:
+#if defined(__unix__) || defined(__APPLE__)
+    sigset_t before;
+#endif
+};
 
 /// Sets the actions of two signals, on systems that have them: SIGUSR1 calls `stop`, the emergency stop; SIGUSR2, which rearmed in
 /// earlier versions, calls `asked_to_rearm`. The system calls these functions on any thread that does not hold the signals, whatever

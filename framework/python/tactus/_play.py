@@ -7,10 +7,11 @@ import atexit
 import ctypes
 import json
 import os
+import threading
 import time
 import warnings
-import weakref
-from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Union
+from contextlib import contextmanager
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Set, Union
 
 import numpy as np
 
@@ -126,33 +127,55 @@ def _texts(texts: Sequence[str]) -> Any:
 
 class Session:
     """A graph that plays on the devices of this computer. `play` makes it. Use it in a `with` statement: at its end, after an exception too, all
-    forces go to zero, and the devices are released. Several threads may share a session; emergency_stop() and rearm() wait for nothing."""
+    forces go to zero, and the devices are released. Without one, call close(); a session that is forgotten plays until the program ends. Several threads may
+    share a session: a call waits until calls from other threads are over, except emergency_stop(), rearm() and status(), which wait for nothing."""
 
     def __init__(self, graph: ctypes.c_void_p, options: _Options, keep: List[Any], asked: Sequence[str]):
-        self._asked, self._collected, self._probed = list(asked), 0, []
+        self._asked, self._collected, self._probed = list(asked), 0, None
         self._session: Optional[ctypes.c_void_p] = None
+        self._one_at_a_time = threading.RLock()
+        self._free = threading.Condition()   # guards the next two
+        self._users, self._closes = 0, False
         with _Messages() as messages:
             handle = _live().tactus_session_open(graph, ctypes.byref(options), messages.handle)
-            messages.check(bool(handle))
+            if handle:
+                self._session = ctypes.c_void_p(handle)
+                _sessions.add(self)
+            try:
+                messages.check(bool(handle))   # a warning may be an exception, too
+            except BaseException:
+                self.close()
+                raise
         del keep
-        self._session = ctypes.c_void_p(handle)
-        _sessions.add(self)
 
-    def _handle(self) -> ctypes.c_void_p:
-        if self._session is None:
-            fail("session/closed", "", "the session is closed", "open another one with tactus.play")
-        return self._session
+    @contextmanager
+    def _handle(self, waits: bool = True):
+        """The session, which is not freed during the `with` statement."""
+        with self._free:
+            if self._session is None or self._closes:
+                fail("session/closed", "", "the session is closed", "open another one with tactus.play")
+            self._users += 1
+        try:
+            if waits:
+                with self._one_at_a_time:
+                    yield self._session
+            else:
+                yield self._session
+        finally:
+            with self._free:
+                self._users -= 1
+                self._free.notify_all()
 
-    def _call(self, function: str, *arguments: Any) -> None:
-        with _Messages() as messages:
-            messages.check(getattr(_live(), "tactus_session_" + function)(self._handle(), *arguments, messages.handle) == 0)
+    def _call(self, function: str, *arguments: Any, waits: bool = True) -> None:
+        with self._handle(waits) as handle, _Messages() as messages:
+            messages.check(getattr(_live(), "tactus_session_" + function)(handle, *arguments, messages.handle) == 0)
 
     def __enter__(self) -> "Session":
         return self
 
     def __exit__(self, kind: Any, *_: Any) -> None:
         if kind is not None and self._session is not None:
-            _live().tactus_session_emergency_stop(self._session)
+            self.emergency_stop()
         self.close()
 
     # ------------------------------------------------------------------------ What it does
@@ -160,33 +183,38 @@ class Session:
     @property
     def rate(self) -> float:
         """The tick rate in Hz."""
-        return _live().tactus_session_rate(self._handle())
+        with self._handle() as handle:
+            return _live().tactus_session_rate(handle)
 
     @property
     def clock(self) -> str:
         """The role whose device ticks the run; "" if a timer does."""
-        return (_live().tactus_session_clock(self._handle()) or b"").decode()
+        with self._handle() as handle:
+            return (_live().tactus_session_clock(handle) or b"").decode()
 
     def status(self) -> Status:
         """How the run is doing."""
         s = _Status(size=ctypes.sizeof(_Status))
-        _live().tactus_session_status(self._handle(), ctypes.byref(s))
+        with self._handle(waits=False) as handle:
+            if _live().tactus_session_status(handle, ctypes.byref(s)) != 0:
+                fail("session/closed", "", "the session belongs to the process that forked this one", "open another session")
         return Status(_PHASES[s.phase], s.ticks, s.late_ticks, s.force, s.peak_force, bool(s.is_emergency))
 
     def health(self) -> List[Health]:
         """The state of the real devices, whether they are there or awaited."""
         all_of_them = []
-        for i in range(_live().tactus_session_health_count(self._handle())):
-            h = _Health(size=ctypes.sizeof(_Health))
-            if _live().tactus_session_health(self._handle(), ctypes.c_size_t(i), ctypes.byref(h)) == 0:
-                all_of_them.append(Health((h.role or b"").decode(), (h.profile or b"").decode(), bool(h.is_connected), h.age_s, h.oldest_s, h.rate_hz,
-                                          h.reports, h.lost, h.departures, (h.trouble or b"").decode()))
+        with self._handle() as handle:
+            for i in range(_live().tactus_session_health_count(handle)):
+                h = _Health(size=ctypes.sizeof(_Health))
+                if _live().tactus_session_health(handle, ctypes.c_size_t(i), ctypes.byref(h)) == 0:
+                    all_of_them.append(Health((h.role or b"").decode(), (h.profile or b"").decode(), bool(h.is_connected), h.age_s, h.oldest_s,
+                                              h.rate_hz, h.reports, h.lost, h.departures, (h.trouble or b"").decode()))
         return all_of_them
 
     def events(self) -> List[Message]:
         """What has happened since the last call: alarms, stops of the guards, trouble with devices and the log."""
-        with _Messages() as messages:
-            _live().tactus_session_events(self._handle(), messages.handle)
+        with self._handle() as handle, _Messages() as messages:
+            _live().tactus_session_events(handle, messages.handle)
             return messages.take()
 
     def wait(self, duration: Optional[float] = None) -> bool:
@@ -223,61 +251,72 @@ class Session:
 
     def probe(self, *ports: str) -> None:
         """From now on, `values` has the live values of these ports, instead of earlier ones."""
-        self._call("probe", _texts(ports), ctypes.c_size_t(len(ports)))
-        names = [_live().tactus_session_probe_name(self._handle(), ctypes.c_size_t(i)).decode()
-                 for i in range(_live().tactus_session_probe_count(self._handle()))]
-        self._probed = Layout(names, [""] * len(names), ports, self.rate)
+        with self._handle() as handle:
+            self._call("probe", _texts(ports), ctypes.c_size_t(len(ports)))
+            names = [_live().tactus_session_probe_name(handle, ctypes.c_size_t(i)).decode() for i in range(_live().tactus_session_probe_count(handle))]
+            self._probed = Layout(names, [""] * len(names), ports, self.rate)
 
     def values(self) -> Dict[str, np.ndarray]:
         """The latest values of the probed ports: a number for a scalar, shape (3,) for a vector."""
-        if not self._probed:
-            return {}
-        row = np.zeros(max(1, _live().tactus_session_probe_count(self._handle())))
-        _live().tactus_session_probed(self._handle(), row.ctypes.data_as(ctypes.c_void_p))
-        return {name: row[where] for name, where in self._probed.ports}
+        with self._handle() as handle:
+            row = np.zeros(max(1, _live().tactus_session_probe_count(handle)))
+            _live().tactus_session_probed(handle, row.ctypes.data_as(ctypes.c_void_p), ctypes.c_size_t(len(row)))
+            return {name: row[where] for name, where in self._probed.ports} if self._probed else {}
 
     def collect(self) -> Records:
         """The ticks recorded since the last call, the oldest first. "t" counts only collected ticks, not `lost` ones."""
-        live, handle = _live(), self._handle()
-        width = live.tactus_session_record_count(handle)
-        indices = [ctypes.c_size_t(i) for i in range(width)]
-        names = [live.tactus_session_record_name(handle, i).decode() for i in indices]
-        units = [live.tactus_session_record_unit(handle, i).decode() for i in indices]
-        parts, most = [np.zeros((0, width))], 4096
-        while True:
-            rows = np.zeros((most, width))
-            count = live.tactus_session_collect(handle, rows.ctypes.data_as(ctypes.c_void_p), ctypes.c_size_t(most))
-            parts.append(rows[:count])
-            if count < most:
-                break
-        table = np.concatenate(parts)
-        first, self._collected = self._collected, self._collected + len(table)
-        return Layout(names, units, self._asked, self.rate).records(table, first)
+        live = _live()
+        with self._handle() as handle:
+            width = live.tactus_session_record_count(handle)
+            indices = [ctypes.c_size_t(i) for i in range(width)]
+            names = [live.tactus_session_record_name(handle, i).decode() for i in indices]
+            units = [live.tactus_session_record_unit(handle, i).decode() for i in indices]
+            parts, most = [np.zeros((0, width))], 4096
+            while True:
+                rows = np.zeros((most, width))
+                count = live.tactus_session_collect(handle, rows.ctypes.data_as(ctypes.c_void_p), ctypes.c_size_t(most))
+                parts.append(rows[:count])
+                if count < most:
+                    break
+            table = np.concatenate(parts)
+            first, self._collected = self._collected, self._collected + len(table)
+            return Layout(names, units, self._asked, self.rate).records(table, first)
 
     @property
     def lost(self) -> int:
         """Recorded ticks that were lost because the buffer was full."""
-        return _live().tactus_session_lost(self._handle())
+        with self._handle() as handle:
+            return _live().tactus_session_lost(handle)
 
     # ------------------------------------------------------------------------ Stops
 
     def emergency_stop(self) -> None:
         """Fades all forces to zero and keeps them there until rearm(). [any thread; waits for nothing]"""
-        _live().tactus_session_emergency_stop(self._handle())
+        with self._handle(waits=False) as handle:
+            _live().tactus_session_emergency_stop(handle)
 
     def rearm(self) -> None:
         """Ends emergency stops and all other latched stops. Only a person should decide this. Refused within a second of a stop. [any thread]"""
-        self._call("rearm")
+        self._call("rearm", waits=False)
 
     def stop(self) -> None:
         """Brings all forces to zero, ends the ticks, and completes the log; waits for it. What was recorded can still be collected."""
         self._call("stop")
 
     def close(self) -> None:
-        """Stops, and releases the devices."""
-        handle, self._session = self._session, None
-        if handle is not None:
-            _live().tactus_session_close(handle)
+        """Stops, and releases the devices. Waits until calls from other threads are over."""
+        with self._free:
+            if self._session is None or self._closes:
+                return
+            self._closes = True
+            try:
+                self._free.wait_for(lambda: self._users == 0)
+            except BaseException:   # such as KeyboardInterrupt
+                self._closes = False
+                raise
+        _live().tactus_session_close(self._session)
+        self._session = None
+        _sessions.discard(self)
 
 
 class _Opened:
@@ -341,7 +380,7 @@ def play(graph: Union[Graph, str, os.PathLike], device: Sequence[str] = (), *, s
     return made
 
 
-_sessions: "weakref.WeakSet[Session]" = weakref.WeakSet()
+_sessions: Set[Session] = set()   # those that are open: what plays is not forgotten
 
 
 @atexit.register

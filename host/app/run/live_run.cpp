@@ -50,6 +50,7 @@ void LiveRun::use (const DeviceSetup& d) { setup = &d; }
 
 void LiveRun::setupChanged()
 {
+    if (session && setup != nullptr) session->rebind (setup->session());
     if (! wanted || ! isRunning() || setup == nullptr) return;
     const auto& now = setup->session().session;
     const auto differs = [&] (const auto& role) {
@@ -207,6 +208,7 @@ void LiveRun::begin()
     rig->setLenient (true);
     const Hardware hardware { setup != nullptr ? setup->system() : hid::thisComputer(),
                               [this]() -> const hid::LoadedProfiles& { return setup != nullptr ? setup->profiles() : deviceProfiles(); }, rig.get() };
+    hand_role = handRoleOf (needed);
     session = std::make_unique<LiveSession> (catalogue, hardware, sessionOptions());
     said = session->load (graph);
     std::ranges::move (of_sound, std::back_inserter (said));
@@ -217,7 +219,7 @@ void LiveRun::begin()
     }
 
     note (session->engine().newest());
-    hand_role = handRoleOf (session->engine().newest());
+    hand_role = handRoleOf (needed);
     probes.clear();
     std::ranges::move (session->openDevices(), std::back_inserter (said));
     beginLog();
@@ -230,8 +232,8 @@ void LiveRun::begin()
 
 void LiveRun::end()
 {
-    if (session) static_cast<void> (session->end());   // waits until the forces are zero
-    endLog();
+    endLog();   // waits until the forces are zero
+    if (session) static_cast<void> (session->end());
     session.reset();
     rig.reset();
     hand_damping = 0.0;
@@ -280,7 +282,7 @@ void LiveRun::takeOver()
 {
     bool has_first_hand = false;   // and the run had none
     auto edited = session->edit (document.graph(), LiveSession::Accepts::errors, [&] (const Plan& plan) {
-        has_first_hand = hand_role.empty() && ! handRoleOf (plan).empty();
+        has_first_hand = hand_role.empty() && ! handRoleOf (needsOf (plan)).empty();
         return ! has_first_hand;
     });
     if (has_first_hand) return restart();
@@ -419,6 +421,7 @@ std::string LiveRun::fusion() const
 
 void LiveRun::tell (LiveSession::News news)
 {
+    if (news.alarm && ! isRunning() && ! begins) news.alarm.reset();   // it has nothing to do with the next run
     if (news.alarm)
     {
         emergencyStop();

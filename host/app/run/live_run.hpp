@@ -206,7 +206,7 @@ private:
     void end();
     LiveSession::Options sessionOptions();
     Compiled check (const graph::Graph&);
-    std::string handRoleOf (const Plan&) const;
+    std::string handRoleOf (const std::vector<RoleNeeds>&) const;
     bool isSoundCard (const std::string& role) const;
     void takeOver();
     void showScene();

@@ -25,10 +25,10 @@ constexpr double usual_stiffness = 400.0, usual_damping = 4.0;   // N/m, N s/m
 }   // namespace
 
 /// The first role that is not a sound card. Its tool is the one that is drawn and heard, and that the mouse can move.
-std::string LiveRun::handRoleOf (const Plan& plan) const
+std::string LiveRun::handRoleOf (const std::vector<RoleNeeds>& roles) const
 {
-    const auto hand = std::ranges::find_if (plan.roles(), [this] (const auto& role) { return ! isSoundCard (role.name); });
-    return hand == plan.roles().end() ? std::string {} : hand->name;
+    const auto hand = std::ranges::find_if (roles, [this] (const auto& needs) { return ! isSoundCard (needs.role); });
+    return hand == roles.end() ? std::string {} : hand->role;
 }
 
 bool LiveRun::isSoundCard (const std::string& role) const

@@ -105,6 +105,8 @@ struct Told
 class FakeBoard final : public host::hid::HidSystem
 {
 public:
+    std::string no_failsafe;   ///< the id with which arming a failsafe fails; empty: it does not
+
     FakeBoard()
     {
         what.vid = 0x1209;
@@ -241,6 +243,7 @@ private:
         Result<> getFeature (std::span<std::uint8_t>) override { return {}; }
         Result<> armFailsafe (const std::vector<host::hid::OutgoingReport>& reports) override
         {
+            if (! board.no_failsafe.empty()) return Message::error (board.no_failsafe, "", "the guardian is missing");
             Result<> armed;
             for (const auto& r : reports)
                 armed = tell (r.bytes, Told::How::failsafe);

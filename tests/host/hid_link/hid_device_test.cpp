@@ -80,6 +80,19 @@ TEST_CASE ("on opening and closing, a device gets the steps of its profile", "[h
     CHECK (told[5].bytes == Bytes { 0, 0xaa, 0x03 });
 }
 
+TEST_CASE ("a device with motors is not opened if nothing would bring it to rest when the program dies", "[hid][safety]")
+{
+    FakeBoard board;
+    const auto open = [&] { return HidPort::open (board, board.what, test::BoardProfile {}.make(), { .look_again = 5ms, .real_time = false }); };
+    board.no_failsafe = "device/failsafe";
+    CHECK (open().error().id == "device/failsafe");
+    CHECK (driven (board) == 0);
+    board.no_failsafe = "device/no_failsafe";   // a system that has none: the device says so
+    const auto without = open();
+    REQUIRE (without);
+    CHECK ((*without)->trouble().find ("the guardian is missing") != std::string::npos);
+}
+
 TEST_CASE ("bad reports change no value, invalidate the reading and are counted by reason", "[hid]")
 {
     FakeBoard board;

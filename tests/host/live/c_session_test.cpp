@@ -136,7 +136,7 @@ TEST_CASE ("a running session takes parameters, hits, controls, probes and edits
     REQUIRE (tactus_session_probe_count (session.get()) == 4);
     CHECK (std::string (tactus_session_probe_name (session.get(), 3)) == "drag.state");
     std::vector<double> values (4);
-    CHECK (until ([&] { return tactus_session_probed (session.get(), values.data()) == TACTUS_OK && values[0] != 0.0; }));
+    CHECK (until ([&] { return tactus_session_probed (session.get(), values.data(), 4) == TACTUS_OK && values[0] != 0.0; }));
     const char* nowhere[] = { "nothing.out" };
     CHECK (tactus_session_probe (session.get(), nowhere, 1, m.get()) == TACTUS_FAILED);
     CHECK (tactus_session_probe_count (session.get()) == 4);
@@ -212,7 +212,7 @@ TEST_CASE ("a session without handles or after its end is a misuse, and crashes 
     REQUIRE (session);
     CHECK (tactus_session_stop (session.get(), m.get()) == TACTUS_OK);   // never started
     CHECK (tactus_session_set (session.get(), nullptr, nullptr, m.get()) == TACTUS_FAILED);
-    CHECK (tactus_session_probed (session.get(), nullptr) == TACTUS_MISUSE);
+    CHECK (tactus_session_probed (session.get(), nullptr, 0) == TACTUS_MISUSE);
 }
 
 #if defined(__unix__)

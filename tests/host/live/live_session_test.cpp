@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// Live sessions in C++, on simulated devices: edits, sessions of the user, and stops.
+#include "support/sketch.hpp"
+
+#include <host/live/live_session.hpp>
+#include <tactus/graph/history.hpp>
+#include <tactus/node/catalogue.hpp>
+
+#include <catch2/catch.hpp>
+
+using namespace tactus;
+using namespace tactus::host;
+using test::Sketch;
+
+namespace
+{
+/// A spring that the tool leans on, and a gain that nothing is wired to.
+graph::Graph spring()
+{
+    Sketch s;
+    s.node ("hand", "device.position").node ("wall", "deform.plane").node ("motor", "device.force").node ("more", "signal.gain");
+    for (auto& n : s.graph.root.nodes)
+        if (n.type.starts_with ("device.")) n.role = "stylus";
+    s.wire ("hand.position -> wall.position").wire ("wall.force -> motor.force");
+    return s.graph;
+}
+
+struct Offline
+{
+    explicit Offline (LiveSession::Options options = {}) : session (catalogue(), Hardware {}, std::move (options)) {}
+
+    LiveSession session;
+};
+
+LiveSession::Options tickedByHand()
+{
+    LiveSession::Options options;
+    options.queries = Run::Queries::within_tick;
+    return options;
+}
+}   // namespace
+
+TEST_CASE ("a session compiles a small edit of wires from the plan before", "[live]")
+{
+    graph::History history { spring() };
+    Offline o { tickedByHand() };
+    REQUIRE_FALSE (hasErrors (o.session.load (history.graph())));
+    static_cast<void> (o.session.openDevices());
+    o.session.run().tick();
+    const auto wire = graph::parseWire ("wall.depth -> more.in");
+    REQUIRE (wire);
+    REQUIRE (history.perform (graph::AddWire { {}, *wire, {} }));
+    const auto edited = o.session.edit (history.graph(), LiveSession::Accepts::no_errors);
+    INFO (test::text (edited.messages));
+    REQUIRE (edited.is_taken_over);
+    CHECK (o.session.engine().newest().rewired() > 0);
+}
+
+TEST_CASE ("an edit with errors is refused or shown, as the caller wishes, and the previous graph keeps running", "[live]")
+{
+    Offline o { tickedByHand() };
+    const auto graph = spring();
+    REQUIRE_FALSE (hasErrors (o.session.load (graph)));
+    static_cast<void> (o.session.openDevices());
+    auto broken = graph;
+    broken.root.nodes.push_back (Sketch::makeNode ("what", "no.such_node"));
+    const auto refused = o.session.edit (broken, LiveSession::Accepts::no_errors);
+    CHECK_FALSE (refused.is_taken_over);
+    CHECK (hasErrors (refused.messages));
+    CHECK (o.session.graph().root.nodes.size() == graph.root.nodes.size());
+    CHECK (o.session.edit (broken, LiveSession::Accepts::errors).is_taken_over);
+    CHECK (o.session.hasPlaceholders());
+}
+
+TEST_CASE ("a role gets the device that is given for it, else that of the graph, else a tool at rest, with a warning", "[live]")
+{
+    auto options = tickedByHand();
+    options.devices.given = { { "stylus", { { "driver", "gesture" }, { "path", "circle" } }, {} } };
+    Offline given { std::move (options) };
+    REQUIRE_FALSE (hasErrors (given.session.load (spring())));
+    CHECK_FALSE (hasErrors (given.session.openDevices()));
+    CHECK (given.session.run().devices().front().second.device->duration() > 0.0);
+
+    Offline none { tickedByHand() };
+    REQUIRE_FALSE (hasErrors (none.session.load (spring())));
+    CHECK (test::has (none.session.openDevices(), "device/undescribed"));
+    CHECK_FALSE (none.session.drivesDevice());
+}
+
+TEST_CASE ("a session without hardware refuses real devices, and a graph never chooses one", "[live][safety]")
+{
+    auto options = tickedByHand();
+    options.devices.given = { { "stylus", { { "driver", "hid" }, { "profile", "tactus_board" } }, {} } };
+    Offline given { std::move (options) };
+    REQUIRE_FALSE (hasErrors (given.session.load (spring())));
+    CHECK (test::has (given.session.openDevices(), "device/real"));
+
+    auto graph = spring();
+    graph.devices = { { "stylus", { { "driver", "hid" }, { "profile", "pid" }, { "calibration", { { "full_force", "0.001 N" } } } } } };
+    Offline by_graph { tickedByHand() };
+    REQUIRE_FALSE (hasErrors (by_graph.session.load (graph)));
+    CHECK (test::has (by_graph.session.openDevices(), "device/not_by_graph"));
+    CHECK_FALSE (by_graph.session.drivesDevice());
+}
+
+TEST_CASE ("a press before the first tick, or a session that begins stopped, has no force until a rearm that comes late enough", "[live][safety]")
+{
+    StopSwitch stops;
+    auto options = tickedByHand();
+    options.devices.given = { { "stylus", { { "driver", "sim" }, { "position", { 0, 0, "-1 mm" } } }, {} } };
+    options.stops = &stops;
+    const bool begins_stopped = GENERATE (false, true);
+    options.is_stopped = begins_stopped;
+    Offline o { std::move (options) };
+    REQUIRE_FALSE (hasErrors (o.session.load (spring())));
+    CHECK_FALSE (hasErrors (o.session.openDevices()));
+    if (! begins_stopped) stops.emergencyStop();
+    const auto& applied = o.session.engine().guardOf ("stylus");
+    for (int k = 0; k < 1000; ++k)
+        o.session.run().tick();
+    CHECK (applied.stop() != Guard::Stop::none);
+    if (! begins_stopped) CHECK_FALSE (o.session.rearm());
+    CHECK (o.session.rearm (std::chrono::steady_clock::now() + StopSwitch::pause));
+    for (int k = 0; k < 1000; ++k)
+        o.session.run().tick();
+    CHECK (applied.stop() == Guard::Stop::none);
+}
