@@ -6,7 +6,8 @@ include (CMakePackageConfigHelpers)
 set (package ${CMAKE_INSTALL_LIBDIR}/cmake/Tactus)
 install (DIRECTORY framework/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COMPONENT development
     FILES_MATCHING PATTERN "*.hpp" PATTERN capi EXCLUDE PATTERN examine EXCLUDE PATTERN python EXCLUDE)
-install (FILES framework/capi/tactus.h framework/plugin/tactus_plugin.h $<$<TARGET_EXISTS:tactus_live_shared>:${PROJECT_SOURCE_DIR}/host/live/tactus_live.h> DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COMPONENT development)
+install (FILES framework/capi/tactus.h framework/plugin/tactus_plugin.h host/device_plugins/tactus_device.h
+    $<$<TARGET_EXISTS:tactus_live_shared>:${PROJECT_SOURCE_DIR}/host/live/tactus_live.h> DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COMPONENT development)
 install (DIRECTORY nodes/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus/nodes COMPONENT development FILES_MATCHING PATTERN "*.hpp")
 
 foreach (part framework nodes run c)
@@ -35,7 +36,7 @@ file (RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)   # so that 
 list (JOIN TACTUS_SAME_BITS " " same_bits)
 configure_file (framework/tactus.pc.in ${PROJECT_BINARY_DIR}/tactus.pc @ONLY)
 install (FILES ${PROJECT_BINARY_DIR}/TactusConfig.cmake ${PROJECT_BINARY_DIR}/TactusConfigVersion.cmake framework/node/catalogue.cmake
-    framework/plugin/plugin.cmake framework/plugin/plugin.map DESTINATION ${package} COMPONENT development)
+    framework/plugin/plugin.cmake framework/plugin/plugin.map framework/plugin/device.map DESTINATION ${package} COMPONENT development)
 install (FILES ${PROJECT_BINARY_DIR}/tactus.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 if (TARGET tactus_live_shared)
     configure_file (host/live/tactus-live.pc.in ${PROJECT_BINARY_DIR}/tactus-live.pc @ONLY)

@@ -85,6 +85,17 @@ tactus_graph* tactus_graph_parse (const char* json, size_t length, const char* f
     });
 }
 
+tactus_result tactus_graph_set_file (tactus_graph* g, const char* path, const tactus_graph* file, tactus_messages* messages)
+{
+    if (g == nullptr || path == nullptr || file == nullptr) return TACTUS_MISUSE;
+    return guarded (messages, TACTUS_FAILED, [&] {
+        auto with = g->history.graph();
+        with.files.insert_or_assign (path, std::make_shared<const graph::Graph> (file->history.graph()));
+        g->history = graph::History (std::move (with));
+        return TACTUS_OK;
+    });
+}
+
 void tactus_graph_free (tactus_graph* g) { delete g; }
 
 tactus_result tactus_graph_save (const tactus_graph* g, const char* path, tactus_messages* messages)

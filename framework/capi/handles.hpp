@@ -7,14 +7,15 @@
 #include "pushed_device.hpp"
 #include "tactus.h"
 
-#include <atomic>
 #include <tactus/graph/history.hpp>
+#include <tactus/graph/reconcile.hpp>
 #include <tactus/kit/spsc_ring.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/run.hpp>
 #include <tactus/run/tick_clock.hpp>
 #include <tactus/text/message.hpp>
 
+#include <atomic>
 #include <cstring>
 #include <map>
 #include <memory>
@@ -33,6 +34,15 @@ struct tactus_graph
 {
     tactus::graph::History history;
 };
+
+/// The graph of the handle. If it was read apart from the one that plays, it gets its ids by name, in `copy`, so that what both contain continues.
+inline const tactus::graph::Graph& continuing (const tactus_graph& g, const tactus::graph::Graph& playing, std::optional<tactus::graph::Graph>& copy)
+{
+    const auto& next = g.history.graph();
+    if (haveNodesInCommon (next, playing)) return next;
+    reconcile (copy.emplace (next), playing);
+    return *copy;
+}
 
 /// Copies the recorded values of each tick for the main thread.
 class tactus_recorder final : public tactus::RunListener

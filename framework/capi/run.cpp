@@ -331,7 +331,8 @@ tactus_result tactus_run_edit (tactus_run* r, const tactus_graph* g, tactus_mess
 {
     if (r == nullptr || g == nullptr || ! r->is_open) return TACTUS_MISUSE;
     return guarded (messages, TACTUS_FAILED, [&] {
-        auto next = g->history.graph();
+        std::optional<tactus::graph::Graph> copy;
+        const auto& next = continuing (*g, r->graph, copy);
         auto edit = r->run->edit (next);
         const bool runs = edit.plan() != nullptr && ! tactus::hasErrors (edit.messages());
         if (runs) edit.openDevices();
@@ -339,7 +340,7 @@ tactus_result tactus_run_edit (tactus_run* r, const tactus_graph* g, tactus_mess
         add (messages, std::move (edit.messages()));
         if (is_broken) return TACTUS_FAILED;
         edit.commit();
-        r->graph = std::move (next);
+        r->graph = next;
         return TACTUS_OK;
     });
 }

@@ -108,8 +108,12 @@ TACTUS_API tactus_graph* tactus_graph_create (const char* name, double rate_hz, 
 TACTUS_API tactus_graph* tactus_graph_load (const char* path, tactus_messages*);
 
 /** Reads a graph from text. Files that the graph names are relative to `folder` (NULL: the current folder). Subgraphs in separate
- *  files are not read. [main thread] */
+ *  files are not read: see tactus_graph_set_file. [main thread] */
 TACTUS_API tactus_graph* tactus_graph_parse (const char* text, size_t length, const char* folder, tactus_messages*);
+
+/** The graph plays a copy of `file` for nodes of the type "file:PATH", whatever is on the disk. It cannot be undone, and clears the undo steps of
+ *  the graph. [main thread] */
+TACTUS_API tactus_result tactus_graph_set_file (tactus_graph*, const char* path, const tactus_graph* file, tactus_messages*);
 
 TACTUS_API void tactus_graph_free (tactus_graph*); /**< [main thread] */
 
@@ -367,7 +371,8 @@ TACTUS_API tactus_result tactus_run_set (tactus_run*, const char* param, double 
 /** Triggers a hit input: "ring.hit", in m/s. [main thread] */
 TACTUS_API tactus_result tactus_run_hit (tactus_run*, const char* input, double speed, tactus_messages*);
 
-/** Plays an edited graph from the next tick on. What both graphs contain continues, and no force jumps. [main thread] */
+/** Plays an edited graph, or one that was read again, from the next tick on. What both contain, by name, continues, and no force jumps.
+ *  [main thread] */
 TACTUS_API tactus_result tactus_run_edit (tactus_run*, const tactus_graph*, tactus_messages*);
 
 /** Fades all forces to zero and keeps them there, from the next tick on, until tactus_run_rearm. Safe in a signal handler. [any thread] */

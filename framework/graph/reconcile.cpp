@@ -2,8 +2,10 @@
 #include "reconcile.hpp"
 #include "text.hpp"
 
+#include <algorithm>
 #include <deque>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace tactus::graph
 {
@@ -74,6 +76,14 @@ void reconcile (Graph& now, const Graph& before, Done& done)
     }
 }
 }   // namespace
+
+bool haveNodesInCommon (const Graph& a, const Graph& b)
+{
+    std::unordered_set<Id> ids;
+    for (const auto& node : a.root.nodes)
+        ids.insert (node.id);
+    return std::ranges::any_of (b.root.nodes, [&] (const Node& node) { return ids.contains (node.id); });
+}
 
 void reconcile (Graph& now, const Graph& before)
 {

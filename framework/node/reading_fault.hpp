@@ -33,7 +33,10 @@ enum class ReadingFault : std::uint32_t
     impossible_pose,
 
     // found by the guard
-    frozen
+    frozen,
+
+    // found by the driver
+    stuck
 };
 
 struct ReadingFaultInfo
@@ -43,7 +46,7 @@ struct ReadingFaultInfo
 };
 
 /// In the order of ReadingFault.
-inline constexpr std::array<ReadingFaultInfo, 16> reading_faults { {
+inline constexpr std::array<ReadingFaultInfo, 17> reading_faults { {
     { "none", "" },
     { "too_hot", "the device reports that a motor is too hot" },
     { "timed_out", "the device reports that its watchdog has released the motors" },
@@ -60,8 +63,9 @@ inline constexpr std::array<ReadingFaultInfo, 16> reading_faults { {
     { "lost", "more than half of the device's reports are missing" },
     { "impossible_pose", "the device reports a pose that its arm cannot have" },
     { "frozen", "the position does not change" },
+    { "stuck", "the driver of the device does not return" },
 } };
-static_assert (reading_faults.size() == static_cast<std::size_t> (ReadingFault::frozen) + 1, "a new fault needs words");
+static_assert (reading_faults.size() == static_cast<std::size_t> (ReadingFault::stuck) + 1, "a new fault needs words");
 
 /// Those that a device can report itself.
 constexpr bool isAlarm (ReadingFault fault) noexcept { return fault >= ReadingFault::too_hot && fault <= ReadingFault::failed; }

@@ -17,6 +17,23 @@ function (tactus_write_build_file name)
     file (GENERATE OUTPUT "$<TARGET_FILE:${name}>.build" CONTENT "${text}")
 endfunction ()
 
+# tactus_add_device (NAME FILES…): a device driver, NAME.tactus-device, in C or C++. One of the files defines tactus_device_entry; see
+# <tactus/tactus_device.h>.
+function (tactus_add_device name)
+    add_library (${name} MODULE ${ARGN})
+    set_target_properties (${name} PROPERTIES PREFIX "" SUFFIX .tactus-device UNITY_BUILD OFF
+        C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    target_link_libraries (${name} PRIVATE tactus::plugin_kit)
+    if (CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        target_compile_options (${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-fno-gnu-unique>)   # unique symbols would keep the driver loaded forever
+    endif ()
+    if (CMAKE_SYSTEM_NAME STREQUAL Linux)
+        set (exports ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/device.map)
+        target_link_options (${name} PRIVATE LINKER:--version-script=${exports} LINKER:-z,now)
+        set_target_properties (${name} PROPERTIES LINK_DEPENDS ${exports})
+    endif ()
+endfunction ()
+
 # tactus_add_plugin (NAME FILES…): a node plugin, NAME.tactus. One of the files has the TACTUS_PLUGIN line; see
 # <tactus/plugin/node_plugin.hpp>.
 #

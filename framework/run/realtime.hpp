@@ -10,10 +10,10 @@ namespace tactus
 
 /// Real-time priorities (SCHED_FIFO), above those of interrupt threads, which have 50. The thread of an emergency stop comes before
 /// the tick, so that a graph that takes most of its period cannot delay the stop; this thread does very little. The thread that
-/// receives messages comes after the tick, because anyone can flood it: it runs in the pauses between ticks.
+/// receives messages comes after the tick, because anyone can flood it: it runs in the pauses between ticks. Drivers of others come between these two.
 namespace priority
 {
-inline constexpr int messages = 60, tick = 70, stop = 71;
+inline constexpr int messages = 60, devices = 65, tick = 70, stop = 71;
 }
 
 /// Requests a real-time priority for the calling thread. If the system refuses it, returns the reason, and the thread keeps its

@@ -117,7 +117,8 @@ private:
                                                   "or ADDRESS:PORT to also accept other machines");
         osc_given.check (oscCheck());
         options.addOption ("--osc-answer", osc_answer, "Address of the one other machine that gets answers, such as 192.168.1.7").check (addressCheck());
-        options.addOption ("--plugins", plugin_folders, "A folder of node plugins, in addition to those that are installed (docs/plugins.md)").oneValueEach();
+        options.addOption ("--plugins", plugin_folders, "A folder of plugins, in addition to those that are installed (docs/plugins.md)")
+            .oneValueEach();
         options.addOption ("--places", places_file, "JSON file to keep updated with the screen positions of all nodes, ports, wires and buttons, for scripts");
         options.version ("tactus-host " TACTUS_VERSION " (C API " + std::to_string (TACTUS_API_VERSION) + ")");
         std::vector<std::string> arguments;

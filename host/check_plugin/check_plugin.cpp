@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "check_plugin.hpp"
 #include "apart.hpp"
+#include "check_driver.hpp"
+#include "finding.hpp"
 
+#include <host/device_plugins/device_driver.hpp>
 #include <tactus/examine/examination.hpp>
 #include <tactus/examine/stage.hpp>
 #include <tactus/plugin/plugin_library.hpp>
@@ -9,6 +12,7 @@
 #include <tactus/text/read_number.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 namespace tactus::check_plugin
@@ -21,11 +25,31 @@ using examine::Stage;
 /// Makes text from a plugin valid UTF-8, because it becomes part of JSON.
 std::string textOf (const std::string& text) { return printable (text); }
 
+Json jsonOf (const Message& m) { return { { "id", m.id }, { "text", textOf (m.text + "; " + m.remedy) } }; }
+
+/// The same for a device driver.
+std::string describeDriver (const std::filesystem::path& file, Json answer)
+{
+    answer["is_driver"] = true;
+    const auto driver = host::DeviceDriver::load (file);
+    if (driver)
+    {
+        answer["name"] = (*driver)->name();
+        answer["version"] = (*driver)->version();
+    }
+    else
+        answer["messages"].push_back (jsonOf (driver.error()));
+    Stage::enter ("unloading");
+    return answer.dump();
+}
+
 /// Loads the plugin, and returns a description of it as JSON. Runs in a separate process.
 std::string describe (const std::filesystem::path& file)
 {
     Json answer { { "messages", Json::array() }, { "nodes", Json::array() } };
     Stage::enter ("loading");
+    if (const auto object = SharedObject::load (file); object && (*object)->find ("tactus_device_entry") != nullptr)
+        return describeDriver (file, std::move (answer));
     const auto library = PluginLibrary::load (file);
     if (library)
     {
@@ -35,7 +59,7 @@ std::string describe (const std::filesystem::path& file)
     Stage::enter ("reading its datasheets");
     const auto loaded = loadPlugins ({ file }, Catalogue {});
     for (const auto& m : loaded.messages)
-        answer["messages"].push_back ({ { "id", m.id }, { "text", textOf (m.text + "; " + m.remedy) } });
+        answer["messages"].push_back (jsonOf (m));
     for (const auto& type : loaded.types)
         answer["nodes"].push_back (std::string (type.info.id));
     Stage::enter ("unloading");
@@ -60,8 +84,6 @@ std::string askNode (const std::filesystem::path& file, const std::string& id, A
     }
 }
 
-constexpr const char* skip_mark = "\1";   // begins the answer of an examination that is skipped; the reason follows
-
 std::string examineNode (const NodeType& type, const examine::Examination& examination, const Options& options)
 {
     if (auto reason = examination.skipped (type); ! reason.empty()) return skip_mark + reason;
@@ -80,23 +102,6 @@ std::string examineNode (const NodeType& type, const examine::Examination& exami
         if (! fault.empty()) return fault + (examination.random ? " (seed " + std::to_string (options.seed + k) + ")" : "");
     }
     return {};
-}
-
-Finding finding (std::string id, std::string promise, const Ending& ending)
-{
-    Finding f { .id = std::move (id), .promise = std::move (promise) };
-    if (! ending.done)
-        f.why = ending.why;
-    else if (ending.answer.starts_with (skip_mark))
-    {
-        f.verdict = Verdict::skipped;
-        f.why = ending.answer.substr (1);
-        return f;
-    }
-    else
-        f.why = ending.answer;
-    f.verdict = f.why.empty() ? Verdict::pass : Verdict::fail;
-    return f;
 }
 
 /// Runs the node in two processes with the same seed: its outputs must depend neither on when the plugin was loaded nor on chance.
@@ -141,6 +146,23 @@ CheckedNode checkNode (const Options& options, const std::string& id)
 }
 }   // namespace
 
+Finding finding (std::string id, std::string promise, const Ending& ending)
+{
+    Finding f { .id = std::move (id), .promise = std::move (promise) };
+    if (! ending.done)
+        f.why = ending.why;
+    else if (ending.answer.starts_with (skip_mark))
+    {
+        f.verdict = Verdict::skipped;
+        f.why = ending.answer.substr (1);
+        return f;
+    }
+    else
+        f.why = ending.answer;
+    f.verdict = f.why.empty() ? Verdict::pass : Verdict::fail;
+    return f;
+}
+
 int Report::failures() const
 {
     const auto isFailure = [] (const Finding& f) { return f.verdict == Verdict::fail; };
@@ -169,6 +191,17 @@ Report checkPlugin (const Options& options)
     report.version = answer.value ("version", "");
     for (const auto& m : answer["messages"])
         report.findings.push_back ({ load.id, load.promise, Verdict::fail, m["text"].get<std::string>() + " [" + m["id"].get<std::string>() + "]" });
+    if (answer.contains ("is_driver"))
+    {
+        report.is_driver = true;
+        load.promise = "the driver loads, and its interface is complete";
+        for (auto& f : report.findings)
+            f.promise = load.promise;
+        if (! report.findings.empty()) return report;
+        report.findings.push_back (std::move (load));
+        std::ranges::move (checkDriver (options), std::back_inserter (report.findings));
+        return report;
+    }
     if (report.findings.empty()) report.findings.push_back (load);
     for (const auto& id : answer["nodes"])
     {

@@ -13,9 +13,10 @@ namespace tactus::check_plugin
 struct Options
 {
     std::filesystem::path file {};
-    int level = 5;          ///< 1 to 10: which examinations, and how many trials each
-    unsigned seed = 1;      ///< of the first trial; each further trial adds 1
-    int cpu_seconds = 10;   ///< for loading, and for `hooks`; most other examinations get twelve times as much
+    int level = 5;           ///< 1 to 10: which examinations, and how many trials each
+    unsigned seed = 1;       ///< of the first trial; each further trial adds 1
+    std::string device {};   ///< of a driver: the keys of a description as a JSON object, to open a device; "": none
+    int cpu_seconds = 10;    ///< for loading, and for `hooks`; most other examinations get twelve times as much
 };
 
 enum class Verdict
@@ -43,6 +44,7 @@ struct CheckedNode
 struct Report
 {
     Options options;
+    bool is_driver = false;   ///< a device driver (tactus_device.h), not a node plugin
     std::string name {}, version {};
     std::vector<Finding> findings {};   ///< about the plugin as a whole
     std::vector<CheckedNode> nodes {};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "check_plugin.hpp"
 
-#include <tactus/tactus_plugin.h>
+#include <tactus/tactus_device.h>
 #include <tactus/text/quote.hpp>
 
 #include <cmath>
@@ -17,6 +17,8 @@ const char* word (Verdict v) noexcept
     if (v == Verdict::pass) return "PASS";
     return v == Verdict::fail ? "FAIL" : "SKIPPED";
 }
+
+int abiOf (const Report& report) noexcept { return report.is_driver ? TACTUS_DEVICE_ABI : TACTUS_PLUGIN_ABI; }
 
 std::string lineOf (const Finding& f)
 {
@@ -37,8 +39,9 @@ std::string textOf (const Report& report)
 {
     const auto& options = report.options;
     std::string text = printableName (options.file.string()) + "\n";
-    if (! report.name.empty() || ! report.version.empty()) text += "  plugin " + quote (report.name) + ", version " + quote (report.version) + "\n";
-    text += "  checked by Tactus " TACTUS_VERSION ", plugin interface " + std::to_string (TACTUS_PLUGIN_ABI) + ", level " + std::to_string (options.level)
+    const std::string kind = report.is_driver ? "driver" : "plugin";
+    if (! report.name.empty() || ! report.version.empty()) text += "  " + kind + " " + quote (report.name) + ", version " + quote (report.version) + "\n";
+    text += "  checked by Tactus " TACTUS_VERSION ", " + kind + " interface " + std::to_string (abiOf (report)) + ", level " + std::to_string (options.level)
             + ", seed " + std::to_string (options.seed) + "\n\n";
     for (const auto& f : report.findings)
         text += lineOf (f);
@@ -63,7 +66,8 @@ Json jsonOf (const Report& report)
                 { "name", report.name },
                 { "version", report.version },
                 { "tactus", TACTUS_VERSION },
-                { "abi", TACTUS_PLUGIN_ABI },
+                { "kind", report.is_driver ? "driver" : "nodes" },
+                { "abi", abiOf (report) },
                 { "level", report.options.level },
                 { "seed", report.options.seed },
                 { "failed", report.failures() },

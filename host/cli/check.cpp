@@ -5,9 +5,12 @@
 
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
+#include <host/device_plugins/open_plugin_device.hpp>
 #include <host/hid/physics.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/hid_link/profile_library.hpp>
+#include <host/sessions/numbers_device.hpp>
+#include <host/sessions/role_fits.hpp>
 #include <tactus/check/hands.hpp>
 #include <tactus/check/report.hpp>
 #include <tactus/file/text_file.hpp>
@@ -85,6 +88,8 @@ private:
             r.device.numbers = *numbers;
             r.device.name = "sim";
         }
+        else if (isPluginDevice (description))
+            r.device = { .role = r.device.role, .name = nameOf (description) };   // its numbers are known when it is open
         else if (hid::isHid (description) && description.contains ("profile") && description.at ("profile").is_string())
             if (const auto profile = hid::profileNamed (profiles, description.at ("profile").asString())) take (r, *profile);
     }
@@ -110,9 +115,11 @@ private:
         }
         if (const auto profile = hid::profileNamed (profiles, what)) return take (*role, *profile);
         if (what.ends_with (".json") && takeProfileFile (*role, what)) return;
-        if (what.find_first_of (":.") == what.npos && what != "sim") failOnProfile (option, what);
+        if (what.find_first_of (":.") == what.npos && what != "sim" && ! findDriver (what)) failOnProfile (option, what);
 
-        auto parsed = orFail (parseDeviceOption (option, graph.devices, folder));
+        Messages notes;   // none: profiles are taken above
+        auto parsed = orFail (host::parseDeviceOption (
+            option, graph.devices, folder, [this]() -> const hid::LoadedProfiles& { return profiles; }, notes));
         describe (*role, parsed.description, parsed.folder);
         if (const auto driver = parsed.description.value ("driver", std::string()); driver == "gesture" || driver == "trace" || driver == "sim")
             role->hand = check::HandChoice { role->device.role, std::move (parsed.description), std::move (parsed.folder) };
@@ -124,7 +131,7 @@ private:
         for (const auto& p : profiles.profiles)
             ids.push_back (p->id);
         fail (Message::error ("device/option", "--device " + option, "there is no profile " + quote (what) + didYouMean (what, ids),
-                              "write the id of a profile, sim, gesture:NAME, trace:FILE.csv, or a .json file with a profile or a device"));
+                              "write the id of a profile, sim, gesture:NAME, trace:FILE.csv, DRIVER:PORT, or a .json file with a profile or a device"));
     }
 
     /// False if the file is not a profile; it may then be the description of a device.
@@ -286,8 +293,8 @@ void addCheck (const Command& app)
     const auto command = app.add ("check", "Check whether the devices of a graph can render it: stability, quanta, friction, textures, forces");
     command.addOption ("graph", options->graph, "The graph file").required();
     command.addOption ("--device", options->devices,
-                       "The device of a role: ROLE=PROFILE, ROLE=FILE.json (a profile or a device) or ROLE=sim; ROLE=gesture:NAME and ROLE=trace:FILE.csv "
-                       "choose the hand of a role; may be given more than once")
+                       "The device of a role: ROLE=PROFILE, ROLE=FILE.json (a profile or a device), ROLE=sim or ROLE=DRIVER:PORT (whose numbers are "
+                       "unknown); ROLE=gesture:NAME and ROLE=trace:FILE.csv choose the hand of a role; may be given more than once")
         .oneValueEach();
     command.addFlag ("--sweep", options->sweep, "Sweep the workspaces of the devices instead of following the hands");
     command.addOption ("--speed", options->judge.speed, "Speed of strokes over textures in m/s; default: the measured speed").check (finiteWithin (1e-6, 1e3));
@@ -302,6 +309,7 @@ void addCheck (const Command& app)
         .check (finiteWithin (1e-3, 1e6));
     command.addFlag ("--json", options->json, "Print JSON, for use by programs");
     addLimits (command);
+    addPlugins (command);
     command.footer ("Exit status 1 if a condition is broken. docs/check.md explains each condition.\n\n"
                     "Examples:\n"
                     "  tactus check graphs/dry_wood.json\n"

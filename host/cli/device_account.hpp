@@ -14,6 +14,6 @@ namespace tactus::host
 std::string statusOf (std::span<const DeviceHealth>, const RunClock*);
 
 /// Text for the end of a run: a few lines for each device about its traffic.
-std::string accountOf (std::span<const RealDevice>, std::span<const DeviceHealth>, const RunClock*);
+std::string accountOf (std::span<const RealDevice>, std::span<const PluginRole>, std::span<const DeviceHealth>, const RunClock*);
 
 }   // namespace tactus::host

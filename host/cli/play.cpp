@@ -252,7 +252,7 @@ private:
         auto& runner = command.run().live();
         printStatus (runner, command.rate(), terminal, "", true);
 
-        std::fputs (accountOf (session.realDevices(), session.health(), session.deviceClock()).c_str(), stderr);
+        std::fputs (accountOf (session.realDevices(), session.pluginRoles(), session.health(), session.deviceClock()).c_str(), stderr);
         std::fputs (accountOf (sound).c_str(), stderr);
         command.reportRun();
         const auto end = runner.status();

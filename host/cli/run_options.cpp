@@ -43,7 +43,7 @@ void addLimits (const Command& app)
 void addPlugins (const Command& app)
 {
     app.addOption (
-           "--plugins", [] (const std::string&) {}, "A folder of node plugins, in addition to those that are installed (docs/plugins.md)")
+           "--plugins", [] (const std::string&) {}, "A folder of plugins, in addition to those that are installed (docs/plugins.md)")
         .type ("DIR")
         .oneValueEach();
 }
@@ -65,7 +65,8 @@ void RunOptions::addTo (const Command& app, Files files)
     app.addOption ("--set", sets, "Set a parameter, NODE.PARAM=VALUE, or a control, CONTROL=0…1; may be given more than once").oneValueEach();
     app.addOption ("--device", devices,
                    "The device of a role: ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME, ROLE=hid:PROFILE (hid:auto), "
-                   "ROLE=audio:CARD, or ROLE=ID to simulate the device of a profile that holds only numbers; may be given more than once")
+                   "ROLE=audio:CARD, ROLE=DRIVER:PORT for a device driver in a plugin, or ROLE=ID to simulate the device of a profile that holds only "
+                   "numbers; may be given more than once")
         .oneValueEach();
     addLimits (app);
     addPlugins (app);

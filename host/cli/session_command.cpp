@@ -2,9 +2,11 @@
 #include "commands.hpp"
 #include "graph_argument.hpp"
 #include "report.hpp"
+#include "run_options.hpp"
 
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
+#include <host/device_plugins/open_plugin_device.hpp>
 #include <host/hid_link/profile_library.hpp>
 #include <host/platform/home_folder.hpp>
 #include <host/sessions/choose_clock.hpp>
@@ -18,6 +20,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
 
@@ -35,9 +38,11 @@ struct SessionOptions
     bool clock_given = false, json = false;
 };
 
-/// Makes file names absolute, because in a session they are relative to the folder of the session, not to `folder`.
+/// Makes file names absolute, because in a session they are relative to the folder of the session, not to `folder`. What a key of the driver of a
+/// plugin means, only that driver knows.
 void makeAbsolute (Json& description, const fs::path& folder)
 {
+    if (namesPlugin (description)) return;
     for (const auto* at : { "/path", "/hand/path" })
         if (const JsonPointer where (at); description.contains (where) && description.at (where).is_string())
         {
@@ -172,7 +177,11 @@ std::vector<RoleFit> fitsOf (const LoadedGraph& graph, const std::string& file, 
     FileAssets assets;
     const auto compiled = compile (graph.graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } });
     if (report (compiled.messages, graph, file) > 0 || ! compiled.plan) throw Stop {};
-    return host::fitsOf (needsOf (*compiled.plan), graph.graph, s, profiles, connected);
+    auto fits = host::fitsOf (needsOf (*compiled.plan), graph.graph, s, profiles, connected);
+    for (auto& fit : fits)
+        if (fit.from == RoleFit::From::session && isPluginDevice (fit.description))
+            std::ranges::move (checkPluginDevice (fit.description), std::back_inserter (fit.messages));
+    return fits;
 }
 
 bool edits (const SessionOptions& options) { return ! options.bind.empty() || ! options.unbind.empty() || options.clock_given; }
@@ -269,7 +278,7 @@ void addSession (const Command& app)
         "A graph file or the name of a preset: check whether the devices of the session fit its roles");
     const auto bind = command.addOption ("--bind", options->bind,
                                          "Bind a role to a device: ROLE=hid:PROFILE (hid:auto), ROLE=FILE.json, ROLE=sim, "
-                                         "ROLE=trace:FILE.csv or ROLE=gesture:NAME; "
+                                         "ROLE=trace:FILE.csv, ROLE=gesture:NAME or ROLE=DRIVER:PORT; "
                                          "may be given more than once");
     bind.oneValueEach();
     command.addOption ("--unbind", options->unbind, "A role to unbind: it gets the device that each graph describes again; may be given more than once")
@@ -279,6 +288,7 @@ void addSession (const Command& app)
     clock.check (clockCheck());
     command.addOption ("--file", options->file, "Use this session file instead of the user's");
     command.addFlag ("--json", options->json, "Print JSON");
+    addPlugins (command);
     command.footer ("`tactus play` and tactus-host use the session; `tactus render` never does. See docs/sessions.md.\n\n"
                     "Examples:\n"
                     "  tactus session\n"

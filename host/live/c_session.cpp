@@ -319,7 +319,8 @@ tactus_result tactus_session_edit (tactus_session* s, const tactus_graph* g, tac
 {
     if (g == nullptr) return TACTUS_MISUSE;
     return with (s, messages, [&] (LiveSession& live) {
-        auto edited = live.edit (g->history.graph(), LiveSession::Accepts::no_errors);
+        std::optional<tactus::graph::Graph> copy;
+        auto edited = live.edit (continuing (*g, live.graph(), copy), LiveSession::Accepts::no_errors);
         add (messages, std::move (edited.messages));
         return edited.is_taken_over ? TACTUS_OK : TACTUS_FAILED;
     });

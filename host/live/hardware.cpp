@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hardware.hpp"
 
+#include <host/device_plugins/open_plugin_device.hpp>
 #include <host/sessions/audio_settings.hpp>
 #include <host/sessions/choose_clock.hpp>
 #include <tactus/text/message.hpp>
@@ -8,14 +9,26 @@
 namespace tactus::host
 {
 
+namespace
+{
+MadeDevice refused (Message why)
+{
+    MadeDevice none;
+    none.messages.push_back (std::move (why));
+    return none;
+}
+}   // namespace
+
 MadeDevice Hardware::open (const Json& description, const std::filesystem::path& folder, const std::string& role, const Plan& plan)
 {
+    if (isPluginDevice (description))
+        return isThere() ? openPluginDevice (description)
+                         : refused (Message::error ("device/real", "/driver", "this is a real device, which only `tactus play` and tactus-host can drive",
+                                                    "give the role a simulated device instead: \"driver\": \"sim\""));
     if (! isThere()) return makeDevice (description, folder);   // refuses real devices
     if (! audio::isAudio (description)) return hid::openDevice (description, folder, system(), profiles());
     if (run_sound != nullptr) return run_sound->open (description, role, plan);
-    MadeDevice none;
-    none.messages.push_back (Message::error ("audio/none", "/driver", "this program has no sound cards", "give the role another device"));
-    return none;
+    return refused (Message::error ("audio/none", "/driver", "this program has no sound cards", "give the role another device"));
 }
 
 std::optional<double> Hardware::tickRate (const Json& description, bool may_wait) const

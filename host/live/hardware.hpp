@@ -24,8 +24,8 @@ public:
     /// The sound may be null. All must outlive this object.
     Hardware (hid::HidSystem& s, Profiles p, RunSound* a) : hid_system (&s), read_profiles (std::move (p)), run_sound (a) {}
 
-    /// Opens the device of a role. Ids: those of makeDevice, hid::openDevice and RunSound::open; device/real without hardware; audio/none without
-    /// sound.
+    /// Opens the device of a role. Ids: those of makeDevice, hid::openDevice, openPluginDevice and RunSound::open; device/real without hardware;
+    /// audio/none without sound.
     MadeDevice open (const Json& description, const std::filesystem::path& folder, const std::string& role, const Plan&);
 
     /// The rate in Hz at which the device could tick the run: see host::tickRateOf.

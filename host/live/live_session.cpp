@@ -89,6 +89,9 @@ Messages LiveSession::openDevices()
     for (const auto& real : real_devices)
         if (const auto role = std::ranges::find (needs, real.role, &RoleNeeds::role); role != needs.end())
             std::ranges::move (missingTools (*role, partsOf (real.profile())), std::back_inserter (messages));
+    for (const auto& plugin : pluginRoles())
+        if (const auto role = std::ranges::find (needs, plugin.role, &RoleNeeds::role); role != needs.end())
+            std::ranges::move (missingTools (*role, partsOf (plugin.device->about())), std::back_inserter (messages));
     return messages;
 }
 
@@ -195,7 +198,7 @@ LiveSession::News LiveSession::attend()
     news.log = running->attend();
     if (const auto now = std::chrono::steady_clock::now(); isLive() && now - looked_at >= looks_apart)
     {
-        watch.look (realDevices());
+        watch.look (realDevices(), pluginRoles());
         looked_at = now;
     }
     news.fusion = attendFusion();
@@ -244,6 +247,8 @@ LiveSession::Ended LiveSession::end()
 }
 
 std::vector<RealDevice> LiveSession::realDevices() const { return running ? host::realDevices (*running) : std::vector<RealDevice> {}; }
+
+std::vector<PluginRole> LiveSession::pluginRoles() const { return running ? host::pluginRoles (*running) : std::vector<PluginRole> {}; }
 
 bool LiveSession::drivesDevice() const
 {

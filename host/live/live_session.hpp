@@ -163,6 +163,7 @@ public:
     RunSound* sound() const noexcept { return hardware.sound(); }
 
     std::vector<RealDevice> realDevices() const;
+    std::vector<PluginRole> pluginRoles() const;
     const std::vector<DeviceHealth>& health() const noexcept { return watch.health(); }   ///< of the real devices, present or awaited
 
     /// True if the run drives something that can push or shake: a device, present or awaited, or a sound card.

@@ -120,4 +120,12 @@ std::vector<RealDevice> realDevices (const Run& run)
     return all;
 }
 
+std::vector<PluginRole> pluginRoles (const Run& run)
+{
+    std::vector<PluginRole> all;
+    for (const auto& [role, d] : run.devices())
+        if (auto plugin = pluginRole (role, d.driver != nullptr ? *d.driver : *d.device)) all.push_back (std::move (*plugin));
+    return all;
+}
+
 }   // namespace tactus::host

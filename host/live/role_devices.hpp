@@ -66,4 +66,7 @@ private:
 /// The real devices of a run, present or awaited. [main thread]
 std::vector<RealDevice> realDevices (const Run&);
 
+/// The devices of drivers in plugins. [main thread]
+std::vector<PluginRole> pluginRoles (const Run&);
+
 }   // namespace tactus::host

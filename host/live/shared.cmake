@@ -12,6 +12,6 @@ add_dependencies (tactus_live_shared force-guardian)
 if (CMAKE_SYSTEM_NAME STREQUAL Linux)
     # Exports only the C API, and what fused code calls.
     set (exports ${CMAKE_CURRENT_LIST_DIR}/exports.map)
-    target_link_options (tactus_live_shared PRIVATE LINKER:--version-script=${exports} LINKER:-z,defs)
+    target_link_options (tactus_live_shared PRIVATE LINKER:--version-script=${exports} LINKER:-z,defs LINKER:-z,nodelete)   # its signal handlers and threads must stay
     set_target_properties (tactus_live_shared PROPERTIES LINK_DEPENDS ${exports})
 endif ()

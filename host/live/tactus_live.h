@@ -90,8 +90,8 @@ TACTUS_API char* tactus_graph_file (const char* name);
 
 /* ---------------------------------------------------------------------------- While it plays */
 
-/** Plays an edited graph from the next tick on. What both graphs contain continues, and no force jumps. Limits that the graph asks for only
- *  tighten until the next start. [one thread] */
+/** Plays an edited graph, or one that was read again, from the next tick on. What both contain, by name, continues, and no force
+ *  jumps. Limits that the graph asks for only tighten until the next start. [one thread] */
 TACTUS_API tactus_result tactus_session_edit (tactus_session*, const tactus_graph*, tactus_messages*);
 
 /** Sets a parameter to a value in JSON: "drag.mu" to "0.4", "cut.normal" to "[0, 0, 1]". The value ramps to it. [one thread] */

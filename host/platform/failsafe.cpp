@@ -329,7 +329,7 @@ Result<Failsafe> Failsafe::arm (const std::string& device_file, const std::vecto
         used += r.bytes.size();
     }
 
-    const int file = ::open (device_file.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+    const int file = ::open (device_file.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);   // a tty must not become that of this session
     if (file < 0) return failed (reason (errno));
     auto why = needGuardian();
     if (why.empty())

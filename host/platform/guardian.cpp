@@ -21,7 +21,9 @@ std::uint32_t write (int file, const FinalReports& reports, std::uint32_t which)
     {
         const auto it = 1u << i;
         if ((which & it) == 0) continue;
-        if ((reports.is_feature[i] != 0 ? ::ioctl (file, HIDIOCSFEATURE (reports.sizes[i]), at) : ::write (file, at, reports.sizes[i])) < 0) left |= it;
+        const auto size = reports.sizes[i];
+        const auto done = reports.is_feature[i] != 0 ? ::ioctl (file, HIDIOCSFEATURE (size), at) : ::write (file, at, size);
+        if (done < 0 || (done < size && ::isatty (file) != 0)) left |= it;   // a tty may take only a part; a hidraw device takes all or nothing
     }
     return left;
 }

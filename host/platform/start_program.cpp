@@ -46,7 +46,7 @@ fs::path thisLibrary()
     std::error_code failed;
     if (::dladdr (reinterpret_cast<const void*> (&thisLibrary), &code) == 0 || code.dli_fname == nullptr) return {};
     auto file = fs::canonical (code.dli_fname, failed);
-    return failed || file == fs::canonical (thisProgram(), failed) || file.string().find (".so") == std::string::npos ? fs::path {} : file;
+    return failed || file == fs::canonical (thisProgram(), failed) || file.filename().string().find (".so") == std::string::npos ? fs::path {} : file;
 #else
     return {};
 #endif

@@ -34,11 +34,11 @@ std::vector<fs::path> pluginsIn (const fs::path& folder)
     return files;
 }
 
-Message quarantined (const fs::path& file, const fs::path& mark)
+/// The folders given to usePlugins().
+std::vector<std::string>& givenFolders()
 {
-    return Message::error ("plugin/quarantined", file.string(),
-                           "the program crashed or was killed the last time it loaded this plugin, so it is not loaded again",
-                           "build or install it again, or remove " + quote (mark.string()));
+    static std::vector<std::string> folders;
+    return folders;
 }
 }   // namespace
 
@@ -56,6 +56,14 @@ std::vector<fs::path> pluginFolders (const std::vector<std::string>& more)
     return all;
 }
 
+std::vector<fs::path> usedPluginFolders() { return pluginFolders (givenFolders()); }
+
+fs::path pluginMarks()
+{
+    const auto home = homeFolder();
+    return home.empty() ? home : home / "plugin-marks";
+}
+
 LoadedPlugins loadFolders (const std::vector<fs::path>& folders, const fs::path& marks)
 {
     const Quarantine quarantine { marks };
@@ -70,7 +78,7 @@ LoadedPlugins loadFolders (const std::vector<fs::path>& folders, const fs::path&
             seen.push_back (whole);
             if (quarantine.holds (file))
             {
-                all.messages.push_back (quarantined (file, quarantine.markOf (file)));
+                all.messages.push_back (quarantine.refusal (file));
                 continue;
             }
             const Quarantine::Loading loading { quarantine, file };
@@ -83,8 +91,8 @@ LoadedPlugins loadFolders (const std::vector<fs::path>& folders, const fs::path&
 
 Messages usePlugins (const std::vector<std::string>& more)
 {
-    const auto home = homeFolder();
-    auto loaded = loadFolders (pluginFolders (more), home.empty() ? home : home / "plugin-marks");
+    givenFolders() = more;
+    auto loaded = loadFolders (pluginFolders (more), pluginMarks());
     if (auto trouble = homeTrouble()) loaded.messages.push_back (std::move (*trouble));
     std::error_code unseen;
     for (const auto& folder : more)

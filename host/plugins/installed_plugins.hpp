@@ -17,6 +17,12 @@ inline constexpr const char* plugin_suffix = ".tactus";
 /// homeFolder(), and lib/tactus/plugins of the installation. Some may not exist. [main thread]
 std::vector<std::filesystem::path> pluginFolders (const std::vector<std::string>& more);
 
+/// The folders in which this program looks: those of pluginFolders(), with those given to usePlugins(). [main thread]
+std::vector<std::filesystem::path> usedPluginFolders();
+
+/// Where the Quarantine of this user keeps its marks; empty if this user has no folder. [main thread]
+std::filesystem::path pluginMarks();
+
 /// Loads all plugins of these folders, within each folder sorted by name. Errors: those of loadPlugins, plugin/quarantined. `marks` is
 /// the folder of the Quarantine. [main thread]
 LoadedPlugins loadFolders (const std::vector<std::filesystem::path>& folders, const std::filesystem::path& marks);

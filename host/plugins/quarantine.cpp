@@ -3,6 +3,7 @@
 
 #include <host/platform/private_folder.hpp>
 #include <tactus/file/text_file.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <fstream>
 #include <functional>
@@ -37,6 +38,13 @@ bool Quarantine::holds (const fs::path& file) const
     const auto mark = markOf (file);
     if (mark.empty() || readTextFile (mark) != stampOf (file)) return false;
     return FileLock::takeExisting (mark).has_value();
+}
+
+Message Quarantine::refusal (const fs::path& file) const
+{
+    return Message::error ("plugin/quarantined", file.string(),
+                           "the program crashed or was killed the last time it loaded this plugin, so it is not loaded again",
+                           "build or install it again, or remove " + quote (markOf (file).string()));
 }
 
 Quarantine::Loading::Loading (const Quarantine& quarantine, const fs::path& file) : mark (quarantine.markOf (file))

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tactus/file/file_lock.hpp>
+#include <tactus/text/message.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -24,6 +25,9 @@ public:
 
     /// The path of the mark of a plugin. After the mark is removed, the plugin is loaded again.
     std::filesystem::path markOf (const std::filesystem::path& file) const;
+
+    /// The error about a file that it holds. Id: plugin/quarantined.
+    Message refusal (const std::filesystem::path& file) const;
 
     /// Marks a file until this object is destroyed.
     class Loading

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "choose_clock.hpp"
+#include "role_fits.hpp"
 
 #include <tactus/text/message.hpp>
 #include <tactus/text/number_text.hpp>
@@ -47,7 +48,12 @@ ClockChoice byOption (const ClockWish& wish, const std::vector<Described>& devic
     ClockChoice choice;
     const auto device = std::ranges::find (devices, wish.option, &Described::first);
     const auto rate = device != devices.end() ? rateOf (*device, true) : std::nullopt;
-    if (! rate)
+    if (device != devices.end() && namesPlugin (device->second))
+        choice.messages.push_back (Message::error ("run/no_clock", "--clock " + wish.option,
+                                                   "the device of the role " + quote (wish.option)
+                                                       + " has a driver in a plugin, and devices of such drivers cannot tick a run",
+                                                   "name a role with a HID device, or write --clock timer or --clock audio"));
+    else if (! rate)
         choice.messages.push_back (
             Message::error ("run/no_clock", "--clock " + wish.option, "the role " + quote (wish.option) + " has no connected device that can tick the run",
                             "name a role whose device is a HID device with a rate in its profile, or write --clock timer or --clock audio"));
@@ -82,7 +88,11 @@ ClockChoice bySession (const ClockWish& wish, const std::vector<Described>& devi
     }
     const auto rate = rateOf (*device, true);
     ClockChoice choice;
-    if (! rate)
+    if (namesPlugin (device->second))
+        choice.messages.push_back (warning ("the session names the role " + quote (wish.session)
+                                                + " as the clock, but its device has a driver in a plugin, and devices of such drivers cannot tick a run",
+                                            "a timer ticks the run; to choose it: tactus session --clock timer"));
+    else if (! rate)
         choice.messages.push_back (
             warning ("the session names the role " + quote (wish.session) + " as the clock, but the device of this role cannot tick a run",
                      "a timer ticks the run; bind the role to a HID device with a rate in its profile, or choose a timer: tactus session --clock timer"));

@@ -50,10 +50,16 @@ std::optional<RealDevice> realDevice (const std::string& role, Device& device)
     return std::nullopt;
 }
 
+std::optional<PluginRole> pluginRole (const std::string& role, Device& device)
+{
+    const auto* of_plugin = dynamic_cast<const PluginDevice*> (&device);
+    return of_plugin != nullptr ? std::optional (PluginRole { role, of_plugin }) : std::nullopt;
+}
+
 std::string describe (const DeviceHealth& h)
 {
     if (! h.has_come) return "not available yet" + (h.trouble.empty() ? std::string() : ": " + h.trouble);
-    if (! h.connected) return "unplugged";
+    if (! h.connected) return "unplugged" + (h.trouble.empty() ? std::string() : ": " + h.trouble);
     auto text = h.rate_hz ? printed ("%.1f reports/s, ", *h.rate_hz) : std::string();
     text += printed ("latest %.1f ms old", 1e3 * h.age);
     if (h.ticks) text += h.read_by_tick ? ", ticks the run directly" : ", ticks the run through a reading thread";
@@ -68,7 +74,30 @@ HealthWatch::Meter& HealthWatch::meterOf (const std::string& role)
     return at != meters.end() ? *at : meters.emplace_back (Meter { role, {} });
 }
 
-void HealthWatch::look (std::span<const RealDevice> devices)
+void HealthWatch::look (const PluginRole& plugin)
+{
+    const auto& device = *plugin.device;
+    const auto counts = device.counts();
+    auto& h = known.emplace_back();
+    h.role = plugin.role;
+    h.profile = device.driver();
+    h.has_come = true;
+    h.connected = device.isConnected();
+    h.age = device.age();
+    h.oldest = counts.oldest;
+    h.reports = counts.readings;
+    h.lost = counts.lost;
+    h.departures = counts.departures;
+    h.trouble = device.trouble();
+
+    auto& meter = meterOf (plugin.role);
+    if (std::exchange (meter.departures, counts.departures) != counts.departures) meter.rate.reset();
+    const std::chrono::duration<double> at = device.lastArrival().time_since_epoch();
+    if (h.connected && at.count() > 0.0) meter.rate.look (at.count(), counts.readings + counts.lost);
+    if (const auto rate = meter.rate.rate()) h.rate_hz = rate->hz;
+}
+
+void HealthWatch::look (std::span<const RealDevice> devices, std::span<const PluginRole> plugins)
 {
     known.clear();
     for (const auto& real : devices)
@@ -100,6 +129,9 @@ void HealthWatch::look (std::span<const RealDevice> devices)
         if (const auto latest = latestOf (*device); latest && h.connected) meter.rate.look (latest->at_s, latest->reports + read.lost);
         if (const auto rate = meter.rate.rate()) h.rate_hz = rate->hz;
     }
+
+    for (const auto& plugin : plugins)
+        look (plugin);
 
     // The speed of a device's clock relative to its nominal rate.
     const auto speed = [&] (const std::string& role) -> std::optional<RateMeter::Rate> {

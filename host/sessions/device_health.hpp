@@ -4,6 +4,8 @@
 #include "awaited_device.hpp"
 #include "rate_meter.hpp"
 
+#include <host/device_plugins/plugin_device.hpp>
+
 #include <optional>
 #include <span>
 #include <string>
@@ -26,10 +28,20 @@ struct RealDevice
 /// The real device behind a driver (BoundDevice::driver); empty for a simulated one.
 std::optional<RealDevice> realDevice (const std::string& role, Device&);
 
+/// A device of a driver in a plugin, in a run.
+struct PluginRole
+{
+    std::string role;
+    const PluginDevice* device = nullptr;
+};
+
+/// The same for a device of a plugin; empty for any other.
+std::optional<PluginRole> pluginRole (const std::string& role, Device&);
+
 /// The state of a device.
 struct DeviceHealth
 {
-    std::string role, profile;   ///< id of the profile
+    std::string role, profile;   ///< id of the profile, or name of the driver
     bool has_come = false;       ///< true if the device has been available at some time during the run
     bool connected = false;
     bool ticks = false;               ///< true if its reports tick the run
@@ -58,7 +70,7 @@ public:
     /// `clock_role`: the role whose device ticks the run; empty: none.
     explicit HealthWatch (std::string clock_role = {}, double shortest_span_s = usual_span) : clock (std::move (clock_role)), shortest_span (shortest_span_s) {}
 
-    void look (std::span<const RealDevice>);   ///< call about ten times a second
+    void look (std::span<const RealDevice>, std::span<const PluginRole> = {});   ///< call about ten times a second
 
     const std::vector<DeviceHealth>& health() const noexcept { return known; }   ///< as of the last look
 
@@ -71,6 +83,7 @@ private:
     };
 
     Meter& meterOf (const std::string& role);
+    void look (const PluginRole&);
 
     std::string clock;
     double shortest_span;

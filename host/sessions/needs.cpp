@@ -121,6 +121,11 @@ DeviceParts partsOf (const hid::Profile& p)
              .others = hid::layoutOf (hid::HidModel (std::make_shared<const hid::Profile> (p))) };
 }
 
+DeviceParts partsOf (const DriverAbout& a)
+{
+    return { .position = a.position, .rotation = a.rotation, .pressure = a.pressure, .force = a.force, .torque = a.torque, .others = a.layout };
+}
+
 std::optional<DeviceParts> partsOf (const Json& description, const std::filesystem::path& folder, const hid::LoadedProfiles& profiles)
 {
     if (! description.is_object()) return std::nullopt;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <host/device_plugins/driver_about.hpp>
 #include <host/hid/profile_reader.hpp>
 #include <tactus/node/device.hpp>
 #include <tactus/plan/plan.hpp>
@@ -40,6 +41,7 @@ std::vector<RoleNeeds> needsOf (const Plan&);
 /// wrong. [main thread]
 std::optional<DeviceParts> partsOf (const Json& description, const std::filesystem::path& folder, const hid::LoadedProfiles&);
 DeviceParts partsOf (const hid::Profile&);
+DeviceParts partsOf (const DriverAbout&);
 
 /// Describes parts, as in "position, force, axis 'trigger', signal output 2", or "nothing".
 std::string describe (const DeviceParts&);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "numbers_device.hpp"
 
+#include <host/device_plugins/open_plugin_device.hpp>
 #include <host/hid/physics.hpp>
 #include <tactus/graph/text.hpp>
 #include <tactus/run/device/guard_limits.hpp>
@@ -44,12 +45,22 @@ Result<DeviceOption> parseDeviceOption (std::string_view text, const std::vector
 {
     auto parsed = tactus::parseDeviceOption (text, described, folder_of_graph);
     const auto equals = text.find ('=');
-    if (parsed || equals == text.npos || ! graph::isId (text.substr (equals + 1))) return parsed;
+    if (parsed || equals == text.npos || ! graph::isId (text.substr (0, equals))) return parsed;
 
     const std::string role (text.substr (0, equals)), id (text.substr (equals + 1)), where = "--device " + std::string (text);
-    const auto profile = hid::profileNamed (profiles(), id);
-    if (! profile) return parsed;
-    if (! hid::isNumbersOnly (*profile))
+    const auto profile = graph::isId (id) ? hid::profileNamed (profiles(), id) : nullptr;
+    const bool is_numbers_only = profile && hid::isNumbersOnly (*profile);
+    if (! is_numbers_only)
+        if (auto of_plugin = parsePluginDevice (id); ! of_plugin.is_null())
+            return DeviceOption { .role = role, .description = std::move (of_plugin), .folder = {} };
+    if (! profile)
+    {
+        auto why = std::move (parsed).error();
+        if (const auto name = id.substr (0, id.find (':')); graph::isId (name) && ! isBuiltInDriver (name))
+            why.remedy += "; a driver in a plugin is the file " + name + DeviceDriver::suffix + " in a folder of plugins (--plugins)";
+        return why;
+    }
+    if (! is_numbers_only)
         return Message::error ("device/option", where, quote (id) + " is the profile of a device that must be connected", "write " + role + "=hid:" + id);
 
     auto option = tactus::parseDeviceOption (role + "=sim", described, folder_of_graph);

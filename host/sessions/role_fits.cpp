@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "role_fits.hpp"
 
+#include <host/device_plugins/open_plugin_device.hpp>
 #include <host/hid_link/force_feedback.hpp>
 #include <host/sessions/check_audio.hpp>
 
@@ -37,12 +38,18 @@ std::shared_ptr<const hid::Profile> profileFor (const Json& description, const h
 std::string nameOf (const Json& description)
 {
     auto name = textAt (description, "driver");
-    for (const auto* key : { "profile", "path" })
+    for (const auto* key : { "profile", "path", "port" })
         if (const auto text = textAt (description, key); ! text.empty()) name += " " + text;
     if (description.is_object() && name == "sim" && description.contains ("hand"))
         if (const auto path = textAt (description["hand"], "path"); ! path.empty()) name += " with a hand that follows " + path;
     if (const auto serial = textAt (description, "serial"); ! serial.empty()) name += ", serial " + serial;
     return name.empty() ? "nothing" : name;
+}
+
+bool namesPlugin (const Json& description)
+{
+    const auto driver = textAt (description, "driver");
+    return ! driver.empty() && ! isBuiltInDriver (driver);
 }
 
 bool isAmong (const Json& description, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& all)
@@ -52,6 +59,7 @@ bool isAmong (const Json& description, std::span<const hid::ConnectedDevice> con
 
 Messages checkDescription (const Json& description, const std::filesystem::path& folder, const hid::LoadedProfiles& all)
 {
+    if (isPluginDevice (description)) return checkPluginDevice (description);
     return audio::isAudio (description) ? audio::checkAudio (description) : hid::checkDevice (description, folder, all);
 }
 
@@ -95,7 +103,12 @@ std::vector<RoleFit> fitsOf (const std::vector<RoleNeeds>& all_needs, const grap
                 m.where.clear();   // it is about the whole description
         }
 
-        auto wrong = checkDescription (fit.description, folder, all);
+        // A graph chooses no driver, so none is loaded for what it describes.
+        Messages wrong;
+        if (fit.from != RoleFit::From::session)
+            wrong = makeDevice (fit.description, folder).messages;
+        else if (! isPluginDevice (fit.description))
+            wrong = checkDescription (fit.description, folder, all);
         std::ranges::move (wrong, std::back_inserter (fit.messages));
         fit.there = partsOf (fit.description, folder, all);
         if (hid::isHid (fit.description))

@@ -34,17 +34,21 @@ struct RoleFit
     bool fits() const { return lacking.empty() && ! hasErrors (messages); }
 };
 
-/// One entry for each role, in the order of the needs. `connected`: the devices that are plugged in. [main thread]
+/// One entry for each role, in the order of the needs. `connected`: the devices that are plugged in. No driver of a plugin is loaded, because the window
+/// calls this several times a second: the descriptions that a session has for such drivers are not checked. [main thread]
 std::vector<RoleFit> fitsOf (const std::vector<RoleNeeds>&, const graph::Graph&, const LoadedSession&, const hid::LoadedProfiles&,
                              std::span<const hid::ConnectedDevice> connected);
 
 /// A short name for a description, such as "hid tactus_board, serial B7", "gesture stroke" or "sim".
 std::string nameOf (const Json& description);
 
+/// True if the driver of a description is none of Tactus, so that it must be in a plugin, which may not be installed. Loads nothing.
+bool namesPlugin (const Json& description);
+
 /// True if a connected HID device matches the description.
 bool isAmong (const Json& description, std::span<const hid::ConnectedDevice>, const hid::LoadedProfiles&);
 
-/// Checks the description of a device with any driver, as far as that is possible without the device.
+/// Checks the description of a device with any driver, as far as that is possible without the device. Loads the driver if it is in a plugin.
 Messages checkDescription (const Json& description, const std::filesystem::path& folder, const hid::LoadedProfiles&);
 
 /// Checks the description of a binding, including its workspace.

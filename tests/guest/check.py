@@ -198,6 +198,27 @@ if os.path.exists(os.path.join(folder, "own_script_raise.play.err")):
 else:
     print("skipped: scripts, because the Python package is not built")
 
+# A driver in a plugin writes from a thread of its own, so a force that it sends need not answer the latest report, and it may leave out some.
+board, rows = Board("driver_loop"), play_rows("driver_loop")
+applied = [tuple(micro(float(row["motor.applied." + c])) for c in "xyz") for row in rows]
+pushed = [h[2] for h in board.heard if h[0] == "driven" and any(h[2])]
+k, compared = 0, 0
+for force in pushed:
+    found = next((i for i in range(k, len(applied)) if all(abs(a - b) <= 1 for a, b in zip(applied[i], force))), None)
+    if found is None:
+        break
+    k, compared = found, compared + 1
+fade = [max(map(abs, f)) for f in pushed[compared:]]   # as with the joystick
+check(board.broken == 0 and compared > 300 and len(fade) < 300 and fade == sorted(fade, reverse=True),
+      f"driver_loop: {compared} of {len(pushed)} forces match the guard's output in order; the rest is the fade")
+check(any(abs(f[2]) > 1e5 for f in applied), "driver_loop: there was a force on the tool")
+for signal in ("INT", "KILL", "STOP", "hang"):
+    heard = Board("driver_" + signal).heard
+    last = max((i for i, h in enumerate(heard) if h[0] == "driven" and any(h[2])), default=0)
+    rest = next((h for h in heard[last + 1:] if h[0] == "neutral" or not any(h[2])), None)
+    check(last > 10 and rest is not None and rest[3] - heard[last][3] < 0.15 and heard[-1][0] == "neutral",
+          f"driver_{signal}: after the last of {last} forces, the board rests at once and to the end")
+
 
 class Joystick:
     """What a joystick received, according to OpenFFBoard's descriptor: 05 block magnitude, 0a block operation, 0b block, 0c control."""

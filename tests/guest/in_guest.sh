@@ -135,6 +135,32 @@ if [ -d build/release/python ]; then
     attack script_KILL script play KILL
 fi
 
+# The board again, driven by a device driver in a plugin.
+driven () { $tactus play $work/dry_wood.json --device "stylus=hidraw_board:$(compgen -G '/dev/hidraw*')" --plugins plugins --rate 1000 --osc off "$@" 2>$work/play.err; }
+say "a driver in a plugin: a closed loop"
+plug --wait 1
+driven --duration 3 "${recorded[@]}" || fail "the closed loop of a driver"
+unplug
+keep driver_loop
+for signal in INT KILL STOP hang; do
+    say "a driver in a plugin: $signal while a force acts"
+    plug --mark $work/pushed
+    if [ $signal = hang ]; then
+        TACTUS_TEST_HANG=1 driven --duration 600 & player=$!
+        wait_for_words run/frozen
+        sleep 1
+        end_under_force KILL
+    else
+        driven --duration 600 & player=$!
+        wait_for "$work/pushed"
+        to_player $signal
+        [ $signal = STOP ] && { sleep 1; to_player KILL; }
+        end_under_force $signal
+    fi
+    unplug
+    keep driver_$signal
+done
+
 # gadget: creates a board on its own bus, behind the kernel's USB stack.
 gadget=/sys/kernel/config/usb_gadget/board
 make_gadget ()

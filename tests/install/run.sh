@@ -52,6 +52,12 @@ for plugin in "$work/node_plugin/ice.tactus" "$work/rough_wood/build/rough_wood.
 done
 echo "docs/examples/node_plugin and a new node: built as plugins, loaded and checked"
 
+cmake -S "$examples/device_plugin" -B "$work/device_plugin" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" >/dev/null
+cmake --build "$work/device_plugin" >/dev/null
+nm -D --defined-only "$work/device_plugin/serial_arm.tactus-device" | awk '{ print $3 }' | diff - <(echo tactus_device_entry)
+"$build/bin/tactus" check-plugin "$work/device_plugin/serial_arm.tactus-device" >"$work/checked.txt" || { cat "$work/checked.txt"; exit 1; }
+echo "docs/examples/device_plugin: built as a driver, loaded and checked"
+
 # The same bits as the program, except for the spelling of numbers.
 "$build/bin/tactus" render graphs/dry_wood.json --duration 1 --out "$work/render.csv" 2>/dev/null
 python3 tests/install/same_bits.py "$work/render.csv" "$work/embed_c.txt"

@@ -331,6 +331,9 @@ class _Opened:
             if isinstance(self._graph, Graph):
                 text = self._graph.text.encode()
                 handle = live.tactus_graph_parse(text, ctypes.c_size_t(len(text)), self._graph._graph.folder().encode(), messages.handle)
+                for path, file in self._graph._graph.files().items() if handle else ():
+                    with _Opened(Graph._of(file)) as included:
+                        live.tactus_graph_set_file(ctypes.c_void_p(handle), path.encode(), included, messages.handle)
             else:
                 file = live.tactus_graph_file(os.fspath(self._graph).encode())
                 handle = live.tactus_graph_load(ctypes.cast(file, ctypes.c_char_p), messages.handle)

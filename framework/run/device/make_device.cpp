@@ -264,7 +264,11 @@ MadeDevice makeDevice (const Json& description, const Folder& folder)
             in.error ("driver", "device/real", "this is a real device, which only `tactus play` and tactus-host can drive",
                       "give the role a simulated device instead: \"driver\": \"sim\"");
         else if (! id.empty())
-            in.error ("driver", "device/unknown_driver", "there is no driver " + quote (id), suggestion (id, driverNames()));
+            in.error ("driver", "device/unknown_driver", "there is no driver " + quote (id),
+                      suggestion (id, driverNames())
+                          + (graph::isId (id) ? " (a driver in a plugin, " + id
+                                                    + ".tactus-device, must be in a folder of plugins, and is chosen only with --device or in a session)"
+                                              : std::string()));
         return made;
     }
 
@@ -305,7 +309,7 @@ namespace
 Message badOption (std::string_view text, std::string what)
 {
     return Message::error ("device/option", "--device " + std::string (text), std::move (what),
-                           "write ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME, ROLE=hid:PROFILE or ROLE=audio:CARD");
+                           "write ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME, ROLE=hid:PROFILE, ROLE=audio:CARD or ROLE=DRIVER:PORT");
 }
 
 Json simulated (std::string_view role, const std::vector<std::pair<std::string, Json>>& described)
@@ -368,7 +372,7 @@ Result<DeviceOption> parseDeviceOption (std::string_view text, const std::vector
 
     if (! what.ends_with (".json"))
         return badOption (text, what.empty() ? "there is nothing after '='"
-                                             : quote (what) + " is not sim, trace:, gesture:, hid:, audio or a .json file");
+                                             : quote (what) + " is not sim, trace:, gesture:, hid:, audio, an installed driver or a .json file");
     return fromFile (text, std::move (role), Folder (what));
 }
 

@@ -19,8 +19,11 @@ namespace tactus::host
 
 Json deviceOfBinding (Json binding)
 {
-    for (const auto* key : { "workspace", "guard", "outputs", "inputs", "calibration" })
+    for (const auto* key : { "workspace", "guard" })
         binding.erase (key);
+    if (! namesPlugin (binding))   // to the driver of a plugin, other keys may mean anything
+        for (const auto* key : { "outputs", "inputs", "calibration" })
+            binding.erase (key);
     return binding;
 }
 

@@ -31,7 +31,7 @@ struct BindingChoice
 std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice>, const hid::LoadedProfiles&,
                                            std::span<const hid::ConnectedDevice> without_profile = {});
 
-/// The device of a binding, without its workspace, guard, channels and calibration.
+/// The device of a binding, without its workspace and guard, and, if its driver is one of Tactus, without its channels and calibration.
 Json deviceOfBinding (Json binding);
 
 /// A simulated device with the numbers of a profile. It keeps the guard of the previous binding, so that no limit is lost, unless that

@@ -222,6 +222,12 @@ void LiveRun::begin()
     hand_role = handRoleOf (needed);
     probes.clear();
     std::ranges::move (session->openDevices(), std::back_inserter (said));
+    if (lacksPluginDevice())
+    {
+        log_next.clear();
+        stop();
+        return end();
+    }
     beginLog();
     if (sound != nullptr) sound->setTickRate (session->rate());
     film_tape.begin (session->rate());

@@ -215,6 +215,7 @@ private:
     void beginLog();
     void endLog();
     bool isMovedOtherwise (const std::string& role) const;
+    bool lacksPluginDevice() const;
     void adopt (const std::string& role, Run::RoleDevice&, const Workspace&, Messages&);
     std::unique_ptr<Device> chosenHand (const SimulatedDevice* described, double& damping, Messages&);
     void note (const Plan&);

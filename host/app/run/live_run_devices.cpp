@@ -6,6 +6,7 @@
 #include <host/app/model/device_profiles.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/sessions/binding.hpp>
+#include <host/sessions/role_fits.hpp>
 #include <tactus/run/device/gesture_device.hpp>
 #include <tactus/run/device/trace.hpp>
 
@@ -41,6 +42,17 @@ bool LiveRun::isSoundCard (const std::string& role) const
 /// True if the mouse, or a path that the user has chosen, moves the tool.
 bool LiveRun::isMovedOtherwise (const std::string& role) const { return role == hand_role && moved_by.kind != Hand::Kind::described; }
 
+/// True if a role is bound to a driver of a plugin and got no device. Such a device cannot be waited for, unlike a HID device with a profile: its parts
+/// and its limits are known only when it is open.
+bool LiveRun::lacksPluginDevice() const
+{
+    const auto& opened = session->run().devices();
+    return std::ranges::any_of (session->engine().newest().roles(), [&] (const auto& role) {
+        const auto* bound = isMovedOtherwise (role.name) ? nullptr : run_session.binding (role.name);
+        return bound != nullptr && namesPlugin (*bound) && std::ranges::none_of (opened, [&] (const auto& d) { return d.first == role.name; });
+    });
+}
+
 /// Puts the chosen hand on the tool of the first role.
 void LiveRun::adopt (const std::string& role, Run::RoleDevice& opened, const Workspace& in, Messages& messages)
 {
@@ -49,6 +61,7 @@ void LiveRun::adopt (const std::string& role, Run::RoleDevice& opened, const Wor
     const auto* simulated = dynamic_cast<const SimulatedDevice*> (&driver);
     hand_damping = simulated != nullptr ? simulated->simulation().damping : 0.0;
     if (const auto real = realDevice (role, driver)) hand_damping = real->profile().limits.device_damping / in.scale;
+    if (const auto plugin = pluginRole (role, driver)) hand_damping = plugin->device->about().layout.mechanics.damping / in.scale;
     auto hand = chosenHand (simulated, hand_damping, messages);
     if (! hand) return;
     opened.driver = hand.get();

@@ -18,7 +18,7 @@ SOURCES = {
     "Messages about devices and runs": [
         "framework/node/device_parts.cpp", "framework/node/reading_fault.hpp", "framework/run/[ger]*.cpp",
         "framework/run/device/*.cpp", "host/sessions/*.cpp", "host/audio/*.cpp", "host/hid_link/*.cpp", "host/platform/*.cpp",
-        "host/plugins/*.cpp", "host/osc/osc_port.cpp", "framework/plugin/plugin_library.cpp",
+        "host/plugins/*.cpp", "host/device_plugins/*.cpp", "host/osc/osc_port.cpp", "framework/plugin/plugin_library.cpp",
     ],
 }
 LEFT_OUT = {"edit_names.cpp", "budget.hpp", "replay.cpp", "describe_audio.cpp", "udev_rule.cpp", "compiler_output.cpp"}

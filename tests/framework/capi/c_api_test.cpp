@@ -336,6 +336,58 @@ TEST_CASE ("C API: feeds drive ports, parameters are set, and an edit takes over
     CHECK (force.back() == Approx (0.5));
 }
 
+TEST_CASE ("C API: a graph that is read again continues where the one that plays is", "[c_api]")
+{
+    const MessageList m { tactus_messages_create() };
+    const auto read = [&] (const std::string& more) {
+        const std::string text = R"({ "format": "tactus-graph", "version": 2, "rate_hz": 1000, "nodes": { )" + more +
+                                 R"("wave": { "type": "signal.lfo", "params": { "shape": "saw", "frequency": "1 Hz" } }, "louder": { "type": "signal.gain" } },
+            "wires": [ "wave.out -> louder.in" ] })";
+        return GraphHandle { tactus_graph_parse (text.c_str(), text.size(), nullptr, m.get()) };
+    };
+    const char* records[] = { "louder.out" };
+    tactus_run_options options = TACTUS_RUN_OPTIONS;
+    options.records = records;
+    options.record_count = 1;
+    const auto g = read ("");
+    const RunHandle run { tactus_run_create (g.get(), &options, m.get()) };
+    INFO (said (m));
+    REQUIRE (tactus_run_open (run.get(), m.get()) == TACTUS_OK);
+    std::vector<double> before (300), after (100);
+    REQUIRE (tactus_run_steps (run.get(), before.size(), nullptr, before.data()) == TACTUS_OK);
+    const auto again = read (R"("idle": { "type": "signal.constant" }, )");
+    REQUIRE (tactus_run_edit (run.get(), again.get(), m.get()) == TACTUS_OK);
+    REQUIRE (tactus_run_steps (run.get(), after.size(), nullptr, after.data()) == TACTUS_OK);
+    CHECK (before.back() == Approx (2 * 0.299).margin (0.003));
+    CHECK (after.front() == Approx (2 * 0.3).margin (0.003));
+}
+
+TEST_CASE ("C API: a graph that is read from text gets the files that it includes from the program", "[c_api]")
+{
+    const MessageList m { tactus_messages_create() };
+    const auto read = [&] (const std::string& body) {
+        const auto text = R"({ "format": "tactus-graph", "version": 2, "rate_hz": 1000, )" + body + " }";
+        return GraphHandle { tactus_graph_parse (text.c_str(), text.size(), nullptr, m.get()) };
+    };
+    const auto part = read (R"("nodes": { "three": { "type": "signal.constant", "params": { "value": 3 } } }, "expose": { "outputs": { "out": "three.out" } })");
+    const auto g = read (R"("nodes": { "a": { "type": "file:part.json" }, "b": { "type": "signal.gain" } }, "wires": [ "a.out -> b.in" ])");
+    const char* records[] = { "b.out" };
+    tactus_run_options options = TACTUS_RUN_OPTIONS;
+    options.records = records;
+    options.record_count = 1;
+    CHECK (RunHandle { tactus_run_create (g.get(), &options, m.get()) } == nullptr);
+    CHECK (tactus_graph_set_file (g.get(), nullptr, part.get(), m.get()) == TACTUS_MISUSE);
+    REQUIRE (tactus_graph_set_file (g.get(), "part.json", part.get(), m.get()) == TACTUS_OK);
+    tactus_messages_clear (m.get());
+    const RunHandle run { tactus_run_create (g.get(), &options, m.get()) };
+    INFO (said (m));
+    REQUIRE (run);
+    REQUIRE (tactus_run_open (run.get(), m.get()) == TACTUS_OK);
+    double out = 0.0;
+    REQUIRE (tactus_run_steps (run.get(), 1, nullptr, &out) == TACTUS_OK);
+    CHECK (out == 3.0);
+}
+
 TEST_CASE ("C API: a run in real time records every tick, and ends at rest", "[c_api]")
 {
     const MessageList m { tactus_messages_create() };

@@ -275,7 +275,12 @@ TEST_CASE ("the state of a device is reported while it is awaited, while it is p
         watch.look (std::span (&*device, 1));
         return ! watch.health().front().connected;
     }));
-    CHECK (describe (watch.health().front()) == "unplugged");
+    CHECK (describe (watch.health().front()).find ("unplugged") == 0);
+    auto gone = watch.health().front();
+    gone.trouble.clear();
+    CHECK (describe (gone) == "unplugged");
+    gone.trouble = "its port is taken";
+    CHECK (describe (gone) == "unplugged: its port is taken");
     CHECK_FALSE (watch.health().front().rate_hz);
 }
 

@@ -197,6 +197,15 @@ TEST_CASE ("the clock option takes precedence over the session, which takes prec
     CHECK (choose ("", "elsewhere").role == "thumb");
     CHECK (choose ("", "pen").role.empty());
     CHECK (chooseClock ({}, devices, nothing).role.empty());
+
+    const std::vector<Described> of_plugin { { "stylus", { { "driver", "serial_arm" } } } };
+    for (const auto& wish : { ClockWish { "stylus", "", {} }, ClockWish { "", "stylus", {} } })
+    {
+        const auto choice = chooseClock (wish, of_plugin, nothing);
+        CHECK (choice.role.empty());
+        REQUIRE (choice.messages.size() == 1);
+        CHECK (choice.messages[0].text.find ("devices of such drivers cannot tick a run") != std::string::npos);
+    }
 }
 
 TEST_CASE ("the roles of a graph are the roles of its nodes, including nodes in subgraphs and mappings", "[sessions]")

@@ -188,6 +188,15 @@ TEST_CASE ("a joystick without a profile is chosen and calibrated in the window,
     CHECK (r.rig.text() == before);
 }
 
+TEST_CASE ("the driver of a plugin keeps its keys, and only the channels and the calibration of other devices are no part of a choice", "[app][sessions]")
+{
+    const Json device { { "driver", "serial_arm" }, { "port", "a" }, { "calibration", "b" }, { "outputs", 2 } };
+    auto binding = device;
+    binding["guard"] = { { "max_force", "1 N" } };
+    CHECK (deviceOfBinding (binding) == device);
+    CHECK (deviceOfBinding ({ { "driver", "audio" }, { "outputs", Json::array() } }) == Json { { "driver", "audio" } });
+}
+
 TEST_CASE ("the choices for a role include connected devices, with serial numbers if two are alike", "[app][sessions]")
 {
     FakeBoard board;

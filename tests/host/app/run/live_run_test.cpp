@@ -228,6 +228,30 @@ TEST_CASE ("a device that is not plugged in is reported", "[app][run]")
     CHECK (std::ranges::find (said, "hid/not_connected", &Message::id)->where.starts_with ("/roles/stylus"));
 }
 
+TEST_CASE ("a run does not start without the device of a driver in a plugin, unless the mouse takes the role", "[app][run][safety]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const TemporaryFolder home;
+    DeviceSetup setup;
+    setup.open (home.path());
+    REQUIRE (setup.edit ([] (DeviceSession& s) { s.bind ("stylus", { { "driver", "not_installed" }, { "port", "a" } }); }));
+    LiveRun p { rig.document, catalogue() };
+    p.use (setup);
+    p.start ({});
+    CHECK_FALSE (p.isRunning());
+    CHECK_FALSE (p.isWanted());
+    REQUIRE (std::ranges::count (p.messages(), "device/unknown_driver", &Message::id) == 1);
+    CHECK (std::ranges::find (p.messages(), "device/unknown_driver", &Message::id)->where.starts_with ("/roles/stylus"));
+
+    p.start (LiveRun::Hand::pointer());
+    CHECK (until (p, [&] { return p.isRunning() && p.status()->ticks > 10; }));
+    p.start ({});
+    CHECK (until (p, [&] { return ! p.isRunning() && ! p.isWanted(); }));
+    REQUIRE (setup.edit ([] (DeviceSession& s) { s.unbind ("stylus"); }));
+    p.start ({});
+    CHECK (p.isRunning());
+}
+
 TEST_CASE ("a graph that names a device which is plugged in does not open it; the session does", "[app][run]")
 {
     const TemporaryFolder home;

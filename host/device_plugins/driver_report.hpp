@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <tactus/tactus_plugin.h>
+#include <tactus/text/quote.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+namespace tactus::host
+{
+
+/// Receives what a driver says, without allocating: its functions are called a thousand times a second. Text beyond the room is lost.
+class DriverReport
+{
+public:
+    DriverReport() noexcept : sink { sizeof sink, this, &put } {}
+    DriverReport (const DriverReport&) = delete;
+    DriverReport& operator= (const DriverReport&) = delete;
+
+    const tactus_plugin_report* to() const noexcept { return &sink; }
+    void clear() noexcept { length = 0; }
+
+    /// What was said, or another text if nothing was.
+    std::string text (std::string_view otherwise = "it does not say why") const
+    {
+        return length == 0 ? std::string (otherwise) : printableName ({ said.data(), length });
+    }
+
+private:
+    static void put (void* context, const char* text, std::size_t size) noexcept
+    {
+        auto& report = *static_cast<DriverReport*> (context);
+        const auto part = text != nullptr ? std::min (size, report.said.size() - report.length) : 0;
+        if (part > 0) std::memcpy (report.said.data() + report.length, text, part);
+        report.length += part;
+    }
+
+    tactus_plugin_report sink;
+    std::size_t length = 0;
+    std::array<char, 200> said;
+};
+
+}   // namespace tactus::host
