@@ -416,8 +416,10 @@ TEST_CASE ("a force feedback device whose sensor is frozen loses its force", "[h
     Driven run (made);
     wheel.moveTo (1000);
     REQUIRE (run.until (push (2.0), [&] { return wheel.magnitude() == -5000; }));
-    CHECK (run.until (push (2.0), [&] { return run.guard.stop() == Guard::Stop::stale && wheel.magnitude() == 0; }));
-    CHECK (run.guard.latest().fault == ReadingFault::frozen);
+    // On a loaded machine, an answer may be late first: that is a stop of its own, and ends.
+    CHECK (run.until (push (2.0), [&] {
+        return run.guard.stop() == Guard::Stop::stale && run.guard.latest().fault == ReadingFault::frozen && wheel.magnitude() == 0;
+    }));
     wheel.moveTo (1100);
     CHECK (run.until (push (2.0), [&] { return wheel.magnitude() == -5000; }));
 }
