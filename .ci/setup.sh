@@ -5,7 +5,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=(build-essential cmake ninja-build pkg-config clang-14
           juce-modules-source libjack-jackd2-dev libxcb1-dev libeigen3-dev libhidapi-dev catch2
-          nlohmann-json3-dev libcli11-dev librapidcheck-dev libmpfr-dev
+          libcli11-dev librapidcheck-dev libmpfr-dev
           libembree-dev libsamplerate0-dev libspng-dev libturbojpeg0-dev libbenchmark-dev faust
           fonts-inter fonts-dejavu-core
           python3-dev pybind11-dev python3-numpy)

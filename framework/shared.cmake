@@ -10,7 +10,7 @@ target_compile_options (tactus_shared INTERFACE "$<$<COMPILE_LANG_AND_ID:CXX,GNU
 target_include_directories (tactus_shared INTERFACE $<INSTALL_INTERFACE:include>)
 target_link_libraries (tactus_shared PUBLIC Eigen3::Eigen Threads::Threads ${CMAKE_DL_LIBS})
 if (CMAKE_SYSTEM_NAME STREQUAL Linux)
-    # Exports our own symbols, but neither those of nlohmann's library nor instances of std templates, which would replace the program's.
+    # Exports our own symbols, but no instances of std templates, which would replace the program's.
     set (exports ${CMAKE_CURRENT_SOURCE_DIR}/framework/exports.map)
     target_link_options (tactus_shared PRIVATE LINKER:--version-script=${exports} LINKER:-z,defs)
     set_target_properties (tactus_shared PROPERTIES LINK_DEPENDS ${exports})

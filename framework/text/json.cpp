@@ -2,8 +2,6 @@
 #include "json.hpp"
 #include "json_text.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -14,63 +12,6 @@ namespace tactus
 {
 namespace
 {
-using Other = nlohmann::ordered_json;
-
-Other toOther (const Json& v)
-{
-    if (v.is_null()) return nullptr;
-    if (v.is_boolean()) return v.get<bool>();
-    if (v.is_number_unsigned()) return v.get<std::uint64_t>();
-    if (v.is_number_integer()) return v.get<std::int64_t>();
-    if (v.is_number()) return v.get<double>();
-    if (v.is_string()) return v.asString();
-    if (v.is_array())
-    {
-        auto all = Other::array();
-        for (const auto& e : v.asArray())
-            all.push_back (toOther (e));
-        return all;
-    }
-    auto all = Other::object();
-    auto& members = static_cast<Other::object_t::Container&> (all.get_ref<Other::object_t&>());
-    for (const auto& [key, member] : v.asObject())
-        members.emplace_back (key, toOther (member));
-    return all;
-}
-
-Json fromOther (const Other& v)
-{
-    switch (v.type())
-    {
-    case Other::value_t::boolean:
-        return v.get<bool>();
-    case Other::value_t::number_integer:
-        return v.get<std::int64_t>();
-    case Other::value_t::number_unsigned:
-        return v.get<std::uint64_t>();
-    case Other::value_t::number_float:
-        return v.get<double>();
-    case Other::value_t::string:
-        return v.get_ref<const std::string&>();
-    case Other::value_t::array:
-    {
-        Json::Array all;
-        for (const auto& e : v)
-            all.push_back (fromOther (e));
-        return all;
-    }
-    case Other::value_t::object:
-    {
-        Json::Object all;
-        for (const auto& [key, member] : v.items())
-            all.emplace_back (key, fromOther (member));
-        return all;
-    }
-    default:
-        return nullptr;
-    }
-}
-
 /// The array index that one part of a pointer names; the size of the array for "-".
 std::optional<std::size_t> indexOf (const std::string& part, std::size_t size) noexcept
 {
@@ -173,37 +114,17 @@ Json Json::object (std::initializer_list<Json> all)
 
 Json Json::parse (std::string_view text)
 {
-    try
-    {
-        bool is_too_deep = false;
-        const auto limitDepth = [&] (int depth, Other::parse_event_t event, Other&) {
-            const bool opens = event == Other::parse_event_t::object_start || event == Other::parse_event_t::array_start;
-            is_too_deep = is_too_deep || (opens && depth >= deepest_nesting);
-            return ! is_too_deep;
-        };
-        const auto parsed = Other::parse (text, limitDepth);
-        if (is_too_deep) throw JsonError ("objects and arrays are nested too deeply");
-        return fromOther (parsed);
-    }
-    catch (const Other::exception& e)
-    {
-        throw JsonError (e.what());
-    }
+    auto read = readJson (text);
+    if (read.messages.empty()) return std::move (read.root);
+    const auto& m = read.messages.front();
+    throw JsonError ("line " + std::to_string (m.line) + ", column " + std::to_string (m.column) + ": " + m.text);
 }
 
 std::optional<Json> Json::tryParse (std::string_view text)
 {
-    try
-    {
-        return parse (text);
-    }
-    catch (const JsonError&)
-    {
-        return {};
-    }
+    auto read = readJson (text);
+    return read.messages.empty() ? std::optional (std::move (read.root)) : std::nullopt;
 }
-
-std::string Json::dump (int indent) const { return toOther (*this).dump (indent, ' ', false, Other::error_handler_t::replace); }
 
 const char* Json::type_name() const noexcept
 {

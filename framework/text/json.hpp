@@ -80,7 +80,7 @@ concept Map = Range<R> && requires (std::ranges::range_reference_t<R> member)
 /// A function that needs a different type throws JsonError, unless it says otherwise.
 ///
 /// This is our own class, because every file that uses values of a graph includes it: compilers read it in a tenth of the time that
-/// nlohmann's templates take. Nlohmann's library still reads and writes the text (json.cpp, json_text.cpp).
+/// the templates of nlohmann/json take.
 class Json
 {
 public:

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Reads JSON with nlohmann's parser, and records the position of each part, so that every problem of a file can be shown with
-/// its line and column.
+/// Reads JSON, and records the position of each part, so that every problem of a file can be shown with its line and column.
 
 #include "budget.hpp"
 #include "json.hpp"
@@ -17,7 +16,7 @@ namespace tactus
 
 struct JsonText
 {
-    Json root;   ///< null if the text could not be read
+    Json root;   ///< null if the text could not be read. An object that has a key twice has both members
     TextPositions positions;
     double values = 0.0;   ///< how many numbers, texts, lists and objects were read
     Messages messages;     ///< file/syntax, file/too_deep, file/too_large, file/duplicate_key

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "json_writer.hpp"
 
+#include "utf8.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace tactus
 {
@@ -14,11 +17,102 @@ constexpr std::size_t step = 2;
 
 bool isContainer (const Json& value) { return (value.is_object() || value.is_array()) && ! value.empty(); }
 
+/// Text that did not come from a file may contain anything. Bytes that are not UTF-8 are replaced, because JSON is UTF-8.
+void appendText (std::string& out, std::string_view text)
+{
+    static constexpr std::string_view names = "\"\\bfnrt", meanings = "\"\\\b\f\n\r\t", hex = "0123456789abcdef";
+    out += '"';
+    while (! text.empty())
+    {
+        const auto size = std::max (characterSize (text), std::size_t { 1 });
+        const auto c = static_cast<unsigned char> (text.front());
+        if (const auto which = meanings.find (text.front()); which != std::string_view::npos)
+            out.append ({ '\\', names[which] });
+        else if (c < 0x20)
+            out.append ("\\u00").append ({ hex[c >> 4u], hex[c & 15u] });
+        else if (characterSize (text) == 0)
+            out += "\xEF\xBF\xBD";
+        else
+            out += text.substr (0, size);
+        text.remove_prefix (size);
+    }
+    out += '"';
+}
+
+/// Plain digits from 0.0001 up to 1e15, below which doubles hold every integer; an exponent outside that range. JSON has no nan and no inf.
+std::string shortestNumber (double value)
+{
+    if (! std::isfinite (value)) return "null";
+    constexpr double least = 1e-4, most = 1e15;
+    const double size = std::abs (value);
+    const bool plain = value == 0.0 || (size >= least && size < most);
+    char digits[40];
+    const auto end = std::to_chars (std::begin (digits), std::end (digits), value, plain ? std::chars_format::fixed : std::chars_format::scientific).ptr;
+    std::string text (digits, end);
+    return plain && text.find ('.') == std::string::npos ? text + ".0" : text;
+}
+
+void appendScalar (std::string& out, const Json& value)
+{
+    if (value.is_string())
+        appendText (out, value.asString());
+    else if (value.is_number_float())
+        out += shortestNumber (value.get<double>());
+    else if (value.is_number_unsigned())
+        out += std::to_string (value.get<std::uint64_t>());
+    else if (value.is_number())
+        out += std::to_string (value.get<std::int64_t>());
+    else if (value.is_boolean())
+        out += value.get<bool>() ? "true" : "false";
+    else
+        out += value.is_object() ? "{}" : value.is_array() ? "[]"
+                                                           : "null";
+}
+
 std::string scalarText (const Json& value)
 {
     if (value.is_number_float()) return jsonNumber (value.get<double>());
-    // Text that did not come from a file may contain anything. Bytes that are not UTF-8 are replaced, because a file must be UTF-8.
-    return value.dump();
+    std::string text;
+    appendScalar (text, value);
+    return text;
+}
+
+std::string scalarText (const std::string& key)
+{
+    std::string text;
+    appendText (text, key);
+    return text;
+}
+
+/// For programs: each entry on a line, or everything on one line if `per_level` is negative.
+void dumpTo (std::string& out, const Json& value, int per_level, int indent)
+{
+    if (! isContainer (value)) return appendScalar (out, value);
+    const auto newLine = [&] (int columns) {
+        if (per_level >= 0) out.append (1, '\n').append (static_cast<std::size_t> (columns), ' ');
+    };
+    bool first = true;
+    const auto begin = [&] {
+        if (! std::exchange (first, false)) out += ',';
+        newLine (indent + per_level);
+    };
+    out += value.is_array() ? '[' : '{';
+    if (value.is_array())
+        for (const auto& element : value.asArray())
+        {
+            begin();
+            dumpTo (out, element, per_level, indent + per_level);
+        }
+    else
+        for (const auto& [key, member] : value.asObject())
+        {
+            begin();
+            appendText (out, key);
+            out += per_level >= 0 ? ": " : ":";
+            dumpTo (out, member, per_level, indent + per_level);
+        }
+    newLine (indent);
+    out += value.is_array() ? ']' : '}';
 }
 
 class Writer
@@ -154,19 +248,10 @@ std::string writeJson (const Json& json, std::span<const std::string_view> one_a
 
 std::string jsonNumber (double value)
 {
-    if (! std::isfinite (value)) return "null";   // JSON has no nan or inf; the graph reader refuses them
-
-    // Plain digits from 0.0001 up to 1e15, below which doubles hold every integer; an exponent outside that range.
-    constexpr double least = 1e-4, most = 1e15;
-    const double size = std::abs (value);
-    const bool plain = value == 0.0 || (size >= least && size < most);
-    char digits[40];
-    const auto end = std::to_chars (std::begin (digits), std::end (digits), value, plain ? std::chars_format::fixed : std::chars_format::scientific).ptr;
-    std::string text (digits, end);
-    if (plain) return text.find ('.') == std::string::npos ? text + ".0" : text;
-
-    // "1e-05" and "1e+22" are written 1e-5 and 1e22.
+    auto text = shortestNumber (value);
     auto e = text.find ('e') + 1;
+    if (e == 0) return text;
+    // "1e-05" and "1e+22" are written 1e-5 and 1e22.
     if (text[e] == '+')
         text.erase (e, 1);
     else
@@ -174,6 +259,13 @@ std::string jsonNumber (double value)
     while (text[e] == '0')
         text.erase (e, 1);
     return text;
+}
+
+std::string Json::dump (int indent) const
+{
+    std::string out;
+    dumpTo (out, *this, indent, 0);
+    return out;
 }
 
 }   // namespace tactus

@@ -1,35 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "quote.hpp"
 
+#include "utf8.hpp"
+
 #include <algorithm>
 
 namespace tactus
 {
 namespace
 {
-/// Size in bytes of the UTF-8 character at the start of a string; 0 if it is not valid.
-std::size_t characterSize (std::string_view text)
-{
-    const auto byte = [&] (std::size_t i) { return i < text.size() ? static_cast<unsigned char> (text[i]) : 0u; };
-    const auto follows = [&] (std::size_t i) { return (byte (i) & 0xC0u) == 0x80u; };
-
-    const unsigned first = byte (0);
-    if (first < 0x80u) return 1;
-    if (first >= 0xC2u && first < 0xE0u) return follows (1) ? 2 : 0;
-    if (first >= 0xE0u && first < 0xF0u)
-    {
-        const bool overlong = first == 0xE0u && byte (1) < 0xA0u;
-        const bool surrogate = first == 0xEDu && byte (1) >= 0xA0u;
-        return follows (1) && follows (2) && ! overlong && ! surrogate ? 3 : 0;
-    }
-    if (first >= 0xF0u && first < 0xF5u)
-    {
-        const bool outside = (first == 0xF0u && byte (1) < 0x90u) || (first == 0xF4u && byte (1) >= 0x90u);
-        return follows (1) && follows (2) && follows (3) && ! outside ? 4 : 0;
-    }
-    return 0;
-}
-
 /// The code point of a valid UTF-8 character.
 unsigned codePoint (std::string_view character)
 {
