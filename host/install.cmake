@@ -62,7 +62,6 @@ install (DIRECTORY docs/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libtac
 install (TARGETS tactus-host RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT host)
 install (FILES ${made}/man/tactus-host.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT host)
 install (FILES ${packaging}/tactus-host.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT host)
-install (FILES host/app/text/en.txt host/app/text/collect.py DESTINATION ${CMAKE_INSTALL_DATADIR}/tactus/text COMPONENT host)
 install (FILES ${packaging}/tactus-host.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps COMPONENT host)
 configure_file (${packaging}/org.tactus_haptics.Tactus.metainfo.xml.in ${made}/org.tactus_haptics.Tactus.metainfo.xml @ONLY)
 install (FILES ${made}/org.tactus_haptics.Tactus.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo COMPONENT host)

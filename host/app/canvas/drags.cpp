@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "drags.hpp"
 
+#include <host/app/look/text.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/drag_number.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/model/wire_rules.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/run/turn.hpp>
 
@@ -240,7 +240,7 @@ public:
         if (over && over.node->id != start.node)
         {
             const auto fits = check (*over.node, *over.socket->port);
-            problem = fits ? juce::String() : translated (fits.error().text);
+            problem = fits ? juce::String() : fromUtf8 (fits.error().text);
             canvas.hint (juce::String (over.node->name + "." + over.socket->port->id) + (fits ? juce::String() : ": " + problem));
             if (fits) end_at = over.node->placeOf (*over.socket);
         }

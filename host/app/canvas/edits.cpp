@@ -4,6 +4,7 @@
 #include "canvas.hpp"
 
 #include <host/app/look/focus.hpp>
+#include <host/app/look/text.hpp>
 #include <host/app/model/clipboard.hpp>
 #include <host/app/model/fragment.hpp>
 #include <host/app/model/param_now.hpp>
@@ -12,7 +13,6 @@
 #include <host/app/model/step_text.hpp>
 #include <host/app/model/wire_rules.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/graph/text.hpp>
 #include <tactus/run/turn.hpp>
@@ -49,7 +49,7 @@ bool Canvas::perform (graph::Command command, graph::Step step)
 {
     auto stored = storePositions();
     if (! stored) return document.perform (std::move (command), step);
-    graph::Batch all { stepName (command), {} };
+    graph::Batch all { graph::nameOf (command), {} };
     all.commands.push_back (std::move (*stored));
     all.commands.push_back (std::move (command));
     return document.perform (std::move (all), step);
@@ -101,7 +101,7 @@ void Canvas::pasteText()
     Selection made;
     auto command = paste (document.graph(), patch(), text, offset, made);
     if (! command)
-        notice (filled (TRANS ("Nothing to paste: %1"), translated (command.error().text)));
+        notice (filled (TRANS ("Nothing to paste: %1"), fromUtf8 (command.error().text)));
     else if (! made.empty() && perform (*std::move (command)))
         select (made);
 }
@@ -271,7 +271,7 @@ void Canvas::editParam (const SceneNode& node, const Socket& socket)
         const auto param = shown->findPort (id);
         if (! param || param.port->sheet == nullptr) return;
         const auto read = readQuantity (readValue (text.trim().toStdString()), *param.port->sheet);
-        if (! read) return notice (juce::String (param.node->name + '.' + id.port + ": ") + translated (read.error().text));
+        if (! read) return notice (juce::String (param.node->name + '.' + id.port + ": ") + fromUtf8 (read.error().text));
         setParam (*param.node, *param.port, read->toJson());
     });
 }

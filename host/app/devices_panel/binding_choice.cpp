@@ -2,7 +2,6 @@
 #include "binding_choice.hpp"
 
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 #include <host/hid/physics.hpp>
 #include <host/hid_link/force_feedback.hpp>
 #include <host/sessions/audio_settings.hpp>
@@ -69,7 +68,7 @@ std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<cons
     {
         const auto now = deviceOfBinding (*bound_now);
         if (std::ranges::none_of (all, [&] (const auto& c) { return c.description == now; }))
-            all.push_back ({ translated (nameOf (now)).toStdString(), now });
+            all.push_back ({ nameOf (now), now });
     }
     return all;
 }

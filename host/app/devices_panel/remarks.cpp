@@ -5,7 +5,6 @@
 
 #include <host/app/look/text.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 #include <host/audio/audio_rig.hpp>
 #include <host/hid/physics.hpp>
 #include <host/sessions/numbers_device.hpp>
@@ -20,24 +19,24 @@ Remark DevicesPanel::fitRemark (const std::string& role) const
 {
     const auto* fit = fitOf (role);
     if (fit == nullptr) return {};
-    Remark r { filled (TRANS ("Needs %1."), translated (describe (fit->needs))), false };
+    Remark r { filled (TRANS ("Needs %1."), fromUtf8 (describe (fit->needs))), false };
     const auto addLine = [&] (const juce::String& what) { r.text << "\n" + what; };
     const auto addProblem = [&] (const juce::String& what) {
         addLine (what);
         r.is_problem = true;
     };
     for (const auto& m : fit->messages)
-        addProblem (translated (m.text));
+        addProblem (fromUtf8 (m.text));
     if (! fit->lacking.empty()) addProblem (TRANS ("The device does not fit:"));
     for (const auto& l : fit->lacking)
-        addProblem (translated (l));
+        addProblem (fromUtf8 (l));
     if (const auto* choice = choiceNow (role); choice != nullptr && ! choice->numbers.empty())
         if (const auto profile = hid::profileNamed (setup.profiles(), choice->numbers))
         {
             addLine (filled (TRANS ("Only simulated: Tactus has no driver for %1, but knows its numbers."), profile->name));
             if (const auto guesses = guessesOf (hid::numbersOf (*profile)); ! guesses.empty()) addLine (filled (TRANS ("Guessed: %1."), guesses));
         }
-    if (fit->from == RoleFit::From::graph) addLine (filled (TRANS ("The device described in the graph is used: %1."), translated (nameOf (fit->description))));
+    if (fit->from == RoleFit::From::graph) addLine (filled (TRANS ("The device described in the graph is used: %1."), fromUtf8 (nameOf (fit->description))));
     if (fit->from == RoleFit::From::none) addLine (TRANS ("No device is set. A simulated tool at rest is used."));
     return r;
 }
@@ -50,7 +49,7 @@ Remark DevicesPanel::statusRemark (const std::string& role) const
     const auto health = std::ranges::find (run.health(), role, &DeviceHealth::role);
     if (health != run.health().end())
     {
-        r.text = translated (describe (*health));
+        r.text = fromUtf8 (describe (*health));
         r.is_problem = ! health->connected;
     }
     else if (fit != nullptr && fit->connected && ! run.isRunning())
@@ -61,7 +60,7 @@ Remark DevicesPanel::statusRemark (const std::string& role) const
     for (const auto& now : status->shown())
         if (now.name == role && now.stop != Guard::Stop::none)
         {
-            r.text << (r.text.isEmpty() ? "" : "\n") << filled (TRANS ("Stopped by its guard: %1."), translated (describe (now.latestEvent())));
+            r.text << (r.text.isEmpty() ? "" : "\n") << filled (TRANS ("Stopped by its guard: %1."), fromUtf8 (describe (now.latestEvent())));
             r.is_problem = true;
         }
     return r;

@@ -4,7 +4,6 @@
 #include <host/app/look/look.hpp>
 #include <host/app/look/text.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 
 #include <algorithm>
 
@@ -16,7 +15,7 @@ namespace
 constexpr int label_height = 18, cell_gap = 12, unit_width = 64, unit_gap = 4;
 constexpr int not_recorded = 1, first_column = 2;   // ids in the list
 
-juce::String roleName (const FitColumn& column) { return translated (column.role == "t" ? "time" : column.role); }
+juce::String roleName (const FitColumn& column) { return fromUtf8 (column.role == "t" ? "time" : column.role); }
 }   // namespace
 
 void FitColumns::clear()
@@ -35,7 +34,7 @@ void FitColumns::show (const Table& table, FitKind kind)
         cell.wanted = wanted;
         const auto role = roleName (wanted);
         cell.column.setTitle (filled (TRANS ("Column of %1"), role));
-        cell.column.setTooltip (filled (TRANS ("The column with the %1"), translated (wanted.about)));
+        cell.column.setTooltip (filled (TRANS ("The column with the %1"), fromUtf8 (wanted.about)));
         cell.column.setTextWhenNothingSelected (TRANS ("Choose"));
         if (! wanted.required) cell.column.addItem (TRANS ("not recorded"), not_recorded);
         for (std::size_t i = 0; i < names.size(); ++i)

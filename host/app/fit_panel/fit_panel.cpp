@@ -5,7 +5,6 @@
 #include <host/app/look/text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/units.hpp>
 
@@ -64,7 +63,7 @@ FitPanel::FitPanel()
     setTitle (TRANS ("Fit a recording"));
     kinds.setTitle (TRANS ("What was recorded"));
     for (const auto& info : fitKinds())
-        kinds.addItem (translated (info.name) + juce::String::fromUTF8 (" \xe2\x80\x93 ") + translated (info.about), static_cast<int> (info.kind) + 1);
+        kinds.addItem (fromUtf8 (info.name) + juce::String::fromUTF8 (" \xe2\x80\x93 ") + fromUtf8 (info.about), static_cast<int> (info.kind) + 1);
     kinds.setTextWhenNothingSelected (TRANS ("Choose what was recorded"));
     kinds.onChange = [this] {
         if (kinds.getSelectedId() > 0) choose (static_cast<FitKind> (kinds.getSelectedId() - 1));

@@ -4,7 +4,6 @@
 #include <host/app/look/look.hpp>
 #include <host/app/look/text.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 #include <host/io/axis.hpp>
 
 #include <algorithm>
@@ -45,8 +44,8 @@ FitAxes fitAxes (const FitPicture& picture)
     }
     x = widened (x, 0.02);
     y = widened (y, 0.06);
-    FitAxes axes { axisScale (x, translated (picture.x_name).toStdString(), picture.x_unit),
-                   axisScale (y, translated (picture.y_name).toStdString(), picture.y_unit),
+    FitAxes axes { axisScale (x, picture.x_name, picture.x_unit),
+                   axisScale (y, picture.y_name, picture.y_unit),
                    {},
                    {},
                    {} };
@@ -126,7 +125,7 @@ void paintLegend (juce::Graphics& g, juce::Rectangle<int> area, const FitPicture
     auto line = area.removeFromTop (row);
     for (std::size_t i = picture.curves.size(); i-- > 0;)
     {
-        const auto label = translated (picture.curves[i].label);
+        const auto label = fromUtf8 (picture.curves[i].label);
         const int width = juce::roundToInt (g.getCurrentFont().getStringWidthFloat (label)) + 1;
         g.setColour (theme.text);
         g.drawText (label, line.removeFromRight (width), juce::Justification::centredLeft, false);
@@ -149,7 +148,7 @@ void FitPlot::show (FitPicture p)
     picture = std::move (p);
     juce::StringArray names;
     for (const auto& curve : picture.curves)
-        names.add (translated (curve.label));
+        names.add (fromUtf8 (curve.label));
     setDescription (names.joinIntoString (", "));
     repaint();
 }

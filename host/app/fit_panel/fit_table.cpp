@@ -6,7 +6,6 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>
@@ -32,7 +31,7 @@ std::pair<juce::String, juce::String> valueAndInterval (const FitValue& v)
 
 juce::String sentence (const std::string& text)
 {
-    const auto whole = translated (text);
+    const auto whole = fromUtf8 (text);
     return whole.substring (0, 1).toUpperCase() + whole.substring (1) + (whole.isEmpty() || whole.endsWithChar ('.') ? "" : ".");
 }
 
@@ -41,9 +40,8 @@ void FitTable::show (const FittedGraph& made)
     report = made.report;
     warnings = made.warnings;
     details.clear();
-    for (const auto& detail : made.details)   // "adhesion  stick"
+    for (const auto& line : made.details)   // "adhesion  stick"
     {
-        const auto line = translated (detail).toStdString();
         const auto space = std::min (line.find ("  "), line.size());
         const auto text = line.find_first_not_of (' ', space);
         details.add (sentence (text == std::string::npos ? line : line.substr (0, space) + ": " + line.substr (text)));
@@ -53,7 +51,7 @@ void FitTable::show (const FittedGraph& made)
     for (const auto& v : report.values)
     {
         const auto [value, interval] = valueAndInterval (v);
-        rows.push_back ({ translated (v.name), value, interval, v.is_main });
+        rows.push_back ({ fromUtf8 (v.name), value, interval, v.is_main });
         read.add (filled (TRANS ("%1 %2, 95 % interval %3"), rows.back().name, value, interval));
     }
     setDescription ((report.is_good ? TRANS ("Good fit") : TRANS ("Poor fit")) + ". " + read.joinIntoString ("; "));

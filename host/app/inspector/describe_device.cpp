@@ -4,7 +4,6 @@
 #include <host/app/look/text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 #include <tactus/run/device/make_device.hpp>
 
 #include <algorithm>
@@ -43,7 +42,7 @@ Remark describeRole (const Document& d, const std::string& role)
     };
     Messages refused;
     const auto made = makeDevice (describedByGraph (&description, role, refused), d.graph().folder);
-    r.text = refused.empty() ? translated (made.about) : TRANS ("A graph cannot choose a real device. Choose it in the Devices panel.");
+    r.text = refused.empty() ? fromUtf8 (made.about) : TRANS ("A graph cannot choose a real device. Choose it in the Devices panel.");
     r.is_problem = ! refused.empty();
     append (made.messages);
     return r;

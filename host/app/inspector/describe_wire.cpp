@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "describe.hpp"
 
+#include <host/app/look/text.hpp>
 #include <host/app/model/wire_rules.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/graph/text.hpp>
 
@@ -56,7 +56,7 @@ void addEnd (const Inspected& at, graph::Id id, const juce::String& label, graph
     };
     const auto set = [at, id, which] (const juce::String& t) {
         const auto e = graph::parseEndpoint (t.trim().toStdString());
-        if (! e) return at.refused (translated (e.error().text));
+        if (! e) return at.refused (fromUtf8 (e.error().text));
         change (at, id, [&] (auto& w) { w.*which = *e; });
     };
     column.add (textRow (label, get, set, help));

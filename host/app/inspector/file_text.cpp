@@ -3,7 +3,6 @@
 
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>
@@ -40,7 +39,7 @@ FileText describe (const Mesh& m)
 template <typename T, typename F>
 FileText read (const Assets::Loaded<T>& loaded, F&& f)
 {
-    if (! loaded) return FileText { translated (sentence (loaded.error())).toStdString(), true };
+    if (! loaded) return FileText { sentence (loaded.error()), true };
     return f (*loaded);
 }
 }   // namespace

@@ -6,7 +6,6 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/read_number.hpp>
@@ -227,7 +226,7 @@ bool NumberField::type (const juce::String& text)
     const auto taken = readQuantity (wanted, sheet);
     if (! taken)
     {
-        refuse (text, translated (taken.error().text));
+        refuse (text, fromUtf8 (taken.error().text));
         return false;
     }
     value = *taken;

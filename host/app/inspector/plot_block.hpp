@@ -5,7 +5,6 @@
 #include "plot_box.hpp"
 
 #include <host/app/look/text.hpp>
-#include <host/app/text/translated.hpp>
 #include <tactus/text/result.hpp>
 
 #include <functional>
@@ -36,7 +35,7 @@ public:
         paintPlot (g, area, shown ? *shown : PlotData {}, look);
         if (shown) return;
         juce::AttributedString s;
-        s.append (translated (shown.error().text), look.font (12.0f), look.theme().dim);
+        s.append (fromUtf8 (shown.error().text), look.font (12.0f), look.theme().dim);
         s.setJustification (juce::Justification::centred);
         s.draw (g, area.reduced (12.0f));
     }

@@ -5,7 +5,6 @@
 #include <host/app/look/text.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 
 #include <tactus/plan/settings.hpp>
 
@@ -229,7 +228,7 @@ public:
             std::string where;
             if (is_set)
                 if (const auto read = plan::readSetting (now, sheet, { assets, folder() }, where); ! read)
-                    problem = fromUtf8 (where.empty() ? "" : where + ": ") + translated (read.error().text);
+                    problem = fromUtf8 (where.empty() ? "" : where + ": ") + fromUtf8 (read.error().text);
         }
         body->refresh (node);
         text.refresh (node);

@@ -3,7 +3,6 @@
 
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/hid/physics.hpp>
 #include <host/hid_link/open_device.hpp>
@@ -74,7 +73,7 @@ std::string textOf (const check::Condition& c, const std::string& device, bool i
     if (! c.node.empty()) who = filled (TRANS ("%1 on %2"), printableName (c.node), who).toStdString();
     auto text = filled (TRANS ("%1 of %2: %3, limit %4"), c.id, who, number (c.value, c.unit), number (c.limit, c.unit));
     if (! is_broken) text << ", " + filled (TRANS ("%1 left"), number (100.0 * (c.margin() - 1.0), "%"));
-    return text.toStdString() + " (" + translated (c.text).toStdString() + "; " + std::string (c.law) + ")";
+    return text.toStdString() + " (" + c.text + "; " + std::string (c.law) + ")";
 }
 
 /// The paths of the nodes that push the device of a role.
@@ -152,7 +151,7 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
         {
             const auto device = std::ranges::find (devices, c.role, &check::RoleDevice::role);
             auto text = textOf (c, device != devices.end() ? device->name : TRANS ("unknown device").toStdString(), is_broken);
-            list.limits.push_back ({ is_broken, std::string (c.id), nodesOf (c, demand, plan), std::move (text), translated (c.remedy).toStdString() });
+            list.limits.push_back ({ is_broken, std::string (c.id), nodesOf (c, demand, plan), std::move (text), c.remedy });
         }
     }
     list.is_checked = ! list.limits.empty() || list.held > 0 || list.unknown > 0;

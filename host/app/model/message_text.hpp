@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/app/text/translated.hpp>
 #include <tactus/text/message.hpp>
 
 #include <string>
@@ -9,10 +8,10 @@
 namespace tactus::host
 {
 
-/// A message as the window shows it, in the language of the user: "text; remedy".
+/// A message as the window shows it: "text; remedy".
 inline std::string messageText (const Message& m)
 {
-    return (translated (m.text) + (m.remedy.empty() ? juce::String() : "; " + translated (m.remedy))).toStdString();
+    return m.remedy.empty() ? m.text : m.text + "; " + m.remedy;
 }
 
 }   // namespace tactus::host

@@ -6,8 +6,6 @@
 #include "readable.hpp"
 
 #include <host/app/text/filled.hpp>
-#include <tactus/graph/text.hpp>
-#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -94,42 +92,6 @@ std::optional<std::string> textOf (const graph::ChangeControl& back, const graph
     return (to.to.name.empty() ? to.control : to.to.name) + text;
 }
 
-/// graph::nameOf in the language of the user.
-struct Namer
-{
-    static juce::String setOrReset (bool sets, const std::string& what) { return filled (sets ? TRANS ("set %1") : TRANS ("reset %1"), quote (what)); }
-
-    juce::String operator() (const graph::AddNode& c) const { return filled (TRANS ("add %1"), quote (c.node.name)); }
-    juce::String operator() (const graph::RemoveNode& c) const { return filled (TRANS ("remove %1"), quote (c.name)); }
-    juce::String operator() (const graph::RenameNode& c) const { return filled (TRANS ("rename %1 to %2"), quote (c.name), quote (c.to)); }
-    juce::String operator() (const graph::SetParam& c) const { return setOrReset (c.value.has_value(), c.node + "." + c.param); }
-    juce::String operator() (const graph::SetSetting& c) const { return setOrReset (c.value.has_value(), c.node + "." + c.setting); }
-    juce::String operator() (const graph::SetOverride& c) const
-    {
-        return setOrReset (c.value.has_value(), c.node + (c.path.starts_with ('[') ? "" : "/") + c.path);
-    }
-    juce::String operator() (const graph::SetNodeKey& c) const { return filled (TRANS ("change %1 of %2"), c.key, quote (c.node)); }
-    juce::String operator() (const graph::AddWire& c) const { return filled (TRANS ("add wire %1"), quote (graph::toText (c.wire))); }
-    juce::String operator() (const graph::RemoveWire&) const { return TRANS ("remove wire"); }
-    juce::String operator() (const graph::ChangeWire& c) const { return filled (TRANS ("change wire to %1"), quote (graph::toText (c.to))); }
-    juce::String operator() (const graph::AddControl& c) const { return filled (TRANS ("add control %1"), quote (c.control.id)); }
-    juce::String operator() (const graph::RemoveControl& c) const { return filled (TRANS ("remove control %1"), quote (c.control)); }
-    juce::String operator() (const graph::ChangeControl& c) const { return filled (TRANS ("change control %1"), quote (c.control)); }
-    juce::String operator() (const graph::AddSubgraph& c) const { return filled (TRANS ("add subgraph %1"), quote (c.name)); }
-    juce::String operator() (const graph::RemoveSubgraph& c) const { return filled (TRANS ("remove subgraph %1"), quote (c.name)); }
-    juce::String operator() (const graph::RenameSubgraph& c) const { return filled (TRANS ("rename subgraph %1 to %2"), quote (c.name), quote (c.to)); }
-    juce::String operator() (const graph::CollapseNodes& c) const { return filled (TRANS ("collapse to %1"), quote (c.name)); }
-    juce::String operator() (const graph::ExpandNode& c) const { return filled (TRANS ("expand %1"), quote (c.name)); }
-    juce::String operator() (const graph::ReplaceGraph&) const { return TRANS ("replace the graph"); }
-    juce::String operator() (const graph::ChangeExpose&) const { return TRANS ("change exposed ports"); }
-    juce::String operator() (const graph::SetDevice& c) const
-    {
-        return filled (c.description ? TRANS ("set device %1") : TRANS ("remove device %1"), quote (c.role));
-    }
-    juce::String operator() (const graph::SetHeader&) const { return TRANS ("change the graph's header"); }
-    juce::String operator() (const graph::Batch& c) const { return juce::translate (juce::String (c.name)); }
-};
-
 /// Empty if the step is more than a change of one value.
 std::optional<std::string> textOf (const graph::History& history, std::size_t step, const Catalogue& catalogue)
 {
@@ -146,19 +108,11 @@ std::optional<std::string> textOf (const graph::History& history, std::size_t st
 }
 }   // namespace
 
-std::string stepName (const graph::Command& command) { return std::visit (Namer(), command.edit).toStdString(); }
-
 std::vector<std::string> stepNames (const graph::History& history, const Catalogue& catalogue)
 {
     auto names = history.names();
     for (std::size_t i = 0; i < names.size(); ++i)
-    {
-        const auto commands = history.commandsOf (i);
-        if (auto text = textOf (history, i, catalogue))
-            names[i] = *std::move (text);
-        else if (! commands.empty() && names[i] == graph::nameOf (commands.front()))
-            names[i] = stepName (commands.front());
-    }
+        names[i] = textOf (history, i, catalogue).value_or (juce::translate (valueText (names[i])).toStdString());
     return names;
 }
 

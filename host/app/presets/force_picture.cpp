@@ -2,7 +2,6 @@
 #include "force_picture.hpp"
 
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -23,7 +22,7 @@ namespace
 std::string firstError (const Messages& messages)
 {
     const auto error = std::ranges::find (messages, Message::Severity::error, &Message::severity);
-    return error == messages.end() ? TRANS ("the graph cannot run").toStdString() : translated (error->text).toStdString();
+    return error == messages.end() ? TRANS ("the graph cannot run").toStdString() : error->text;
 }
 
 constexpr std::size_t most_parts = 64;   // components that the picture of the material reads

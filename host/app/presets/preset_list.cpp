@@ -2,7 +2,6 @@
 #include "preset_list.hpp"
 
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 
 #include <tactus/file/graph_file.hpp>
 
@@ -37,7 +36,7 @@ Preset presetOf (const fs::path& file, const Catalogue& catalogue)
     const auto& graph = loaded.graph;
     Preset p { file, graph.name, graph.about, graph.tags, {}, {}, {} };
     const auto error = std::ranges::find (loaded.messages, Message::Severity::error, &Message::severity);
-    if (error != loaded.messages.end()) p.problem = translated (error->text).toStdString();
+    if (error != loaded.messages.end()) p.problem = error->text;
     if (p.name.empty()) p.name = file.stem().string();
     const auto note = [&] (const graph::Patch& patch) {
         for (const auto& node : patch.nodes)

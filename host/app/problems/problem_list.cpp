@@ -3,7 +3,6 @@
 
 #include <host/app/look/text.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +21,7 @@ bool isSame (const Message& a, const Message& b) { return a.id == b.id && a.wher
 class ProblemList::Row final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
-    Row (ProblemList& l, Message m) : list (l), message (std::move (m)), text (translated (message.text)), remedy (translated (message.remedy))
+    Row (ProblemList& l, Message m) : list (l), message (std::move (m)), text (fromUtf8 (message.text)), remedy (fromUtf8 (message.remedy))
     {
         setMouseCursor (juce::MouseCursor::PointingHandCursor);
         setTooltip (text + (remedy.isEmpty() ? "" : "\n" + remedy));   // with the whole of a shortened path

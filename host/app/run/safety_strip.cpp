@@ -4,7 +4,6 @@
 #include <host/app/look/text.hpp>
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -183,7 +182,7 @@ void SafetyStrip::showGuards (const LiveRun& run, const RunStatus& status, Shown
     for (const auto& role : status.shown())
         if (role.latest != Guard::Stop::none && role.latest != Guard::Stop::halted)
         {
-            now.guard = juce::String (std::string (role.name)) + ": " + translated (describe (role.latestEvent()));
+            now.guard = juce::String (std::string (role.name)) + ": " + fromUtf8 (describe (role.latestEvent()));
             now.alarmed = now.alarmed || role.stop != Guard::Stop::none;
         }
     if (now.running && status.clock_replaced)

@@ -2,7 +2,6 @@
 #include "language.hpp"
 #include "settings.hpp"
 
-#include <host/app/text/translated.hpp>
 #include <tactus/file/text_file.hpp>
 
 #include <algorithm>
@@ -50,7 +49,7 @@ fs::path translationFor (const std::string& language, const fs::path& home)
 
 void useTranslation (const fs::path& file)
 {
-    useTexts (file.empty() ? nullptr : std::make_unique<juce::LocalisedStrings> (read (file)));
+    juce::LocalisedStrings::setCurrentMappings (file.empty() ? nullptr : std::make_unique<juce::LocalisedStrings> (read (file)).release());
 }
 
 std::string languageSetIn (const fs::path& home)

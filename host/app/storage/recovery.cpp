@@ -2,7 +2,6 @@
 #include "recovery.hpp"
 
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 
 #include <host/platform/private_folder.hpp>
 #include <tactus/file/graph_file.hpp>
@@ -85,7 +84,7 @@ RestoredGraph restore (const AutosavedDocument& d)
     RestoredGraph restored;
     auto read = readGraph (d.graph);
     const auto error = std::ranges::find (read.messages, Message::Severity::error, &Message::severity);
-    if (error != read.messages.end()) restored.problem = translated (error->text).toStdString();
+    if (error != read.messages.end()) restored.problem = error->text;
     auto& graph = restored.graph = std::move (read.graph);
     graph.folder = (d.file.empty() ? d.preset : d.file).parent_path().string();
     const auto include = [&] (const graph::Patch& patch) {
@@ -179,7 +178,7 @@ std::vector<CrashedSession> findCrashedSessions (const fs::path& home)
             s.wrong = restore (s.saved).problem;
         }
         else
-            s.wrong = translated (read.error().text).toStdString();
+            s.wrong = read.error().text;
         if (s.wrong.empty() && ! s.saved.changed && ! s.in_trial)
             s.discard();
         else

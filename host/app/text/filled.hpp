@@ -9,9 +9,9 @@
 
 #include <juce_core/juce_core.h>
 
-// All texts of the window are in English in the sources, in TRANS or NEEDS_TRANS, and collect.py copies them to en.txt. TRANS ("Save")
-// is the text in the language of the user. NEEDS_TRANS ("Save") is the English text, such as in a table, for juce::translate where it
-// is shown. Texts from other code, such as messages of the framework: see translated.hpp.
+// The texts of the window are in English in the sources, in TRANS or NEEDS_TRANS. TRANS ("Save") is the text in the language of the user.
+// NEEDS_TRANS ("Save") is the English text, such as in a table, for juce::translate where it is shown. Messages of other code, names and
+// numbers are not translated.
 
 namespace tactus::host
 {

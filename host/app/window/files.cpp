@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "files.hpp"
 
+#include <host/app/look/text.hpp>
 #include <host/app/model/clip_graph.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/presets/preset_list.hpp>
 #include <host/app/storage/carry_files.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 #include <host/io/clip_io.hpp>
 
 #include <tactus/file/graph_file.hpp>
@@ -36,7 +36,7 @@ juce::String errorList (const Messages& messages, const fs::path& file)
     return list;
 }
 
-juce::String autosaveFailed (const Message& why) { return filled (TRANS ("Autosave failed: %1. Save often."), translated (why.text)); }
+juce::String autosaveFailed (const Message& why) { return filled (TRANS ("Autosave failed: %1. Save often."), fromUtf8 (why.text)); }
 }   // namespace
 
 Files::Files (Document& d, Question& q, Settings& s, Callbacks c)

@@ -3,10 +3,10 @@
 #include "appearance.hpp"
 
 #include <host/app/look/focus.hpp>
+#include <host/app/look/text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/storage/language.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
@@ -209,7 +209,7 @@ void MainView::timerCallback()
     fitting.attend();
     if (ticks_to_save > 0 && --ticks_to_save == 0)
         if (const auto saved = saveSettings (settings, home); ! saved)
-            status.notify (filled (TRANS ("Could not save the settings: %1"), translated (saved.error().text)));
+            status.notify (filled (TRANS ("Could not save the settings: %1"), fromUtf8 (saved.error().text)));
     if (scopes.isVisible()) scopes.refresh();
     takes.refresh();
     layers.refresh();

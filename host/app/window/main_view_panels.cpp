@@ -3,10 +3,10 @@
 #include "main_view.hpp"
 
 #include <host/app/look/focus.hpp>
+#include <host/app/look/text.hpp>
 #include <host/app/model/fragment.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
-#include <host/app/text/translated.hpp>
 
 #include <algorithm>
 
@@ -121,7 +121,7 @@ void MainView::connectFitPanel()
         }
         Selection added;
         auto command = paste (edited.graph(), patching.patch(), copyText (source, {}, ids), {}, added);
-        if (! command) return status.notify (translated (command.error().text));
+        if (! command) return status.notify (fromUtf8 (command.error().text));
         if (! patching.perform (*std::move (command))) return;
         patching.select (added);
         status.notify (TRANS ("Added the fitted node. Wire it to feel it."));

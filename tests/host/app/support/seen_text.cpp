@@ -94,23 +94,6 @@ std::vector<SeenText> readTexts (juce::Component& c)
     return reader.all;
 }
 
-juce::StringArray toldTexts (juce::Component& c)
-{
-    juce::StringArray all;
-    if (! c.isVisible()) return all;
-    all.addArray ({ c.getTitle(), c.getDescription(), c.getHelpText() });
-    if (auto* handler = c.isAccessible() ? c.getAccessibilityHandler() : nullptr) all.addArray ({ handler->getTitle(), handler->getDescription() });
-    if (auto* client = dynamic_cast<juce::TooltipClient*> (&c)) all.add (client->getTooltip());
-    if (const auto* box = dynamic_cast<const juce::ComboBox*> (&c))
-        for (int i = 0; i < box->getNumItems(); ++i)
-            all.add (box->getItemText (i));
-    if (const auto* editor = dynamic_cast<const juce::TextEditor*> (&c)) all.add (editor->getTextToShowWhenEmpty());
-    for (auto* child : c.getChildren())
-        all.addArray (toldTexts (*child));
-    all.removeEmptyStrings();
-    return all;
-}
-
 juce::StringArray overlaps (const std::vector<SeenText>& texts, juce::Rectangle<float> area)
 {
     juce::StringArray all;

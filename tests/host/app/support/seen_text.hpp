@@ -19,10 +19,6 @@ struct SeenText
 /// Paints a component with all that is in it, and reads the texts from what it paints.
 std::vector<SeenText> readTexts (juce::Component&);
 
-/// The words of the accessible titles, descriptions and help, the tooltips, and the entries of lists of choices, of a component and all
-/// visible ones in it.
-juce::StringArray toldTexts (juce::Component&);
-
 /// The pairs of texts that overlap in an area, each as "A | B".
 juce::StringArray overlaps (const std::vector<SeenText>&, juce::Rectangle<float> area);
 

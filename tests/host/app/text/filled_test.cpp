@@ -3,7 +3,6 @@
 #include <host/app/storage/settings.hpp>
 #include <host/app/text/filled.hpp>
 
-#include "host/app/support/pseudo.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <rapidcheck/catch.h>
@@ -12,8 +11,6 @@
 #include <set>
 
 using namespace tactus::host;
-using tactus::host::test::pseudoTranslation;
-using tactus::host::test::templateTexts;
 
 TEST_CASE ("a text is filled with its values in any order, each as many times as it occurs", "[app][text]")
 {
@@ -39,24 +36,6 @@ TEST_CASE ("a text is filled with its values in any order, each as many times as
         }
         RC_ASSERT (filled (text, values[0], values[1], values[2]) == expected);
     });
-}
-
-TEST_CASE ("JUCE reads every entry of the template for translations", "[app][text]")
-{
-    const auto texts = templateTexts();
-    REQUIRE (texts.size() > 800);
-    const juce::LocalisedStrings read (juce::File (TACTUS_SOURCE_DIR "/host/app/text/en.txt"), false);
-    const juce::LocalisedStrings pseudo (pseudoTranslation(), false);
-    CHECK (read.getLanguageName() == "English");
-    for (const auto& text : texts)
-    {
-        INFO (text);
-        CHECK (read.translate (text, {}) == text);
-        const auto other = pseudo.translate (text, {});
-        CHECK (other.removeCharacters ("~") == text.removeCharacters ("~"));
-        const auto letters = text.retainCharacters ("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
-        CHECK (other.length() >= text.length() + 0.2 * letters.length());
-    }
 }
 
 TEST_CASE ("a translation in the settings folder is used, and what it lacks is in English", "[app][text]")
