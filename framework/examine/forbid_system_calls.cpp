@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "forbid_system_calls.hpp"
-#include "sanitizers.hpp"
+
+#include <tactus/kit/sanitizers.hpp>
 
 #include <cstddef>
 #include <iterator>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sanitizers.hpp"
+#include <tactus/kit/sanitizers.hpp>
 
 #include <cstddef>   // defines __GLIBC__, even if this header is included first
 

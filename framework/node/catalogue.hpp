@@ -48,6 +48,7 @@ struct NodeType
 
     std::string origin {};                  ///< the file of the plugin that the type comes from; empty: it is compiled in
     std::shared_ptr<const void> owner {};   ///< keeps the plugin loaded; null: compiled in
+    std::string state_layout {};            ///< of a plugin: two versions of a type with the same text here have the same layout in memory
 
     std::function<std::shared_ptr<void>()> make;
     void* (*paramsOf) (void* node) noexcept;
@@ -70,6 +71,9 @@ struct NodeType
     std::function<Effort (const void* node)> effort;
     NodeLanes lanes {};       ///< empty if the type cannot run in lanes
     bool stateless = false;   ///< its outputs depend on nothing but its inputs, params and settings
+
+    /// True if a node of this type may adopt a node of another version of the same plugin.
+    bool sharesState (const NodeType& then) const { return info.id == then.info.id && ! state_layout.empty() && state_layout == then.state_layout; }
 };
 
 /// Binds a node for the first time. [main thread]

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What a node is. Start here, then read nodes/texture/grating.hpp and nodes/friction/elasto_plastic.hpp.
+/// What a node is. Start here, then read nodes/signal/clamp.hpp, which has no state, nodes/filter/one_pole.hpp, which has a hook, and
+/// nodes/cut/scissors.hpp, a law of the chapter with its state and energies.
 ///
 /// A node is a plain struct. It inherits from nothing and knows nothing of graphs, threads or hosts:
 ///
 ///   Inputs, Params, Outputs   plain structs of double, Vec3 and arrays, SI units, with defaults. Generic nodes may take
-///                             theirs from framework/node/generic.hpp
+///                             theirs from framework/node/generic.hpp. Places in space, and what is kept of them, are Position, all
+///                             other vectors Vec3. Both are the same type here, but in a single-precision export only Position
+///                             keeps enough digits (framework/kit/fine.hpp)
 ///   Settings                  optional; what shapes the node and is fixed while it runs
 ///   info, ports               its datasheet: names, units, ranges, sources (framework/node/datasheet.hpp)
 ///   tick (in) -> Outputs      one sample; the only function on the hot path

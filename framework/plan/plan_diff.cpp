@@ -2,8 +2,6 @@
 #include "plan_diff.hpp"
 #include "same_settings.hpp"
 
-#include <tactus/plugin/plugin_node.hpp>
-
 #include <algorithm>
 #include <compare>
 #include <span>
@@ -270,7 +268,7 @@ void PlanDiff::noteSuccessor (std::size_t i, Takeover& takeover) const
     if (const auto rebuilt = rebuiltFrom (i); rebuilt.plan != nullptr)
     {
         const auto& then = before->flat.nodes[rebuilt.node];
-        const bool adopts = then.runs() && flat.nodes[i].runs() && plugin::sharesState (*flat.nodes[i].type, *then.type);
+        const bool adopts = then.runs() && flat.nodes[i].runs() && flat.nodes[i].type->sharesState (*then.type);
         takeover.successors.push_back ({ i, adopts ? flat.nodes[i].type->adopt : nullptr, before->instances[rebuilt.node].node.get() });
         return;
     }

@@ -22,7 +22,6 @@ struct Guest
 {
     std::shared_ptr<const void> library;
     std::string file;
-    std::string state_layout {};
     tactus_plugin_node hooks {};
     std::deque<std::vector<std::string_view>> choices {};
 
@@ -42,7 +41,7 @@ struct Guest
     }
 };
 
-/// NodeType::make. A named type, so that sharesState finds the guest.
+/// NodeType::make.
 struct MakeNode
 {
     std::shared_ptr<const Guest> guest;
@@ -210,13 +209,14 @@ Result<NodeType> readNode (const tactus_plugin_node* given, const std::string& f
         return Message::error ("plugin/bad_node", file, id + " is refused: " + fault,
                                "ask the author of the plugin; <tactus/plugin/node_plugin.hpp> gets this right");
     }
-    const auto guest = std::make_shared<Guest> (Guest { std::move (library), file, std::move (state_layout) });
+    const auto guest = std::make_shared<Guest> (Guest { std::move (library), file });
     copyKnown (guest->hooks, given);
     const auto& c = guest->hooks;
 
     NodeType t {};
     t.origin = file;
     t.owner = guest;
+    t.state_layout = std::move (state_layout);
     readSheet (t, *guest);
     t.make = MakeNode { guest };
     t.paramsOf = c.params;
@@ -230,13 +230,6 @@ Result<NodeType> readNode (const tactus_plugin_node* given, const std::string& f
     addQuestions (t, guest.get());
     addDevice (t, guest.get());
     return t;
-}
-
-bool sharesState (const NodeType& now, const NodeType& then)
-{
-    const auto *a = now.make.target<MakeNode>(), *b = then.make.target<MakeNode>();
-    if (a == nullptr || b == nullptr || now.info.id != then.info.id) return false;
-    return ! a->guest->state_layout.empty() && a->guest->state_layout == b->guest->state_layout;
 }
 
 }   // namespace tactus::plugin

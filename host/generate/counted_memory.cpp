@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "counted_memory.hpp"
 
-#include <tactus/examine/sanitizers.hpp>
+#include <tactus/kit/sanitizers.hpp>
 
 #include <algorithm>
 #include <cstdlib>
