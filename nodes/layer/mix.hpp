@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/mixing_desk.hpp>
-#include <tactus/node/generic.hpp>
-
-#include <string>
+#include <tactus/node/desk_ports.hpp>
 
 namespace tactus::nodes
 {
@@ -43,18 +40,8 @@ struct LayerMix
     using Inputs = In<InputList<double>>;
     using Params = DeskParams;
 
-    struct Settings
-    {
-        int inputs = 2;
-        std::string names;
-    };
-
-    struct Outputs
-    {
-        double out = 0.0;
-        List level;
-        double reduction = 0.0;
-    };
+    using Settings = DeskSettings;
+    using Outputs = DeskOutputs<double>;
 
     static constexpr Info info {
         .id = "layer.mix",
@@ -64,20 +51,7 @@ struct LayerMix
         .keywords = "mixer desk faders",
     };
 
-    static constexpr std::tuple ports {
-        input (&Inputs::in, "in", any_unit, "layers", 0.0),
-        param (&Params::gain, "gain", unit::gain, "factor on the layer with the same number", { .usual = { 0, 2 } }),
-        param (&Params::mute, "mute", unit::state, "on above 0.5: the layer is silent", { .hard = { 0, 1 } }),
-        param (&Params::solo, "solo", unit::state, "on above 0.5: only layers in solo are heard", { .hard = { 0, 1 } }),
-        param (&Params::priority, "priority", unit::count, "a layer is ducked while one of higher priority sounds", { .usual = { 0, 10 } }),
-        param (&Params::duck_db, "duck_db", unit::decibel, "attenuation of a ducked layer", { .hard = { 0, inf }, .usual = { 0, 60 } }),
-        param (&Params::ceiling, "ceiling", sameAs ("in"), "largest magnitude of the mix; 0: no limit", { .hard = { 0, inf }, .usual = { 0, 20 } }),
-        inputCount (&Settings::inputs, "number of layers"),
-        setting (&Settings::names, "names", unit::count, "labels of the layers, separated by commas"),
-        output (&Outputs::out, "out", sameAs ("in"), "the mix"),
-        output (&Outputs::level, "level", sameAs ("in"), "peak of each layer after gain, mute and solo, before ducking"),
-        output (&Outputs::reduction, "reduction", unit::decibel, "current attenuation by the ceiling"),
-    };
+    static constexpr auto ports = deskPorts<Inputs, Outputs> ("largest magnitude of the mix; 0: no limit", "peak of each layer after gain, mute and solo, before ducking");
 
     Params params;
     Settings settings;
