@@ -4,8 +4,6 @@
 /// A graph as people edit and save it: plain data, in the order it was written. It is not checked against the catalogue; that
 /// happens in framework/plan/compile.hpp. Change a graph only through framework/graph/edit.hpp.
 
-#include "trail.hpp"
-
 #include <tactus/text/json.hpp>
 
 #include <cstdint>
@@ -17,6 +15,12 @@
 
 namespace tactus::graph
 {
+
+/// A permanent identity. Names are only addresses; state follows the id through renaming and regrouping. Unique in a process,
+/// not written to files.
+using Id = std::uint64_t;
+
+Id newId() noexcept;   // [any thread]
 
 /// The node or wire that a copy was made from; for one of several instances, also the number of that instance.
 struct Ancestor
@@ -110,7 +114,6 @@ struct Graph
 
     std::string folder;                                          ///< base of relative paths; not saved
     std::map<std::string, std::shared_ptr<const Graph>> files;   ///< loaded "file:" subgraphs by path as written; not saved
-    Trail trail {};                                              ///< written by History; a copy gets its own
 
     const Patch* find (std::string_view subgraph) const noexcept;
 

@@ -55,7 +55,6 @@ bool History::redo()
 Result<Command> History::carryOut (const Command& command, Checks checks)
 {
     auto inverse = apply (edited, command, checks);
-    if (inverse) edited.trail.note (command);
     return inverse;
 }
 

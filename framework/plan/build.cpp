@@ -34,7 +34,7 @@ public:
     {
     }
 
-    std::shared_ptr<Plan> run (std::shared_ptr<Background> background)
+    std::shared_ptr<Plan> run()
     {
         layOut();
         parts.exposed = std::make_shared<std::map<std::string, std::vector<PortRef>>> (std::move (outside.exposed));
@@ -54,7 +54,6 @@ public:
         Taps taps { flat, units, *storage, parts.taps, [this] (const PortRef& r) { return valueOf (r); } };
         for (const auto& read : outside.records)
             taps.add (read);
-        background->tapped = std::move (taps.ports);
         const auto delays = nodeDelays (flat, parts.instances);
         parts.delays = pathDelays (flat, units, delays);
         warnOfDelays (flat, units, delays);
@@ -62,29 +61,7 @@ public:
         keepFlat (flat, parts);
         diff.compare (parts);
         dropKept (parts, kept);
-        keepOrder (in_order, *background);
-        background->settled = std::move (is_settled);
-        parts.background = std::move (background);
         return std::move (plan);
-    }
-
-    NodePart runNode (std::span<const Instance> instances, std::span<double> feeds)
-    {
-        storage = std::make_shared<Storage> (0);
-        makeRoomForInputs();
-        for (const auto& instance : instances)
-            parts.instances.add (instance);
-        parts.feeds = feeds;
-        auto& first = parts.instances.change (0);
-        first.sources = sourcesOf (0);
-        first.driven = {};
-        first.is_struck = false;
-        connectDrivers();
-        is_read = { true };
-        is_settled = { false };
-        connectInputs (0);
-        addNode (0);
-        return { std::move (steps[0].peeks.records), std::move (steps[0].body.records), parts.instances[0], storage };
     }
 
 private:
@@ -129,7 +106,7 @@ private:
         parts.instances.resize (flat.nodes.size());
         for (int i = 0; i < flat.nodeCount(); ++i)
         {
-            auto& instance = parts.instances.change (at (i));
+            auto& instance = parts.instances[at (i)];
             instance.outputs = storage->outputs.bytes + output_at[at (i)];
             instance.sources = sourcesOf (i);
             if (const auto* group = lanes.find (i)) instance.stride = static_cast<std::uint32_t> (group->form->width);
@@ -199,7 +176,7 @@ private:
         for (const int i : in_order)   // nodes that run one after another are made one after another, so that they lie close together
             makeNode (i);
         for (const int i : in_order)
-            parts.instances.change (at (i)).knobs = diff.knobsOf (at (i), board, parts.takeover);
+            parts.instances[at (i)].knobs = diff.knobsOf (at (i), board, parts.takeover);
         for (int i = 0; i < flat.nodeCount(); ++i)
             begin (i);
         std::ranges::sort (parts.roles, {}, &RoleUse::name);
@@ -209,7 +186,7 @@ private:
 
     void makeNode (int i)
     {
-        auto& instance = parts.instances.change (at (i));
+        auto& instance = parts.instances[at (i)];
         if (diff.continues (at (i)))
         {
             const auto& old = *diff.predecessorOf (at (i));
@@ -243,7 +220,7 @@ private:
     void prepare (int i)
     {
         const auto& n = flat.node (i);
-        auto& instance = parts.instances.change (at (i));
+        auto& instance = parts.instances[at (i)];
         if (n.type->learn)
             if (const auto role = std::ranges::find (parts.roles, n.role, &RoleUse::name); role != parts.roles.end())
                 n.type->learn (instance.node.get(), role->state->layout.mechanics);
@@ -403,7 +380,7 @@ private:
     /// The value at the n-th hit input of a node, including hits from outside.
     const double* struck (int i, const double* from, std::size_t n)
     {
-        auto& instance = parts.instances.change (at (i));
+        auto& instance = parts.instances[at (i)];
         instance.is_struck = true;
         auto& s = storage->strikes.emplace_back (Strike { from, &instance.knobs->pulses[n] });
         stepsOf (i).body.add ({ &Strike::step, &s, nullptr, nullptr }, i);
@@ -453,7 +430,7 @@ private:
                 if (all.empty()) continue;
                 const auto* feed = feedAmong (all);
                 const auto knob = Knobs::indexOf (*n.type, p, k);
-                auto& instance = parts.instances.change (at (i));
+                auto& instance = parts.instances[at (i)];
                 instance.driven.resize (instance.knobs->all.size());
                 instance.driven[knob] = true;
                 drives.push_back ({ param (i, p, k), &instance.knobs->all[knob].value, feed ? feed : joined (all, Driver::Kind::replace, i),
@@ -480,19 +457,9 @@ private:
 };
 
 std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, const Order& order, const LaneGroups& lanes, Outside outside, const Setup& setup,
-                             const CompileOptions& options, std::shared_ptr<Background> background)
+                             const CompileOptions& options)
 {
-    return PlanBuilder { flat, units, order, lanes, std::move (outside), setup, options }.run (std::move (background));
-}
-
-NodePart buildNode (Flat& flat, std::vector<std::vector<PortRef>> fed, std::span<const Instance> instances, std::span<double> feeds)
-{
-    std::vector<Step> steps;
-    for (int i = 0; i < flat.nodeCount(); ++i)
-        steps.push_back ({ .node = i });
-    Outside outside;
-    outside.feeds = std::move (fed);
-    return PlanBuilder { flat, {}, { std::move (steps) }, {}, std::move (outside), {}, {} }.runNode (instances, feeds);
+    return PlanBuilder { flat, units, order, lanes, std::move (outside), setup, options }.run();
 }
 
 }   // namespace tactus::plan

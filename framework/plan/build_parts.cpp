@@ -56,14 +56,6 @@ std::vector<std::size_t> outputOffsets (const Flat& flat, const LaneGroups& lane
     return offsets;
 }
 
-void keepOrder (const std::vector<int>& running, Background& background)
-{
-    background.position.resize (running.size());
-    for (std::size_t r = 0; r < running.size(); ++r)
-        background.position[at (running[r])] = static_cast<int> (r);
-    background.running = running;
-}
-
 void keepFlat (Flat& flat, PlanParts& parts)
 {
     auto messages = std::move (flat.messages);
@@ -72,13 +64,12 @@ void keepFlat (Flat& flat, PlanParts& parts)
     parts.flat.assignments = {};
     parts.flat.places = {};
     for (std::size_t i = 0; i < parts.flat.nodes.size(); ++i)
-        parts.flat.nodes.change (i).origin = {};
+        parts.flat.nodes[i].origin = {};
     for (std::size_t i = 0; i < parts.flat.wires.size(); ++i)
     {
-        auto& w = parts.flat.wires.change (i);
+        auto& w = parts.flat.wires[i];
         w.origin = {};
         w.written = {};
-        parts.wire_ends.add (w);
     }
     for (auto& s : parts.flat.sections)
         s.origin = {};
@@ -91,7 +82,7 @@ void dropKept (PlanParts& parts, const std::vector<std::string>& kept)
                    [&] (const Takeover::Change& change) { return std::ranges::count (kept, nameOf (parts.flat, change.instance, change.knob)) > 0; });
 }
 
-std::vector<int> nodeDelays (const Flat& flat, const Chunks<Instance>& instances)
+std::vector<int> nodeDelays (const Flat& flat, const std::deque<Instance>& instances)
 {
     std::vector<int> delays;
     delays.reserve (flat.nodes.size());

@@ -9,6 +9,7 @@
 #include "plan.hpp"
 
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 namespace tactus::plan
@@ -42,9 +43,6 @@ std::vector<int> inOrder (const Flat&, const Order&);
 /// size of all of them.
 std::vector<std::size_t> outputOffsets (const Flat&, const LaneGroups&, const std::vector<int>& running, std::size_t& size);
 
-/// Keeps the running order for the next plan.
-void keepOrder (const std::vector<int>& running, Background&);
-
 /// Keeps the flat graph for the next plan, without the parts that only messages need. Leaves its messages.
 void keepFlat (Flat&, PlanParts&);
 
@@ -52,6 +50,6 @@ void keepFlat (Flat&, PlanParts&);
 void dropKept (PlanParts&, const std::vector<std::string>& kept);
 
 /// By node: the ticks from its inputs to its outputs.
-std::vector<int> nodeDelays (const Flat&, const Chunks<Instance>&);
+std::vector<int> nodeDelays (const Flat&, const std::deque<Instance>&);
 
 }   // namespace tactus::plan

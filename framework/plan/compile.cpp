@@ -4,7 +4,6 @@
 #include "build.hpp"
 #include "device_of.hpp"
 #include "make_node.hpp"
-#include "rewire.hpp"
 #include "sections.hpp"
 #include "slots.hpp"
 #include "wire_fit.hpp"
@@ -125,14 +124,14 @@ Spent spentOn (const Flat& flat)
 }
 
 /// All checks of a flat graph that do not involve feeds and records.
-PortUnits check (Flat& flat, const Setup& setup, const graph::Graph& graph, Order& ordered, std::vector<int>& rank)
+PortUnits check (Flat& flat, const Setup& setup, const graph::Graph& graph, Order& ordered)
 {
     auto units = checkUnits (flat);
     checkFanIn (flat, units);
     checkDelays (flat);
     findDevices (flat);
     askNodes (flat, setup, graph);
-    ordered = order (flat, rank);
+    ordered = order (flat);
     checkSections (flat, setup.rate_hz);
     warnOfAliasing (flat, units, setup);
     return units;
@@ -242,8 +241,6 @@ Outside findOutside (Flat& flat, const Scope& top, const CompileOptions& options
 Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const CompileOptions& options)
 {
     beginReading();
-    if (auto plan = rewire (g, catalogue, options)) return { std::move (plan), {} };
-    beginReading();   // rewire may have looked at files
     auto [flat, top, used] = flatten (g, catalogue, options.overrides, options.assets);
     const double rate = options.rate_hz > 0.0 ? options.rate_hz : g.rate_hz;
     if (! (rate >= 1.0 && rate <= 1e6))
@@ -251,18 +248,15 @@ Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const Co
 
     const Setup setup { .rate_hz = rate, .services = options.services };
     Order ordered;
-    auto background = std::make_shared<Background>();
-    auto units = check (flat, setup, g, ordered, background->rank);
+    const auto units = check (flat, setup, g, ordered);
     auto spent = spentOn (flat);
     for (const auto& [name, patch] : g.graphs)   // an unused subgraph is checked on its own
         if (! used.contains (&patch) && ! spent.is_over)
         {
             auto alone = flattenUnused (g, name, patch, catalogue, options.assets, spent);
             Order unneeded;
-            std::vector<int> unneeded_rank;
-            check (alone.flat, setup, g, unneeded, unneeded_rank);
+            check (alone.flat, setup, g, unneeded);
             spent = spentOn (alone.flat);
-            std::ranges::move (alone.flat.files, std::back_inserter (flat.files));
             flat.messages.insert (flat.messages.end(), alone.flat.messages.begin(), alone.flat.messages.end());
         }
     auto outside = findOutside (flat, *top, options);
@@ -271,11 +265,9 @@ Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const Co
     if (! canRun (messages)) return { nullptr, std::move (messages) };
 
     flat.messages.clear();
-    remember (*background, *top, flat, options);
     const auto lanes = groupLanes (flat, ordered, outside, options.lanes, rate);
-    auto made = build (flat, units, ordered, lanes, std::move (outside), setup, options, background);
+    auto made = build (flat, units, ordered, lanes, std::move (outside), setup, options);
     std::ranges::move (flat.messages, std::back_inserter (messages));
-    finish (*made, *background, std::move (units), g.trail.version(), messages.empty());
     return { std::move (made), std::move (messages) };
 }
 }   // namespace

@@ -10,7 +10,6 @@
 ///   lane_groups  lets instances of subgraphs run together                    lane_groups.hpp, lane_group.hpp, lane_wiring.hpp
 ///   build        makes nodes, lays out storage, writes records               build.hpp, settled_nodes.hpp
 ///   lateness     warns of delays on the way back to the hand                 lateness.hpp
-///   rewire       follows an edit of a few wires without all of this          rewire.hpp
 ///   plan diff    decides what continues from the previous plan                 plan_diff.hpp, matching.hpp, takeover.hpp
 
 #include "flatten.hpp"

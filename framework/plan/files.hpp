@@ -17,10 +17,8 @@ std::shared_ptr<const T> load (Assets::Loaded<T> (Assets::*kind) (const std::str
     const auto& path = json.asString();
     if (files.assets == nullptr) throw Problem { "this program cannot read '" + path + "': it was built without file access", key };
 
-    auto full_path = (std::filesystem::path (files.folder) / path).string();
-    auto loaded = (files.assets->*kind) (full_path);
+    auto loaded = (files.assets->*kind) ((std::filesystem::path (files.folder) / path).string());
     if (! loaded) throw Problem { sentence (loaded.error()), key };
-    if (files.loaded != nullptr) addCheck (*files.loaded, kind, std::move (full_path), *loaded);
     return *loaded;
 }
 

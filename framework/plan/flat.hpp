@@ -4,9 +4,6 @@
 /// A flat graph: subgraphs expanded, names resolved against the catalogue, values read. The later steps of compiling work on
 /// it. compile.hpp lists all steps; flatten.hpp makes the flat graph.
 
-#include "chunks.hpp"
-#include "file_checks.hpp"
-
 #include <tactus/graph/graph.hpp>
 #include <tactus/kit/at.hpp>
 #include <tactus/node/catalogue.hpp>
@@ -149,9 +146,9 @@ struct Section
 
 struct Flat
 {
-    Catalogue catalogue {};   ///< keeps the types of the nodes alive
-    Chunks<FlatNode> nodes;   ///< in file order; where a subgraph node was, there are the nodes of its subgraph
-    Chunks<FlatWire> wires;
+    Catalogue catalogue {};       ///< keeps the types of the nodes alive
+    std::deque<FlatNode> nodes;   ///< in file order; where a subgraph node was, there are the nodes of its subgraph
+    std::deque<FlatWire> wires;
     std::vector<double> values;                                            ///< values of all params, node by node and row by row
     std::vector<Assignment> assignments;                                   ///< in order of precedence, lowest first
     std::deque<NodeType> made_types;                                       ///< types of bypassed subgraphs
@@ -160,7 +157,6 @@ struct Flat
     std::vector<Identity> scopes { { -1, 0 } };                            ///< the graph itself, then the subgraph node of each patch that was expanded
     std::vector<Section> sections { {} };                                  ///< the graph itself, then the inner sections, each after the one that encloses it
     std::unordered_map<graph::Id, std::vector<graph::Ancestor>> origins;   ///< by the id of a copy: what it was copied from
-    FileChecks files;
     Messages messages;
     Spent spent;
 

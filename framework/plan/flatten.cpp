@@ -165,7 +165,7 @@ private:
                         "collapse it to a subgraph and give the subgraph the `count`, or remove the `count`");
 
         member.node = flat.nodeCount();
-        auto& made = flat.nodes.add();   // filled in there, because a graph may have many nodes
+        auto& made = flat.nodes.emplace_back();   // filled in there, because a graph may have many nodes
         made.path = scope.prefix.empty() ? node.name : scope.prefix + node.name;
         made.identity = { scope.number, node.id };
         made.type = type;
@@ -360,9 +360,9 @@ private:
                 w.crosses = (w.from && flat.node (*w.from).section != w.section) || flat.node (to).section != w.section;
                 if (! wireFits (w, flat) || ! is_active) continue;
                 if (from == 1 && ends.size() == 1)
-                    flat.wires.add (std::move (w));
+                    flat.wires.push_back (std::move (w));
                 else
-                    flat.wires.add (w);
+                    flat.wires.push_back (w);
             }
     }
 

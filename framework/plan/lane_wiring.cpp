@@ -41,7 +41,7 @@ void makeLaneGroups (const LaneGroups& lanes, const Flat& flat, const PlanParts*
         }
         for (std::size_t k = 0; k < numbers.size(); ++k)
         {
-            auto& instance = parts.instances.change (at (numbers[k]));
+            auto& instance = parts.instances[at (numbers[k])];
             instance.lanes = group.get();
             instance.lane = static_cast<std::uint32_t> (k);
         }

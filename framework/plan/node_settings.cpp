@@ -53,7 +53,7 @@ void readSettings (const graph::Node& node, Origin here, Assets* assets, const s
         const double size = sizeOf (value);
         if (! flat.spend (work_per_value * size, bytes_per_value * size, flat.at (here, "settings", key))) continue;
         std::string within;
-        if (auto read = readSetting (value, *sheet, { assets, folder, &flat.files }, within))
+        if (auto read = readSetting (value, *sheet, { assets, folder }, within))
             made.settings[at (sheet - made.type->settings.begin())] = *std::move (read);
         else
             flat.error ("setting/value", flat.asIs (flat.at (here, "settings", key), within),

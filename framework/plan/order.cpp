@@ -222,12 +222,6 @@ void reportLoops (Flat& flat, const Blocks& blocks, const Grouped<int>& next)
 
 Order order (Flat& flat)
 {
-    std::vector<int> unneeded;
-    return order (flat, unneeded);
-}
-
-Order order (Flat& flat, std::vector<int>& rank)
-{
     const Blocks blocks { flat };
     const auto size = blocks.size();
     const Grouped<int> next (size, [&] (auto visit) {
@@ -240,7 +234,7 @@ Order order (Flat& flat, std::vector<int>& rank)
             ++waiting[at (m)];
 
     const auto by_path = sortedByPath (blocks);
-    rank.resize (size);
+    std::vector<int> rank (size);
     for (std::size_t r = 0; r < size; ++r)
         rank[at (by_path[r])] = static_cast<int> (r);
 
@@ -261,7 +255,6 @@ Order order (Flat& flat, std::vector<int>& rank)
             if (--waiting[at (m)] == 0) ready.push (rank[at (m)]);
     }
     if (done < size) reportLoops (flat, blocks, next);
-    rank.resize (flat.nodes.size());
     return ordered;
 }
 

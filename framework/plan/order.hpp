@@ -24,9 +24,6 @@ using Order = std::vector<std::vector<Step>>;
 /// was written.
 Order order (Flat&);
 
-/// The same, and also the rank of each node in the order of paths.
-Order order (Flat&, std::vector<int>& rank);
-
 /// Strongly connected components of a graph of `size` nodes with these successors. Each component has a higher number than those
 /// it leads to.
 std::vector<int> components (std::size_t size, const Grouped<int>& next);

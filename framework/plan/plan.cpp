@@ -32,8 +32,6 @@ void Plan::forgetGraph()
     parts.instances = {};
     parts.ramps = {};
     parts.takeover = {};
-    parts.background = nullptr;
-    parts.wire_ends = {};
 }
 
 }   // namespace tactus

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "background.hpp"
+#include "flat.hpp"
 #include "fused_tick.hpp"
 #include "order.hpp"
 #include "ramps.hpp"
@@ -14,6 +14,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -98,11 +99,11 @@ struct PlanParts
     std::vector<Tap> taps;                        ///< as in CompileOptions::records, in order
     std::span<double> feeds;                      ///< current values, in the order of CompileOptions::feeds; in the storage
     std::vector<PathDelay> delays;                ///< between the sources and the sinks of devices
-    std::vector<std::shared_ptr<void>> storage;   ///< outputs, wires, constants: what all pointers point into. Shared with the plans of later small edits
+    std::vector<std::shared_ptr<void>> storage;   ///< outputs, wires, constants: what all pointers point into.
 
     // For the next plan, and for turning knobs.
     Flat flat;                                       ///< what the plan was built from
-    Chunks<Instance> instances;                      ///< numbered as in flat.nodes
+    std::deque<Instance> instances;                  ///< numbered as in flat.nodes
     std::vector<LineUse> lines;                      ///< by wire, then component
     std::vector<RateConverterUse> rate_converters;   ///< by wire, then component, then step
     std::vector<std::vector<PortRef>> fed;           ///< by feed: the ports it drives
@@ -111,16 +112,9 @@ struct PlanParts
     Ramps ramps;
     Takeover takeover;
     std::vector<std::shared_ptr<LaneGroup>> lanes;   ///< the nodes that run together
-
-    // For the next plan, if it differs only in a few wires (rewire.hpp).
-    std::shared_ptr<const Background> background;
-    WireEnds wire_ends;      // by number of the wire
-    graph::Id version = 0;   // of the graph, as in Trail
-    int rewired = 0;         // number of such edits since the whole graph was compiled
 };
 
 class PlanBuilder;
-class Rewirer;
 
 }   // namespace plan
 
@@ -221,14 +215,11 @@ public:
     /// The periods, in ticks, of the sections that do not run on every tick; in rising order.
     const std::vector<std::uint64_t>& rests() const noexcept { return parts.rests; }
 
-    const plan::Flat& flat() const noexcept { return parts.flat; }                               ///< what it was built from
-    const plan::Chunks<plan::Instance>& instances() const noexcept { return parts.instances; }   ///< numbered as in flat().nodes
+    const plan::Flat& flat() const noexcept { return parts.flat; }                             ///< what it was built from
+    const std::deque<plan::Instance>& instances() const noexcept { return parts.instances; }   ///< numbered as in flat().nodes
 
     /// The numbers of the nodes that run and belong to a role: those whose type has one of the hooks bind and learn.
     const std::vector<std::uint32_t>& bound() const noexcept { return parts.bound; }
-
-    /// How many small edits this plan is away from one that was compiled from a whole graph; see plan/rewire.hpp.
-    int rewired() const noexcept { return parts.rewired; }
 
     /// Params and inputs by the names under which subgraphs expose them.
     const std::map<std::string, std::vector<plan::PortRef>>& exposed() const noexcept { return *parts.exposed; }
@@ -246,7 +237,6 @@ public:
 
 private:
     friend class plan::PlanBuilder;
-    friend class plan::Rewirer;
 
     void tickRecords() noexcept;
     void settle() noexcept;

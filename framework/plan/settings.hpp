@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "file_checks.hpp"
-
 #include <tactus/node/setting.hpp>
 #include <tactus/text/json.hpp>
 #include <tactus/text/result.hpp>
@@ -15,9 +13,8 @@ namespace tactus::plan
 /// How to load the files that settings name.
 struct Files
 {
-    Assets* assets = nullptr;       ///< null: a setting that names a file is refused
-    std::string folder;             ///< base of relative paths
-    FileChecks* loaded = nullptr;   ///< gets a check for each file that is loaded
+    Assets* assets = nullptr;   ///< null: a setting that names a file is refused
+    std::string folder;         ///< base of relative paths
 };
 
 /// Reads a setting of the given kind, and checks it against the units and ranges of its sheet. An error has neither a location

@@ -37,13 +37,13 @@ void addStandIn (const Scope& scope, const graph::Node& node, Origin here, bool 
     flat.made_types.push_back (std::move (type));
 
     inside.stand_in = flat.nodeCount();
-    auto& made = flat.nodes.add ({ .path = inside.prefix.substr (0, inside.prefix.size() - 1),
-                                   .identity = { scope.number, node.id, instance },
-                                   .type = &flat.made_types.back(),
-                                   .origin = here,
-                                   .bypass = true,
-                                   .muted = muted,
-                                   .section = scope.section });
+    auto& made = flat.nodes.emplace_back (FlatNode { .path = inside.prefix.substr (0, inside.prefix.size() - 1),
+                                                     .identity = { scope.number, node.id, instance },
+                                                     .type = &flat.made_types.back(),
+                                                     .origin = here,
+                                                     .bypass = true,
+                                                     .muted = muted,
+                                                     .section = scope.section });
     made.list_size = list_size;
     addValues (made, flat);
 }

@@ -4,6 +4,7 @@
 #include "ramps.hpp"
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -76,7 +77,7 @@ struct Takeover
     std::vector<HeldValue> held;
     std::vector<LaneGroup*> ended, begun;   ///< groups of lanes that only the previous plan has, or only this one
 
-    void carryOut (const Chunks<Instance>&, Ramps&, const Ramps& before, Journal*) const noexcept;   // [tick thread]
+    void carryOut (const std::deque<Instance>&, Ramps&, const Ramps& before, Journal*) const noexcept;   // [tick thread]
 };
 
 }   // namespace tactus::plan

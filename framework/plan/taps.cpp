@@ -12,7 +12,7 @@ void Taps::add (const Outside::Read& read)
     const auto& [name, port] = read;
     if (! port)
     {
-        addTap (name, Quantity::any, "", &Storage::zero, 0, {});
+        addTap (name, Quantity::any, "", &Storage::zero, 0);
         return;
     }
     const auto& row = flat.sheet (*port);
@@ -25,16 +25,15 @@ void Taps::add (const Outside::Read& read)
         for (int c = first_component; c <= last_component; ++c)
         {
             const PortRef one { port->node, port->role, port->port, i, c };
-            addTap (every_component ? entry + "." + "xyz"[c] : entry, units (one).quantity, units.symbol (one), valueOf (one), flat.node (one).section, one);
+            addTap (every_component ? entry + "." + "xyz"[c] : entry, units (one).quantity, units.symbol (one), valueOf (one), flat.node (one).section);
         }
     }
 }
 
-void Taps::addTap (const std::string& name, Quantity quantity, std::string symbol, const double* value, int section, const PortRef& port)
+void Taps::addTap (const std::string& name, Quantity quantity, std::string symbol, const double* value, int section)
 {
     if (! names.insert (name).second) return;
     taps.push_back ({ name, quantity, std::move (symbol), value });
-    ports.push_back (port);
     const double speed = flat.rests (section) ? 1.0 : flat.speed (section);
     if (speed == 1.0) return;
     auto& samples = storage.samples.emplace_back (static_cast<std::size_t> (speed));

@@ -22,14 +22,12 @@ public:
     {
     }
 
-    std::vector<PortRef> ports;   ///< by tap: the component that it reads; without a node if it belongs to a placeholder
-
     /// Adds a tap for each component of the port, and for each entry if the port is an array. A port of a placeholder gets one tap.
     void add (const Outside::Read&);
 
 private:
     /// Does nothing if there is a tap with this name already.
-    void addTap (const std::string& name, Quantity, std::string symbol, const double* value, int section, const PortRef&);
+    void addTap (const std::string& name, Quantity, std::string symbol, const double* value, int section);
 
     const Flat& flat;
     const PortUnits& units;

@@ -49,9 +49,8 @@ Compiled Run::compile (const graph::Graph& graph, const Plan* plan_before, const
     for (const auto* listener : listeners)
         std::ranges::move (listener->ports(), std::back_inserter (wanted.records));
 
-    auto read_before = std::exchange (assets.paths, {});
+    assets.paths = {};
     auto compiled = tactus::compile (graph, catalogue, wanted);
-    if (compiled.plan && compiled.plan->rewired() > 0) assets.paths = std::move (read_before);   // it shares what they hold
     const auto isMissing = [&] (const std::string& port) {
         const bool has_message = std::ranges::count (compiled.messages, "record " + port, &Message::where) > 0;
         return has_message && isOptional (port);

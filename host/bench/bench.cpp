@@ -62,7 +62,6 @@ void time (Results& results, bool quick, bool quiet)
 
     // A tick of 10 000 nodes takes about 100 us, so a round is one tick of each kind.
     const auto edited = std::make_shared<Edited> (shuffled (treeOfOnePoles (10000)));
-    add ({ "edit10000/compile10000", [edited] (int) { edited->edit(); }, [edited] (int) { edited->compileAll(); }, 1.0, 1.0, quick ? 4 : 100 });
     const auto tick = [edited] (int) { edited->tick(); };
     const auto takeover = [edited] (int) { edited->takeOver(); };
     const auto knob = [edited] (int) { edited->turn(); };

@@ -26,14 +26,6 @@ std::shared_ptr<Plan> Edited::edited()
     return std::move (compiled.plan);
 }
 
-void Edited::edit()
-{
-    engine->submit (edited());
-    engine->takeSubmitted();
-}
-
-void Edited::compileAll() { compile (history.graph(), catalogue()); }
-
 void Edited::prepareTakeover() { engine->submit (edited()); }
 
 void Edited::takeOver() { engine->tick(); }

@@ -15,9 +15,6 @@ class Edited
 public:
     explicit Edited (graph::Graph);
 
-    void edit();         ///< compiles the edit
-    void compileAll();   ///< compiles the whole graph, with all nodes created again
-
     void prepareTakeover();   ///< edits, and submits the plan
     void takeOver();          ///< the tick that takes over that plan
     void tick();              ///< a tick on which nothing has changed

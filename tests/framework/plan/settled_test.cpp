@@ -204,11 +204,9 @@ TEST_CASE ("an edit of a wire to a settled node makes it run on each tick", "[pl
     play();
     REQUIRE (history.perform (graph::RemoveWire { "", id }));
     REQUIRE (follow());
-    CHECK (settled.plan->rewired() == 1);   // short edits: "all" is not settled any more, and "both" never is
     play();
     REQUIRE (history.perform (graph::AddWire { "", *graph::parseWire ("half.out -> both.in[2]") }));
     REQUIRE (follow());
-    CHECK (settled.plan->rewired() == 2);
     play();
     CHECK (differ == 0);
 }

@@ -25,7 +25,7 @@ TEST_CASE ("bench confirms that all variants agree, and reports every ratio", "[
     CHECK (result.at ("bytes_per_node").get<double>() <= 128.0);
     std::vector keys { "plan/hand", "light_plan/hand", "dry_wood_plan/hand", "export/hand", "export/faust_chain100", "juce/plan", "juce_tree100/plan",
                        "plan/faust_chain100", "juce_rebuild1000/compile1000", "compile10000/compile1000", "fused/hand", "juce/fused",
-                       "juce_tree100/fused", "edit10000/compile10000", "takeover10000/tick", "knob10000/tick" };
+                       "juce_tree100/fused", "takeover10000/tick", "knob10000/tick" };
     if (widestLanes() >= 4) keys.push_back ("simd64/scalar64");
     for (const auto* key : keys)
     {

@@ -40,20 +40,6 @@ LiveSession::Options tickedByHand()
 }
 }   // namespace
 
-TEST_CASE ("a session does not compile the whole graph for a small edit of a history", "[live]")
-{
-    graph::History history { spring() };
-    Offline o { tickedByHand() };
-    REQUIRE_FALSE (hasErrors (o.session.load (history.graph())));
-    static_cast<void> (o.session.openDevices());
-    o.session.run().tick();
-    REQUIRE (history.perform (graph::SetHeader { .ui = Json { { "zoom", 2 } } }));
-    const auto edited = o.session.edit (history.graph(), LiveSession::Accepts::no_errors);
-    INFO (test::text (edited.messages));
-    REQUIRE (edited.is_taken_over);
-    CHECK (o.session.engine().newest().rewired() > 0);
-}
-
 TEST_CASE ("an edit with errors is refused or shown, as the caller wishes, and the previous graph keeps running", "[live]")
 {
     Offline o { tickedByHand() };
