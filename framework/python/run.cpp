@@ -229,7 +229,7 @@ std::pair<std::uint64_t, PythonRun::Rows> PythonRun::steps (std::size_t count, c
     const auto feed_count = feed ? 0 : run->options.feeds.size();
     const auto given = feeds && feeds->ndim() == 2 ? static_cast<std::size_t> (feeds->shape (0)) : 0;
     if (feeds && ((given != count && given != 1) || static_cast<std::size_t> (feeds->size()) != given * feed_count))
-        fail (Message::error ("feed/shape", "", "the feeds do not have one row per tick and one column per fed component",
+        fail (Message::error ("feed/shape", "rows", "the feeds do not have one row per tick and one column per fed component",
                               "give an array of shape (" + std::to_string (count) + ", " + std::to_string (feed_count) + ")"));
     if (own.haveFailed()) fail (Message::error ("engine/failed", "", "a node in Python has raised an exception", "make a new engine"));
     Rows rows ({ static_cast<py::ssize_t> (count), static_cast<py::ssize_t> (run->names.size()) });

@@ -89,9 +89,20 @@ class Play(TestCase):
             self.assertTrue(session.wait(60))
 
 
+class Shown(TestCase):
+    def test_a_session_has_a_short_repr(self):
+        with play() as session:
+            self.assertRegex(repr(session), r"^<tactus.Session, running: \d+ ticks, [\d.e-]+ N>$")
+        self.assertEqual(repr(session), "<tactus.Session, closed>")
+
+    def test_devices_are_given_as_in_a_render(self):
+        with tactus.play(WOOD, {"stylus": "gesture:circle"}, session="off") as session:
+            session.probe("motor.force")
+
+
 try:
-    from tactus._play import _live
-    _live()
+    from tactus._library import live
+    live()
 except tactus.Error as why:
     print(f"skipped: {why}")
     sys.exit(77)

@@ -14,17 +14,19 @@ those of `tactus render`. Problems raise tactus.Error; warnings are Python warni
 
 from . import _tactus
 from ._assets import Mesh, Signal, set_limits
-from ._engine import Effort, Engine, PushedDevice, Status
+from ._devices import Effort, PushedDevice
+from ._engine import Engine, Status
 from ._graph import Graph
 from ._messages import Error, Message, TactusWarning
 from ._nodes import nodes
 from ._own import Node, choice, scalar, vector
 from ._play import Health, Session, play
 from ._plot import plot
+from ._presets import presets
 from ._records import Records
 from ._sweep import Point, sweep
 
 __version__ = _tactus.version()
 
 __all__ = ["Effort", "Engine", "Error", "Graph", "Health", "Mesh", "Message", "Node", "Point", "PushedDevice", "Records", "Session", "Signal",
-           "Status", "TactusWarning", "choice", "nodes", "play", "plot", "scalar", "set_limits", "sweep", "vector"]
+           "Status", "TactusWarning", "choice", "nodes", "play", "plot", "presets", "scalar", "set_limits", "sweep", "vector"]

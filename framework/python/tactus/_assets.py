@@ -8,7 +8,8 @@ from typing import Any, Callable, Dict, Mapping, NamedTuple, Optional, Union
 
 import numpy as np
 
-from . import _tactus
+from . import _checks, _tactus
+from ._checks import Array
 from ._messages import fail
 
 
@@ -18,6 +19,9 @@ class Signal(NamedTuple):
     samples: Any
     rate: float
 
+    def __repr__(self) -> str:
+        return f"<tactus.Signal {np.shape(self.samples)} at {self.rate} Hz>"
+
 
 class Mesh(NamedTuple):
     """Triangles. points: shape (n, 3), as they would be in a file. triangles: shape (m, 3), numbers of points from 0, counter-clockwise
@@ -26,25 +30,33 @@ class Mesh(NamedTuple):
     points: Any
     triangles: Any
 
+    def __repr__(self) -> str:
+        return f"<tactus.Mesh of {len(self.points)} points and {len(self.triangles)} triangles>"
+
 
 Assets = Union[Mapping[str, Any], Callable[[str, str], Any]]
 
 
 def set_limits(limits: str) -> None:
-    """Sets what files may cost, for all graphs of this process, as the option --limits of `tactus render` does: "points=1M,memory=2GB".
-    Limits that the text does not name keep their defaults."""
-    _tactus.set_limits(limits)
+    """Sets what files may cost, for all graphs of this process: "points=1M,memory=2GB". Limits that the text does not name keep their defaults."""
+    _tactus.set_limits(_checks.text("limits", limits, "give text, such as 'points=1M,memory=2GB'"))
 
 
 def reader(assets: Optional[Assets]) -> Optional[Callable[[str, str], Optional[Dict[str, Any]]]]:
     """The function that the C++ side asks about each file. It is given the kind and the path."""
-    if not assets and not callable(assets):
+    if assets is None:
         return None
-    find = assets if callable(assets) else lambda _, path: _found(assets, path)
+    if callable(assets):
+        find = assets
+    else:
+        known = _checks.mapping("assets", assets, "assets={'leather.png': picture}, or a function")
+        find = lambda _, path: _found(known, path)   # noqa: E731
+
+    forms = {"signal": _signal, "image": _image, "table": _table, "mesh": _mesh}
 
     def read(kind: str, path: str) -> Optional[Dict[str, Any]]:
         given = find(kind, path)
-        return None if given is None else _FORMS[kind](given, path)
+        return None if given is None else forms[kind](given, path)
 
     return read
 
@@ -63,7 +75,8 @@ def _signal(given: Any, path: str) -> Dict[str, Any]:
     samples = _numbers(given[0], path)
     if samples.ndim not in (1, 2):
         fail("asset/shape", path, f"the samples have the shape {samples.shape}", "give (n,), or (n, channels)")
-    return {"values": _rows(samples.reshape(len(samples), -1)), "rate": float(given[1])}
+    rate = _checks.number(f"{path}: rate", given[1], "give the sample rate in Hz", above=0.0, high=_checks.MOST)
+    return {"values": _rows(samples.reshape(len(samples), -1)), "rate": rate}
 
 
 def _image(given: Any, path: str) -> Dict[str, Any]:
@@ -85,7 +98,7 @@ def _image(given: Any, path: str) -> Dict[str, Any]:
     return {"values": _rows(pixels / white), "rate": 0.0}
 
 
-def _grey(pixels: np.ndarray) -> np.ndarray:
+def _grey(pixels: Array) -> Array:
     """The luminance of colours, by the formula and with the bits of the program. Transparency is ignored."""
     if pixels.shape[2] < 3:
         return pixels[:, :, 0]
@@ -114,16 +127,12 @@ def _mesh(given: Any, path: str) -> Dict[str, Any]:
     return {"points": _rows(points), "triangles": np.ascontiguousarray(triangles, dtype=np.int32)}
 
 
-_FORMS = {"signal": _signal, "image": _image, "table": _table, "mesh": _mesh}
-
-
-def _numbers(given: Any, path: str) -> np.ndarray:
+def _numbers(given: Any, path: str) -> Array:
     try:
         return np.asarray(given, dtype=float)
     except (TypeError, ValueError) as why:
         fail("asset/shape", path, f"it is not an array of numbers: {why}", "give an array of numbers")
-        raise AssertionError from why
 
 
-def _rows(numbers: np.ndarray) -> np.ndarray:
+def _rows(numbers: Array) -> Array:
     return np.ascontiguousarray(numbers, dtype=float)

@@ -11,37 +11,14 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tup
 
 import numpy as np
 
-from . import _tactus
+from . import _checks, _tactus
 from ._assets import Assets, reader
-from ._graph import Graph
-from ._messages import fail
+from ._checks import Array, Numbers
+from ._devices import Effort, PushedDevice, described, explain_push
+from ._graph import Graph, checked_graph
+from ._messages import fail, placed
 from ._own import Node, describe
 from ._records import Layout, Records, names_of, table_of, to_json
-
-
-class PushedDevice(NamedTuple):
-    """A device of your own: push its readings into the engine, and take the efforts. Until the first reading, and when readings stop for
-    longer than the guard's watchdog, the effort is zero.
-
-    axes: names of the axes whose positions it reads. efforts: names of the axes that its motors push. buttons: names of its buttons. guard:
-    limits as in docs/safety.md: {"max_force": "3 N", "watchdog": "20 ms"}."""
-
-    axes: Sequence[str] = ()
-    efforts: Sequence[str] = ()
-    buttons: Sequence[str] = ()
-    signal_inputs: int = 0
-    signal_outputs: int = 0
-    guard: Optional[Mapping[str, Any]] = None
-
-
-class Effort(NamedTuple):
-    """What a device should apply, after the guard. force (3,), on the tool, N. torque (3,), on the tool, N m. axes, N or N m, in the order
-    of PushedDevice.efforts. signals: the signal outputs, channel 1 first."""
-
-    force: np.ndarray
-    torque: np.ndarray
-    axes: np.ndarray
-    signals: np.ndarray
 
 
 class Status(NamedTuple):
@@ -73,7 +50,7 @@ class Engine:
         record: ports; without any, the inputs of all sinks.
         rate: in Hz; without it, that of the graph.
         set: values of parameters, by name; a run starts with them.
-        devices: by role: a PushedDevice, text as for --device ("sim", "trace:FILE.csv", "gesture:NAME", "FILE.json"), or a description
+        devices: by role: a PushedDevice, text ("sim", "trace:FILE.csv", "gesture:NAME", "FILE.json"), or a description
             as in a graph file ({"driver": "sim", …}), whose files are relative to the current folder. Real devices belong to the
             host.
         nodes: classes derived from tactus.Node that the graph uses; such an engine runs offline only.
@@ -82,12 +59,12 @@ class Engine:
             (rows, columns) or (rows, columns, colours), of uint8, uint16, or floats from 0 (black) to 1 (white), top row first; for a
             recording a tactus.Signal; for a table an array of shape (rows, columns); for a mesh a tactus.Mesh. Or a function that gets the kind
             ("image", "signal", "table", "mesh") and the path, and returns one of these, or None to read the file."""
-        self._begin()
+        self._collected = 0
         self._fed: Dict[str, int] = {}
-        self._values = np.zeros(0)
-        for port, value in (feed or {}).items():
-            self._fed[port] = _width(port, np.asarray(value, dtype=float))
-        self._values = np.concatenate([np.ravel(np.asarray(v, dtype=float)) for v in feed.values()]) if feed else self._values
+        values = {port: _checks.array(f"feed[{port!r}]", value) for port, value in _checks.mapping("feed", feed, _FEED).items()}
+        for port, value in values.items():
+            self._fed[port] = _width(port, value)
+        self._values = np.concatenate([np.ravel(v) for v in values.values()]) if values else np.zeros(0)
         names = [name for port, width in self._fed.items() for name in names_of(port, width)]
         self._make(graph, names, record, rate, set, devices, nodes, None, assets)
 
@@ -97,36 +74,36 @@ class Engine:
                  assets: Optional[Assets]) -> "Engine":
         """An engine that is fed with a table from its first tick on."""
         engine = cls.__new__(cls)
-        engine._begin()
-        engine._fed, engine._values = {}, np.zeros(0)
-        engine._make(graph, [], record, rate, set, devices, nodes, table_of(feed) if feed is not None else None, assets)
+        engine._collected, engine._fed, engine._values = 0, {}, np.zeros(0)
+        table = None if feed is None else table_of(_checks.mapping("feed", feed, "{'drag.position': path}, an array of shape (n, 3)"))
+        engine._make(graph, [], record, rate, set, devices, nodes, table, assets)
         return engine
 
-    def _begin(self) -> None:
-        self._collected = 0
-
     def _make(self, graph: Graph, feeds: List[str], record: Sequence[str], rate: Optional[float], set: Optional[Mapping[str, Any]],
-              devices: Optional[Mapping[str, Any]], nodes: Sequence[Type[Node]], table: Optional[Tuple[List[str], np.ndarray]],
+              devices: Optional[Mapping[str, Any]], nodes: Sequence[Type[Node]], table: Optional[Tuple[List[str], Array]],
               assets: Optional[Assets]) -> None:
-        if rate is not None and not rate > 0.0:
-            fail("run/rate", "", f"{rate} is not a rate", "give a rate in Hz, or None for that of the graph")
-        asked = [record] if isinstance(record, str) else list(record)
-        values = {name: to_json(value) for name, value in (set or {}).items()}
-        self._run = _tactus.Run(graph._graph, float(rate or 0.0), feeds, asked, values, describe(nodes), table, reader(assets))
-        for role, device in (devices or {}).items():
+        hz = 0.0 if rate is None else _checks.rate(rate)
+        asked = _checks.texts("record", record, "record=['drag.force']")
+        values = {name: to_json(value, f"set[{name!r}]") for name, value in _checks.mapping("set", set, "set={'drag.mu': 0.3}").items()}
+        self._run = _tactus.Run(checked_graph(graph)._graph, hz, feeds, asked, values, describe(nodes), table, reader(assets))
+        for role, device in _checks.mapping("devices", devices, "devices={'stylus': 'gesture:circle'}").items():
             self._give(role, device)
         self._run.open()
         self._layout = Layout(self._run.columns(), self._run.units(), asked, self._run.rate())
 
+    def __repr__(self) -> str:
+        return f"<tactus.Engine at {self.rate:g} Hz: {self.ticks} ticks in its own loop>"
+
     def _give(self, role: str, device: Any) -> None:
         if isinstance(device, PushedDevice):
-            self._run.pushed_device(role, json.dumps({**device._asdict(), "guard": json.loads(to_json(device.guard))}))
+            self._run.pushed_device(role, json.dumps(described(role, device)))
         elif isinstance(device, Mapping):
-            self._run.describe_device(role, to_json(dict(device)), "")
+            self._run.describe_device(role, to_json(dict(device), f"devices[{role!r}]"), "")
         elif isinstance(device, (str, os.PathLike)):
-            self._run.device(role, os.fspath(device))
+            self._run.device(role, _checks.path(f"devices[{role!r}]", device))
         else:
-            fail("device/kind", f"/devices/{role}", f"{device!r} is not a device", "give a tactus.PushedDevice, text as for --device, or a description")
+            fail("device/kind", f"devices[{role!r}]", f"{_checks.shown(device)} is not a device",
+                 "give text such as 'sim' or 'gesture:circle', a description such as {'driver': 'sim'}, or a tactus.PushedDevice")
 
     def __enter__(self) -> "Engine":
         return self
@@ -169,24 +146,29 @@ class Engine:
         feed: values of fed ports: a number or (n,) for a scalar, (3,) or (n, 3) for a vector. A single
             value holds for all n ticks and stays set afterwards. Ports that are left out keep their last value.
         Returns what was recorded: "t" (n,) in s since the first tick, scalars (n,), vectors (n, 3)."""
-        rows = self._rows(feed or {}, n)
-        count = n if n is not None else 1 if rows is None else len(rows)
-        first, done = self._run.steps(_checked(count), rows)
+        rows = self._rows(_checks.mapping("feed", feed, _FEED), None if n is None else _checked(n))
+        count = _checked(n) if n is not None else 1 if rows is None else len(rows)
+        first, done = self._run.steps(count, rows)
         return self._layout.records(done, first)
 
-    def step_rows(self, rows: Optional[np.ndarray] = None, n: int = 1) -> np.ndarray:
+    def step_rows(self, rows: Optional[Array] = None, n: int = 1) -> Array:
         """The same for arrays, at a lower cost: rows has shape (n, fed components), or (1, fed components) for all ticks; the result has
         shape (n, recorded components), in the order of `columns`."""
-        return self._run.steps(_checked(n), rows)[1]
+        try:
+            return self._run.steps(n, rows)[1]
+        except (TypeError, ValueError):   # looked at only now, because this call should cost little
+            _checks.array("rows", rows) if rows is not None else None
+            _checked(n)
+            raise
 
-    def _rows(self, feed: Mapping[str, Any], n: Optional[int]) -> Optional[np.ndarray]:
+    def _rows(self, feed: Mapping[str, Any], n: Optional[int]) -> Optional[Array]:
         """One row of values per tick, or one row for all; None if nothing is fed."""
         if unknown := [port for port in feed if port not in self._fed]:
             fail("feed/unknown", unknown[0], f"the engine is not fed through '{unknown[0]}'",
                  "name the port when you make the engine: feed={'" + unknown[0] + "': …}")
         if not self._fed:
             return None
-        given = {port: np.asarray(value, dtype=float) for port, value in feed.items()}
+        given = {port: _checks.array(f"feed[{port!r}]", value) for port, value in feed.items()}
         per_tick = {port: a for port, a in given.items() if a.ndim == (1 if self._fed[port] == 1 else 2)}
         count = n if n is not None else max((len(a) for a in per_tick.values()), default=1)
         rows = np.tile(self._values, (count if per_tick else 1, 1))   # one row holds for all ticks
@@ -205,37 +187,43 @@ class Engine:
 
     # ------------------------------------------------------------------------ Devices of your own
 
-    def push(self, role: str, position: Sequence[float] = (0, 0, 0), rotation: Sequence[float] = (0, 0, 0), pressure: float = 0.0,
-             buttons: int = 0, axes: Sequence[float] = (), signals: Sequence[float] = (), age: float = 0.0, valid: bool = True) -> None:
+    def push(self, role: str, position: Numbers = (0, 0, 0), rotation: Numbers = (0, 0, 0), pressure: float = 0.0,
+             buttons: int = 0, axes: Numbers = (), signals: Numbers = (), age: float = 0.0, valid: bool = True) -> None:
         """The reading of a PushedDevice that the next ticks use.
 
         position (3,), m. rotation (3,), rotation vector, rad. pressure, N. buttons: bit i means that button i is down. axes, signals: in
         the order of the device. age: time since the device took the reading, s. valid: False if it has nothing to report; then the force
         is zero. [one thread per role; waits for nothing]"""
-        self._run.push(role, {"position": position, "rotation": rotation, "pressure": pressure, "buttons": buttons, "axes": axes,
-                              "signals": signals, "age": age, "valid": valid})
+        try:
+            self._run.push(role, {"position": position, "rotation": rotation, "pressure": pressure, "buttons": buttons, "axes": axes,
+                                  "signals": signals, "age": age, "valid": valid})
+        except (TypeError, ValueError, RuntimeError) as why:   # looked at only now, because this call should cost little
+            explain_push(role, position, rotation, pressure, buttons, axes, signals, age, why)
 
     def take(self, role: str) -> Effort:
         """What a PushedDevice should apply since the latest tick, after the guard. [one thread per role; waits for nothing]"""
-        return Effort(**self._run.take(role))
+        return Effort(**self._run.take(_checks.text("role", role, "give the name of a role, such as 'stylus'")))
 
     # ------------------------------------------------------------------------ While it runs
 
     def set(self, param: str, value: Any) -> None:
         """Sets a parameter ("drag.mu", "finger[*]/drag.mu"). Before the first tick, the value changes at once; later, it ramps."""
-        self._run.set(param, to_json(value))
+        with placed(_checks.text("param", param, _PARAM)):
+            self._run.set(param, to_json(value, param))
 
     def control(self, name: str, value: float) -> None:
         """Turns a control of the graph, 0 to 1."""
-        self._run.control(name, value)
+        with placed(_checks.text("name", name, _CONTROL)):
+            self._run.control(name, _checks.number("value", value, "give a number from 0 to 1"))
 
     def hit(self, port: str, speed: float) -> None:
         """Triggers a hit input on the next tick. speed: in m/s."""
-        self._run.hit(port, speed)
+        with placed(_checks.text("port", port, _HIT)):
+            self._run.hit(port, _checks.number("speed", speed, "give a speed in m/s"))
 
     def edit(self, graph: Graph) -> None:
         """Plays an edited graph from the next tick on. Nodes that both graphs contain keep their state, and no force jumps."""
-        self._run.edit(graph._graph)
+        self._run.edit(checked_graph(graph)._graph)
 
     def emergency_stop(self) -> None:
         """Fades all forces to zero and keeps them there until rearm(). [any thread; waits for nothing]"""
@@ -256,7 +244,10 @@ class Engine:
 
         core: the CPU core of the tick thread. buffer: how many s of records are kept until you collect them; 0 for none. Call collect()
         several times a second: it also frees memory that the tick thread no longer uses."""
-        self._run.start(int(round((duration or 0.0) * self.rate)), -1 if core is None else core, int(round(buffer * self.rate)))
+        length = 0.0 if duration is None else _checks.duration(duration)
+        on = -1 if core is None else _checks.whole("core", core, "give the number of a CPU core, from 0", high=4095)
+        kept = _checks.number("buffer", buffer, "give a time in s, from 0", low=0.0, high=_checks.MOST)
+        self._run.start(int(round(length * self.rate)), on, int(round(kept * self.rate)))
         _live.add(self)
 
     def collect(self) -> Records:
@@ -287,13 +278,20 @@ def _stop_all() -> None:
         engine.stop()
 
 
-def _checked(n: int) -> int:
-    if n < 0:
-        fail("run/length", "", f"{n} is not a number of ticks", "give 0 or more")
-    return n
+_FEED = "{'drag.position': (0, 0, 0)}"
+_PARAM = "name a parameter, such as 'drag.mu'"
+_CONTROL = "name a control of the graph, such as 'roughness'"
+_HIT = "name an input for hits, such as 'hold.hit'"
 
 
-def _width(port: str, value: np.ndarray) -> int:
+def _checked(n: Any) -> int:
+    """A number of ticks."""
+    if isinstance(n, (int, np.integer)) and n < 0:
+        fail("run/length", "n", f"{n} is not a number of ticks", "give 0 or more")
+    return _checks.whole("n", n, "give a number of ticks, from 0")
+
+
+def _width(port: str, value: Array) -> int:
     if value.shape not in ((), (3,)):
-        fail("feed/shape", port, f"the first value has the shape {value.shape}", "give a number for a scalar, or three for a vector")
+        fail("feed/shape", f"feed[{port!r}]", f"the first value has the shape {value.shape}", "give a number for a scalar, or three for a vector")
     return 1 if value.ndim == 0 else 3

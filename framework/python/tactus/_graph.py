@@ -4,14 +4,18 @@
 from __future__ import annotations
 
 import math
-import os
-from typing import Any, Dict, Mapping, Optional, Sequence, Tuple, Type, Union
+from typing import TYPE_CHECKING, Any, Dict, Mapping, Optional, Sequence, Tuple, Type
 
-from . import _tactus
+from . import _checks, _tactus
 from ._assets import Assets
-from ._messages import fail
+from ._checks import Path
+from ._messages import fail, placed
 from ._own import Node
+from ._presets import graph_file
 from ._records import Records, to_json, to_optional_json
+
+if TYPE_CHECKING:
+    from ._engine import Engine
 
 _MOST_TICKS = 10**10
 
@@ -19,13 +23,20 @@ _MOST_TICKS = 10**10
 class Graph:
     """A graph with its undo history.
 
-    Graph(path) reads a file, Graph.parse(text) reads text, and Graph() makes an empty graph. Each edit is checked, is one undo step, and
+    Graph(path) reads a file, Graph("dry_wood") a preset, Graph.parse(text) reads text, and Graph() makes an empty graph. Each edit is checked, is one undo step, and
     changes nothing if it fails. Values are written as in a graph file: 0.4 (SI), "20 um", [0, 0, 1]. `patch` is the name of a subgraph, or
     "" for the graph itself. Several threads may use one graph; their calls never overlap."""
 
-    def __init__(self, path: Union[str, os.PathLike, None] = None, *, name: str = "", rate: float = 4000.0):
-        """path: a graph file; without it, the graph is empty, has this name, and is ticked at `rate` in Hz."""
-        self._graph = _tactus.Graph.create(name, float(rate)) if path is None else _tactus.Graph.load(os.fspath(path))
+    def __init__(self, path: Optional[Path] = None, *, name: str = "", rate: float = 4000.0):
+        """path: a graph file, or the name of a preset (tactus.presets()); without it, the graph is empty, has this name, and is ticked at `rate` in
+        Hz."""
+        if path is None:
+            hz = _checks.number("rate", rate, "give a rate in Hz, such as 4000")
+            self._graph = _tactus.Graph.create(_checks.text("name", name, "give a name as text"), hz)
+        else:
+            file = graph_file(path)
+            with placed(file):
+                self._graph = _tactus.Graph.load(file)
 
     @classmethod
     def _of(cls, graph: "_tactus.Graph") -> "Graph":
@@ -34,9 +45,11 @@ class Graph:
         return made
 
     @classmethod
-    def parse(cls, text: str, folder: Union[str, os.PathLike] = "") -> "Graph":
+    def parse(cls, text: str, folder: Path = "") -> "Graph":
         """Reads the text of a graph file. Files that it names are relative to `folder`; subgraphs in separate files are not read."""
-        return cls._of(_tactus.Graph.parse(text, os.fspath(folder)))
+        if not isinstance(text, str):
+            _checks.refuse("text", text, "text", "give the text of a graph file; tactus.Graph(path) reads a file")
+        return cls._of(_tactus.Graph.parse(text, _checks.path("folder", folder)))
 
     def __reduce__(self) -> Tuple[Any, ...]:
         return _restored, (self.text, self._graph.folder(), {path: Graph._of(file) for path, file in self._graph.files().items()})
@@ -59,48 +72,52 @@ class Graph:
         """The graph as the text of a graph file."""
         return self._graph.text()
 
-    def save(self, path: Union[str, os.PathLike]) -> None:
+    def save(self, path: Path) -> None:
         """Writes the graph file. After a crash, either the old file or the new one exists."""
-        self._graph.save(os.fspath(path))
+        self._graph.save(_checks.path("path", path))
 
     def add_node(self, name: str, type: str, params: Optional[Mapping[str, Any]] = None, settings: Optional[Mapping[str, Any]] = None,
                  role: str = "", patch: str = "") -> None:
         """Adds a node. type: an id of tactus.nodes(), "graph:NAME", or the id of a node in Python. role: for device nodes."""
-        self._graph.add_node(patch, name, type, to_json(dict(params or {})), to_json(dict(settings or {})), role)
+        values = to_json(dict(_checks.mapping("params", params, "{'mu': 0.4}")), "params")
+        shape = to_json(dict(_checks.mapping("settings", settings, "{'seed': 3}")), "settings")
+        known = _checks.text("type", type, "give the id of a node type, as in tactus.nodes()")
+        self._graph.add_node(_patch(patch), _name("name", name), known, values, shape, _checks.text("role", role, "give the name of a role, such as 'stylus'"))
 
     def remove_node(self, name: str, patch: str = "") -> None:
         """Removes a node, and everything that refers to it."""
-        self._graph.remove_node(patch, name)
+        self._graph.remove_node(_patch(patch), _name("name", name))
 
     def rename_node(self, name: str, to: str, patch: str = "") -> None:
         """Renames a node, and everything that refers to it."""
-        self._graph.rename_node(patch, name, to)
+        self._graph.rename_node(_patch(patch), _name("name", name), _name("to", to))
 
     def connect(self, start: str, end: Optional[str] = None, gain: Any = None, delay: int = 0, add: bool = False, patch: str = "") -> None:
         """Adds a wire: connect("drag.force", "motor.force"), or as in a graph file connect("drag.force -> motor.force").
 
         gain: a number, or text with a unit. delay: in ticks. add: the wire adds to the value of a parameter instead of replacing it."""
-        self._graph.add_wire(patch, _wire(start, end, delay, add), to_optional_json(gain))
+        self._graph.add_wire(_patch(patch), _wire(start, end, delay, add), to_optional_json(gain, "gain"))
 
     def disconnect(self, start: str, end: Optional[str] = None, delay: int = 0, add: bool = False, patch: str = "") -> None:
         """Removes a wire that was added with the same arguments."""
-        self._graph.remove_wire(patch, _wire(start, end, delay, add))
+        self._graph.remove_wire(_patch(patch), _wire(start, end, delay, add))
 
     def set_param(self, node: str, param: str, value: Any, patch: str = "") -> None:
         """Sets a parameter; None means its default."""
-        self._graph.set_param(patch, node, param, to_optional_json(value))
+        self._graph.set_param(_patch(patch), _name("node", node), _name("param", param), to_optional_json(value, f"{node}.{param}"))
 
     def set_setting(self, node: str, setting: str, value: Any, patch: str = "") -> None:
         """Sets a setting; None means its default."""
-        self._graph.set_setting(patch, node, setting, to_optional_json(value))
+        self._graph.set_setting(_patch(patch), _name("node", node), _name("setting", setting), to_optional_json(value, f"{node}.{setting}"))
 
     def set_key(self, node: str, key: str, value: Any, patch: str = "") -> None:
         """Sets any other key of a node, such as "role" or "count"; None removes it."""
-        self._graph.set_key(patch, node, key, to_optional_json(value))
+        self._graph.set_key(_patch(patch), _name("node", node), _name("key", key), to_optional_json(value, f"{node}.{key}"))
 
     def set_device(self, role: str, description: Optional[Mapping[str, Any]]) -> None:
         """Describes the device of a role, as in a graph file: {"driver": "sim", "mass": "50 g"}; None removes it."""
-        self._graph.set_device(role, to_optional_json(None if description is None else dict(description)))
+        known = None if description is None else dict(_checks.mapping("description", description, "{'driver': 'sim', 'mass': '50 g'}"))
+        self._graph.set_device(_name("role", role), to_optional_json(known, "description"))
 
     def undo(self) -> bool:
         """False if there is nothing to undo."""
@@ -129,8 +146,9 @@ class Graph:
         last sample of each tick. Ctrl-C ends the run. Other threads can run at the same time."""
         from ._engine import Engine
 
+        seconds = None if duration is None else _checks.duration(duration)
         with Engine._offline(self, feed, record, rate, set, devices, nodes, assets) as engine:
-            return engine.step(n=_ticks(engine, duration, feed is not None))
+            return engine.step(n=_ticks(engine, seconds, feed is not None))
 
 
 def _restored(text: str, folder: str, files: Dict[str, Graph]) -> Graph:
@@ -138,13 +156,30 @@ def _restored(text: str, folder: str, files: Dict[str, Graph]) -> Graph:
     return Graph._of(_tactus.Graph.with_files(graph._graph, {path: file._graph for path, file in files.items()})) if files else graph
 
 
-def _wire(start: str, end: Optional[str], delay: int, add: bool) -> str:
+def checked_graph(graph: Any) -> Graph:
+    if not isinstance(graph, Graph):
+        _checks.refuse("graph", graph, "a graph", "give a tactus.Graph; tactus.Graph(path) reads a file")
+    return graph
+
+
+def _name(argument: str, name: Any) -> str:
+    return _checks.text(argument, name, "give a name, such as 'drag'")
+
+
+def _patch(patch: Any) -> str:
+    return _checks.text("patch", patch, "give the name of a subgraph, or '' for the graph itself")
+
+
+def _wire(start: Any, end: Any, delay: Any, add: Any) -> str:
+    example = "name two ports, 'drag.force' and 'motor.force', or write a wire: 'drag.force -> motor.force'"
     if end is None:
-        return start
-    return f"{start} -> {f'[{delay}] -> ' if delay else ''}{'(+) ' if add else ''}{end}"
+        return _checks.text("start", start, example)
+    ticks = _checks.whole("delay", delay, "give a number of ticks; 0 for none")
+    adds = "(+) " if _checks.truth("add", add) else ""
+    return f"{_checks.text('start', start, example)} -> {f'[{ticks}] -> ' if ticks else ''}{adds}{_checks.text('end', end, example)}"
 
 
-def _ticks(engine: Any, duration: Optional[float], is_fed: bool) -> int:
+def _ticks(engine: "Engine", duration: Optional[float], is_fed: bool) -> int:
     """The length of a render, by the rules of `tactus render`."""
     by_feed = engine._run.feed_ticks()
     seconds = duration if duration is not None else engine._run.duration()

@@ -7,10 +7,9 @@ import json
 from typing import Any, Dict
 
 from . import _tactus
-from ._messages import fail
 
 
 def nodes() -> Dict[str, Dict[str, Any]]:
-    """The datasheets of all node types, by id, in the format of `tactus nodes --json`: name, summary, source, and for each input, param,
+    """The datasheets of all node types, by id, in the JSON format of `tactus nodes`: name, summary, source, and for each input, param,
     setting and output its unit, range and default."""
     return {sheet["id"]: sheet for sheet in json.loads(_tactus.nodes_json())}

@@ -5,14 +5,18 @@ from __future__ import annotations
 
 import math
 from types import SimpleNamespace
-from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Type
+from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Type
 
 import numpy as np
 
+from . import _checks
 from ._messages import fail
 
 _QUANTITIES = {"m": "length", "rad": "angle", "m/s": "speed", "N": "force", "N*m": "torque", "J": "energy", "kg": "mass", "N/m": "stiffness",
                "N*s/m": "damping", "Hz": "frequency", "1/s": "rate", "1/m": "spatial_frequency"}
+
+
+Range = Tuple[Optional[float], Optional[float]]   # None: no limit
 
 
 class Port(NamedTuple):
@@ -27,37 +31,48 @@ class Port(NamedTuple):
     quantity: str
     choices: Tuple[str, ...]
 
+    def __repr__(self) -> str:
+        kind = f"choice of {', '.join(self.choices)}" if self.choices else f"{'scalar' if self.width == 1 else 'vector'} in {self.unit}"
+        return f"<tactus port: {kind[:100]}>"
 
-def _range(limits: Optional[Tuple[Optional[float], Optional[float]]], otherwise: Tuple[float, float]) -> Tuple[float, float]:
+
+def _range(limits: Optional[Range], otherwise: Tuple[float, float]) -> Tuple[float, float]:
     if limits is None:
         return otherwise
+    if not isinstance(limits, (tuple, list)) or len(limits) != 2:
+        _checks.refuse("range", limits, "a pair", "give (low, high); None for no limit")
     low, high = limits
     return (-math.inf if low is None else float(low), math.inf if high is None else float(high))
 
 
-def scalar(unit: str = "1", about: str = "", default: float = 0.0, hard: Optional[Tuple] = None, usual: Optional[Tuple] = None,
+def scalar(unit: str = "1", about: str = "", default: float = 0.0, hard: Optional[Range] = None, usual: Optional[Range] = None,
            quantity: str = "") -> Port:
     """A number. unit: SI without a prefix ("N/m"; "1" for a ratio). default: only for a parameter; an unwired input is 0.
 
     hard: (low, high), None for no limit; outside it the model has no meaning, so files are refused and wires are clamped. usual: what a
     slider shows. quantity: where the unit does not say it: "hit", "gain", "state"."""
     limits = _range(hard, (-math.inf, math.inf))
+    _checks.text("unit", unit, "give an SI unit, such as 'N/m'")
+    _checks.number("default", default, "give a number")
     return Port(1, unit, about, (float(default),), limits, _range(usual, limits), quantity or _QUANTITIES.get(unit, "any"), ())
 
 
-def vector(unit: str = "1", about: str = "", default: Sequence[float] = (0.0, 0.0, 0.0), quantity: str = "") -> Port:
+def vector(unit: str = "1", about: str = "", default: _checks.Numbers = (0.0, 0.0, 0.0), quantity: str = "") -> Port:
     """A vector (x, y, z); tick gets an array of shape (3,)."""
-    if len(default) != 3:
-        fail("node/default", "", f"the default {default!r} is not a vector", "give x, y and z")
+    if _checks.array("default", default).shape != (3,):
+        fail("node/default", "default", f"the default {default!r} is not a vector", "give x, y and z")
     anything = (-math.inf, math.inf)
     return Port(3, unit, about, tuple(float(v) for v in default), anything, anything, quantity or _QUANTITIES.get(unit, "any"), ())
 
 
 def choice(names: Sequence[str], about: str = "", default: Optional[str] = None) -> Port:
     """A parameter with named alternatives; tick gets the name of the chosen one."""
-    at = list(names).index(default) if default is not None else 0
+    known = _checks.texts("names", names, "['smooth', 'rough']")
+    if not known or (default is not None and default not in known):
+        fail("node/default", "default", f"{default!r} is not one of the names", f"give one of {', '.join(known)}" if known else "give at least one name")
+    at = known.index(default) if default is not None else 0
     anything = (-math.inf, math.inf)
-    return Port(1, "1", about, (float(at),), anything, anything, "any", tuple(names))
+    return Port(1, "1", about, (float(at),), anything, anything, "any", tuple(known))
 
 
 class Node:
@@ -86,6 +101,9 @@ class Node:
     inputs: Mapping[str, Port] = {}
     params: Mapping[str, Port] = {}
     outputs: Mapping[str, Port] = {}
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}, a tactus.Node: {self.id!r}>"
 
     def prepare(self, rate_hz: float) -> None:
         """Called before the first tick, with the tick rate."""
@@ -150,6 +168,12 @@ def _quantity(name: str, port: Port) -> str:
 
 def describe(kinds: Sequence[Type[Node]]) -> List[Dict[str, Any]]:
     """What the C++ side needs to know of node classes."""
+    if isinstance(kinds, type) or not isinstance(kinds, Iterable):
+        _checks.refuse("nodes", kinds, "a list of classes", "give the classes in a list: nodes=[Wall]")
+    kinds = list(kinds)
+    for kind in kinds:
+        if not (isinstance(kind, type) and issubclass(kind, Node)):
+            fail("node/kind", "nodes", f"{_checks.shown(kind)} is not a class derived from tactus.Node", "give the class, not an object of it")
     ids = [kind.id for kind in kinds]
     if twice := [id for id in ids if ids.count(id) > 1]:
         fail("node/id_taken", twice[0], f"two nodes have the id '{twice[0]}'", "give each class its own id")
@@ -157,8 +181,6 @@ def describe(kinds: Sequence[Type[Node]]) -> List[Dict[str, Any]]:
 
 
 def _describe(kind: Type[Node]) -> Dict[str, Any]:
-    if not (isinstance(kind, type) and issubclass(kind, Node)):
-        fail("node/kind", "", f"{kind!r} is not a class derived from tactus.Node", "give the class, not an object of it")
     if not kind.id:
         fail("node/id", kind.__name__, "the node has no id", 'give it one: id = "own.wall"')
     if choices := [name for ports in (kind.inputs, kind.outputs) for name, port in ports.items() if port.choices]:

@@ -3,10 +3,13 @@
 
 from __future__ import annotations
 
-from typing import Any, List, Mapping, Optional, Sequence
+import importlib
+from typing import Any, Dict, List, Mapping, Optional, Sequence
 
 import numpy as np
 
+from . import _checks
+from ._checks import Array
 from ._messages import fail
 
 
@@ -15,13 +18,16 @@ def plot(records: Mapping[str, Any], ports: Optional[Sequence[str]] = None, over
 
     records: what render or step returned. ports: by default all of them; a component is "drag.force.x". over: a scalar port or a
     component. axes: matplotlib axes to draw into; without them, ports of the same unit share axes in a new figure."""
+    if not isinstance(records, Mapping):
+        _checks.refuse("records", records, "what render or step returned", "give tactus.plot(graph.render(…))")
+    _checks.text("over", over, "name a recorded port, such as 't'")
     try:
-        from matplotlib import pyplot
+        pyplot: Any = importlib.import_module("matplotlib.pyplot")
     except ImportError:
         fail("plot/no_matplotlib", "", "matplotlib is not installed", "install it: on Debian, python3-matplotlib")
     units = getattr(records, "units", {})
-    chosen = [p for p in (ports if ports is not None else records) if p not in ("t", over)]
-    by_unit: dict = {}
+    chosen = [p for p in (_checks.texts("ports", ports, "['drag.force']") if ports is not None else records) if p not in ("t", over)]
+    by_unit: Dict[str, List[str]] = {}
     for port in chosen:
         by_unit.setdefault(units.get(port, units.get(port[:-2], "")), []).append(port)
     if axes is None:
@@ -44,10 +50,9 @@ def plot(records: Mapping[str, Any], ports: Optional[Sequence[str]] = None, over
     return figure
 
 
-def _column(records: Mapping[str, Any], name: str) -> np.ndarray:
+def _column(records: Mapping[str, Any], name: str) -> Array:
     if name in records:
         return np.asarray(records[name])
     if name[-2:] in (".x", ".y", ".z") and name[:-2] in records:
         return np.asarray(records[name[:-2]])[:, "xyz".index(name[-1])]
     fail("plot/unknown", name, f"'{name}' was not recorded", f"use one of {', '.join(records)}")
-    raise AssertionError

@@ -4,14 +4,15 @@
 from __future__ import annotations
 
 import json
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
+from ._checks import Array, array, shown
 from ._messages import fail
 
 
-class Records(Dict[str, np.ndarray]):
+class Records(Dict[str, Array]):
     """What a run has recorded: arrays by port, with one row per tick.
 
     "t" has shape (n,) and is in s. A scalar port has shape (n,), a vector port (n, 3) with the columns x, y, z. `units` has the SI unit of
@@ -22,11 +23,11 @@ class Records(Dict[str, np.ndarray]):
         self.units: Dict[str, str] = dict(units or {})
         self.rate_hz = rate_hz
 
-    def __reduce__(self):
+    def __reduce__(self) -> Tuple[Any, ...]:
         return _restored, (dict(self), self.units, self.rate_hz)
 
 
-def _restored(arrays, units, rate_hz):
+def _restored(arrays: Dict[str, Array], units: Dict[str, str], rate_hz: float) -> Records:
     return Records(arrays, units=units, rate_hz=rate_hz)
 
 
@@ -35,7 +36,7 @@ class Layout:
 
     def __init__(self, columns: Sequence[str], units: Sequence[str], asked: Sequence[str], rate_hz: float):
         self.rate_hz = rate_hz
-        self.ports: List[Tuple[str, Any]] = []
+        self.ports: List[Tuple[str, Union[int, slice]]] = []
         self.units = {"t": "s"}
         at = 0
         while at < len(columns):
@@ -46,7 +47,7 @@ class Layout:
             self.units[name] = units[at]
             at += width
 
-    def records(self, rows: np.ndarray, first_tick: int = 0) -> Records:
+    def records(self, rows: Array, first_tick: int = 0) -> Records:
         """The records as arrays, which are views of `rows`."""
         t = np.arange(first_tick, first_tick + len(rows)) / self.rate_hz
         return Records({"t": t, **{name: rows[:, where] for name, where in self.ports}}, units=self.units, rate_hz=self.rate_hz)
@@ -57,16 +58,17 @@ def names_of(port: str, width: int) -> List[str]:
     return [port] if width == 1 else [f"{port}.{axis}" for axis in "xyz"]
 
 
-def table_of(feed: Mapping[str, Any]) -> Tuple[List[str], np.ndarray]:
+def table_of(feed: Mapping[str, Any]) -> Tuple[List[str], Array]:
     """The columns of a feed, and an array of shape (n, columns)."""
-    arrays = {port: np.asarray(values, dtype=float) for port, values in feed.items()}
+    arrays = {port: array(f"feed[{port!r}]", values) for port, values in feed.items()}
     lengths = {len(a) for a in arrays.values() if a.ndim > 0}
     if len(lengths) != 1:
-        fail("feed/shape", "", "the arrays of the feed are not equally long" if lengths else "the feed has no array",
+        each = ", ".join(f"{port} has {len(a)}" for port, a in arrays.items() if a.ndim > 0)
+        fail("feed/shape", "feed", f"the arrays of the feed are not equally long: {each} rows" if lengths else "the feed has no array",
              "give each port an array with one row per tick; only a single number may be given for all ticks")
     count = lengths.pop()
     columns: List[str] = []
-    parts: List[np.ndarray] = []
+    parts: List[Array] = []
     for port, a in arrays.items():
         if a.ndim == 0:
             a = np.full(count, float(a))
@@ -78,19 +80,18 @@ def table_of(feed: Mapping[str, Any]) -> Tuple[List[str], np.ndarray]:
     return columns, np.ascontiguousarray(np.hstack(parts))
 
 
-def to_json(value: Any) -> str:
+def to_json(value: Any, where: str = "") -> str:
     """A value as JSON, as in a graph file. numpy arrays become lists, and numpy numbers become plain numbers."""
     def plain(v: Any) -> Any:
         if isinstance(v, (np.generic, np.ndarray)):
             return v.tolist()
-        raise TypeError(f"{v!r} is not a number, text, list or dict")
+        raise TypeError(f"{shown(v)} is not a number, text, list or dict")
 
     try:
         return json.dumps(value, allow_nan=False, default=plain)
-    except (TypeError, ValueError) as why:
-        fail("api/value", "", f"the value {value!r} cannot be in a graph: {why}", "give a finite number, text, a list or a dict")
-        raise AssertionError from why
+    except (TypeError, ValueError, RecursionError) as why:
+        fail("api/value", where, f"the value {shown(value)} cannot be in a graph: {why}", "give a finite number, text, a list or a dict")
 
 
-def to_optional_json(value: Any) -> Optional[str]:
-    return None if value is None else to_json(value)
+def to_optional_json(value: Any, where: str = "") -> Optional[str]:
+    return None if value is None else to_json(value, where)

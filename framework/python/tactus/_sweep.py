@@ -5,9 +5,10 @@ from __future__ import annotations
 
 import concurrent.futures
 import itertools
-from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Sequence
+from typing import Any, Callable, Dict, Iterable, List, Mapping, NamedTuple, Optional, Sequence
 
-from ._graph import Graph
+from . import _checks
+from ._graph import Graph, checked_graph
 from ._records import Records
 
 
@@ -29,7 +30,16 @@ def sweep(graph: Graph, values: Mapping[str, Sequence[Any]], executor: Optional[
     options: those of Graph.render; `set` holds values that all points have in common.
 
     Returns the points in order: the last parameter changes fastest. An Error of a render is raised."""
-    common = dict(options.pop("set", None) or {})
+    checked_graph(graph)
+    example = "{'drag.mu': [0.2, 0.4]}"
+    common = dict(_checks.mapping("set", options.pop("set", None), "{'drag.mu': 0.3}"))
+    for name, some in _checks.mapping("values", values, example).items():
+        if isinstance(some, (str, bytes, Mapping)) or not isinstance(some, Iterable):
+            _checks.refuse(f"values[{name!r}]", some, "a list of values", f"give the values of each parameter as a list: {example}")
+    if measure is not None and not callable(measure):
+        _checks.refuse("measure", measure, "a function", "give a function that takes the Records")
+    if executor is not None and not hasattr(executor, "submit"):
+        _checks.refuse("executor", executor, "an executor", "give one of concurrent.futures, such as ProcessPoolExecutor()")
     points = [dict(zip(values, combination)) for combination in itertools.product(*values.values())]
     jobs = [(graph, {**common, **point}, measure, options) for point in points]
     if executor is None:

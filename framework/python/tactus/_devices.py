@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: MIT
+"""Devices that the program of the caller is: it pushes readings, and takes efforts."""
+
+from __future__ import annotations
+
+import json
+from typing import Any, Dict, Mapping, NamedTuple, NoReturn, Optional, Sequence
+
+from . import _checks
+from ._checks import Array
+from ._messages import fail
+from ._records import to_json
+
+_CHANNELS = 32   # of a device, as in tactus.h
+
+
+class PushedDevice(NamedTuple):
+    """A device of your own: push its readings into the engine, and take the efforts. Until the first reading, and when readings stop for
+    longer than the guard's watchdog, the effort is zero.
+
+    axes: names of the axes whose positions it reads. efforts: names of the axes that its motors push. buttons: names of its buttons. guard:
+    limits as in docs/safety.md: {"max_force": "3 N", "watchdog": "20 ms"}."""
+
+    axes: Sequence[str] = ()
+    efforts: Sequence[str] = ()
+    buttons: Sequence[str] = ()
+    signal_inputs: int = 0
+    signal_outputs: int = 0
+    guard: Optional[Mapping[str, Any]] = None
+
+
+class Effort(NamedTuple):
+    """What a device should apply, after the guard. force (3,), on the tool, N. torque (3,), on the tool, N m. axes, N or N m, in the order
+    of PushedDevice.efforts. signals: the signal outputs, channel 1 first."""
+
+    force: Array
+    torque: Array
+    axes: Array
+    signals: Array
+
+
+def described(role: str, device: PushedDevice) -> Dict[str, Any]:
+    """A device of the caller, as the C++ side reads it."""
+    at = f"devices[{role!r}]"
+    names = {key: _checks.texts(f"{at}.{key}", getattr(device, key), "['x', 'y']") for key in ("axes", "efforts", "buttons")}
+    for key, some in names.items():
+        if len(some) > _CHANNELS:
+            fail("argument/value", f"{at}.{key}", f"there are {len(some)} names", f"give at most {_CHANNELS}")
+    counts = {key: _checks.whole(f"{at}.{key}", getattr(device, key), "give a number of signals, from 0", high=_CHANNELS)
+              for key in ("signal_inputs", "signal_outputs")}
+    guard = device.guard if device.guard is None else _checks.mapping(f"{at}.guard", device.guard, "{'max_force': '3 N'}")
+    return {**names, **counts, "guard": json.loads(to_json(guard, f"{at}.guard"))}
+
+
+def explain_push(role: Any, position: Any, rotation: Any, pressure: Any, buttons: Any, axes: Any, signals: Any, age: Any,
+                 why: Exception) -> NoReturn:
+    """Says which part of a reading cannot be used."""
+    _checks.text("role", role, "give the name of a role, such as 'stylus'")
+    for name, values in (("position", position), ("rotation", rotation), ("axes", axes), ("signals", signals)):
+        if _checks.array(name, values).ndim != 1:
+            remedy = "give x, y and z" if name in ("position", "rotation") else "give one number for each"
+            fail("device/reading", name, f"{_checks.shown(values)} is not a list of numbers", remedy)
+    for name, value in (("pressure", pressure), ("age", age)):
+        if _checks.array(name, value).ndim != 0:
+            fail("device/reading", name, f"{_checks.shown(value)} is not a number", "give a number")
+    _checks.whole("buttons", buttons, "give a whole number, whose bit i means that button i is down", high=2**32 - 1)
+    fail("device/reading", role, f"the reading cannot be used: {why}", "give numbers, as the documentation of push says")
