@@ -3,16 +3,18 @@
 
 from __future__ import annotations
 
+import json
 import math
 from typing import TYPE_CHECKING, Any, Dict, Mapping, Optional, Sequence, Tuple, Type
 
-from . import _checks, _tactus
+from . import _checks, _drawing, _tactus
 from ._assets import Assets
 from ._checks import Path
 from ._messages import fail, placed
 from ._own import Node
 from ._presets import graph_file
 from ._records import Records, to_json, to_optional_json
+from ._views import ControlView, NodeView, View, Wires, controls_in, nodes_in, wires_in
 
 if TYPE_CHECKING:
     from ._engine import Engine
@@ -55,7 +57,36 @@ class Graph:
         return _restored, (self.text, self._graph.folder(), {path: Graph._of(file) for path, file in self._graph.files().items()})
 
     def __repr__(self) -> str:
-        return f"<tactus.Graph {self.name!r}>"
+        return f"<tactus.Graph {self.name[:60]!r}: {len(self.nodes)} nodes, {len(self.wires)} wires, {self.rate:g} Hz>"
+
+    def _repr_svg_(self) -> str:
+        """A picture of the nodes and wires, for notebooks."""
+        graph = self._read()
+        return _drawing.svg(nodes_in(graph), wires_in(graph))
+
+    def _repr_html_(self) -> str:
+        """The picture with the name above it, for notebooks."""
+        graph = self._read()
+        return _drawing.html(self.name, self.rate, nodes_in(graph), wires_in(graph))
+
+    def _read(self) -> Dict[str, Any]:
+        read: Dict[str, Any] = json.loads(self.text)
+        return read
+
+    @property
+    def nodes(self) -> View[NodeView]:
+        """The nodes by name, to look at: graph.nodes["drag"].params["mu"]. Those of subgraphs are not included."""
+        return nodes_in(self._read())
+
+    @property
+    def wires(self) -> Wires:
+        """The wires, to look at. Those of subgraphs are not included."""
+        return wires_in(self._read())
+
+    @property
+    def controls(self) -> View[ControlView]:
+        """The controls by id, to look at."""
+        return controls_in(self._read())
 
     @property
     def name(self) -> str:

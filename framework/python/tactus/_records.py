@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from ._checks import Array, array, shown
 from ._messages import fail
+from ._views import shortened
 
 
 class Records(Dict[str, Array]):
@@ -25,6 +27,59 @@ class Records(Dict[str, Array]):
 
     def __reduce__(self) -> Tuple[Any, ...]:
         return _restored, (dict(self), self.units, self.rate_hz)
+
+    def __repr__(self) -> str:
+        ports = [f"{port}{f' ({unit})' if (unit := self.units.get(port, '')) not in ('', '1') else ''}" for port in self if port != "t"]
+        return f"<tactus.Records of {len(self.get('t', ()))} ticks at {self.rate_hz:g} Hz: {shortened(ports) or 'nothing'}>"
+
+    def to_dataframe(self) -> Any:
+        """A pandas.DataFrame with one row per tick, indexed by t in s, and one column per component: "drag.force.x".
+
+        Its attrs have "units", the SI unit of each column and of "t", and "rate_hz". pandas must be installed."""
+        pandas = _imported("pandas", "to_dataframe")
+        columns: Dict[str, Array] = {}
+        units = {"t": "s"}
+        for port, values in self._ports():
+            for i, name in enumerate(names_of(port, 1 if values.ndim == 1 else 3)):
+                columns[name] = values if values.ndim == 1 else values[:, i]
+                units[name] = self.units.get(port, "")
+        frame = pandas.DataFrame(columns, index=pandas.Index(self._t(), name="t"))
+        frame.attrs.update(units=units, rate_hz=self.rate_hz)
+        return frame
+
+    def to_xarray(self) -> Any:
+        """An xarray.Dataset with the dimension t in s and, for vectors, the dimension axis: "x", "y", "z".
+
+        Each variable has its SI unit in attrs["units"], and the dataset has attrs["rate_hz"]. xarray must be installed."""
+        xarray = _imported("xarray", "to_xarray")
+        coordinates: Dict[str, Any] = {"t": ("t", self._t(), {"units": "s"})}
+        variables = {}
+        for port, values in self._ports():
+            dimensions = ("t",) if values.ndim == 1 else ("t", "axis")
+            if values.ndim == 2:
+                coordinates["axis"] = list("xyz")
+            variables[port] = (dimensions, values, {"units": self.units.get(port, "")})
+        return xarray.Dataset(variables, coords=coordinates, attrs={"rate_hz": self.rate_hz})
+
+    def _t(self) -> Array:
+        if "t" not in self:
+            fail("records/shape", "t", "the records have no times", "keep the entry 't'")
+        return self["t"]
+
+    def _ports(self) -> List[Tuple[str, Array]]:
+        """The ports with their values. A dict can be changed, so the shapes are checked."""
+        ports = [(port, np.asarray(values)) for port, values in self.items() if port != "t"]
+        for port, values in ports:
+            if values.shape not in ((len(self._t()),), (len(self._t()), 3)):
+                fail("records/shape", port, f"the array has the shape {values.shape}, and there are {len(self._t())} ticks", "keep one row per tick")
+        return ports
+
+
+def _imported(name: str, function: str) -> Any:
+    try:
+        return importlib.import_module(name)
+    except ImportError as why:
+        fail(f"records/no_{name}", function, f"the package {name} cannot be imported: {why}", f"install it: pip install {name}, or on Debian python3-{name}")
 
 
 def _restored(arrays: Dict[str, Array], units: Dict[str, str], rate_hz: float) -> Records:
