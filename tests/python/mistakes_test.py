@@ -60,6 +60,8 @@ MISTAKES = [
     ("a delay of half a tick", lambda: graph().connect("hand.position", "drag.position", delay=0.5), "argument/type", "delay"),
     ("a wire between numbers", lambda: graph().connect(1, 2), "argument/type", "start"),
     ("a device as text in a graph", lambda: graph().set_device("stylus", "sim"), "argument/type", "description"),
+    ("an assignment to a view", lambda: _assign(graph().nodes, "new"), "view/read_only", "new"),
+    ("an assignment to the params of a view", lambda: _assign(graph().nodes["drag"].params, "mu"), "view/read_only", "mu"),
     # Renders
     ("a duration as text", lambda: render(duration="1 s"), "argument/type", "duration"),
     ("a negative duration", lambda: render(duration=-1), "argument/value", "duration"),
@@ -126,6 +128,8 @@ MISTAKES = [
     ("a log in a folder that is not there", lambda: play(log="no/such/run.log"), "output/unwritable", "no/such/run.log"),
     ("strict as text", lambda: play(strict="yes"), "argument/type", "strict"),
     ("a core as text", lambda: play(core="0"), "argument/type", "core"),
+    ("a callback that is no function", lambda: play(callback=3, record=["motor.force"]), "argument/type", "callback"),
+    ("a callback without records", lambda: play(callback=print), "argument/value", "callback"),
     # The rest
     ("a sweep over one value", lambda: tactus.sweep(graph(), {"drag.mu": 0.3}), "argument/type", "drag.mu"),
     ("a sweep over text", lambda: tactus.sweep(graph(), {"drag.d_max": "20 um"}), "argument/type", "drag.d_max"),
@@ -139,6 +143,10 @@ def _endless():
     value = []
     value.append(value)
     return value
+
+
+def _assign(view, name):
+    view[name] = 0.3
 
 
 class Mistakes(TestCase):

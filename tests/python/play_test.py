@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Sessions: graphs that play on devices. These play on gestures; tests/guest plays on a virtual board."""
 
+import queue
 import subprocess
 import sys
 import threading
@@ -87,6 +88,111 @@ class Play(TestCase):
         with play() as session:
             threading.Timer(0.2, session.stop).start()
             self.assertTrue(session.wait(60))
+
+
+class Callback(TestCase):
+    wait_for = Play.wait_for
+
+    def test_it_gets_every_recorded_tick_in_order(self):
+        parts, threads = [], set()
+
+        def keep(records):
+            parts.append(records)
+            threads.add(threading.current_thread())
+        with play(record=["motor.force"], duration=0.5, callback=keep) as session:
+            self.assertTrue(session.wait(60))
+        self.assertGreater(len(parts), 1)
+        self.assertEqual(parts[0].units["motor.force"], "N")
+        t = np.concatenate([part["t"] for part in parts])
+        self.same_bits(t, np.arange(len(t)) / 4000)
+        self.assertGreaterEqual(len(t), 2000)
+        self.assertNotIn(threading.main_thread(), threads)
+
+    def test_an_exception_in_it_stops_the_run_with_zero_force_and_is_raised_at_the_caller(self):
+        def fail(records):
+            if np.any(records["motor.force"]):
+                raise ZeroDivisionError("of the callback")
+        for end in ("wait", "status", "set", "end of with"):
+            with self.subTest(end):
+                with self.assertRaisesRegex(ZeroDivisionError, "of the callback"):
+                    with play(record=["motor.force"], callback=fail) as session:
+                        self.wait_for(lambda: session.status().phase == "over")
+                        self.assertEqual(session.status().force, 0.0)
+                        if end == "wait":
+                            session.wait(60)
+                        elif end == "set":
+                            session.set("drag.mu", 0.2)
+
+    def test_an_exception_ends_a_wait_without_a_limit(self):
+        def fail(records):
+            raise SystemExit(3)
+        with self.assertRaises(SystemExit):
+            with play(record=["motor.force"], callback=fail) as session:
+                session.wait()
+
+    def test_an_exception_is_raised_once(self):
+        def fail(records):
+            raise KeyError("once")
+        session = play(record=["motor.force"], callback=fail)
+        self.assertRaises(KeyError, session.wait)
+        self.assertEqual(session.status().phase, "over")
+        session.close()
+
+    def test_a_slow_one_delays_no_tick_and_what_it_misses_is_counted(self):
+        goes_on, calls = threading.Event(), []
+
+        def block(records):
+            calls.append(records)
+            goes_on.wait()
+        try:
+            with play(record=["motor.force"], buffer=0.05, callback=block) as session:
+                self.wait_for(lambda: calls)
+                before = session.status().ticks
+                self.wait_for(lambda: session.status().ticks > before + 4000)   # a second of ticks, while the callback does not return
+                self.assertEqual(len(calls), 1)
+                self.assertGreater(session.lost, 0)
+                ticked, lost = session.status().ticks, session.lost
+                goes_on.set()
+                session.stop()
+                self.assertGreater(ticked, lost)
+        finally:
+            goes_on.set()
+        self.assertLessEqual(sum(len(c["t"]) for c in calls[:2]), 4 * 200 + len(calls[0]["t"]))   # no more than the buffer kept
+
+    def test_it_may_use_the_session(self):
+        seen = []
+
+        def use(records):
+            session = opened.get(timeout=60) if not seen else seen[0]
+            seen.append(session)
+            session.set("drag.mu", 0.2)
+            if len(seen) == 3:
+                session.stop()
+        opened = queue.Queue()
+        with play(record=["motor.force"], callback=use) as session:
+            opened.put(session)
+            self.assertTrue(session.wait(60))
+            self.fails("session/callback", session.collect)
+
+    def test_it_may_close_the_session(self):
+        opened, done = queue.Queue(), threading.Event()
+
+        def close(records):
+            if not done.is_set():
+                opened.get(timeout=60).close()
+                done.set()
+        session = play(record=["motor.force"], callback=close)
+        opened.put(session)
+        self.assertTrue(done.wait(60))
+        self.assertEqual(repr(session), "<tactus.Session, closed>")
+
+    def test_a_program_that_ends_with_a_callback_does_not_hang_and_shows_its_exception(self):
+        for body, shown in (("pass", ""), ("raise ZeroDivisionError", "ZeroDivisionError")):
+            code = (f"import tactus, time\ndef f(r):\n    {body}\n"
+                    f"s = tactus.play({WOOD!r}, {CIRCLE!r}, session='off', record='motor.force', callback=f)\ntime.sleep(0.3)")
+            done = subprocess.run([sys.executable, "-B", "-c", code], stderr=subprocess.PIPE, timeout=120, check=False)
+            self.assertIn(shown, done.stderr.decode())
+            self.assertEqual(done.returncode, 0)
 
 
 class Shown(TestCase):

@@ -8,14 +8,16 @@ import ctypes
 import os
 import threading
 import time
+import traceback
 import warnings
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import TracebackType
-from typing import Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Set, Type, Union
+from typing import Any, Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Set, Type, Union
 
 import numpy as np
 
 from . import _checks
+from ._callback import Caller
 from ._checks import Path
 from ._engine import Status
 from ._graph import Graph, checked_graph
@@ -49,6 +51,7 @@ class Session:
     def __init__(self, graph: ctypes.c_void_p, options: OptionsStruct, keep: List[Any], asked: Sequence[str]):
         self._asked, self._collected = list(asked), 0
         self._probed: Optional[Layout] = None
+        self._caller: Optional[Caller] = None
         self._session: Optional[ctypes.c_void_p] = None
         self._one_at_a_time = threading.RLock()
         self._free = threading.Condition()   # guards the next two
@@ -66,8 +69,10 @@ class Session:
         del keep
 
     @contextmanager
-    def _handle(self, waits: bool = True) -> Iterator[ctypes.c_void_p]:
-        """The session, which is not freed during the `with` statement."""
+    def _handle(self, waits: bool = True, raises: bool = True) -> Iterator[ctypes.c_void_p]:
+        """The session, which is not freed during the `with` statement. With `waits` and `raises`, an exception of the callback is raised here."""
+        if waits and raises:
+            self._raise_failure()
         with self._free:
             if self._session is None or self._closes:
                 fail("session/closed", "", "the session is closed", "open another one with tactus.play")
@@ -83,8 +88,8 @@ class Session:
                 self._users -= 1
                 self._free.notify_all()
 
-    def _call(self, function: str, *arguments: Any, waits: bool = True) -> None:
-        with self._handle(waits) as handle, Messages() as messages:
+    def _call(self, function: str, *arguments: Any, waits: bool = True, raises: bool = True) -> None:
+        with self._handle(waits, raises) as handle, Messages() as messages:
             messages.check(getattr(live(), "tactus_session_" + function)(handle, *arguments, messages.handle) == 0)
 
     def __enter__(self) -> "Session":
@@ -101,6 +106,25 @@ class Session:
         except Error:
             return "<tactus.Session, closed>"
         return f"<tactus.Session, {now.phase}: {now.ticks} ticks, {now.force:.3g} N>"
+
+    # ------------------------------------------------------------------------ The callback
+
+    def _call_with_records(self, function: Callable[[Records], Any]) -> None:
+        self._caller = Caller(function, self._take, self._halt)
+        self._caller.start()
+
+    def _halt(self) -> None:
+        """Ends the run after an exception of the callback. [the thread of the callback]"""
+        with suppress(Error):   # the caller may have closed the session meanwhile
+            self.emergency_stop()
+            self._call("stop", raises=False)
+
+    def _raise_failure(self) -> None:
+        """Raises what the callback has raised, once the forces are zero. The callback itself goes on."""
+        if self._caller is None or self._caller.is_this_thread() or (why := self._caller.failure()) is None:
+            return
+        self._halt()
+        raise why
 
     # ------------------------------------------------------------------------ What it does
 
@@ -148,6 +172,7 @@ class Session:
             for message in self.events():
                 warnings.warn(TactusWarning(message), stacklevel=2)
             if self.status().phase == "over":
+                self._raise_failure()
                 return True
             left = 0.05 if until is None else min(0.05, until - time.monotonic())
             if left <= 0.0:
@@ -195,7 +220,13 @@ class Session:
             return {name: row[where] for name, where in self._probed.ports} if self._probed else {}
 
     def collect(self) -> Records:
-        """The ticks recorded since the last call, the oldest first. "t" counts only collected ticks, not `lost` ones."""
+        """The ticks recorded since the last call, the oldest first. "t" counts only collected ticks, not `lost` ones. With a callback, that gets them."""
+        if self._caller is not None:
+            self._raise_failure()
+            fail("session/callback", "collect", "the callback gets what is recorded", "use its records, or open the session without a callback")
+        return self._take()
+
+    def _take(self) -> Records:
         library = live()
         with self._handle() as handle:
             width = library.tactus_session_record_count(handle)
@@ -235,7 +266,8 @@ class Session:
         self._call("stop")
 
     def close(self) -> None:
-        """Stops, and releases the devices. Waits until calls from other threads are over."""
+        """Stops, and releases the devices. Waits until calls from other threads are over, and raises what the callback has raised."""
+        note = self._end_callback()
         with self._free:
             if self._session is None or self._closes:
                 return
@@ -248,12 +280,22 @@ class Session:
         live().tactus_session_close(self._session)
         self._session = None
         _sessions.discard(self)
+        if note is not None:
+            warnings.warn(TactusWarning(note), stacklevel=2)
+        self._raise_failure()
+
+    def _end_callback(self) -> Optional[Message]:
+        if self._caller is None or self._session is None:
+            return None
+        with suppress(Error):
+            self._call("stop", raises=False)   # first the forces go to zero; then there is time for the callback
+        return self._caller.end()
 
 
 def play(graph: Union[Graph, Path], device: Union[Sequence[str], Mapping[str, str]] = (), *, session: Optional[Path] = None, clock: Optional[str] = None,
          rate: Optional[float] = None, duration: Optional[float] = None, record: Sequence[str] = (), buffer: float = 10.0,
          set: Optional[Mapping[str, Any]] = None, log: Optional[Path] = None, core: Optional[int] = None, strict: bool = False,
-         fuse: bool = False) -> Session:
+         fuse: bool = False, callback: Optional[Callable[[Records], Any]] = None) -> Session:
     """Plays a graph on the devices of this computer, as `tactus play` does, with the same guards, failsafe and guardian process.
 
         with tactus.play("dry_wood", device={"stylus": "hid:auto"}) as session:
@@ -266,11 +308,17 @@ def play(graph: Union[Graph, Path], device: Union[Sequence[str], Mapping[str, st
     "timer". rate: in Hz. duration: in s; without it, until it is stopped. record: ports; `buffer` s of them are kept until collect(). set: values of
     parameters. log: a file for the log of all inputs. strict: a missing device is an error. fuse: compiled code replaces the plan while it runs.
 
+    callback: a function that is called with the Records of the recorded ports since its last call, every 20 ms or so, on a thread of its own. It may
+    use the session. The ticks never wait for it: if it computes for too long, ticks that no longer fit into the buffer are dropped, and `lost` counts
+    them. If it raises an exception, all forces go to zero, the run ends, and the next call of a function of the session, or the end of the `with`
+    statement, raises the exception.
+
     The ticks never wait for Python. At the end of the `with` statement, after an exception, and at the end of the program, all forces go to zero."""
     devices = _devices(device)
     asked = _checks.texts("record", record, "record=['motor.force']")
     sets = [f"{name}={value if isinstance(value, str) else to_json(value, f'set[{name!r}]')}"
             for name, value in _checks.mapping("set", set, "set={'drag.mu': 0.3}").items()]
+    _check_callback(callback, asked, buffer)
     keep = [texts(devices), texts(sets), texts(asked)]
     options = OptionsStruct(size=ctypes.sizeof(OptionsStruct), devices=keep[0], device_count=len(devices),
                        session=None if session is None else _checks.path("session", session, "give a session file, or 'off'").encode(),
@@ -284,6 +332,8 @@ def play(graph: Union[Graph, Path], device: Union[Sequence[str], Mapping[str, st
         made = Session(opened, options, keep, asked)
     try:
         made._call("start")
+        if callback is not None:
+            made._call_with_records(callback)
     except BaseException:
         made.close()
         raise
@@ -298,6 +348,16 @@ def _devices(given: Any) -> List[str]:
     return _checks.texts("device", given, example)
 
 
+def _check_callback(callback: Any, record: Sequence[str], buffer: Any) -> None:
+    if callback is None:
+        return
+    if not callable(callback):
+        _checks.refuse("callback", callback, "a function", "give a function that takes the Records: callback=print")
+    if not record:
+        fail("argument/value", "callback", "the callback would get nothing, because nothing is recorded", "name ports, such as record=['motor.force']")
+    _checks.number("buffer", buffer, "give a time in s, greater than 0, in which the callback is called again", above=0.0)
+
+
 _sessions: Set[Session] = set()   # those that are open: what plays is not forgotten
 
 
@@ -305,4 +365,7 @@ _sessions: Set[Session] = set()   # those that are open: what plays is not forgo
 def _close_all() -> None:
     """No force outlives the program."""
     for session in list(_sessions):
-        session.close()
+        try:
+            session.close()
+        except Exception:   # of a callback; the other sessions are closed, too
+            traceback.print_exc()
