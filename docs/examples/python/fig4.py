@@ -5,14 +5,16 @@
     fig4.py [PICTURE.png]     the notebook fig4.ipynb does the same step by step
 """
 
+import importlib
 import sys
+from typing import Any
 
 import numpy as np
 
 import tactus
 
 
-def make_graph():
+def make_graph() -> tactus.Graph:
     """A path with sharp turns and loops, and the contact that follows it on a leash of 1 mm."""
     graph = tactus.Graph(name="A tool led over a surface", rate=2000)
     for name, frequency, amplitude, phase in (("sweep_x", "0.25 Hz", "9 mm", 0), ("sweep_y", "0.5 Hz", "4 mm", 0),
@@ -28,7 +30,7 @@ def make_graph():
     return graph
 
 
-def draw(run, ax):
+def draw(run: tactus.Records, ax: Any) -> None:
     tool = 1e3 * run["tool.out"][:, :2]                                # (n, 2), mm
     contact = tool - 1e3 * run["contact.deflection"][:, :2]
     slips = run["contact.state"] == 2
@@ -38,9 +40,9 @@ def draw(run, ax):
     ax.set(title="The contact point sticks (blue) or is dragged along (red)", xlabel="x (mm)", ylabel="y (mm)", aspect="equal")
 
 
-def main():
+def main() -> None:
     run = make_graph().render(duration=4.0, record=["tool.out", "contact.deflection", "contact.state"])
-    from matplotlib import pyplot
+    pyplot: Any = importlib.import_module("matplotlib.pyplot")   # it has no types
 
     figure, ax = pyplot.subplots(figsize=(6, 3.7), constrained_layout=True)
     draw(run, ax)

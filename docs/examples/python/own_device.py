@@ -12,7 +12,7 @@ import numpy as np
 import tactus
 
 
-def main():
+def main() -> None:
     graph = tactus.Graph(sys.argv[1] if len(sys.argv) > 1 else "granite_wall.json")
     engine = tactus.Engine(graph, devices={"stylus": tactus.PushedDevice(guard={"max_force": "5 N"})})
     dt, mass, damping, weight = 1 / engine.rate, 0.1, 3.0, np.array([0, 0, -1.0])

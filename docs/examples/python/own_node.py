@@ -5,6 +5,8 @@
     own_node.py     prints the largest force (N) for three strengths
 """
 
+from typing import Any, Dict
+
 import numpy as np
 
 import tactus
@@ -19,12 +21,12 @@ class Magnet(tactus.Node):
               "reach": tactus.scalar("m", "distance at which the force is largest", default=1e-2, hard=(1e-6, None))}
     outputs = {"force": tactus.vector("N", "force on the tool")}
 
-    def tick(self, inputs, params):
+    def tick(self, inputs: Any, params: Any) -> Dict[str, Any]:
         r = inputs.position / params.reach
         return {"force": -params.pull * r * np.exp((1 - r @ r) / 2)}
 
 
-def make_graph():
+def make_graph() -> tactus.Graph:
     graph = tactus.Graph(rate=4000)
     graph.add_node("hand", "device.position", role="stylus")
     graph.add_node("magnet", "own.magnet")
@@ -35,7 +37,7 @@ def make_graph():
     return graph
 
 
-def main():
+def main() -> None:
     for point in tactus.sweep(make_graph(), {"magnet.pull": [0.5, 1, 2]}, duration=1.0, nodes=[Magnet]):
         print(point.set, np.linalg.norm(point.result["motor.force"], axis=1).max())
 
