@@ -29,7 +29,7 @@ case $mode in
     *) echo "usage: ./test.sh [--quick|--long|--screens [--update]|--sound|--devices|--export|--figures|--packages]" >&2; exit 2 ;;
 esac
 
-packages+=(python3-jsonschema python3-distributed xvfb xdotool)
+packages+=(python3-jsonschema python3-distributed python3-build python3-venv python3-pip mypy python3-pandas python3-xarray xvfb xdotool)
 case $mode in ''|--long) packages+=(libclang-rt-14-dev) ;; esac
 case $mode in ''|--quick|--long) packages+=(valgrind) ;; esac
 [ "$mode" = --export ] && packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
