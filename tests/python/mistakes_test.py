@@ -96,6 +96,10 @@ MISTAKES = [
     ("nodes that are no classes", lambda: render(nodes=[3]), "node/kind", "nodes"),
     ("assets as a number", lambda: render(assets=3), "argument/type", "assets"),
     ("a budget with a typing error", lambda: tactus.set_limits("point=1M"), "limits/value", "set_limits"),
+    ("an argument with a typing error", lambda: render(duratoin=1), "argument/unknown", "duratoin"),
+    ("an argument of another function", lambda: tactus.play(WOOD, devices=CIRCLE), "argument/unknown", "devices"),
+    ("a node without a type", lambda: graph().add_node("a"), "argument/count", "add_node"),
+    ("too many arguments", lambda: tactus.Graph("dry_wood", "wood"), "argument/count", "Graph"),
     # Engines
     ("an engine of a path", lambda: tactus.Engine(WOOD), "argument/type", "graph"),
     ("a number of ticks with a point", lambda: engine().step(n=1.5), "argument/type", "n"),

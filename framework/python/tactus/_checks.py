@@ -3,11 +3,14 @@
 
 from __future__ import annotations
 
+import difflib
+import functools
+import inspect
 import math
 import numbers
 import os
 import re
-from typing import Any, Iterable, List, Mapping, NoReturn, Sequence, Union
+from typing import Any, Callable, Iterable, List, Mapping, NoReturn, Sequence, TypeVar, Union, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +23,31 @@ Path = Union[str, "os.PathLike[str]"]
 _ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 _SURROGATES = re.compile("[\ud800-\udfff]")
 MOST = 1e9   # what a rate in Hz or a duration in s may be at most
+
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def arguments(function: F) -> F:
+    """Refuses arguments that a function does not have, and a call without those that it needs, as an Error."""
+    signature = inspect.signature(function)
+    names = [name for name in signature.parameters if name not in ("self", "cls")]
+    title = function.__qualname__.replace(".__init__", "")
+
+    @functools.wraps(function)
+    def call(*given: Any, **named: Any) -> Any:
+        try:
+            signature.bind(*given, **named)
+        except TypeError as why:
+            unknown = next((name for name in named if name not in names), None)
+            if unknown is None:
+                fail("argument/count", title, str(why), f"its arguments: {', '.join(names)}")
+            near = difflib.get_close_matches(unknown, names, 1)
+            meant = f" (did you mean '{near[0]}'?)" if near else ""
+            fail("argument/unknown", unknown, f"{title} has no argument '{unknown}'{meant}", f"its arguments: {', '.join(names)}")
+        return function(*given, **named)
+
+    return cast(F, call)
 
 
 def refuse(argument: str, value: Any, what: str, remedy: str) -> NoReturn:

@@ -43,6 +43,7 @@ class Engine:
     from other threads are over, except `push` and `take` (one thread per role), `emergency_stop` and `rearm`, which wait for
     nothing."""
 
+    @_checks.arguments
     def __init__(self, graph: Graph, feed: Optional[Mapping[str, Any]] = None, record: Sequence[str] = (), rate: Optional[float] = None,
                  set: Optional[Mapping[str, Any]] = None, devices: Optional[Mapping[str, Any]] = None, nodes: Sequence[Type[Node]] = (),
                  assets: Optional[Assets] = None):
@@ -206,6 +207,7 @@ class Engine:
 
     # ------------------------------------------------------------------------ While it runs
 
+    @_checks.arguments
     def set(self, param: str, value: Any) -> None:
         """Sets a parameter ("drag.mu", "finger[*]/drag.mu"). Before the first tick, the value changes at once; later, it ramps."""
         with placed(_checks.text("param", param, _PARAM)):
@@ -239,6 +241,7 @@ class Engine:
 
     # ------------------------------------------------------------------------ Live
 
+    @_checks.arguments
     def start(self, duration: Optional[float] = None, core: Optional[int] = None, buffer: float = 10.0) -> None:
         """Ticks in real time on its own thread, which Python never delays, until stop() or for `duration` in s.
 

@@ -29,6 +29,7 @@ class Graph:
     changes nothing if it fails. Values are written as in a graph file: 0.4 (SI), "20 um", [0, 0, 1]. `patch` is the name of a subgraph, or
     "" for the graph itself. Several threads may use one graph; their calls never overlap."""
 
+    @_checks.arguments
     def __init__(self, path: Optional[Path] = None, *, name: str = "", rate: float = 4000.0):
         """path: a graph file, or the name of a preset (tactus.presets()); without it, the graph is empty, has this name, and is ticked at `rate` in
         Hz."""
@@ -103,10 +104,12 @@ class Graph:
         """The graph as the text of a graph file."""
         return self._graph.text()
 
+    @_checks.arguments
     def save(self, path: Path) -> None:
         """Writes the graph file. After a crash, either the old file or the new one exists."""
         self._graph.save(_checks.path("path", path))
 
+    @_checks.arguments
     def add_node(self, name: str, type: str, params: Optional[Mapping[str, Any]] = None, settings: Optional[Mapping[str, Any]] = None,
                  role: str = "", patch: str = "") -> None:
         """Adds a node. type: an id of tactus.nodes(), "graph:NAME", or the id of a node in Python. role: for device nodes."""
@@ -115,36 +118,44 @@ class Graph:
         known = _checks.text("type", type, "give the id of a node type, as in tactus.nodes()")
         self._graph.add_node(_patch(patch), _name("name", name), known, values, shape, _checks.text("role", role, "give the name of a role, such as 'stylus'"))
 
+    @_checks.arguments
     def remove_node(self, name: str, patch: str = "") -> None:
         """Removes a node, and everything that refers to it."""
         self._graph.remove_node(_patch(patch), _name("name", name))
 
+    @_checks.arguments
     def rename_node(self, name: str, to: str, patch: str = "") -> None:
         """Renames a node, and everything that refers to it."""
         self._graph.rename_node(_patch(patch), _name("name", name), _name("to", to))
 
+    @_checks.arguments
     def connect(self, start: str, end: Optional[str] = None, gain: Any = None, delay: int = 0, add: bool = False, patch: str = "") -> None:
         """Adds a wire: connect("drag.force", "motor.force"), or as in a graph file connect("drag.force -> motor.force").
 
         gain: a number, or text with a unit. delay: in ticks. add: the wire adds to the value of a parameter instead of replacing it."""
         self._graph.add_wire(_patch(patch), _wire(start, end, delay, add), to_optional_json(gain, "gain"))
 
+    @_checks.arguments
     def disconnect(self, start: str, end: Optional[str] = None, delay: int = 0, add: bool = False, patch: str = "") -> None:
         """Removes a wire that was added with the same arguments."""
         self._graph.remove_wire(_patch(patch), _wire(start, end, delay, add))
 
+    @_checks.arguments
     def set_param(self, node: str, param: str, value: Any, patch: str = "") -> None:
         """Sets a parameter; None means its default."""
         self._graph.set_param(_patch(patch), _name("node", node), _name("param", param), to_optional_json(value, f"{node}.{param}"))
 
+    @_checks.arguments
     def set_setting(self, node: str, setting: str, value: Any, patch: str = "") -> None:
         """Sets a setting; None means its default."""
         self._graph.set_setting(_patch(patch), _name("node", node), _name("setting", setting), to_optional_json(value, f"{node}.{setting}"))
 
+    @_checks.arguments
     def set_key(self, node: str, key: str, value: Any, patch: str = "") -> None:
         """Sets any other key of a node, such as "role" or "count"; None removes it."""
         self._graph.set_key(_patch(patch), _name("node", node), _name("key", key), to_optional_json(value, f"{node}.{key}"))
 
+    @_checks.arguments
     def set_device(self, role: str, description: Optional[Mapping[str, Any]]) -> None:
         """Describes the device of a role, as in a graph file: {"driver": "sim", "mass": "50 g"}; None removes it."""
         known = None if description is None else dict(_checks.mapping("description", description, "{'driver': 'sim', 'mass': '50 g'}"))
@@ -158,6 +169,7 @@ class Graph:
         """False if there is nothing to redo."""
         return self._graph.redo()
 
+    @_checks.arguments
     def render(self, feed: Optional[Mapping[str, Any]] = None, record: Sequence[str] = (), rate: Optional[float] = None,
                duration: Optional[float] = None, set: Optional[Mapping[str, Any]] = None, devices: Optional[Mapping[str, Any]] = None,
                nodes: Sequence[Type[Node]] = (), assets: Optional[Assets] = None) -> Records:

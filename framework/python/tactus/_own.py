@@ -45,6 +45,7 @@ def _range(limits: Optional[Range], otherwise: Tuple[float, float]) -> Tuple[flo
     return (-math.inf if low is None else float(low), math.inf if high is None else float(high))
 
 
+@_checks.arguments
 def scalar(unit: str = "1", about: str = "", default: float = 0.0, hard: Optional[Range] = None, usual: Optional[Range] = None,
            quantity: str = "") -> Port:
     """A number. unit: SI without a prefix ("N/m"; "1" for a ratio). default: only for a parameter; an unwired input is 0.
@@ -57,6 +58,7 @@ def scalar(unit: str = "1", about: str = "", default: float = 0.0, hard: Optiona
     return Port(1, unit, about, (float(default),), limits, _range(usual, limits), quantity or _QUANTITIES.get(unit, "any"), ())
 
 
+@_checks.arguments
 def vector(unit: str = "1", about: str = "", default: _checks.Numbers = (0.0, 0.0, 0.0), quantity: str = "") -> Port:
     """A vector (x, y, z); tick gets an array of shape (3,)."""
     if _checks.array("default", default).shape != (3,):
@@ -65,6 +67,7 @@ def vector(unit: str = "1", about: str = "", default: _checks.Numbers = (0.0, 0.
     return Port(3, unit, about, tuple(float(v) for v in default), anything, anything, quantity or _QUANTITIES.get(unit, "any"), ())
 
 
+@_checks.arguments
 def choice(names: Sequence[str], about: str = "", default: Optional[str] = None) -> Port:
     """A parameter with named alternatives; tick gets the name of the chosen one."""
     known = _checks.texts("names", names, "['smooth', 'rough']")

@@ -292,6 +292,7 @@ class Session:
         return self._caller.end()
 
 
+@_checks.arguments
 def play(graph: Union[Graph, Path], device: Union[Sequence[str], Mapping[str, str]] = (), *, session: Optional[Path] = None, clock: Optional[str] = None,
          rate: Optional[float] = None, duration: Optional[float] = None, record: Sequence[str] = (), buffer: float = 10.0,
          set: Optional[Mapping[str, Any]] = None, log: Optional[Path] = None, core: Optional[int] = None, strict: bool = False,

@@ -19,6 +19,7 @@ class Point(NamedTuple):
     result: Any
 
 
+@_checks.arguments
 def sweep(graph: Graph, values: Mapping[str, Sequence[Any]], executor: Optional[concurrent.futures.Executor] = None,
           measure: Optional[Callable[[Records], Any]] = None, **options: Any) -> List[Point]:
     """Renders a graph with every combination of values: {"drag.mu": [0.2, 0.4], "drag.d_max": ["20 um", "40 um"]} makes four renders.
