@@ -79,6 +79,15 @@ class Attacks(TestCase):
             if graph is not None:
                 self.harmless(graph)
 
+    def test_no_repr_steers_the_terminal(self):
+        for text in ATTACKS:
+            graph = {"nodes": {text: {"type": text, "role": text, "params": {text: text}}}, "wires": [{"wire": f"{text}.out -> b.in", "gain": text}, text],
+                     "controls": {text: {"name": text, "value": 0.5, "to": {text: [0, 1]}}}}
+            nodes, wires, controls = _views.nodes_in(graph), _views.wires_in(graph), _views.controls_in(graph)
+            for each in (nodes, nodes[text], nodes[text].params, wires, wires[0], wires[1], controls, controls[text], controls[text].to):
+                self.assertTrue(repr(each).isprintable())
+                self.assertLess(len(repr(each)), 400)
+
     def test_nothing_of_a_node_becomes_markup_even_if_the_reader_let_it_through(self):
         for text in ATTACKS:
             graph = SimpleNamespace()

@@ -27,7 +27,7 @@ class View(Mapping[str, V]):
         return len(self._values)
 
     def __repr__(self) -> str:
-        return f"<{self._what}: {shortened(list(self._values)) or 'none'}>"
+        return f"<{plain(self._what)}: {shortened(list(self._values)) or 'none'}>"
 
     if not TYPE_CHECKING:   # type checkers refuse these by themselves
 
@@ -50,7 +50,7 @@ class NodeView(NamedTuple):
     keys: View[Any]
 
     def __repr__(self) -> str:
-        return f"<node {self.name}: {self.type}{' of ' + self.role if self.role else ''}>"
+        return f"<node {plain(self.name)}: {plain(self.type)}{' of ' + plain(self.role) if self.role else ''}>"
 
 
 class WireView(NamedTuple):
@@ -67,7 +67,7 @@ class WireView(NamedTuple):
         return f"{self.start} -> {f'[{self.delay}] -> ' if self.delay else ''}{'(+) ' if self.adds else ''}{self.end}"
 
     def __repr__(self) -> str:
-        return f"<wire {self}{'' if self.gain is None else f', gain {self.gain}'}{'' if self.is_enabled else ', disabled'}>"
+        return f"<wire {plain(self, 100)}{'' if self.gain is None else f', gain {plain(self.gain)}'}{'' if self.is_enabled else ', disabled'}>"
 
 
 class ControlView(NamedTuple):
@@ -79,7 +79,7 @@ class ControlView(NamedTuple):
     to: View[Any]
 
     def __repr__(self) -> str:
-        return f"<control {self.id}: {self.value:g}, moves {shortened(list(self.to)) or 'nothing'}>"
+        return f"<control {plain(self.id)}: {self.value:g}, moves {shortened(list(self.to)) or 'nothing'}>"
 
 
 class Wires(Tuple[WireView, ...]):
@@ -89,9 +89,16 @@ class Wires(Tuple[WireView, ...]):
         return f"<wires: {shortened([str(w) for w in self]) or 'none'}>"
 
 
+def plain(text: Any, most: int = 40) -> str:
+    """Text of a file for a repr: short, and without characters that steer a terminal or turn text around."""
+    whole = str(text)
+    shown = whole if len(whole) <= most else whole[:most - 1] + "…"
+    return "".join(c if c.isprintable() else "\ufffd" for c in shown)
+
+
 def shortened(names: List[str], most: int = 6) -> str:
     """A list for a repr."""
-    some = ", ".join(name if len(name) <= 40 else name[:39] + "…" for name in names[:most])
+    some = ", ".join(plain(name) for name in names[:most])
     return some + (f", … ({len(names)} in all)" if len(names) > most else "")
 
 
