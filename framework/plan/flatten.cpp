@@ -137,6 +137,20 @@ private:
         return fate + "`tactus nodes` lists all types";
     }
 
+    /// " (did you mean 'deform.plane'?)" for "plane"; "graph:grain" for the name of a subgraph; or "".
+    std::string typeMeant (const graph::Graph& g, const std::string& type) const
+    {
+        if (type.empty()) return {};
+        if (g.find (type) != nullptr) return " (did you mean 'graph:" + type + "'?)";
+        std::vector<std::string> ids;
+        for (const auto& t : nodes)
+        {
+            if (t.info.id.ends_with ('.' + type)) return " (did you mean '" + std::string (t.info.id) + "'?)";
+            ids.emplace_back (t.info.id);
+        }
+        return didYouMean (type, ids);
+    }
+
     /// Nodes of one type are often next to each other.
     const NodeType* typeOf (const graph::Node& node)
     {
@@ -150,11 +164,8 @@ private:
         if (! flat.spend (type == nullptr ? work_of_a_search : work_per_node, 0.0, here)) return;
         if (type == nullptr)
         {
-            std::vector<std::string> ids;
-            for (const auto& t : nodes)
-                ids.emplace_back (t.info.id);
             flat.error ("node/unknown_type", at (here, "type"),
-                        "'" + scope.prefix + node.name + "' has the unknown type '" + node.type + "'" + didYouMean (node.type, ids),
+                        "'" + scope.prefix + node.name + "' has the unknown type '" + node.type + "'" + typeMeant (*scope.owner, node.type),
                         whatToInstall (*scope.owner, node.type));
             return;
         }
@@ -189,10 +200,10 @@ private:
         const auto row = std::ranges::find (rows, key, &PortSheet::id);
         if (row == rows.end() || ! graph::isId (node.name)) return assign (scope, node.name + "." + key, value, at (here, "params", key));
 
-        // A valid plain number has no unit to check, and all other values for the param are processed later.
+        // A valid plain number has no unit to check and is not unusual, and all other values for the param are processed later.
         const int port = static_cast<int> (row - rows.begin());
         const bool is_plain = value.is_number() && row->width == 1 && ! row->list && row->choices.empty() && isFinite (value.get<double>())
-                              && row->limits.hard.contains (value.get<double>());
+                              && row->limits.hard.contains (value.get<double>()) && ! isFarFromUsual (*row, value.get<double>());
         if (is_plain)
             flat.param (number, tactus::at (port))[0] = value.get<double>();
         else

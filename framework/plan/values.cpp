@@ -5,6 +5,9 @@
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/number_text.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 namespace tactus::plan
 {
 
@@ -37,6 +40,17 @@ public:
 
 private:
     Flat& flat;
+
+    /// Values outside the usual range are fine. One that is far outside is mostly a slip in the unit: 0.3 for 0.3 mm.
+    void warnIfFarFromUsual (const Assignment& a, const PortSheet& sheet, double v)
+    {
+        if (! isFarFromUsual (sheet, v)) return;
+        const auto unit = sheet.unit.unit.symbol == "1" ? std::string() : " " + std::string (sheet.unit.unit.symbol);
+        const auto usual = rangeText (sheet.limits.usual) + unit;
+        flat.warn ("param/unusual", a.origin, "'" + flat.nameOf (a.to) + "' is " + numberText (v) + unit + ", far outside the usual range, which is " + usual,
+                   std::string ("fine if intended; a number without a unit is in SI, so check the unit")
+                       + (unit == " m" ? ": 0.3 mm is \"0.3 mm\" or 0.0003" : ""));
+    }
 
     void readChoice (const Assignment& a, const PortSheet& sheet, double& value)
     {
@@ -83,6 +97,7 @@ private:
                             "it must be " + rangeText (sheet.limits.hard) + (sheet.unit.unit.symbol == "1" ? "" : " " + std::string (sheet.unit.unit.symbol)));
                 return;
             }
+            warnIfFarFromUsual (a, sheet, ends[i]);
         }
         value = a.amount == 0.0 ? ends[0] : ends[0] + a.amount * (ends[1] - ends[0]);
     }
@@ -94,6 +109,14 @@ std::string rangeText (const Interval& i)
     if (i.min == -inf) return "at most " + numberText (i.max);
     if (i.max == inf) return "at least " + numberText (i.min);
     return "from " + numberText (i.min) + " to " + numberText (i.max);
+}
+
+bool isFarFromUsual (const PortSheet& sheet, double v) noexcept
+{
+    constexpr double far = 10.0;
+    const auto& [min, max] = sheet.limits.usual;
+    if (sheet.unit.kind != UnitRule::Kind::fixed || sheet.unit.unit.symbol == "1" || v == 0.0) return false;
+    return std::abs (v) > far * std::max (std::abs (min), std::abs (max)) || (min > 0.0 && v < min / far);
 }
 
 std::string shown (const Json& json)

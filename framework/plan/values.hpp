@@ -29,6 +29,10 @@ std::string shown (const Json&);
 /// "at least 1e-9", "from 0 to 1".
 std::string rangeText (const Interval&);
 
+/// True if a value of a parameter lies more than ten times beyond its usual range: above ten times its upper end, or below a tenth of its
+/// lower end. 0 means none, and a number without a unit may be anything, so neither is far.
+bool isFarFromUsual (const PortSheet&, double) noexcept;
+
 /// Reads a number. An error has neither a location nor a remedy, only a text such as "it is not a finite number".
 Result<Number> readNumber (const Json&);
 

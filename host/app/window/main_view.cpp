@@ -7,9 +7,11 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/storage/language.hpp>
 #include <host/app/text/filled.hpp>
+#include <tactus/plan/unheard.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
+#include <iterator>
 
 namespace tactus::host
 {
@@ -243,6 +245,10 @@ void MainView::documentChanged()
 {
     status.clearNotice();
     missing = missingEnds (edited.graph());
+    std::vector<std::string> probed;
+    for (const auto& scope : scopes.scopes().scopes)
+        std::ranges::copy (scope->ports, std::back_inserter (probed));
+    std::ranges::copy (plan::unheardNodes (edited.graph(), catalogue, probed), std::back_inserter (missing));
     if (edited.identity() != shown_identity)
     {
         shown_identity = edited.identity();
