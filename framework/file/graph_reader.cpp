@@ -21,6 +21,7 @@ public:
     {
         const auto ignore = [] (Json&, const std::string&) {};
         std::vector<KnownKey> fields {
+            { "$schema", JsonKind::text, keep ("$schema", graph.extra) },   // for editors
             { "format", JsonKind::any, ignore },
             { "version", JsonKind::any, ignore },
             { "name", JsonKind::text, into (graph.name) },
@@ -69,7 +70,7 @@ private:
 /// Checks what must be right before anything else is read. Returns the version.
 std::optional<int> readHeader (const Json& file, OrderedReader& problems)
 {
-    constexpr auto remedy = "a graph file begins with { \"format\": \"tactus-graph\", \"version\": 1, …";
+    const auto remedy = "a graph file begins with { \"format\": \"tactus-graph\", \"version\": " + std::to_string (graph_format.version) + ", …";
     if (! file.is_object())
     {
         problems.error ("file/not_a_graph", "", "the file does not contain an object, {…}, so it is not a graph", remedy);

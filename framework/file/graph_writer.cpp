@@ -17,6 +17,8 @@ namespace
 {
 using namespace graph;
 
+constexpr std::string_view schema_key = "$schema";   // names the JSON schema, which editors look for at the top of a file
+
 /// Whole numbers are written without a point.
 Json plainNumber (double value)
 {
@@ -35,14 +37,15 @@ void appendUnlessEmpty (Json& object, std::string key, const Json& value)
     if (! value.empty()) append (object, std::move (key), value);
 }
 
-/// Adds the keys that the reader has kept, with `ui` at the end, because `ui` matters least in a diff.
+/// Adds the keys that the reader has kept, with `ui` at the end, because `ui` matters least in a diff. A `$schema` of the file is the first
+/// key already.
 void appendExtra (Json& object, const Json& extra)
 {
     const Json* ui = nullptr;
     for (const auto& [key, value] : extra.asObject())
         if (key == "ui")
             ui = &value;
-        else
+        else if (key != schema_key || ! object.contains (schema_key))
             append (object, key, value);
     if (ui != nullptr) append (object, "ui", *ui);
 }
@@ -64,6 +67,7 @@ void appendPatch (Json& object, const Patch& patch)
 Json graphJson (const Graph& graph)
 {
     auto file = Json::object();
+    if (const auto schema = graph.extra.find (schema_key); schema != graph.extra.end()) append (file, std::string (schema_key), *schema);
     append (file, "format", "tactus-graph");
     append (file, "version", graph_format.version);
     appendText (file, "name", graph.name);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "part_reader.hpp"
 
+#include "meant.hpp"
 #include "text.hpp"
 #include "wire_text.hpp"
 
+#include <tactus/text/closest_match.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/units.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tactus
@@ -16,8 +19,7 @@ using namespace graph;
 bool PartReader::checkId (const std::string& id, const std::string& where, std::string_view what)
 {
     if (isId (id)) return true;
-    error ("graph/bad_id", where, quote (id) + " is not an id for " + std::string (what),
-           "ids consist of lower-case letters, digits and _, and begin with a letter");
+    error ("graph/bad_id", where, quote (id) + " is not an id for " + std::string (what), idRemedy (id));
     return false;
 }
 
@@ -64,8 +66,9 @@ void PartReader::readNode (const std::string& name, Json& object, const Where& w
         { "times", JsonKind::number, [] (Self& self, graph::Node& n, Json& v, const Where& at) { self.readCount ("times", v, at, n.extra); } },
         { "hold", JsonKind::text,
           [] (Self& self, graph::Node& n, Json& v, const Where& at) {
-              if (v != "latch" && v != "linear")
-                  self.error ("file/bad_value", at, "'hold' is " + quote (v.asString()) + "; it should be \"latch\" or \"linear\"", "write \"latch\"");
+              if (const std::vector<std::string> holds { "latch", "linear" }; std::ranges::count (holds, v.asString()) == 0)
+                  self.error ("file/bad_value", at, "'hold' is " + quote (v.asString()) + "; it should be \"latch\" or \"linear\"",
+                              suggestion (v.asString(), holds));
               append (n.extra, "hold", std::move (v));
           } },
         { "ui", JsonKind::object, [] (Self&, graph::Node& n, Json& v, const Where&) { append (n.extra, "ui", std::move (v)); } },
@@ -181,7 +184,7 @@ std::optional<Wire> PartReader::parse (const Json& text, const std::string& wher
 {
     auto parsed = parseWire (text.asString());
     if (parsed) return *std::move (parsed);
-    error ("wire/syntax", where, parsed.error().text, "write \"node.port -> node.port\"");
+    error ("wire/syntax", where, parsed.error().text, wireRemedy (text.asString()));
     return std::nullopt;
 }
 
@@ -240,6 +243,9 @@ void PartReader::readControl (const std::string& id, Json& object, const std::st
              } },
             { "ui", JsonKind::object, keep ("ui", control.extra) } },
           control.extra);
+    if (! object.contains ("to"))
+        warning ("file/missing_key", where, "the control " + quote (id) + " has no 'to', so it moves nothing",
+                 "add \"to\": { \"node.param\": [value at 0, value at 1] }");
 }
 
 void PartReader::readTarget (const std::string& path, Json& range, const std::string& where, Control& control)

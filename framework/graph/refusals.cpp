@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "refusals.hpp"
 
+#include "meant.hpp"
+
 #include <tactus/text/quote.hpp>
 
 namespace tactus::graph
@@ -21,7 +23,7 @@ Message noWire (const std::string& patch) { return Message::error ("edit/unknown
 Message noControl (const std::string& id) { return Message::error ("edit/unknown_control", {}, "there is no control " + quote (id)); }
 Message badId (const std::string& id)
 {
-    return Message::error ("graph/bad_id", {}, quote (id) + " is not an id", "ids consist of lower-case letters, digits and _, and begin with a letter");
+    return Message::error ("graph/bad_id", {}, quote (id) + " is not an id", idRemedy (id));
 }
 
 Message nameTaken (const std::string& what, const std::string& name)

@@ -43,15 +43,16 @@ Message messageAt (Origin origin, Message::Severity severity, std::string id, st
     return { severity, std::move (id), pointerTo (origin), std::move (text), std::move (remedy), file ? std::string (file->text) : "", 0, 0 };
 }
 
-/// Turns a sentence about "finger[3]/drag" into one about "finger/drag".
+/// Turns a sentence about "finger[3]/drag", or about 'finger[3]', into one about "finger/drag" or 'finger'.
 std::string withoutInstances (const std::string& text)
 {
     std::string result;
     std::size_t copied = 0;
-    for (auto end = text.find ("]/"); end != std::string::npos; end = text.find ("]/", end + 1))
+    for (auto end = text.find (']'); end != std::string::npos; end = text.find (']', end + 1))
     {
         const auto begin = text.rfind ('[', end);
-        if (begin == std::string::npos || begin < copied) continue;
+        const bool follows_name = end + 1 < text.size() && (text[end + 1] == '/' || text[end + 1] == '\'');
+        if (! follows_name || begin == std::string::npos || begin < copied) continue;
         result.append (text, copied, begin - copied);
         copied = end + 1;
     }

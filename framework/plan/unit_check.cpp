@@ -191,7 +191,7 @@ private:
             flat.error ("wire/unit", w.origin,
                         "'" + flat.nameOf (*w.from) + "' carries " + symbolOf (arrives) + (w.gain_dimension ? " after the wire's gain" : "") + ", but '"
                             + flat.nameOf (w.to) + "' takes " + symbolOf (want.value_or (Dimension {})),
-                        "wire a port with the right unit, or give the wire a gain in " + symbolOf (needed));
+                        "wire a port with the right unit, or give the wire a gain " + (needed == Dimension {} ? "without a unit" : "in " + symbolOf (needed)));
             return;
         }
         if (gain == Dimension {}) links.push_back ({ from, to, &w });

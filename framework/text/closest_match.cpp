@@ -8,6 +8,34 @@
 
 namespace tactus
 {
+namespace
+{
+std::string inLowerCase (std::string_view word)
+{
+    std::string lower (word);
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char> (c - 'A' + 'a');
+    return lower;
+}
+
+/// The only candidate that begins with the word, or that has all but its last letter in common with a longer word: "rate_hz" for "rate",
+/// "params" for "parameters". Empty if there are several.
+std::string_view onlyContinuation (std::string_view word, std::span<const std::string_view> known)
+{
+    constexpr std::size_t shortest = 3, shortest_stem = 5;
+    std::string_view only;
+    for (const auto candidate : known)
+    {
+        const auto common = static_cast<std::size_t> (std::ranges::mismatch (word, candidate).in1 - word.begin());
+        const bool is_longer = word.size() > candidate.size() && common >= shortest_stem && common + 1 >= candidate.size()
+                               && word.find_first_not_of ("abcdefghijklmnopqrstuvwxyz") == word.npos;
+        if (! is_longer && (word.size() < shortest || common < word.size() || word == candidate)) continue;
+        if (! only.empty() && only != candidate) return {};
+        only = candidate;
+    }
+    return only;
+}
+}   // namespace
 
 int editDistance (std::string_view a, std::string_view b)
 {
@@ -36,16 +64,17 @@ std::string_view closestMatch (std::string_view word, std::span<const std::strin
     if (word.size() > longest || known.size() > most) return {};
     std::string_view best;
     int nearest = 3;
+    const auto lower = inLowerCase (word);
     for (const auto candidate : known)
     {
         const int tolerance = std::min (word.size(), candidate.size()) > 4 ? 2 : 1;
-        if (const int d = editDistance (word, candidate); d <= tolerance && d < nearest && d < static_cast<int> (candidate.size()))
+        if (const int d = editDistance (lower, inLowerCase (candidate)); d <= tolerance && d < nearest && d < static_cast<int> (candidate.size()))
         {
             best = candidate;
             nearest = d;
         }
     }
-    return best;
+    return best.empty() ? onlyContinuation (lower, known) : best;
 }
 
 std::string suggestion (std::string_view word, std::span<const std::string> known)

@@ -2,6 +2,7 @@
 #include "json_reader.hpp"
 
 #include "quote.hpp"
+#include "units.hpp"
 
 #include <tuple>
 #include <utility>
@@ -231,11 +232,27 @@ std::string JsonReader::remedyFor (Wanted wanted, bool after_comma) const
     if (c == '}' || c == ']') return after_comma ? "remove the comma before the bracket" : "check which bracket is open here";
     if (wanted == Wanted::value && isWord (c))
         return "values are numbers, strings in double quotes, true, false, null, lists and objects; there is no NaN and no Infinity";
+    if (wanted == Wanted::key && isDigit (c) && after_comma) return "write numbers with a decimal point, as in 0.4, and keys in double quotes";
     if (wanted == Wanted::key && isWord (c)) return "put the key in double quotes";
+    if (const auto text = wanted == Wanted::separator ? textWithUnit() : std::string(); ! text.empty()) return "put a value with a unit in double quotes: \"" + text + '"';
     if (wanted == Wanted::end_of_file) return "remove what follows";
     if (innermost == nullptr) return "a graph file is a JSON object";
     if (wanted == Wanted::separator) return "add the comma";
     return "the order is \"key\": value, \"key\": value";
+}
+
+/// The text "0.4 mm" if the file has 0.4 mm without quotes, and the scanner is at the unit; else empty.
+std::string JsonReader::textWithUnit() const
+{
+    if (innermost == nullptr) return {};
+    const auto& number = innermost->members != nullptr ? innermost->members->back().second : innermost->elements->back();
+    constexpr std::size_t longest = 40;
+    auto unit = scan.rest().substr (0, longest);
+    unit = unit.substr (0, unit.find_first_of (",:]}\"\r\n"));
+    unit = unit.substr (0, unit.find_last_not_of (" \t") + 1);
+    auto text = number.is_number() ? number.dump() + ' ' + std::string (unit) : std::string();
+    const bool has_unit = unit.find_first_not_of ("0123456789.+-eE \t") != unit.npos;
+    return has_unit && parseMeasure (text) ? text : std::string();
 }
 
 /// Reading continues after a duplicate key.

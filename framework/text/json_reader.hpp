@@ -54,6 +54,7 @@ private:
     bool expected (const std::string& what, Wanted, bool after_comma = false);
     std::string found() const;
     std::string remedyFor (Wanted, bool after_comma) const;
+    std::string textWithUnit() const;
     void complainOfTwins (std::string_view key, TextPosition);
     bool tooMany();
     bool tooDeep();

@@ -8,13 +8,18 @@
 #include <host/assets/nearest_by_embree.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/compile.hpp>
+#include <tactus/plan/unheard.hpp>
 #include <tactus/run/device/make_device.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/json_text.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <memory>
+#include <utility>
 
 namespace tactus::host
 {
@@ -43,6 +48,58 @@ int checkDevices (const LoadedGraph& loaded, const std::string& file)
     return errors;
 }
 
+/// Where a role is first named in the graph; "" if it is named only in an included file.
+std::string placeOfRole (const graph::Graph& g, const std::string& role)
+{
+    const auto in = [&] (const graph::Patch& patch, const std::string& where) -> std::string {
+        for (const auto& n : patch.nodes)
+        {
+            const auto node = where + "/nodes/" + pointerPart (n.name);
+            if (n.role == role) return node + "/role";
+            for (const auto& [inner, outer] : n.roles.items())
+                if (outer == role || (outer.is_array() && std::ranges::count (outer, Json (role)) > 0)) return node + "/roles/" + pointerPart (inner);
+        }
+        return {};
+    };
+    auto place = in (g.root, "");
+    for (const auto& [name, patch] : g.graphs)
+        if (place.empty()) place = in (patch, "/graphs/" + pointerPart (name));
+    return place;
+}
+
+/// Warns about roles without a device.
+Messages undescribedRoles (const graph::Graph& g, const Plan& plan)
+{
+    std::vector<std::string> described;
+    for (const auto& [role, description] : g.devices)
+        described.push_back (role);
+    Messages messages;
+    for (const auto& role : plan.roles())
+        if (std::ranges::count (described, role.name) == 0)
+            messages.push_back (Message::warning ("device/undescribed", placeOfRole (g, role.name),
+                                                  "no device is described for the role '" + role.name + "'" + didYouMean (role.name, described),
+                                                  "describe a device for it under `devices`, or give --device when you run the graph"));
+    return messages;
+}
+
+/// The problems that compiling has found, in the order of the file, without those of a part that could not even be read: these are reported
+/// already.
+Messages ordered (Messages messages, const LoadedGraph& loaded, const std::string& file)
+{
+    std::erase_if (messages, [&] (const Message& m) {
+        return std::ranges::any_of (loaded.messages, [&] (const Message& l) {
+            return l.severity == Message::Severity::error && ! l.where.empty() && m.file.empty() && l.file == file
+                   && (m.where + '/').starts_with (l.where + '/');
+        });
+    });
+    const auto place = [&] (const Message& m) {
+        const auto at = m.file.empty() ? loaded.positionOf (m.where) : TextPosition {};
+        return std::pair (at.line, at.column);
+    };
+    std::ranges::stable_sort (messages, {}, place);
+    return messages;
+}
+
 std::string describe (const plan::PathDelay& d)
 {
     auto text = "  " + printableName (d.source) + " -> " + printableName (d.sink) + ": ";
@@ -60,13 +117,12 @@ bool check (const std::string& file)
 
     FileAssets assets;
     const auto compiled = compile (loaded.graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } });
-    errors += report (compiled.messages, loaded, file) + checkDevices (loaded, file);
+    auto messages = compiled.messages;
+    std::ranges::move (plan::unheardNodes (loaded.graph, catalogue()), std::back_inserter (messages));
+    if (compiled.plan) std::ranges::move (undescribedRoles (loaded.graph, *compiled.plan), std::back_inserter (messages));
+    errors += report (ordered (std::move (messages), loaded, file), loaded, file) + checkDevices (loaded, file);
     if (errors > 0) return false;
 
-    for (const auto& role : compiled.plan->roles())
-        if (std::ranges::count (loaded.graph.devices, role.name, &std::pair<std::string, Json>::first) == 0)
-            std::cerr << printableName (file) << ": warning: no device is described for the role '" << printableName (role.name)
-                      << "'\n    describe a device for it under `devices`, or give --device when you run the graph [device/undescribed]\n";
     std::cout << printableName (file) << ": ok\n";
     for (const auto& d : compiled.plan->delays())
         std::cout << describe (d);

@@ -205,3 +205,18 @@ TEST_CASE ("the distance between words counts typing errors")
     CHECK (editDistance ("wire", "wires") == 1);
     CHECK (editDistance ("kitten", "sitting") == 3);
 }
+
+TEST_CASE ("the word that was meant is near, or differs in case, or is the only one that goes on like this")
+{
+    const std::vector<std::string_view> known { "rate_hz", "params", "roles", "role", "wires", "name" };
+    const auto meant = [&] (std::string_view word) { return std::string (closestMatch (word, known)); };
+    CHECK (meant ("parms") == "params");
+    CHECK (meant ("Params") == "params");
+    CHECK (meant ("PARAMS") == "params");
+    CHECK (meant ("parameters") == "params");
+    CHECK (meant ("rate") == "rate_hz");
+    CHECK (meant ("ro").empty());   // too short, and two go on like this
+    CHECK (meant ("namesake").empty());
+    CHECK (meant ("wireless").empty());
+    CHECK (meant ("colour").empty());
+}

@@ -38,6 +38,16 @@ TEST_CASE ("a graph is written in a fixed order, with one node or wire per line"
 )");
 }
 
+TEST_CASE ("the name of the schema is kept, unread, and stands at the top of the file")
+{
+    const auto loaded = readGraph (R"({ "format": "tactus-graph", "version": 2, "nodes": {}, "wires": [], "$schema": "graph.schema.json", "mine": 1 })");
+    CHECK (loaded.messages.empty());
+    const auto text = writeGraph (loaded.graph);
+    CHECK (text.starts_with ("{\n  \"$schema\": \"graph.schema.json\",\n  \"format\""));
+    CHECK (text.find ("$schema", 10) == text.npos);
+    CHECK (writeGraph (readGraph (text).graph) == text);
+}
+
 TEST_CASE ("long lines are broken, and numbers are packed")
 {
     Json table = Json::array(), rows = Json::array();
