@@ -26,18 +26,20 @@ if (TARGET tactus-check-plugin)
     set (check_plugin tactus-check-plugin)
 endif ()
 
-# Man pages and completions are written from --help, so this runs the programs after they are built.
+# Man pages and completions are written from --help, and the schema of graphs from the catalogue, so this runs the programs after they are
+# built.
 add_custom_command (OUTPUT ${made}/written
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${made}/man ${made}/completions
     COMMAND ${python} ${packaging}/man_pages.py $<TARGET_FILE:tactus> tactus ${PROJECT_VERSION} ${TACTUS_RELEASE_DATE} ${made}/man
     COMMAND ${python} ${packaging}/man_pages.py $<TARGET_FILE:tactus-host> tactus-host ${PROJECT_VERSION} ${TACTUS_RELEASE_DATE} ${made}/man
     COMMAND ${python} ${packaging}/completions.py $<TARGET_FILE:tactus> $<TARGET_FILE:tactus-host> ${made}/completions
+    COMMAND ${CMAKE_COMMAND} -E env --unset=TACTUS_PLUGINS HOME=${made}/nobody XDG_CONFIG_HOME=${made}/nobody $<TARGET_FILE:tactus> schema -o ${made}/graph.schema.json
     COMMAND ${python} ${packaging}/udev_rules.py ${PROJECT_SOURCE_DIR}/host/profiles ${made}/70-tactus.rules
     COMMAND ${python} ${packaging}/changelogs.py ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${TACTUS_MAINTAINER} ${made}
     COMMAND ${CMAKE_COMMAND} -E touch ${made}/written
     DEPENDS tactus tactus-bench tactus-host ${check_plugin} ${profiles} CHANGELOG.md
         ${packaging}/program_help.py ${packaging}/man_pages.py ${packaging}/completions.py ${packaging}/udev_rules.py ${packaging}/changelogs.py
-    COMMENT "Writing man pages, completions and udev rules" VERBATIM)
+    COMMENT "Writing man pages, completions, the schema of graphs and udev rules" VERBATIM)
 add_custom_target (installed_texts ALL DEPENDS ${made}/written)
 
 set (fuse_llvm)   # as for tactus-check-plugin
@@ -47,6 +49,7 @@ endif ()
 install (TARGETS tactus tactus-bench ${check_plugin} ${fuse_llvm} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install (DIRECTORY graphs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/tactus/graphs COMPONENT program
     FILES_MATCHING PATTERN "*.json" PATTERN "assets/*.png" PATTERN "assets/*.obj" PATTERN "assets/*.csv" PATTERN "assets/*.haptic")
+install (FILES ${made}/graph.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/tactus COMPONENT program)
 install (FILES ${profiles} DESTINATION ${CMAKE_INSTALL_DATADIR}/tactus/profiles COMPONENT program)
 install (FILES ${packaging}/names_in_graph.py DESTINATION ${CMAKE_INSTALL_DATADIR}/tactus COMPONENT program)
 install (FILES ${made}/70-tactus.rules DESTINATION lib/udev/rules.d COMPONENT program)

@@ -9,6 +9,7 @@ namespace tactus::host
 /// Each of these adds a command, with options and examples, to the program.
 void addNodes (const Command&);
 void addValidate (const Command&);
+void addSchema (const Command&);
 void addCheck (const Command&);
 void addRender (const Command&);
 void addSpectrogram (const Command&);

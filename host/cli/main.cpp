@@ -20,6 +20,7 @@ constexpr auto examples =
     "  tactus nodes friction                          those of a family\n"
     "  tactus nodes friction.elasto_plastic           one datasheet\n"
     "  tactus validate graphs/*.json                  all problems in all files\n"
+    "  tactus schema -o graph.schema.json             for editors, which complete and check graphs with it\n"
     "  tactus check graphs/dry_wood.json              can its devices render the graph?\n"
     "  tactus render graphs/dry_wood.json --out wood.csv --plot wood.png\n"
     "  tactus spectrogram dry_wood -o wood.png        its frequencies against time\n"
@@ -52,6 +53,7 @@ int main (int argc, char** argv)
     app.requireCommand();
     addNodes (app);
     addValidate (app);
+    addSchema (app);
     addCheck (app);
     addRender (app);
     addSpectrogram (app);
