@@ -19,16 +19,6 @@
 namespace tactus::host
 {
 
-namespace
-{
-/// Turns errors into warnings: a placeholder for a node of an unknown type does not stop the other nodes from running.
-void warnOnly (Messages& messages)
-{
-    for (auto& m : messages)
-        m.severity = Message::Severity::warning;
-}
-}   // namespace
-
 CommandRun::CommandRun (const RunOptions& o, Pace pace, StopSwitch* stops) : options (o), loaded (loadGraph (o.graph)), rig ({})
 {
     if (report (loaded.messages, loaded, options.graph) > 0) throw Stop {};
@@ -142,10 +132,8 @@ LiveSession::Options CommandRun::sessionOptions (Pace pace, StopSwitch* stops)
 
 void CommandRun::load()
 {
-    auto messages = playing->load (loaded.graph);
-    if (playing->hasPlaceholders()) warnOnly (messages);
-    reportOn (messages);
-    if (! playing->isLoaded()) throw Stop {};
+    const bool is_broken = reportOn (playing->load (loaded.graph)) > 0;   // a node of an unknown type compiles to a placeholder, but it is an error
+    if (is_broken || ! playing->isLoaded()) throw Stop {};
 }
 
 /// Each --device must name a role of the graph.

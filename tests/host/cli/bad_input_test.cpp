@@ -70,6 +70,24 @@ TEST_CASE ("each kind of bad file is refused with its id and its place", "[cli]"
     CHECK (ran.err.find (file + place) != std::string::npos);
 }
 
+TEST_CASE ("a graph with a node of an unknown type is not run", "[cli]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("bad.json", graph (hand + "," + motor + R"(, "a": { "type": "friction.elastoplastic" })"));
+    const auto out = scratch.path ("out.csv");
+    for (const auto& command : { std::vector<std::string> { "render", file, "--duration", "0.01", "--out", out },
+                                 std::vector<std::string> { "play", file, "--duration", "0.01", "--session", "off", "--device", "stylus=sim" } })
+    {
+        const auto ran = runTactus (command);
+        INFO (ran.err);
+        CHECK (ran.status == 1);
+        CHECK (ran.err.find ("[node/unknown_type]") != std::string::npos);
+        CHECK (ran.err.find (file + ":2:") != std::string::npos);
+        CHECK (ran.err.find ("warning") == std::string::npos);
+    }
+    CHECK_FALSE (std::filesystem::exists (out));
+}
+
 TEST_CASE ("a name of a megabyte is cut in the messages about it", "[cli]")
 {
     const Scratch scratch;
