@@ -3,6 +3,7 @@
 
 #include "edit_checks.hpp"
 #include "exchange_member.hpp"
+#include "find_wire.hpp"
 #include "graph_parts.hpp"
 #include "references.hpp"
 #include "refusals.hpp"
@@ -118,7 +119,7 @@ public:
         if (node == nullptr) return noNode (c.patch, c.node);
         if (c.key == "params" || c.key == "settings")
             return Message::error ("edit/bad_value", {}, "the entries of " + quote (c.key) + " are set one at a time", "use SetParam or SetSetting");
-        if (c.key == "type" && ! c.value) return Message::error ("edit/bad_value", {}, "a node must have a type");
+        if (c.key == "type" && ! c.value) return Message::error ("edit/bad_value", {}, "a node must have a type", "give a type; `tactus nodes` lists all types");
         if (checked() && c.value)
             if (auto wrong = checkNodeKey (c.key, *c.value); ! wrong.empty()) return wrong.front();
 
@@ -173,7 +174,14 @@ public:
     {
         auto* patch = find (c.patch);
         if (patch == nullptr) return noPatch (c.patch);
-        const auto it = std::ranges::find (patch->wires, c.wire, &Wire::id);
+        auto id = c.wire;
+        if (! c.text.empty())
+        {
+            const auto found = findWire (graph, c.patch, c.text);
+            if (! found) return found.error();
+            id = *found;
+        }
+        const auto it = std::ranges::find (patch->wires, id, &Wire::id);
         if (it == patch->wires.end()) return noWire (c.patch);
         AddWire back { c.patch, std::move (*it), placeOf (it, patch->wires) };
         patch->wires.erase (it);
@@ -292,7 +300,7 @@ public:
         if (patch == nullptr) return noPatch (c.patch);
         for (const auto& name : c.nodes)
             if (patch->find (name) == nullptr) return noNode (c.patch, name);
-        if (c.nodes.empty()) return Message::error ("edit/bad_value", {}, "there are no nodes to collapse");
+        if (c.nodes.empty()) return Message::error ("edit/bad_value", {}, "there are no nodes to collapse", "name at least one node");
         if (patch->find (c.name) != nullptr) return nameTaken ("a node", c.name);
         if (graph.find (c.subgraph) != nullptr || ! usersOf (graph, c.subgraph).empty()) return subgraphTaken (c.subgraph);
         for (const auto& name : { c.name, c.subgraph })
@@ -321,14 +329,14 @@ public:
         if (checked() && c.description)
         {
             if (! isId (c.role)) return badId (c.role);
-            if (! c.description->is_object()) return Message::error ("file/wrong_kind", {}, "the description of a device should be an object, {…}");
+            if (! c.description->is_object()) return Message::error ("file/wrong_kind", {}, "the description of a device should be an object, {…}", "write {\"driver\": \"sim\"}");
             if (auto fits = checkValue (*c.description); ! fits) return std::move (fits).error();
         }
         const auto it = std::ranges::find (graph.devices, c.role, [] (const auto& d) -> const std::string& { return d.first; });
         SetDevice back { c.role };
         if (it == graph.devices.end())
         {
-            if (! c.description) return Message::error ("edit/unknown_device", {}, "there is no device for the role " + quote (c.role));
+            if (! c.description) return Message::error ("edit/unknown_device", {}, "there is no device for the role " + quote (c.role), "name a role under `devices`");
             graph.devices.emplace (iteratorAt (graph.devices, c.place), c.role, *c.description);
         }
         else if (c.description)
@@ -352,7 +360,7 @@ public:
         {
             if (c.rate_hz && ! (*c.rate_hz > 0.0 && std::isfinite (*c.rate_hz)))
                 return Message::error ("file/bad_value", {}, "the rate should be a finite number of Hz above 0", "4000 suits most devices");
-            if (c.ui && ! c.ui->is_null() && ! c.ui->is_object()) return Message::error ("file/wrong_kind", {}, "'ui' should be an object, {…}");
+            if (c.ui && ! c.ui->is_null() && ! c.ui->is_object()) return Message::error ("file/wrong_kind", {}, "'ui' should be an object, {…}", "write {} for an empty one");
             if (c.ui)
                 if (auto fits = checkValue (*c.ui); ! fits) return std::move (fits).error();
         }
@@ -423,7 +431,8 @@ private:
         auto before = std::make_shared<Graph> (graph);
         auto done = edit();
         if (done && checked() && anythingTwice (graph))
-            done = Message::error ("edit/name_taken", {}, "a control or an override would refer to the same parameter twice");
+            done = Message::error ("edit/name_taken", {}, "a control or an override would refer to the same parameter twice",
+                                   "remove one of the two first");
         if (done) return ReplaceGraph { std::move (before) };
         graph = std::move (*before);
         return std::move (done).error();

@@ -95,6 +95,7 @@ struct RemoveWire
 {
     std::string patch;
     Id wire {};
+    std::string text {};   ///< instead of the id: the text of the wire, in any spelling that means the same; see findWire()
 };
 
 /// The wire keeps its id; the id in `to` is ignored.
@@ -153,7 +154,7 @@ struct CollapseNodes
 /// of the node applied. Removes the subgraph if no other node uses it. If it is shared, its nodes and wires are copied, and the
 /// copies record their origin. A node whose name is taken outside gets a new one that begins with the name of the subgraph node.
 /// A node with a `count` becomes one node per instance, "finger_0", "finger_1" …, each of which can be expanded in turn. A wire
-/// from all instances becomes one wire per instance; compile rejects these (wire/two_into_one) if their sum went into a port that
+/// from all instances becomes one wire per instance; these are an error (wire/two_into_one) if their sum went into a port that
 /// takes a single wire.
 struct ExpandNode
 {

@@ -24,7 +24,7 @@ Messages checked (Json part, Read&& read)
     if (const auto fits = checkValue (part))
         read (reader, part);
     else
-        reader.error ("file/bad_value", "", fits.error().text);
+        reader.error ("file/bad_value", "", fits.error().text, fits.error().remedy);
     std::erase_if (reader.messages, [] (const Message& m) { return m.severity != Message::Severity::error; });
     return std::move (reader.messages);
 }
@@ -114,7 +114,7 @@ Result<> checkValue (const Json& value)
 {
     struct Walk
     {
-        static Message wrong (std::string text) { return Message::error ("edit/bad_value", {}, std::move (text)); }
+        static Message wrong (std::string text) { return Message::error ("edit/bad_value", {}, std::move (text), "give a value that JSON can hold: a finite number, text, a list or an object"); }
 
         static Result<> through (const Json& v, int depth)
         {
