@@ -306,25 +306,13 @@ tactus_result tactus_run_status (const tactus_run* r, tactus_status* to)
 tactus_result tactus_run_set (tactus_run* r, const char* param, double value, tactus_messages* messages)
 {
     if (r == nullptr) return TACTUS_MISUSE;
-    return guarded (messages, TACTUS_FAILED, [&] {
-        auto found = r->run->engine().params (text (param));
-        if (! found) return failed (messages, std::move (found).error());
-        for (const auto& p : *found)
-            r->run->engine().set (p, value);
-        return TACTUS_OK;
-    });
+    return guarded (messages, TACTUS_FAILED, [&] { return asResult (messages, tactus::turnParam (r->run->engine(), text (param), tactus::Json (value))); });
 }
 
 tactus_result tactus_run_hit (tactus_run* r, const char* input, double speed, tactus_messages* messages)
 {
     if (r == nullptr) return TACTUS_MISUSE;
-    return guarded (messages, TACTUS_FAILED, [&] {
-        auto found = r->run->engine().hits (text (input));
-        if (! found) return failed (messages, std::move (found).error());
-        for (const auto& h : *found)
-            r->run->engine().strike (h, speed);
-        return TACTUS_OK;
-    });
+    return guarded (messages, TACTUS_FAILED, [&] { return asResult (messages, tactus::strike (r->run->engine(), text (input), speed)); });
 }
 
 tactus_result tactus_run_edit (tactus_run* r, const tactus_graph* g, tactus_messages* messages)
