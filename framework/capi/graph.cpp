@@ -49,7 +49,6 @@ Result<graph::Command> withValue (const char* json, F&& make)
     return graph::Command (make (std::move (*value)));
 }
 
-const graph::Patch* patchOf (const graph::Graph& g, const std::string& name) { return name.empty() ? &g.root : g.find (name); }
 }   // namespace
 
 tactus_graph* tactus_graph_create (const char* name, double rate_hz, tactus_messages* messages)
@@ -156,22 +155,15 @@ tactus_result tactus_graph_add_wire (tactus_graph* g, const char* patch, const c
 {
     return perform (g, messages, [&]() -> Result<graph::Command> {
         auto parsed = graph::parseWire (text (wire));
-        if (! parsed) return std::move (parsed).error();
+        if (! parsed) return Message::error (parsed.error().id, "/wires", parsed.error().text, "write a wire such as a.out -> b.in");
         return graph::Command (graph::AddWire { text (patch), std::move (*parsed) });
     });
 }
 
 tactus_result tactus_graph_remove_wire (tactus_graph* g, const char* patch, const char* wire, tactus_messages* messages)
 {
-    return perform (g, messages, [&]() -> Result<graph::Command> {
-        const auto parsed = graph::parseWire (text (wire));
-        if (! parsed) return parsed.error();
-        if (const auto* in = patchOf (g->history.graph(), text (patch)))
-            for (const auto& w : in->wires)
-                if (graph::toText (w) == graph::toText (*parsed)) return graph::Command (graph::RemoveWire { text (patch), w.id });
-        return Message::error ("edit/unknown_wire", "/wires", "there is no wire '" + text (wire) + "'",
-                               "compare it with the wires that tactus_graph_text returns");
-    });
+    if (wire == nullptr) return TACTUS_MISUSE;
+    return perform (g, messages, [&]() -> Result<graph::Command> { return graph::Command (graph::RemoveWire { text (patch), 0, text (wire) }); });
 }
 
 tactus_result tactus_graph_set_device (tactus_graph* g, const char* role, const char* description, tactus_messages* messages)

@@ -124,8 +124,11 @@ TACTUS_API tactus_result tactus_graph_save (const tactus_graph*, const char* pat
 TACTUS_API char* tactus_graph_text (const tactus_graph*);
 TACTUS_API double tactus_graph_rate (const tactus_graph*); /**< in Hz [main thread] */
 
-/* Edits. Each is one undo step, is checked, and changes nothing if it fails. `patch` is "" for the graph itself, or the name of a
- * subgraph. Values are JSON, as in a graph file: 0.4, "20 um", [0, 0, 1]; NULL removes the value. [main thread] */
+/* Edits. Each is one undo step, is checked, and changes nothing if it fails. An edit fails if it would add an error to the graph: an
+ * unknown type, port or parameter, a wrong unit, a value out of range, a wire that does not fit, a loop without a delay. The message has
+ * the id, place and remedy that tactus_run_create would give. Errors that the graph already has do not matter. A device node without
+ * a role is not finished, so it can be added. `patch` is "" for the graph itself, or the name of a subgraph. Values are JSON, as in a
+ * graph file: 0.4, "20 um", [0, 0, 1]; NULL removes the value. [main thread] */
 TACTUS_API tactus_result tactus_graph_add_node (tactus_graph*, const char* patch, const char* name, const char* type, tactus_messages*);
 TACTUS_API tactus_result tactus_graph_remove_node (tactus_graph*, const char* patch, const char* name, tactus_messages*);
 TACTUS_API tactus_result tactus_graph_rename_node (tactus_graph*, const char* patch, const char* name, const char* to, tactus_messages*);
@@ -136,6 +139,7 @@ TACTUS_API tactus_result tactus_graph_set_setting (tactus_graph*, const char* pa
 TACTUS_API tactus_result tactus_graph_set_key (tactus_graph*, const char* patch, const char* node, const char* key, const char* value, tactus_messages*);
 /** A wire as in a graph file: "a.out -> b.in". */
 TACTUS_API tactus_result tactus_graph_add_wire (tactus_graph*, const char* patch, const char* wire, tactus_messages*);
+/** The same text, or another one that means the same wire. */
 TACTUS_API tactus_result tactus_graph_remove_wire (tactus_graph*, const char* patch, const char* wire, tactus_messages*);
 /** The description of a role's device: {"driver": "sim", …}. */
 TACTUS_API tactus_result tactus_graph_set_device (tactus_graph*, const char* role, const char* description, tactus_messages*);
@@ -365,10 +369,11 @@ TACTUS_API tactus_result tactus_run_status (const tactus_run*, tactus_status*); 
 
 /* ---------------------------------------------------------------------------- While it plays */
 
-/** Sets a parameter by name: "drag.mu", "finger[*]/drag.mu". The value ramps to it. [main thread] */
+/** Sets a parameter by name: "drag.mu", "finger[*]/drag.mu". The value ramps to it. Refuses a value that is not finite or out of range
+ * (param/value, param/out_of_range), a vector as a whole (param/shape) and a choice (param/unknown_choice). [main thread] */
 TACTUS_API tactus_result tactus_run_set (tactus_run*, const char* param, double value, tactus_messages*);
 
-/** Triggers a hit input: "ring.hit", in m/s. [main thread] */
+/** Triggers a hit input: "ring.hit", in m/s; more than 0, at most 1000 (hit/value). [main thread] */
 TACTUS_API tactus_result tactus_run_hit (tactus_run*, const char* input, double speed, tactus_messages*);
 
 /** Plays an edited graph, or one that was read again, from the next tick on. What both contain, by name, continues, and no force jumps.

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "history.hpp"
+#include "find_wire.hpp"
+
+#include <string_view>
 
 namespace tactus::graph
 {
@@ -15,12 +18,32 @@ bool merge (Command& earlier, const Command& later)
     a->value = b->value;
     return true;
 }
+
+/// Replaces the text of a wire to remove by its id, which stays the same.
+void identify (const Graph& g, Command& command)
+{
+    auto* c = std::get_if<RemoveWire> (&command.edit);
+    if (c == nullptr || c->text.empty()) return;
+    if (const auto found = findWire (g, c->patch, c->text)) *c = { c->patch, *found, {} };
+}
+
+/// A refusal always names a place: if it has none, that of the edit. The wires of an edit are not in the graph, so they have no number.
+Message located (Message refusal, const Command& command)
+{
+    if (! refusal.where.empty()) return refusal;
+    const auto places = placesOf (command);
+    if (places.empty()) return refusal;
+    refusal.where = places.front();
+    if (const auto id = refusal.where.find ("/wires/"); id != std::string::npos) refusal.where.resize (id + std::string_view ("/wires").size());
+    return refusal;
+}
 }   // namespace
 
 Result<> History::perform (Command command, Step step)
 {
-    auto inverse = carryOut (command, Checks::all);
-    if (! inverse) return std::move (inverse).error();
+    identify (edited, command);
+    auto inverse = carryOutIfRight (command);
+    if (! inverse) return located (std::move (inverse).error(), command);
 
     steps.erase (steps.begin() + static_cast<std::ptrdiff_t> (done), steps.end());
     if (step == Step::own || steps.empty())
@@ -55,6 +78,20 @@ bool History::redo()
 Result<Command> History::carryOut (const Command& command, Checks checks)
 {
     auto inverse = apply (edited, command, checks);
+    if (inverse && check) check->follow (command, *inverse);
+    return inverse;
+}
+
+Result<Command> History::carryOutIfRight (const Command& command)
+{
+    auto inverse = carryOut (command, Checks::all);
+    if (! inverse) return inverse;
+    if (const auto after = check ? check->problems (edited, command, *inverse) : std::vector<Problem> {}; ! after.empty())
+    {
+        const auto again = carryOut (*inverse, Checks::none);
+        if (const auto* added = firstAdded (check->problems (edited, command, *inverse), after, command)) return *added;
+        inverse = carryOut (*again, Checks::none);
+    }
     return inverse;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "edit.hpp"
+#include "edit_check.hpp"
+
+#include <tactus/node/catalogue.hpp>
 
 #include <span>
 
@@ -17,14 +19,26 @@ enum class Step
 };
 
 /// A graph with its undo history. The graph changes only through this class, so undo and redo cannot fail. [main thread]
+///
+/// An edit is refused if it would add an error that compile() reports: an unknown type, port, parameter or setting, a value with a wrong unit
+/// or out of range, a wire that does not fit, a loop without a delay. Errors that the graph already has do not matter: an edit that adds none
+/// is carried out, also if it does not remove them. So what an edit writes itself must be right, and nothing else may become wrong. A Batch is
+/// judged by its result. Not checked here: ReplaceGraph and undo, because they bring back or load a graph as it is; files that settings name,
+/// and budgets, which compile() checks; devices, which the run checks.
 class History
 {
 public:
-    explicit History (Graph g) : edited (std::move (g)) {}
+    /// Checks edits against these types, which must outlive it. Null: nothing is known about types, so an edit is only checked for what a
+    /// file can hold. Nodes of types that are known elsewhere can be added, and their ports and values are not checked.
+    explicit History (Graph g, const Catalogue* types = &catalogue(), KnownElsewhere elsewhere = {}) : edited (std::move (g))
+    {
+        if (types != nullptr) check = makeEditCheck (*types, std::move (elsewhere));
+    }
 
     const Graph& graph() const noexcept { return edited; }
 
-    /// Carries out a command and discards the steps that could be redone. Fails if the command is refused.
+    /// Carries out a command and discards the steps that could be redone. Fails if the command is refused; then nothing has changed. The
+    /// errors are those of edit.hpp and of compile().
     Result<> perform (Command, Step = Step::own);
 
     bool undo();   ///< false if there is nothing to undo
@@ -46,8 +60,10 @@ private:
     };
 
     Result<Command> carryOut (const Command&, Checks);
+    Result<Command> carryOutIfRight (const Command&);
 
     Graph edited;
+    std::unique_ptr<EditCheck> check;
     std::vector<Done> steps;
     std::size_t done = 0;
 };

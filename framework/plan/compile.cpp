@@ -105,10 +105,10 @@ void askNodes (Flat& flat, const Setup& setup, const graph::Graph& graph)
         if (n.type->learn && node) n.type->learn (node.get(), describedDevice (graph, n.role));
         const auto cost = n.type->cost && node ? n.type->cost (node.get()) : Cost {};
         if (! flat.spend (cost.work, cost.memory, n.origin)) return;
-        const auto problem = n.type->problem ? n.type->problem (node.get()) : std::string {};
+        const auto problem = n.type->problem && n.is_whole ? n.type->problem (node.get()) : std::string {};
         if (! problem.empty())
             flat.error ("node/problem", n.origin, "'" + n.path + "' (" + id + "): " + problem, remedy);
-        else if (n.type->warning)
+        else if (n.type->warning && n.is_whole)
             if (const auto warning = n.type->warning (node.get(), own); ! warning.empty())
                 flat.warn ("node/warning", n.origin, "'" + n.path + "' (" + id + "): " + warning, remedy);
     }
@@ -238,27 +238,44 @@ Outside findOutside (Flat& flat, const Scope& top, const CompileOptions& options
     return outside;
 }
 
-Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const CompileOptions& options)
+/// What the steps before building find out about a graph, and all errors and warnings.
+struct Examined
 {
-    beginReading();
-    auto [flat, top, used] = flatten (g, catalogue, options.overrides, options.assets);
-    const double rate = options.rate_hz > 0.0 ? options.rate_hz : g.rate_hz;
-    if (! (rate >= 1.0 && rate <= 1e6))
+    Flattened flattened;
+    PortUnits units;
+    Order order;
+};
+
+Examined examine (const graph::Graph& g, const Catalogue& catalogue, const CompileOptions& options, const Setup& setup,
+                  SettingFiles files = SettingFiles::read)
+{
+    Examined found { .flattened = flatten (g, catalogue, options.overrides, options.assets, files), .units = {}, .order = {} };
+    auto& flat = found.flattened.flat;
+    if (! (setup.rate_hz >= 1.0 && setup.rate_hz <= 1e6))
         flat.error ("graph/rate", flat.at ({}, "rate_hz"), "the rate must be from 1 Hz to 1 MHz", "haptic graphs run at 1000 to 10000 Hz");
 
-    const Setup setup { .rate_hz = rate, .services = options.services };
-    Order ordered;
-    const auto units = check (flat, setup, g, ordered);
+    found.units = check (flat, setup, g, found.order);
     auto spent = spentOn (flat);
     for (const auto& [name, patch] : g.graphs)   // an unused subgraph is checked on its own
-        if (! used.contains (&patch) && ! spent.is_over)
+        if (! found.flattened.used.contains (&patch) && ! spent.is_over)
         {
-            auto alone = flattenUnused (g, name, patch, catalogue, options.assets, spent);
+            auto alone = flattenUnused (g, name, patch, catalogue, options.assets, spent, files);
             Order unneeded;
             check (alone.flat, setup, g, unneeded);
             spent = spentOn (alone.flat);
             flat.messages.insert (flat.messages.end(), alone.flat.messages.begin(), alone.flat.messages.end());
         }
+    return found;
+}
+
+Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const CompileOptions& options)
+{
+    beginReading();
+    const double rate = options.rate_hz > 0.0 ? options.rate_hz : g.rate_hz;
+    const Setup setup { .rate_hz = rate, .services = options.services };
+    auto [flattened, units, ordered] = examine (g, catalogue, options, setup);
+    auto& flat = flattened.flat;
+    auto& top = flattened.top;
     auto outside = findOutside (flat, *top, options);
 
     auto messages = std::move (flat.messages);
@@ -271,6 +288,19 @@ Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const Co
     return { std::move (made), std::move (messages) };
 }
 }   // namespace
+
+Messages problemsOf (const graph::Graph& g, const Catalogue& catalogue)
+{
+    std::vector<int> unneeded;
+    try
+    {
+        return std::move (examine (g, catalogue, {}, { .rate_hz = g.rate_hz, .services = {} }, unneeded, SettingFiles::left_out).flattened.flat.messages);
+    }
+    catch (const NodeFault&)
+    {
+        return {};   // compile() reports it
+    }
+}
 
 Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const CompileOptions& options)
 {

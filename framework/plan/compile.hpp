@@ -47,4 +47,8 @@ struct Compiled
 /// placeholder in its place. The previous plan may keep ticking meanwhile. [main thread]
 Compiled compile (const graph::Graph&, const Catalogue&, const CompileOptions& = {});
 
+/// The errors and warnings that compile() would report without options, without making a plan. Files that settings name are
+/// not read, and nothing is said about them. [main thread]
+Messages problemsOf (const graph::Graph&, const Catalogue&);
+
 }   // namespace tactus

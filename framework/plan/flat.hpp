@@ -94,6 +94,7 @@ struct FlatNode
     Origin origin {};
     bool bypass = false;
     bool muted = false;   ///< inside a bypassed subgraph: does not run
+    bool is_whole = true;   ///< false if a setting was left out; see Flat::reads_files
     int section = 0;      ///< number in Flat::sections; the node runs at the rate of that section
     std::vector<SettingValue> settings {};
     std::size_t values = 0;   ///< index in Flat::values of the first value of its params
@@ -157,6 +158,7 @@ struct Flat
     std::vector<Identity> scopes { { -1, 0 } };                            ///< the graph itself, then the subgraph node of each patch that was expanded
     std::vector<Section> sections { {} };                                  ///< the graph itself, then the inner sections, each after the one that encloses it
     std::unordered_map<graph::Id, std::vector<graph::Ancestor>> origins;   ///< by the id of a copy: what it was copied from
+    bool reads_files = true;   ///< if not, settings that name files are left out, without a message
     Messages messages;
     Spent spent;
 

@@ -439,18 +439,20 @@ private:
 };
 }   // namespace
 
-Flattened flatten (const graph::Graph& g, const Catalogue& catalogue, std::span<const Override> overrides, Assets* assets)
+Flattened flatten (const graph::Graph& g, const Catalogue& catalogue, std::span<const Override> overrides, Assets* assets, SettingFiles files)
 {
     Flattened result;
+    result.flat.reads_files = files == SettingFiles::read;
     Flattener { catalogue, overrides, assets, result }.run (g);
     readParams (result.flat);
     return result;
 }
 
 Flattened flattenUnused (const graph::Graph& g, const std::string& subgraph, const graph::Patch& patch, const Catalogue& catalogue, Assets* assets,
-                         const Spent& spent)
+                         const Spent& spent, SettingFiles files)
 {
     Flattened result;
+    result.flat.reads_files = files == SettingFiles::read;
     result.flat.spent = spent;
     Flattener { catalogue, {}, assets, result }.runAlone (g, subgraph, patch);
     readParams (result.flat);

@@ -24,10 +24,18 @@ struct Flattened
     std::set<const graph::Patch*> used;   ///< the patches that were expanded
 };
 
+/// What settings that name files mean.
+enum class SettingFiles
+{
+    read,
+    left_out   ///< their nodes are not whole, and not asked about problems
+};
+
 /// Expands subgraphs, resolves names and reads values. Unknown node types become placeholders, with the message node/unknown_type.
-Flattened flatten (const graph::Graph&, const Catalogue&, std::span<const Override>, Assets*);
+Flattened flatten (const graph::Graph&, const Catalogue&, std::span<const Override>, Assets*, SettingFiles = SettingFiles::read);
 
 /// Does the same for a subgraph that no node uses, as if it were a graph on its own. `spent` is the cost of compiling so far.
-Flattened flattenUnused (const graph::Graph&, const std::string& subgraph, const graph::Patch&, const Catalogue&, Assets*, const Spent&);
+Flattened flattenUnused (const graph::Graph&, const std::string& subgraph, const graph::Patch&, const Catalogue&, Assets*, const Spent&,
+                         SettingFiles = SettingFiles::read);
 
 }   // namespace tactus::plan

@@ -29,6 +29,32 @@ double sizeOf (const Json& json)
         size += static_cast<double> (json.asString().size()) / text_of_a_value;
     return size;
 }
+
+bool namesFile (const Json& json, const SettingSheet& sheet)
+{
+    using Kind = SettingSheet::Kind;
+    const auto inRecord = [&] (const Json& record) {
+        return record.is_object() && std::ranges::any_of (sheet.fields, [&] (const SettingSheet& f) {
+                   const auto field = record.find (f.id);
+                   return field != record.end() && namesFile (*field, f);
+               });
+    };
+    switch (sheet.kind)
+    {
+    case Kind::signal:
+    case Kind::image:
+    case Kind::table:
+        return json.is_string();
+    case Kind::surface:
+        return json.is_object() && json.contains ("mesh");
+    case Kind::record:
+        return inRecord (json);
+    case Kind::records:
+        return json.is_array() && std::ranges::any_of (json, inRecord);
+    default:
+        return false;
+    }
+}
 }   // namespace
 
 void readSettings (const graph::Node& node, Origin here, Assets* assets, const std::string& folder, FlatNode& made, Flat& flat)
@@ -48,6 +74,11 @@ void readSettings (const graph::Node& node, Origin here, Assets* assets, const s
             flat.error ("node/unknown_setting", flat.at (here, "settings", key),
                         "'" + made.path + "' (" + node.type + ") has no setting '" + key + "'" + didYouMean (key, ids),
                         is_param ? "it is a parameter: move it to params" : "its settings: " + listed (ids));
+            continue;
+        }
+        if (! flat.reads_files && namesFile (value, *sheet))
+        {
+            made.is_whole = false;
             continue;
         }
         const double size = sizeOf (value);

@@ -7,6 +7,8 @@
 #include <tactus/graph/text.hpp>
 #include <tactus/text/json.hpp>
 
+#include <set>
+
 namespace tactus::python
 {
 
@@ -46,6 +48,18 @@ std::unique_ptr<EditedGraph> EditedGraph::parse (Text text, Text folder)
     auto* made = tactus_graph_parse (text.data(), text.size(), folder.c_str(), &messages);
     return taken (made, messages);
 }
+
+namespace
+{
+std::set<std::string>& ownTypes()
+{
+    static std::set<std::string> all;   // with the GIL
+    return all;
+}
+}   // namespace
+
+void EditedGraph::knowOwnType (Text id) { ownTypes().insert (id); }
+bool EditedGraph::isOwnType (Text id) { return ownTypes().contains (id); }
 
 std::string EditedGraph::text() const { return writeGraph (graph()); }
 
@@ -142,6 +156,7 @@ void EditedGraph::setDevice (Text role, Value description)
 
 void bindGraph (py::module_& module)
 {
+    module.def ("know_own_type", &EditedGraph::knowOwnType);
     py::class_<EditedGraph> (module, "Graph")
         .def_static ("create", &EditedGraph::create)
         .def_static ("load", &EditedGraph::load)

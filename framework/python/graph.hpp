@@ -15,7 +15,10 @@ namespace tactus::python
 class EditedGraph
 {
 public:
-    explicit EditedGraph (graph::Graph g) : handle { graph::History (std::move (g)) } {}
+    explicit EditedGraph (graph::Graph g) : handle { graph::History (std::move (g), &catalogue(), isOwnType) } {}
+
+    /// Nodes of this type can be added from now on: it is a class derived from tactus.Node. The run checks them.
+    static void knowOwnType (const std::string& id);
 
     static std::unique_ptr<EditedGraph> create (const std::string& name, double rate_hz);
     static std::unique_ptr<EditedGraph> load (const std::string& path);
@@ -43,6 +46,8 @@ public:
     bool redo() { return handle.history.redo(); }
 
 private:
+    static bool isOwnType (const std::string& id);
+
     template <typename F>
     void edit (F&& f);
     void perform (graph::Command);

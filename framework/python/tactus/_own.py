@@ -9,7 +9,7 @@ from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Seq
 
 import numpy as np
 
-from . import _checks
+from . import _checks, _tactus
 from ._messages import fail
 
 _QUANTITIES = {"m": "length", "rad": "angle", "m/s": "speed", "N": "force", "N*m": "torque", "J": "energy", "kg": "mass", "N/m": "stiffness",
@@ -107,6 +107,11 @@ class Node:
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__}, a tactus.Node: {self.id!r}>"
+
+    def __init_subclass__(cls, **arguments: Any) -> None:
+        super().__init_subclass__(**arguments)
+        if isinstance(cls.id, str) and cls.id:
+            _tactus.know_own_type(cls.id)   # graphs can have such nodes from now on
 
     def prepare(self, rate_hz: float) -> None:
         """Called before the first tick, with the tick rate."""

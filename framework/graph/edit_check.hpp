@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "edit.hpp"
+
+#include <tactus/text/message.hpp>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tactus
+{
+class Catalogue;
+}
+
+namespace tactus::graph
+{
+
+/// An error of a graph. `place` says what is wrong, and stays the same when other nodes and wires come and go: a JSON pointer, in which
+/// the id of a wire replaces its number.
+struct Problem
+{
+    std::string place;
+    Message message;
+};
+
+/// Knows the errors of a graph against the catalogue. It looks only at what an edit touches. The History of the graph owns it and shows
+/// it every edit. [main thread]
+class EditCheck
+{
+public:
+    virtual ~EditCheck() = default;
+
+    /// Notes an edit that has been carried out; `inverse` undoes it.
+    virtual void follow (const Command&, const Command& inverse) = 0;
+
+    /// The errors of everything that the edit touches. Call it with the graph before or after the edit.
+    virtual std::vector<Problem> problems (const Graph&, const Command&, const Command& inverse) = 0;
+};
+
+/// Says whether a node type that is not in the catalogue is one that the program will add when it plays the graph.
+using KnownElsewhere = std::function<bool (const std::string& type)>;
+
+/// Checks against the types of this catalogue, which must outlive it. framework/plan/edit_check.cpp defines it, because the checks are
+/// those of compiling.
+std::unique_ptr<EditCheck> makeEditCheck (const Catalogue&, KnownElsewhere);
+
+/// The places that an edit writes itself.
+std::vector<std::string> placesOf (const Command&);
+
+/// The first error after an edit that the edit has added: what is wrong was right before, or the edit itself has written it.
+const Message* firstAdded (const std::vector<Problem>& before, const std::vector<Problem>& after, const Command&);
+
+}   // namespace tactus::graph
