@@ -67,6 +67,8 @@ struct Node
     Json overrides = Json::object();   ///< of a subgraph node: values of inner params, by their paths relative to this node
     bool bypass = false;
     Json extra = Json::object();   ///< `count`, `every`, `times`, `hold`, and unknown keys
+
+    bool isSubgraph() const noexcept { return type.starts_with ("graph:") || type.starts_with ("file:"); }
 };
 
 /// The ports that a subgraph exposes, in order.

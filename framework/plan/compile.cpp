@@ -291,10 +291,9 @@ Compiled compileAll (const graph::Graph& g, const Catalogue& catalogue, const Co
 
 Messages problemsOf (const graph::Graph& g, const Catalogue& catalogue)
 {
-    std::vector<int> unneeded;
     try
     {
-        return std::move (examine (g, catalogue, {}, { .rate_hz = g.rate_hz, .services = {} }, unneeded, SettingFiles::left_out).flattened.flat.messages);
+        return std::move (examine (g, catalogue, {}, { .rate_hz = g.rate_hz, .services = {} }, SettingFiles::left_out).flattened.flat.messages);
     }
     catch (const NodeFault&)
     {

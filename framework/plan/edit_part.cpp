@@ -13,8 +13,6 @@ namespace tactus::plan
 
 namespace
 {
-bool isSubgraph (const graph::Node& n) { return n.type.starts_with ("graph:") || n.type.starts_with ("file:"); }
-
 constexpr std::array end_roles { Role::input, Role::param };
 constexpr std::array start_roles { Role::output };
 
@@ -151,7 +149,7 @@ private:
     bool hasFreeParam (const graph::Node& n)
     {
         const auto* type = typeOf (n);
-        return isSubgraph (n) || (type != nullptr && ! std::ranges::all_of (type->params, [] (const auto& row) { return row.unit.kind == UnitRule::Kind::fixed; }));
+        return n.isSubgraph() || (type != nullptr && ! std::ranges::all_of (type->params, [] (const auto& row) { return row.unit.kind == UnitRule::Kind::fixed; }));
     }
 
     void touchWire (const Touched::Cable& cable)
@@ -197,7 +195,7 @@ private:
         const auto sums = [] (Quantity q) { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; };
         if (row != nullptr && row->role == Role::input && row->unit.kind == UnitRule::Kind::fixed && (sums (row->unit.unit.quantity) || row->unit.adds_up)) return;
         for (const auto id : std::vector (wiring.at (n->name).in))
-            if (const auto* other = wiring.wire (id); other != nullptr && (isSubgraph (*n) || other->to.port == w.to.port)) addWire (*other);
+            if (const auto* other = wiring.wire (id); other != nullptr && (n->isSubgraph() || other->to.port == w.to.port)) addWire (*other);
     }
 
     /// True if all ports of a type that have no fixed unit have the same one, up to a factor. Then one of them tells what all carry.
@@ -235,8 +233,8 @@ private:
         const auto name = firstName (e.node);
         const auto* n = wiring.node (name);
         if (n == nullptr) return;
-        const auto* row = isSubgraph (*n) ? nullptr : rowAt (*n, e, roles);
-        if (row == nullptr && ! isSubgraph (*n)) return;
+        const auto* row = n->isSubgraph() ? nullptr : rowAt (*n, e, roles);
+        if (row == nullptr && ! n->isSubgraph()) return;
         if (row != nullptr && row->unit.kind == UnitRule::Kind::fixed)
             search.has_anchor = true;
         else
@@ -256,7 +254,7 @@ private:
         const auto* n = addNode (name);
         if (n == nullptr) return;
         const auto* type = typeOf (*n);
-        const bool is_open = isSubgraph (*n);
+        const bool is_open = n->isSubgraph();
         if (type == nullptr && ! is_open) return;
         if (is_open) search.may_have_unit = search.is_mixed = true;
         if (type != nullptr) search.is_mixed = search.is_mixed || ! carriesOneUnit (*type);

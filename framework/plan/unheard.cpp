@@ -29,8 +29,6 @@ std::pair<const Graph*, const Patch*> insideOf (const Graph& g, const std::strin
     return file == g.files.end() ? std::pair<const Graph*, const Patch*> {} : std::pair { file->second.get(), &file->second->root };
 }
 
-bool isSubgraph (const graph::Node& n) { return n.type.starts_with ("graph:") || n.type.starts_with ("file:"); }
-
 /// Finds the ends of patches: nodes that drive a device, or may do so.
 class Ends
 {
@@ -56,7 +54,7 @@ public:
     bool isEnd (const Graph& g, const graph::Node& n, int depth = 0)
     {
         if (n.extra.contains ("times")) return true;
-        if (! isSubgraph (n))
+        if (! n.isSubgraph())
         {
             const auto* type = types.find (n.type);
             return type == nullptr || type->effort != nullptr;

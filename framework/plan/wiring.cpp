@@ -29,7 +29,6 @@ const Element* near (const std::vector<Element>& list, std::size_t& place, const
     return &*found;
 }
 
-bool isSubgraph (const graph::Node& node) { return node.type.starts_with ("graph:") || node.type.starts_with ("file:"); }
 }   // namespace
 
 /// Follows one edit. Returns false if the wiring must be made again.
@@ -182,7 +181,7 @@ void Wiring::remove (graph::Id id)
 
 void Wiring::note (const graph::Node& node)
 {
-    if (isSubgraph (node) && (node.extra.contains ("every") || node.extra.contains ("times"))) has_sections = true;
+    if (node.isSubgraph() && (node.extra.contains ("every") || node.extra.contains ("times"))) has_sections = true;
 }
 
 void Wiring::note (const graph::Patch& patch)
