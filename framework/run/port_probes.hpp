@@ -32,6 +32,8 @@ public:
         });
     }
 
+    std::uint64_t lost() const noexcept { return ring.lost(); }   ///< samples that were not drained in time
+
     std::vector<std::string> ports() const override { return probed; }
     bool isOptional (const std::string&) const override { return false; }
     void planComes (const Plan&) override;

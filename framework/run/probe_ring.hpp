@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -39,9 +40,11 @@ public:
         std::array<double, most> values {};
     };
 
-    /// Selects taps, by number, of the plan that is about to be submitted. Takes one frame every n ticks. [main thread]
-    void select (std::span<const std::size_t> taps, std::uint32_t every) noexcept
+    /// Selects taps, by number, of the plan that is about to be submitted. Takes one frame every n ticks. The first selection allocates the ring,
+    /// which needs 1 MB. [main thread]
+    void select (std::span<const std::size_t> taps, std::uint32_t every)
     {
+        if (! taps.empty() && ! frames) frames.emplace (capacity);
         for (std::size_t i = 0; i < taps.size() && i < most; ++i)
             selected[i].store (taps[i], std::memory_order_relaxed);
         interval.store (every, std::memory_order_relaxed);
@@ -53,16 +56,18 @@ public:
     {
         const auto n = count.load (std::memory_order_acquire);
         if (n == 0 || tick % interval.load (std::memory_order_relaxed) != 0) return;
-        if (const auto slot = frames.claim(); ! slot.empty()) fill (slot.front(), plan, tick, n);
-        frames.commit();
+        if (const auto slot = frames->claim(); ! slot.empty()) fill (slot.front(), plan, tick, n);
+        frames->commit();
     }
 
-    /// Passes on all frames that have arrived. [one thread at a time]
+    /// Passes on all frames that have arrived. [one thread at a time, after select() or on its thread]
     template <typename F>
     void drain (F&& f)
     {
-        frames.drain ([&] (std::span<const Frame> frame) { f (frame.front()); });
+        if (frames) frames->drain ([&] (std::span<const Frame> frame) { f (frame.front()); });
     }
+
+    std::uint64_t lost() const noexcept { return frames ? frames->lost() : 0; }   ///< frames that were not drained in time   [as drain]
 
 private:
     static constexpr std::size_t capacity = 4096;   ///< in frames: one second at 4 kHz, in case the reader is busy for that long
@@ -79,7 +84,7 @@ private:
     std::array<std::atomic<std::size_t>, most> selected {};
     std::atomic<std::uint32_t> interval = 1;
     std::atomic<std::size_t> count = 0;
-    SpscRing<Frame> frames { capacity };
+    std::optional<SpscRing<Frame>> frames;   // made before `count` first says that there are taps
 };
 
 }   // namespace tactus
