@@ -45,6 +45,7 @@ Result<> add (Engine& engine, const std::string& name, const Json& low, const Js
 {
     if (low.is_array())
     {
+        if (low.empty()) return Message::error ("param/shape", {}, quote (name) + " is set to an empty list", "give one number for each component");
         const bool vector = low.size() == 3 && engine.param (name + ".x").has_value();
         for (std::size_t i = 0; i < low.size(); ++i)
         {
@@ -79,7 +80,7 @@ void carryOut (Engine& engine, const Turns& turns)
 Json readValue (const std::string& text)
 {
     const auto json = readJson (text).root;   // does not recurse, so any text is safe
-    return json.is_number() || json.is_array() ? json : Json (text);
+    return json.is_number() || json.is_array() || json.is_string() ? json : Json (text);
 }
 
 Result<plan::Override> readOverride (const std::string& text)
@@ -98,19 +99,28 @@ Result<> turnParam (Engine& engine, const std::string& name, const Json& value)
     return {};
 }
 
-Result<> turnControl (Engine& engine, const graph::Graph& graph, const std::string& id, double value)
+Result<const graph::Control*> findControl (const graph::Graph& graph, const std::string& id)
 {
     const auto control = std::ranges::find (graph.controls, id, &graph::Control::id);
-    if (control == graph.controls.end())
-    {
-        std::vector<std::string> names;
-        for (const auto& c : graph.controls)
-            names.push_back (c.id);
-        return Message::error ("control/unknown", {}, "there is no control " + quote (id) + didYouMean (id, names),
-                               "the controls of this graph: " + plan::listed (names) + "; to set a parameter, write NODE.PARAM");
-    }
-    if (! (value >= 0.0 && value <= 1.0))
-        return Message::error ("control/value", {}, "the value for the control " + quote (id) + " is out of range", "give a number from 0 to 1");
+    if (control != graph.controls.end()) return &*control;
+    std::vector<std::string> names;
+    for (const auto& c : graph.controls)
+        names.push_back (c.id);
+    return Message::error ("control/unknown", {}, "there is no control " + quote (id) + didYouMean (id, names),
+                           "the controls of this graph: " + plan::listed (names) + "; to set a parameter, write NODE.PARAM");
+}
+
+Message beyondControl (const std::string& id)
+{
+    return Message::error ("control/value", {}, "the value for the control " + quote (id) + " is out of range", "give a number from 0 to 1");
+}
+
+Result<> turnControl (Engine& engine, const graph::Graph& graph, const std::string& id, double value)
+{
+    const auto found = findControl (graph, id);
+    if (! found) return found.error();
+    const auto* control = *found;
+    if (! (value >= 0.0 && value <= 1.0)) return beyondControl (id);
 
     Turns turns;
     for (const auto& target : control->to)

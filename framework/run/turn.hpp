@@ -15,8 +15,8 @@
 namespace tactus
 {
 
-/// Reads the text after the = of NODE.PARAM=VALUE: a number, a list of numbers, text with a unit, or the name of a choice.
-/// Accepts any text.
+/// Reads the text after the = of NODE.PARAM=VALUE: a number, a list of numbers, text with a unit, or the name of a choice. Text may be quoted,
+/// as in JSON. Accepts any text.
 Json readValue (const std::string& text);
 
 /// Reads NODE.PARAM=VALUE. Ids: param/no_value.
@@ -25,6 +25,12 @@ Result<plan::Override> readOverride (const std::string& text);
 /// Sets a parameter of a running graph to a value as in --set: either all of its components or none. Ids: port/unknown_node,
 /// param/unknown, param/shape, param/unknown_choice, param/value, param/unit, param/out_of_range. [main thread]
 Result<> turnParam (Engine&, const std::string& name, const Json& value);
+
+/// A control by its id. Ids: control/unknown.
+Result<const graph::Control*> findControl (const graph::Graph&, const std::string& id);
+
+/// Says that a value is none for this control: id control/value.
+Message beyondControl (const std::string& id);
 
 /// Moves a control of a running graph (0 to 1), and with it all its targets. Ids: control/unknown, control/value. [main
 /// thread]
