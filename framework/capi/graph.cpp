@@ -4,6 +4,7 @@
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/edit.hpp>
 #include <tactus/graph/text.hpp>
+#include <tactus/run/turn.hpp>
 #include <tactus/text/json.hpp>
 
 using namespace tactus::capi;
@@ -25,7 +26,7 @@ tactus_graph* keep (tactus::LoadedGraph loaded, tactus_messages* messages)
 template <typename F>
 tactus_result perform (tactus_graph* g, tactus_messages* messages, F&& make) noexcept
 {
-    if (g == nullptr) return TACTUS_MISUSE;
+    if (g == nullptr) return misuse ("the graph is NULL");
     return guarded (messages, TACTUS_FAILED, [&] {
         auto command = make();
         if (! command) return failed (messages, std::move (command).error());
@@ -86,7 +87,7 @@ tactus_graph* tactus_graph_parse (const char* json, size_t length, const char* f
 
 tactus_result tactus_graph_set_file (tactus_graph* g, const char* path, const tactus_graph* file, tactus_messages* messages)
 {
-    if (g == nullptr || path == nullptr || file == nullptr) return TACTUS_MISUSE;
+    if (g == nullptr || path == nullptr || file == nullptr) return misuse ("a graph or the path is NULL");
     return guarded (messages, TACTUS_FAILED, [&] {
         auto with = g->history.graph();
         with.files.insert_or_assign (path, std::make_shared<const graph::Graph> (file->history.graph()));
@@ -99,7 +100,7 @@ void tactus_graph_free (tactus_graph* g) { delete g; }
 
 tactus_result tactus_graph_save (const tactus_graph* g, const char* path, tactus_messages* messages)
 {
-    if (g == nullptr || path == nullptr) return TACTUS_MISUSE;
+    if (g == nullptr || path == nullptr) return misuse ("the graph or the path is NULL");
     return guarded (messages, TACTUS_FAILED, [&] { return asResult (messages, tactus::saveGraph (g->history.graph(), path)); });
 }
 
@@ -169,6 +170,34 @@ tactus_result tactus_graph_remove_wire (tactus_graph* g, const char* patch, cons
 tactus_result tactus_graph_set_device (tactus_graph* g, const char* role, const char* description, tactus_messages* messages)
 {
     return perform (g, messages, [&] { return withValue (description, [&] (auto v) { return graph::SetDevice { text (role), std::move (v) }; }); });
+}
+
+tactus_result tactus_graph_set_control (tactus_graph* g, const char* id, double value, tactus_messages* messages)
+{
+    return perform (g, messages, [&]() -> Result<graph::Command> {
+        const auto found = tactus::findControl (g->history.graph(), text (id));
+        if (! found) return found.error();
+        if (! (value >= 0.0 && value <= 1.0)) return tactus::beyondControl (text (id));
+        auto to = **found;
+        to.value = value;
+        return graph::Command (graph::ChangeControl { text (id), std::move (to) });
+    });
+}
+
+size_t tactus_graph_control_count (const tactus_graph* g) { return g != nullptr ? g->history.graph().controls.size() : 0; }
+
+const char* tactus_graph_control_id (const tactus_graph* g, size_t i)
+{
+    return i < tactus_graph_control_count (g) ? g->history.graph().controls[i].id.c_str() : nullptr;
+}
+
+tactus_result tactus_graph_get_control (const tactus_graph* g, const char* id, tactus_control* to, tactus_messages* messages)
+{
+    if (g == nullptr) return misuse ("the graph is NULL");
+    return guarded (messages, TACTUS_FAILED, [&] {
+        const auto found = tactus::findControl (g->history.graph(), text (id));
+        return found ? giveControl (to, **found, (*found)->value, messages) : failed (messages, found.error());
+    });
 }
 
 int32_t tactus_graph_undo (tactus_graph* g)

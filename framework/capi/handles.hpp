@@ -4,6 +4,8 @@
 /// What the handles of the C API point to. Only this folder and framework/python/ include this.
 
 #include "caller_assets.hpp"
+#include "caller_structs.hpp"
+#include "probe_queue.hpp"
 #include "pushed_device.hpp"
 #include "tactus.h"
 
@@ -24,11 +26,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-struct tactus_messages
-{
-    tactus::Messages list;
-};
 
 struct tactus_graph
 {
@@ -92,11 +89,16 @@ struct tactus_run
     std::map<std::string, tactus::GuardLimits> limits;                            // of pushed devices, by role
     std::map<std::string, tactus::capi::PushedDevice*, std::less<>> pushed;       // by role; the run owns them
     std::vector<std::string> roles, names, units;
+    std::map<std::string, double, std::less<>> turned;   // controls, by id, since the graph last set them
+    std::string log;                                     // the file of the log; empty: none
+    std::vector<std::string> sets;                       // as the caller wrote them, for the log
+    std::optional<tactus::Message> log_trouble;          // not told yet
     tactus_recorder recorder;
+    tactus::capi::ProbeQueue probes;
     std::optional<tactus::AbsoluteTimer> clock;   // must outlive the run
     std::unique_ptr<tactus::Run> run;
-    bool is_open = false;
-    std::atomic<bool> has_ended = false;
+    bool is_open = false, has_stopped = false;
+    std::atomic<bool> has_started = false, has_ended = false;   // has_started: the run is live   [any thread]
 };
 
 namespace tactus::capi
@@ -149,11 +151,11 @@ R guarded (tactus_messages* messages, R on_failure, F&& f) noexcept
 /// Compiles a graph. The catalogue must outlive the run. Null, with the reasons in `messages`, if the graph does not compile.
 tactus_run* makeRun (graph::Graph, CompileOptions, AssetReader, const Catalogue&, tactus_messages*);
 
-/// The state of a run. [any thread]
-inline tactus_status statusOf (const Run& run) noexcept
+/// The state of a run. `is_live`: Run::start has returned. [any thread]
+inline tactus_status statusOf (const Run& run, bool is_live) noexcept
 {
     tactus_status status TACTUS_STATUS;
-    if (run.isLive())
+    if (is_live)
     {
         const auto now = run.live().status();
         status.phase = static_cast<tactus_phase> (static_cast<std::uint32_t> (now.phase) + 1);
@@ -164,6 +166,12 @@ inline tactus_status statusOf (const Run& run) noexcept
     }
     status.is_emergency = run.engine().isEmergency();
     return status;
+}
+
+inline tactus_result giveControl (tactus_control* to, const graph::Control& from, double value, tactus_messages* messages)
+{
+    if (! isSized (to, messages)) return TACTUS_MISUSE;
+    return give (to, tactus_control { sizeof (tactus_control), from.id.c_str(), from.name.c_str(), value });
 }
 
 /// A list of texts of the caller.
@@ -181,24 +189,6 @@ inline char* copied (const std::string& text)
     char* copy = static_cast<char*> (std::malloc (text.size() + 1));
     if (copy != nullptr) std::memcpy (copy, text.c_str(), text.size() + 1);
     return copy;
-}
-
-/// The members of a struct of the caller that this version knows. A caller compiled against an older version has fewer.
-template <typename T>
-T known (const T* given, T defaults = {})
-{
-    if (given == nullptr) return defaults;
-    std::memcpy (&defaults, given, std::min<std::size_t> (given->size, sizeof (T)));
-    return defaults;
-}
-
-/// Fills a struct of the caller, up to the last member that the caller's version has.
-template <typename T>
-void give (T* to, const T& from)
-{
-    const auto size = to->size;
-    std::memcpy (to, &from, std::min<std::size_t> (size, sizeof (T)));
-    to->size = size;
 }
 
 }   // namespace tactus::capi

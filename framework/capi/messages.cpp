@@ -27,7 +27,7 @@ char* tactus_nodes_json (void)
 
 tactus_result tactus_set_limits (const char* limits, tactus_messages* messages)
 {
-    if (limits == nullptr) return TACTUS_MISUSE;
+    if (limits == nullptr) return misuse ("the limits are NULL");
     return guarded (messages, TACTUS_FAILED, [&] {
         auto read = tactus::readLimits (limits);
         if (! read) return failed (messages, std::move (read).error());
@@ -49,16 +49,15 @@ int32_t tactus_messages_have_errors (const tactus_messages* m) { return m != nul
 
 tactus_result tactus_messages_get (const tactus_messages* m, size_t index, tactus_message* to)
 {
-    if (m == nullptr || to == nullptr || index >= m->list.size()) return TACTUS_MISUSE;
+    if (m == nullptr || index >= m->list.size()) return misuse ("there is no message of this number");
     const auto& from = m->list[index];
-    give (to, tactus_message { .size = sizeof (tactus_message),
-                               .is_error = from.severity == tactus::Message::Severity::error,
-                               .id = from.id.c_str(),
-                               .where = from.where.c_str(),
-                               .text = from.text.c_str(),
-                               .remedy = from.remedy.c_str(),
-                               .file = from.file.c_str(),
-                               .line = from.line,
-                               .column = from.column });
-    return TACTUS_OK;
+    return give (to, tactus_message { .size = sizeof (tactus_message),
+                                      .is_error = from.severity == tactus::Message::Severity::error,
+                                      .id = from.id.c_str(),
+                                      .where = from.where.c_str(),
+                                      .text = from.text.c_str(),
+                                      .remedy = from.remedy.c_str(),
+                                      .file = from.file.c_str(),
+                                      .line = from.line,
+                                      .column = from.column });
 }

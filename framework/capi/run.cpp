@@ -57,7 +57,11 @@ tactus_run* create (const tactus_graph& g, const tactus_run_options& given, tact
         }
         options.overrides.push_back (std::move (*read));
     }
-    return makeRun (g.history.graph(), std::move (options), { given.assets, given.asset_context }, tactus::catalogue(), messages);
+    auto* made = makeRun (g.history.graph(), std::move (options), { given.assets, given.asset_context }, tactus::catalogue(), messages);
+    if (made == nullptr) return nullptr;
+    made->log = text (given.log);
+    made->sets = list (given.sets, given.set_count);
+    return made;
 }
 
 bool knowsRole (const tactus_run& r, const char* role, tactus_messages* messages)
@@ -69,6 +73,36 @@ bool knowsRole (const tactus_run& r, const char* role, tactus_messages* messages
 }
 
 bool isTickedByCaller (const tactus_run* r) noexcept { return r != nullptr && r->is_open && ! r->has_ended && ! r->run->isLive(); }
+
+tactus_result isNull() noexcept { return misuse ("a handle or pointer is NULL"); }
+tactus_result notOpen() noexcept { return misuse ("the run is not open: call tactus_run_open first"); }
+tactus_result notPushed() noexcept { return misuse ("the role has no device of tactus_run_pushed_device, or the run is not open"); }
+tactus_result notTickedByCaller() noexcept { return misuse ("the run is NULL, not open, started or stopped, so it cannot be ticked here"); }
+
+/// Where a control of the graph that plays stands.
+double positionOf (const tactus_run& r, const tactus::graph::Control& control)
+{
+    if (const auto turned = r.turned.find (control.id); turned != r.turned.end()) return turned->second;
+    for (const auto& set : r.options.overrides)
+        if (set.name == control.id && set.value.is_number()) return set.value.get<double>();
+    return control.value;
+}
+
+/// A control that an edit sets stands where the edited graph puts it.
+void forgetTurns (tactus_run& r, const tactus::graph::Graph& next)
+{
+    std::erase_if (r.turned, [&] (const auto& turn) {
+        const auto before = tactus::findControl (r.graph, turn.first), after = tactus::findControl (next, turn.first);
+        const auto same = [] (const auto& a, const auto& b) { return a.path == b.path && a.low == b.low && a.high == b.high; };
+        return ! before || ! after || (*before)->value != (*after)->value || ! std::ranges::equal ((*before)->to, (*after)->to, same);
+    });
+}
+
+/// Writes the log.
+void attendLog (tactus_run& r)
+{
+    if (auto trouble = r.run->attend()) r.log_trouble = std::move (trouble);
+}
 }   // namespace
 
 tactus_run* tactus::capi::makeRun (graph::Graph g, CompileOptions options, AssetReader reader, const Catalogue& types, tactus_messages* messages)
@@ -82,6 +116,7 @@ tactus_run* tactus::capi::makeRun (graph::Graph g, CompileOptions options, Asset
     };
     made->run = std::make_unique<Run> (types, std::move (options), opener, Run::Queries::within_tick);
     made->run->add (made->recorder);
+    made->run->add (made->probes.listener());
     auto loaded = made->run->load (made->graph);
     const bool is_broken = tactus::hasErrors (loaded);
     add (messages, std::move (loaded));
@@ -100,7 +135,7 @@ tactus_run* tactus::capi::makeRun (graph::Graph g, CompileOptions options, Asset
 
 tactus_run* tactus_run_create (const tactus_graph* g, const tactus_run_options* given, tactus_messages* messages)
 {
-    if (g == nullptr) return nullptr;
+    if (g == nullptr || ! isSized (given, messages)) return nullptr;
     return guarded<tactus_run*> (messages, nullptr, [&] { return create (*g, known (given, tactus_run_options TACTUS_RUN_OPTIONS), messages); });
 }
 
@@ -122,7 +157,8 @@ const char* tactus_run_record_unit (const tactus_run* r, size_t i) { return r !=
 //==============================================================================
 tactus_result tactus_run_device (tactus_run* r, const char* role, const char* device, tactus_messages* messages)
 {
-    if (r == nullptr || device == nullptr || r->is_open) return TACTUS_MISUSE;
+    if (r == nullptr || device == nullptr) return isNull();
+    if (r->is_open) return misuse ("the devices are open already");
     return guarded (messages, TACTUS_FAILED, [&] {
         if (! knowsRole (*r, role, messages)) return TACTUS_FAILED;
         auto parsed = tactus::parseDeviceOption (text (role) + "=" + device, r->graph.devices, r->graph.folder);
@@ -135,7 +171,9 @@ tactus_result tactus_run_device (tactus_run* r, const char* role, const char* de
 
 tactus_result tactus_run_pushed_device (tactus_run* r, const char* role, const tactus_device_options* given, tactus_messages* messages)
 {
-    if (r == nullptr || r->is_open) return TACTUS_MISUSE;
+    if (r == nullptr) return isNull();
+    if (r->is_open) return misuse ("the devices are open already");
+    if (! isSized (given, messages)) return TACTUS_MISUSE;
     return guarded (messages, TACTUS_FAILED, [&] {
         if (! knowsRole (*r, role, messages)) return TACTUS_FAILED;
         const auto options = known (given, tactus_device_options TACTUS_DEVICE_OPTIONS);
@@ -165,10 +203,16 @@ tactus_result tactus_run_pushed_device (tactus_run* r, const char* role, const t
 
 tactus_result tactus_run_open (tactus_run* r, tactus_messages* messages)
 {
-    if (r == nullptr || r->is_open) return TACTUS_MISUSE;
+    if (r == nullptr) return isNull();
+    if (r->is_open) return misuse ("the devices are open already");
     return guarded (messages, TACTUS_FAILED, [&] {
         Messages found;
         r->run->openDevices (r->graph, found);
+        if (! tactus::hasErrors (found) && ! r->log.empty())
+        {
+            auto logs = r->run->startLog (r->log, "libtactus " TACTUS_LIBRARY_VERSION, r->sets, r->graph);
+            if (! logs) found.push_back (std::move (logs).error());
+        }
         const bool is_broken = tactus::hasErrors (found);
         add (messages, std::move (found));
         r->is_open = ! is_broken;
@@ -180,33 +224,33 @@ tactus_result tactus_run_open (tactus_run* r, tactus_messages* messages)
 
 tactus_result tactus_run_push (tactus_run* r, const char* role, const tactus_reading* reading)
 {
-    if (r == nullptr || role == nullptr || reading == nullptr) return TACTUS_MISUSE;
+    if (r == nullptr || role == nullptr || reading == nullptr) return isNull();
+    if (! isSized (reading)) return TACTUS_MISUSE;
     const auto device = r->pushed.find (std::string_view (role));
-    if (device == r->pushed.end()) return TACTUS_MISUSE;
+    if (device == r->pushed.end()) return notPushed();
     device->second->push (known (reading, tactus_reading {}));
     return TACTUS_OK;
 }
 
 tactus_result tactus_run_take (const tactus_run* r, const char* role, tactus_effort* effort)
 {
-    if (r == nullptr || role == nullptr || effort == nullptr) return TACTUS_MISUSE;
+    if (r == nullptr || role == nullptr) return isNull();
     const auto device = r->pushed.find (std::string_view (role));
-    if (device == r->pushed.end()) return TACTUS_MISUSE;
-    give (effort, device->second->effort());
-    return TACTUS_OK;
+    return device != r->pushed.end() ? give (effort, device->second->effort()) : notPushed();
 }
 
 //==============================================================================
 tactus_result tactus_run_tick (tactus_run* r)
 {
-    if (! isTickedByCaller (r)) return TACTUS_MISUSE;
+    if (! isTickedByCaller (r)) return notTickedByCaller();
     r->run->tick();
     return TACTUS_OK;
 }
 
 tactus_result tactus_run_tick_after (tactus_run* r, double passed_s)
 {
-    if (! isTickedByCaller (r) || ! (passed_s >= 0.0)) return TACTUS_MISUSE;
+    if (! isTickedByCaller (r)) return notTickedByCaller();
+    if (! (passed_s >= 0.0)) return misuse ("the time that has passed is negative or not a number");
     for (const auto& [role, device] : r->pushed)
         device->passTime (passed_s);
     r->run->engine().passTime (passed_s);
@@ -216,14 +260,16 @@ tactus_result tactus_run_tick_after (tactus_run* r, double passed_s)
 
 tactus_result tactus_run_set_feeds (tactus_run* r, const double* values)
 {
-    if (! isTickedByCaller (r) || values == nullptr) return TACTUS_MISUSE;
+    if (! isTickedByCaller (r)) return notTickedByCaller();
+    if (values == nullptr) return isNull();
     r->run->engine().plan().setFeeds ({ values, r->options.feeds.size() });
     return TACTUS_OK;
 }
 
 tactus_result tactus_run_get_records (const tactus_run* r, double* values)
 {
-    if (! isTickedByCaller (r) || values == nullptr) return TACTUS_MISUSE;
+    if (! isTickedByCaller (r)) return notTickedByCaller();
+    if (values == nullptr) return isNull();
     const auto& taps = r->run->engine().plan().taps();
     for (size_t i = 0; i < r->names.size() && i < taps.size(); ++i)
         values[i] = *taps[i].value;
@@ -232,13 +278,17 @@ tactus_result tactus_run_get_records (const tactus_run* r, double* values)
 
 tactus_result tactus_run_steps (tactus_run* r, size_t ticks, const double* feeds, double* records)
 {
-    if (! isTickedByCaller (r)) return TACTUS_MISUSE;
+    if (! isTickedByCaller (r)) return notTickedByCaller();
+    const bool has_log = ! r->log.empty();
+    const auto drain_every = std::max<size_t> (1, static_cast<size_t> (r->run->rate() / 4.0));   // the log buffers a second
     for (size_t k = 0; k < ticks; ++k)
     {
         if (feeds != nullptr) r->run->engine().plan().setFeeds ({ feeds + k * r->options.feeds.size(), r->options.feeds.size() });
         r->run->tick();
         if (records != nullptr) tactus_run_get_records (r, records + k * r->names.size());
+        if (has_log && k % drain_every == 0) attendLog (*r);
     }
+    if (has_log) attendLog (*r);
     return TACTUS_OK;
 }
 
@@ -254,7 +304,8 @@ double tactus_run_duration (const tactus_run* r)
 //==============================================================================
 tactus_result tactus_run_start (tactus_run* r, const tactus_start_options* given, tactus_messages* messages)
 {
-    if (! isTickedByCaller (r) || r->has_ended) return TACTUS_MISUSE;
+    if (! isTickedByCaller (r)) return notTickedByCaller();
+    if (! isSized (given, messages)) return TACTUS_MISUSE;
     return guarded (messages, TACTUS_FAILED, [&] {
         const auto options = known (given, tactus_start_options TACTUS_START_OPTIONS);
         tactus::Runner::Options runner;
@@ -266,15 +317,19 @@ tactus_result tactus_run_start (tactus_run* r, const tactus_start_options* given
             device->useClock();
         for (auto& refused : r->run->start (*r->clock, runner))
             if (messages != nullptr) messages->list.push_back (Message::warning ("run/privilege", "", std::move (refused)));
+        r->has_started = true;
         return TACTUS_OK;
     });
 }
 
 tactus_result tactus_run_attend (tactus_run* r, tactus_messages* messages)
 {
-    if (r == nullptr || ! r->is_open) return TACTUS_MISUSE;
+    if (r == nullptr) return isNull();
+    if (! r->is_open) return notOpen();
     return guarded (messages, TACTUS_FAILED, [&] {
-        const auto trouble = r->run->attend();
+        attendLog (*r);
+        r->probes.drain();
+        const auto trouble = std::exchange (r->log_trouble, std::nullopt);
         return trouble ? failed (messages, *trouble) : TACTUS_OK;
     });
 }
@@ -284,40 +339,86 @@ uint64_t tactus_run_lost (const tactus_run* r) { return r != nullptr ? r->record
 
 tactus_result tactus_run_stop (tactus_run* r)
 {
-    if (r == nullptr) return TACTUS_MISUSE;
+    if (r == nullptr) return isNull();
     return guarded (nullptr, TACTUS_FAILED, [&] {
-        if (r->run->isLive() && ! r->has_ended) r->run->end();
+        if (std::exchange (r->has_stopped, true)) return TACTUS_OK;
         if (! r->run->isLive())
             for (const auto& [role, device] : r->pushed)
                 device->end();
-        r->has_ended = true;
-        return TACTUS_OK;
+        r->has_ended = true;   // before the log ends, so that a tick thread of the caller adds nothing to it
+        auto ended = r->run->finish();
+        if (! ended) r->log_trouble = std::move (ended).error();
+        return ended ? TACTUS_OK : TACTUS_FAILED;
     });
 }
 
 tactus_result tactus_run_status (const tactus_run* r, tactus_status* to)
 {
-    if (r == nullptr || to == nullptr) return TACTUS_MISUSE;
-    give (to, statusOf (*r->run));
-    return TACTUS_OK;
+    return r != nullptr ? give (to, statusOf (*r->run, r->has_started)) : isNull();
 }
 
 //==============================================================================
 tactus_result tactus_run_set (tactus_run* r, const char* param, double value, tactus_messages* messages)
 {
-    if (r == nullptr) return TACTUS_MISUSE;
+    if (r == nullptr) return isNull();
     return guarded (messages, TACTUS_FAILED, [&] { return asResult (messages, tactus::turnParam (r->run->engine(), text (param), tactus::Json (value))); });
+}
+
+tactus_result tactus_run_set_vector (tactus_run* r, const char* param, const double* values, size_t count, tactus_messages* messages)
+{
+    if (r == nullptr || values == nullptr) return isNull();
+    return guarded (messages, TACTUS_FAILED, [&] {
+        auto list = tactus::Json::array();
+        for (size_t i = 0; i < count; ++i)
+            list.push_back (values[i]);
+        return asResult (messages, tactus::turnParam (r->run->engine(), text (param), list));
+    });
+}
+
+tactus_result tactus_run_set_value (tactus_run* r, const char* param, const char* value, tactus_messages* messages)
+{
+    if (r == nullptr || value == nullptr) return isNull();
+    return guarded (messages, TACTUS_FAILED, [&] {
+        return asResult (messages, tactus::turnParam (r->run->engine(), text (param), tactus::readValue (value)));
+    });
+}
+
+size_t tactus_run_control_count (const tactus_run* r) { return r != nullptr ? r->graph.controls.size() : 0; }
+
+const char* tactus_run_control_id (const tactus_run* r, size_t i)
+{
+    return r != nullptr && i < r->graph.controls.size() ? r->graph.controls[i].id.c_str() : nullptr;
+}
+
+tactus_result tactus_run_get_control (const tactus_run* r, const char* id, tactus_control* to, tactus_messages* messages)
+{
+    if (r == nullptr || id == nullptr) return isNull();
+    return guarded (messages, TACTUS_FAILED, [&] {
+        const auto found = tactus::findControl (r->graph, id);
+        return found ? giveControl (to, **found, positionOf (*r, **found), messages) : failed (messages, found.error());
+    });
+}
+
+tactus_result tactus_run_turn (tactus_run* r, const char* id, double value, tactus_messages* messages)
+{
+    if (r == nullptr || id == nullptr) return isNull();
+    return guarded (messages, TACTUS_FAILED, [&] {
+        auto turns = tactus::turnControl (r->run->engine(), r->graph, id, value);
+        if (turns) r->turned[id] = value;
+        return asResult (messages, std::move (turns));
+    });
 }
 
 tactus_result tactus_run_hit (tactus_run* r, const char* input, double speed, tactus_messages* messages)
 {
-    if (r == nullptr) return TACTUS_MISUSE;
+    if (r == nullptr) return isNull();
     return guarded (messages, TACTUS_FAILED, [&] { return asResult (messages, tactus::strike (r->run->engine(), text (input), speed)); });
 }
 
 tactus_result tactus_run_edit (tactus_run* r, const tactus_graph* g, tactus_messages* messages)
 {
-    if (r == nullptr || g == nullptr || ! r->is_open) return TACTUS_MISUSE;
+    if (r == nullptr || g == nullptr) return isNull();
+    if (! r->is_open) return notOpen();
     return guarded (messages, TACTUS_FAILED, [&] {
         std::optional<tactus::graph::Graph> copy;
         const auto& next = continuing (*g, r->graph, copy);
@@ -327,22 +428,55 @@ tactus_result tactus_run_edit (tactus_run* r, const tactus_graph* g, tactus_mess
         const bool is_broken = ! runs || tactus::hasErrors (edit.messages());
         add (messages, std::move (edit.messages()));
         if (is_broken) return TACTUS_FAILED;
+        r->probes.drain();   // the samples of the plan before
         edit.commit();
+        r->probes.follow (r->run->engine().newest());
+        forgetTurns (*r, next);
         r->graph = next;
         return TACTUS_OK;
     });
 }
 
+tactus_result tactus_run_probe (tactus_run* r, const char* const* ports, size_t count, tactus_messages* messages)
+{
+    if (r == nullptr || (ports == nullptr && count > 0)) return isNull();
+    if (! r->is_open) return notOpen();
+    return guarded (messages, TACTUS_FAILED, [&] { return asResult (messages, r->probes.probe (*r->run, r->graph, list (ports, count))); });
+}
+
+size_t tactus_run_probe_count (const tactus_run* r) { return r != nullptr ? r->probes.names().size() : 0; }
+
+const char* tactus_run_probe_name (const tactus_run* r, size_t i)
+{
+    return i < tactus_run_probe_count (r) ? r->probes.names()[i].c_str() : nullptr;
+}
+
+tactus_result tactus_run_probed (tactus_run* r, double* values, size_t count)
+{
+    if (r == nullptr || values == nullptr) return isNull();
+    if (count < r->probes.values().size()) return misuse ("there is not enough room for the values of all probes");
+    r->probes.drain();
+    std::ranges::copy (r->probes.values(), values);
+    return TACTUS_OK;
+}
+
+size_t tactus_run_collect_probes (tactus_run* r, uint64_t* ticks, double* rows, size_t most)
+{
+    return r != nullptr ? r->probes.collect (ticks, rows, most) : 0;
+}
+
+uint64_t tactus_run_lost_probes (const tactus_run* r) { return r != nullptr ? r->probes.lost() : 0; }
+
 tactus_result tactus_run_emergency_stop (tactus_run* r)
 {
-    if (r == nullptr) return TACTUS_MISUSE;
+    if (r == nullptr) return isNull();
     r->run->engine().emergencyStop();
     return TACTUS_OK;
 }
 
 tactus_result tactus_run_rearm (tactus_run* r)
 {
-    if (r == nullptr) return TACTUS_MISUSE;
+    if (r == nullptr) return isNull();
     r->run->engine().rearm();
     return TACTUS_OK;
 }

@@ -27,10 +27,13 @@
  *  - A function that can fail returns NULL or a tactus_result other than TACTUS_OK, and appends the reasons to `messages`, which may
  *    be NULL. No C++ exception leaves a function.
  *  - A handle may be NULL: freeing it does nothing, and everything else returns TACTUS_MISUSE, NULL or 0.
- *  - [main thread]: one thread at a time per handle. [tick thread]: the thread that calls tactus_run_tick; it may be the main thread.
- *    [any thread]: any thread at any time while the handle exists.
- *  - Structs begin with their size. Fill them from the initialisers below, so that code compiled against this version works with
- *    later versions, which may add members at the end.
+ *  - Each function says which thread may call it (docs/threads.md). [main thread]: any thread, but one at a time for each handle that it gets; the
+ *    call may wait. [tick thread]: the thread that ticks the run. In your own loop, it is the thread that calls tactus_run_tick: the main thread, or
+ *    another one beside it. [pushing thread]: any thread, but one at a time for each role. [any thread]: any thread at any time while the handle
+ *    exists. A list of messages belongs to one thread at a time, whatever the function.
+ *  - Structs begin with their size. Begin with the initialisers below: tactus_reading reading = TACTUS_READING. So code that was compiled against
+ *    this version works with later ones, which may add members at the end. Any other size is refused with TACTUS_MISUSE, such as the size 0 of a
+ *    struct that was only cleared.
  */
 
 #include <stddef.h>
@@ -67,6 +70,9 @@ typedef struct tactus_run tactus_run;           /**< a graph that is played */
 TACTUS_API const char* tactus_version (void);  /**< of the library, such as "0.2.0" [any thread] */
 TACTUS_API uint32_t tactus_api_version (void); /**< TACTUS_API_VERSION of the library [any thread] */
 TACTUS_API void tactus_text_free (char* text); /**< frees a text that a function allocated for you [any thread] */
+
+/** Why the latest TACTUS_MISUSE on this thread was returned, in a sentence; "" if there was none. Valid until the next one. [any thread] */
+TACTUS_API const char* tactus_last_misuse (void);
 
 /** The datasheets of all node types as JSON, in the format of `tactus nodes --json`. Free it with tactus_text_free. [any thread] */
 TACTUS_API char* tactus_nodes_json (void);
@@ -128,23 +134,51 @@ TACTUS_API double tactus_graph_rate (const tactus_graph*); /**< in Hz [main thre
  * unknown type, port or parameter, a wrong unit, a value out of range, a wire that does not fit, a loop without a delay. The message has
  * the id, place and remedy that tactus_run_create would give. Errors that the graph already has do not matter. A device node without
  * a role is not finished, so it can be added. `patch` is "" for the graph itself, or the name of a subgraph. Values are JSON, as in a
- * graph file: 0.4, "20 um", [0, 0, 1]; NULL removes the value. [main thread] */
+ * graph file: 0.4, "20 um", [0, 0, 1]; NULL removes the value. */
+
+/** [main thread] */
 TACTUS_API tactus_result tactus_graph_add_node (tactus_graph*, const char* patch, const char* name, const char* type, tactus_messages*);
+/** [main thread] */
 TACTUS_API tactus_result tactus_graph_remove_node (tactus_graph*, const char* patch, const char* name, tactus_messages*);
+/** [main thread] */
 TACTUS_API tactus_result tactus_graph_rename_node (tactus_graph*, const char* patch, const char* name, const char* to, tactus_messages*);
+/** [main thread] */
 TACTUS_API tactus_result tactus_graph_set_param (tactus_graph*, const char* patch, const char* node, const char* param, const char* value, tactus_messages*);
+/** [main thread] */
 TACTUS_API tactus_result tactus_graph_set_setting (tactus_graph*, const char* patch, const char* node, const char* setting, const char* value,
                                                    tactus_messages*);
-/** Any other key of a node, such as "role" or "count". */
+/** Any other key of a node, such as "role" or "count". [main thread] */
 TACTUS_API tactus_result tactus_graph_set_key (tactus_graph*, const char* patch, const char* node, const char* key, const char* value, tactus_messages*);
-/** A wire as in a graph file: "a.out -> b.in". */
+/** A wire as in a graph file: "a.out -> b.in". [main thread] */
 TACTUS_API tactus_result tactus_graph_add_wire (tactus_graph*, const char* patch, const char* wire, tactus_messages*);
-/** The same text, or another one that means the same wire. */
+/** The same text, or another one that means the same wire. [main thread] */
 TACTUS_API tactus_result tactus_graph_remove_wire (tactus_graph*, const char* patch, const char* wire, tactus_messages*);
-/** The description of a role's device: {"driver": "sim", …}. */
+/** The description of a role's device: {"driver": "sim", …}. [main thread] */
 TACTUS_API tactus_result tactus_graph_set_device (tactus_graph*, const char* role, const char* description, tactus_messages*);
-TACTUS_API int32_t tactus_graph_undo (tactus_graph*); /**< 0 if there is nothing to undo */
-TACTUS_API int32_t tactus_graph_redo (tactus_graph*); /**< 0 if there is nothing to redo */
+/** Where a control of the graph stands, from 0 to 1. [main thread] */
+TACTUS_API tactus_result tactus_graph_set_control (tactus_graph*, const char* control, double value, tactus_messages*);
+TACTUS_API int32_t tactus_graph_undo (tactus_graph*); /**< 0 if there is nothing to undo [main thread] */
+TACTUS_API int32_t tactus_graph_redo (tactus_graph*); /**< 0 if there is nothing to redo [main thread] */
+
+/** A control moves parameters between two values, which the graph states. */
+typedef struct tactus_control
+{
+    uint32_t size;
+    const char* id;   /**< the name to turn it by: "roughness" */
+    const char* name; /**< for people: "Roughness"; "" if the graph gives none */
+    double value;     /**< where it stands, from 0 to 1 */
+} tactus_control;
+
+#define TACTUS_CONTROL                     \
+    {                                      \
+        sizeof (tactus_control), 0, 0, 0.0 \
+    }
+
+TACTUS_API size_t tactus_graph_control_count (const tactus_graph*);                 /**< [main thread] */
+TACTUS_API const char* tactus_graph_control_id (const tactus_graph*, size_t index); /**< valid until the graph changes [main thread] */
+
+/** The texts are valid until the graph changes. [main thread] */
+TACTUS_API tactus_result tactus_graph_get_control (const tactus_graph*, const char* control, tactus_control*, tactus_messages*);
 
 /* ============================================================================ Assets */
 
@@ -174,6 +208,11 @@ typedef struct tactus_asset
     const char* problem; /**< with TACTUS_ASSET_REFUSED: why there are no numbers, in a sentence; may be NULL */
 } tactus_asset;
 
+#define TACTUS_ASSET                                       \
+    {                                                      \
+        sizeof (tactus_asset), 0, 0, 0, 0.0, 0, 0, 0, 0, 0 \
+    }
+
 typedef enum tactus_asset_answer
 {
     TACTUS_ASSET_FROM_FILE = 0, /**< read the file */
@@ -187,7 +226,7 @@ typedef enum tactus_asset_answer
 typedef tactus_asset_answer (*tactus_asset_reader) (void* context, tactus_asset_kind kind, const char* path, tactus_asset* asset);
 
 /** Sets what files may cost, for all graphs of this process, as the option --limits of `tactus render` does: "points=1M,memory=2GB". Those
- *  that the text does not name keep their defaults. Call it before a graph is loaded. [main thread] */
+ *  that the text does not name keep their defaults. Call it before a graph is loaded. [main thread, while no other thread calls the library] */
 TACTUS_API tactus_result tactus_set_limits (const char* limits, tactus_messages*);
 
 /* ============================================================================ Runs */
@@ -204,17 +243,19 @@ typedef struct tactus_run_options
     size_t set_count;
     tactus_asset_reader assets; /**< asked before a file is read; NULL: all files are read by the library */
     void* asset_context;        /**< passed to `assets`; must outlive the run */
+    const char* log;            /**< a file for the log of all inputs (docs/replay.md), from tactus_run_open to tactus_run_stop; NULL: none */
 } tactus_run_options;
 
-#define TACTUS_RUN_OPTIONS                                       \
-    {                                                            \
-        sizeof (tactus_run_options), 0.0, 0, 0, 0, 0, 0, 0, 0, 0 \
+#define TACTUS_RUN_OPTIONS                                          \
+    {                                                               \
+        sizeof (tactus_run_options), 0.0, 0, 0, 0, 0, 0, 0, 0, 0, 0 \
     }
 
 /** Compiles a graph, which may be freed or edited afterwards. NULL if it does not compile. [main thread] */
 TACTUS_API tactus_run* tactus_run_create (const tactus_graph*, const tactus_run_options*, tactus_messages*);
 
-/** Stops the run, waits until all forces are zero, and frees it. [main thread] */
+/** Stops the run, waits until all forces are zero, and frees it. No other function may be called at the same time or later; a tick thread of your
+ *  own must have ended. [main thread] */
 TACTUS_API void tactus_run_free (tactus_run*);
 
 TACTUS_API double tactus_run_rate (const tactus_run*);                           /**< in Hz [main thread] */
@@ -247,6 +288,11 @@ typedef struct tactus_reading
     double axes[TACTUS_CHANNELS], signals[TACTUS_CHANNELS];
 } tactus_reading;
 
+#define TACTUS_READING                                                                                        \
+    {                                                                                                         \
+        sizeof (tactus_reading), 0, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, 0.0, 0.0, 0, 0, 0, { 0.0 }, { 0.0 } \
+    }
+
 /** What a device should apply, after the guard. */
 typedef struct tactus_effort
 {
@@ -256,6 +302,11 @@ typedef struct tactus_effort
     uint32_t axis_count, signal_count;
     double axes[TACTUS_CHANNELS], signals[TACTUS_CHANNELS];
 } tactus_effort;
+
+#define TACTUS_EFFORT                                                                        \
+    {                                                                                        \
+        sizeof (tactus_effort), { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, 0, 0, { 0.0 }, { 0.0 } \
+    }
 
 /** What your device has, beyond a tool that moves and can be pushed. Everything may be 0 or NULL. */
 typedef struct tactus_device_options
@@ -268,7 +319,8 @@ typedef struct tactus_device_options
     const char* const* buttons;
     size_t button_count;
     int32_t signal_inputs, signal_outputs;
-    const char* guard; /**< JSON with the limits of docs/safety.md: {"max_force": "3 N", "watchdog": "20 ms", …} */
+    const char* guard; /**< JSON with the limits of docs/safety.md: {"max_force": "3 N", …}. Its "watchdog" replaces that of 50 ms, also by a longer
+                            one; the guard that a graph asks for only tightens */
 } tactus_device_options;
 
 #define TACTUS_DEVICE_OPTIONS                                     \
@@ -276,20 +328,26 @@ typedef struct tactus_device_options
         sizeof (tactus_device_options), 0, 0, 0, 0, 0, 0, 0, 0, 0 \
     }
 
-/** Your own device: you push readings and take efforts. Until the first reading, and when readings stop for longer than the guard's
- *  watchdog, the effort is zero. [main thread] */
+/** Your own device: you push readings and take efforts. Until the first reading, the effort is zero. When readings stop for longer than the watchdog
+ *  of the guard, 50 ms if you do not set it, the effort fades to zero within 5 ms, or as slowly as `max_slew` requires. The watchdog counts the periods
+ *  of tactus_run_tick, the seconds of tactus_run_tick_after, and wall time after tactus_run_start. So push for each tick, also if nothing moves.
+ *  [main thread] */
 TACTUS_API tactus_result tactus_run_pushed_device (tactus_run*, const char* role, const tactus_device_options*, tactus_messages*);
 
-/** Opens the devices of all roles. [main thread] */
+/** Opens the devices of all roles, and begins the log. [main thread] */
 TACTUS_API tactus_result tactus_run_open (tactus_run*, tactus_messages*);
 
-/** The reading that the next ticks use; the latest one wins. One thread per role. Waits for nothing. [that thread] */
+/** The reading that the next ticks use; the latest one wins. Waits for nothing. [pushing thread] */
 TACTUS_API tactus_result tactus_run_push (tactus_run*, const char* role, const tactus_reading*);
 
-/** The effort of the latest tick. Waits for nothing. [any thread] */
+/** The effort of the latest tick, however long ago that was: the watchdog counts ticks, so a device needs a watchdog of its own for a loop that
+ *  hangs. Waits for nothing. [any thread] */
 TACTUS_API tactus_result tactus_run_take (const tactus_run*, const char* role, tactus_effort*);
 
-/* ---------------------------------------------------------------------------- Ticking in your own loop */
+/* ---------------------------------------------------------------------------- Ticking in your own loop
+
+ * The loop may run on the main thread, or on a thread of its own. In the second case, functions for the main thread may be called meanwhile, except
+ * tactus_run_open, tactus_run_start, tactus_run_steps and tactus_run_free. If there is a log, call tactus_run_attend several times a second. */
 
 /** Runs one tick. Allocates nothing, takes no lock, reads no clock. Every tick counts as one period, for the guard, too. [tick thread] */
 TACTUS_API tactus_result tactus_run_tick (tactus_run*);
@@ -305,7 +363,7 @@ TACTUS_API tactus_result tactus_run_set_feeds (tactus_run*, const double* values
 TACTUS_API tactus_result tactus_run_get_records (const tactus_run*, double* values);
 
 /** Runs many ticks: row k of `feeds` (ticks x feed count; NULL if there are none) drives tick k, and row k of `records` (ticks x record
- *  count; may be NULL) receives its records. [tick thread] */
+ *  count; may be NULL) receives its records. Also writes the log. No other thread may tick the run meanwhile. [main thread] */
 TACTUS_API tactus_result tactus_run_steps (tactus_run*, size_t ticks, const double* feeds, double* records);
 
 /** The duration in s of the devices that have one (traces, gestures); 0 if none has. After tactus_run_open. [main thread] */
@@ -330,7 +388,8 @@ typedef struct tactus_start_options
  *  refuses are warnings. Call it once. [main thread] */
 TACTUS_API tactus_result tactus_run_start (tactus_run*, const tactus_start_options*, tactus_messages*);
 
-/** Frees memory that the tick thread no longer uses. Call it several times a second while the run plays. [main thread] */
+/** Frees memory that the tick thread no longer uses, and writes the log. Call it several times a second while the run plays. TACTUS_FAILED, once, if
+ *  the log is incomplete. [main thread] */
 TACTUS_API tactus_result tactus_run_attend (tactus_run*, tactus_messages*);
 
 /** Moves recorded ticks, the oldest first, into `rows` (up to `most` rows of record count values). Returns how many. [main thread] */
@@ -339,13 +398,14 @@ TACTUS_API size_t tactus_run_collect (tactus_run*, double* rows, size_t most);
 /** Recorded ticks that were lost because the buffer was full. [main thread] */
 TACTUS_API uint64_t tactus_run_lost (const tactus_run*);
 
-/** Brings all forces to zero and ends the tick thread. Waits for both. A run that you tick yourself has no thread: its efforts are zero at
- *  once, so for a smooth end call tactus_run_emergency_stop, tick on until they are zero, and then stop. [main thread] */
+/** Brings all forces to zero, ends the tick thread and completes the log. Waits for all of this. A run that you tick yourself has no thread: its efforts
+ *  are zero at once, so for a smooth end call tactus_run_emergency_stop, tick on until they are zero, and then stop. TACTUS_FAILED if the log is
+ *  incomplete; the next tactus_run_attend says why. [main thread] */
 TACTUS_API tactus_result tactus_run_stop (tactus_run*);
 
 typedef enum tactus_phase
 {
-    TACTUS_IDLE = 0, /**< not started; ticked by you */
+    TACTUS_IDLE = 0, /**< not started, or ticked by you: then only `is_emergency` of tactus_status is used */
     TACTUS_RUNNING = 1,
     TACTUS_HALTING = 2, /**< the forces are falling to zero */
     TACTUS_OVER = 3
@@ -369,16 +429,36 @@ TACTUS_API tactus_result tactus_run_status (const tactus_run*, tactus_status*); 
 
 /* ---------------------------------------------------------------------------- While it plays */
 
-/** Sets a parameter by name: "drag.mu", "finger[*]/drag.mu". The value ramps to it. Refuses a value that is not finite or out of range
- * (param/value, param/out_of_range), a vector as a whole (param/shape) and a choice (param/unknown_choice). [main thread] */
+/** The same text, or another one that means the same wire. [main thread] */
 TACTUS_API tactus_result tactus_run_set (tactus_run*, const char* param, double value, tactus_messages*);
 
-/** Triggers a hit input: "ring.hit", in m/s; more than 0, at most 1000 (hit/value). [main thread] */
+/** The same text, or another one that means the same wire. [main thread] */
 TACTUS_API tactus_result tactus_run_hit (tactus_run*, const char* input, double speed, tactus_messages*);
 
-/** Plays an edited graph, or one that was read again, from the next tick on. What both contain, by name, continues, and no force jumps.
- *  [main thread] */
+/** Plays an edited graph, or one that was read again, from the next tick on. What both contain, by name, continues, and no force jumps. An edit that
+ *  removes a probed port fails. [main thread] */
 TACTUS_API tactus_result tactus_run_edit (tactus_run*, const tactus_graph*, tactus_messages*);
+
+/* Probes sample ports while a run plays, about 1000 times a second, or on every tick of a slower run. The ticks never wait for them. */
+
+/** From now on, probes these ports instead of earlier ones; none: ends it. If this fails, the earlier ones stay. After tactus_run_open.
+ *  [main thread] */
+TACTUS_API tactus_result tactus_run_probe (tactus_run*, const char* const* ports, size_t count, tactus_messages*);
+
+/** How many values the probes have: a port with three components has three. An edit changes it if a port of several instances is probed and their
+ *  number changes. [main thread] */
+TACTUS_API size_t tactus_run_probe_count (const tactus_run*);
+TACTUS_API const char* tactus_run_probe_name (const tactus_run*, size_t index); /**< "motor.force.x" [main thread] */
+
+/** The latest values of the probes; not numbers until there are some. There must be room for all of them. [main thread] */
+TACTUS_API tactus_result tactus_run_probed (tactus_run*, double* values, size_t count);
+
+/** Moves samples that were not collected yet, the oldest first, into `rows` (up to `most` rows of probe count values), and the numbers of their ticks
+ *  into `ticks`, which may be NULL. Returns how many. [main thread] */
+TACTUS_API size_t tactus_run_collect_probes (tactus_run*, uint64_t* ticks, double* rows, size_t most);
+
+/** Samples that were lost so far, because nobody collected 4096 of them in time. [main thread] */
+TACTUS_API uint64_t tactus_run_lost_probes (const tactus_run*);
 
 /** Fades all forces to zero and keeps them there, from the next tick on, until tactus_run_rearm. Safe in a signal handler. [any thread] */
 TACTUS_API tactus_result tactus_run_emergency_stop (tactus_run*);

@@ -11,7 +11,6 @@
 #include <host/sessions/numbers_device.hpp>
 #include <tactus/kit/nearest_by_boxes.hpp>
 #include <tactus/node/catalogue.hpp>
-#include <tactus/run/port_probes.hpp>
 #include <tactus/run/turn.hpp>
 #include <tactus/text/caught.hpp>
 #include <tactus/text/quote.hpp>
@@ -32,12 +31,24 @@ using namespace tactus::host;
 using tactus::Message;
 using tactus::Messages;
 using tactus::capi::add;
+using tactus::capi::asResult;
 using tactus::capi::failed;
 using tactus::capi::give;
 using tactus::capi::guarded;
+using tactus::capi::isSized;
 using tactus::capi::known;
 using tactus::capi::list;
+using tactus::capi::misuse;
 using tactus::capi::text;
+
+namespace tactus::capi
+{
+template <>
+inline constexpr Form form_of<tactus_session_options> { offsetof (tactus_session_options, asset_context) + sizeof (void*), "tactus_session_options",
+                                                        "TACTUS_SESSION_OPTIONS" };
+template <>
+inline constexpr Form form_of<tactus_health> { offsetof (tactus_health, trouble) + sizeof (char*), "tactus_health", "TACTUS_HEALTH" };
+}   // namespace tactus::capi
 
 namespace
 {
@@ -85,11 +96,10 @@ struct tactus_session
     const long owner = thisProcess();   // after fork(), the child has this memory, but neither the threads nor the devices
     tactus::capi::CallerAssets assets;
     StopSwitch stops;   // [any thread]
-    tactus::PortProbes probes;
+    tactus::capi::ProbeQueue probes;
     tactus_recorder recorder;
-    std::vector<std::string> records, units, probed;   // names of components, and the units of `records`
-    std::vector<double> values;                        // of the probes
-    std::unique_ptr<LiveSession> live;                 // set before the caller has the session
+    std::vector<std::string> records, units;   // names of components, and the units of `records`
+    std::unique_ptr<LiveSession> live;         // set before the caller has the session
     LiveSession::Start start;
     bool starts = false;                           // tactus_session_start was called
     std::atomic<bool> has_started { false };       // the run is live   [any thread]
@@ -130,7 +140,7 @@ void tactus_session::attendOnce()
     for (const auto& h : live->health())
         if (auto& told_trouble = troubles[h.role]; std::exchange (told_trouble, h.trouble) != h.trouble && ! h.trouble.empty())
             events.push_back (Message::warning ("device/trouble", "/devices/" + h.role, h.trouble));
-    probes.drain ([&] (std::uint64_t, std::span<const double> now) { std::ranges::copy (now.first (std::min (now.size(), values.size())), values.begin()); });
+    probes.drain();
     if (events.size() > most_events) events.erase (events.begin(), events.end() - most_events);
 }
 
@@ -197,7 +207,7 @@ tactus_session* open (const tactus_graph& g, const tactus_session_options& given
     options.compile.services.nearest_triangle = tactus::nearestByBoxes;
     options.keeps_records = true;
     options.clock = text (given.clock);
-    options.listeners = { &made->recorder, &made->probes };
+    options.listeners = { &made->recorder, &made->probes.listener() };
     options.stops = &made->stops;
     const auto given_devices = options.devices.given;
     made->live = std::make_unique<LiveSession> (tactus::catalogue(), Hardware { hid::thisComputer(), profiles, nullptr }, std::move (options));
@@ -221,11 +231,13 @@ tactus_session* open (const tactus_graph& g, const tactus_session_options& given
     return made.release();
 }
 
+tactus_result notOurs() noexcept { return misuse ("the session is NULL, or belongs to the process that this one was forked from"); }
+
 /// Calls a function with the session locked. For sessions of this process only.
 template <typename F>
 tactus_result with (tactus_session* s, tactus_messages* messages, F&& f)
 {
-    if (s == nullptr || ! s->isOurs()) return TACTUS_MISUSE;
+    if (s == nullptr || ! s->isOurs()) return notOurs();
     return guarded (messages, TACTUS_FAILED, [&]() -> tactus_result {
         const std::lock_guard lock (s->mutex);
         return f (*s->live);
@@ -239,7 +251,7 @@ const char* nameAt (const std::vector<std::string>& names, size_t i) { return i 
 
 tactus_session* tactus_session_open (const tactus_graph* g, const tactus_session_options* given, tactus_messages* messages)
 {
-    if (g == nullptr) return nullptr;
+    if (g == nullptr || ! isSized (given, messages)) return nullptr;
     return guarded<tactus_session*> (messages, nullptr, [&] {
         const HeldSignals held;
         return open (*g, known (given, tactus_session_options TACTUS_SESSION_OPTIONS), messages);
@@ -248,7 +260,8 @@ tactus_session* tactus_session_open (const tactus_graph* g, const tactus_session
 
 tactus_result tactus_session_start (tactus_session* s, tactus_messages* messages)
 {
-    if (s == nullptr || ! s->isOurs() || std::exchange (s->starts, true)) return TACTUS_MISUSE;
+    if (s == nullptr || ! s->isOurs()) return notOurs();
+    if (std::exchange (s->starts, true)) return misuse ("the session was started before");
     return guarded (messages, TACTUS_FAILED, [&] {
         const HeldSignals held;   // by the threads that start here: the handlers of the program run on its own threads
         s->attending = std::jthread ([s] (const std::stop_token& stop) {
@@ -298,15 +311,15 @@ void tactus_session_close (tactus_session* s)
 
 tactus_result tactus_session_emergency_stop (tactus_session* s)
 {
-    if (s == nullptr || ! s->isOurs()) return TACTUS_MISUSE;
+    if (s == nullptr || ! s->isOurs()) return notOurs();
     s->stops.emergencyStop();
     return TACTUS_OK;
 }
 
 tactus_result tactus_session_rearm (tactus_session* s, tactus_messages* messages)
 {
-    if (s == nullptr || ! s->isOurs()) return TACTUS_MISUSE;
-    return guarded (messages, TACTUS_FAILED, [&] { return tactus::capi::asResult (messages, s->live->rearm()); });
+    if (s == nullptr || ! s->isOurs()) return notOurs();
+    return guarded (messages, TACTUS_FAILED, [&] { return asResult (messages, s->live->rearm()); });
 }
 
 char* tactus_graph_file (const char* name)
@@ -317,10 +330,12 @@ char* tactus_graph_file (const char* name)
 //==============================================================================
 tactus_result tactus_session_edit (tactus_session* s, const tactus_graph* g, tactus_messages* messages)
 {
-    if (g == nullptr) return TACTUS_MISUSE;
+    if (g == nullptr) return misuse ("the graph is NULL");
     return with (s, messages, [&] (LiveSession& live) {
         std::optional<tactus::graph::Graph> copy;
+        s->probes.drain();   // the samples of the plan before
         auto edited = live.edit (continuing (*g, live.graph(), copy), LiveSession::Accepts::no_errors);
+        if (edited.is_taken_over) s->probes.follow (live.engine().newest());
         add (messages, std::move (edited.messages));
         return edited.is_taken_over ? TACTUS_OK : TACTUS_FAILED;
     });
@@ -329,45 +344,62 @@ tactus_result tactus_session_edit (tactus_session* s, const tactus_graph* g, tac
 tactus_result tactus_session_set (tactus_session* s, const char* param, const char* value, tactus_messages* messages)
 {
     return with (s, messages, [&] (LiveSession& live) {
-        return tactus::capi::asResult (messages, tactus::turnParam (live.engine(), text (param), tactus::readValue (text (value))));
+        return asResult (messages, tactus::turnParam (live.engine(), text (param), tactus::readValue (text (value))));
     });
 }
 
 tactus_result tactus_session_turn (tactus_session* s, const char* control, double value, tactus_messages* messages)
 {
     return with (s, messages, [&] (LiveSession& live) {
-        return tactus::capi::asResult (messages, tactus::turnControl (live.engine(), live.graph(), text (control), value));
+        return asResult (messages, tactus::turnControl (live.engine(), live.graph(), text (control), value));
     });
 }
 
 tactus_result tactus_session_hit (tactus_session* s, const char* input, double speed, tactus_messages* messages)
 {
     return with (s, messages,
-                 [&] (LiveSession& live) { return tactus::capi::asResult (messages, tactus::strike (live.engine(), text (input), speed)); });
+                 [&] (LiveSession& live) { return asResult (messages, tactus::strike (live.engine(), text (input), speed)); });
 }
 
 tactus_result tactus_session_probe (tactus_session* s, const char* const* ports, size_t count, tactus_messages* messages)
 {
     return with (s, messages, [&] (LiveSession& live) {
-        auto names = s->probes.probe (live.run(), live.graph(), list (ports, count));
-        if (! names) return failed (messages, std::move (names).error());
-        s->probed = std::move (*names);
-        s->values.assign (s->probed.size(), 0.0);
+        return asResult (messages, s->probes.probe (live.run(), live.graph(), list (ports, count)));
+    });
+}
+
+size_t tactus_session_probe_count (const tactus_session* s) { return isOurs (s) ? s->probes.names().size() : 0; }
+const char* tactus_session_probe_name (const tactus_session* s, size_t i) { return isOurs (s) ? nameAt (s->probes.names(), i) : nullptr; }
+
+tactus_result tactus_session_probed (tactus_session* s, double* values, size_t count)
+{
+    if (values == nullptr) return misuse ("the values are NULL");
+    return with (s, nullptr, [&] (LiveSession&) {
+        const auto& now = s->probes.values();
+        if (count < now.size()) return misuse ("there is not enough room for the values of all probes");
+        std::ranges::copy (now, values);
         return TACTUS_OK;
     });
 }
 
-size_t tactus_session_probe_count (const tactus_session* s) { return isOurs (s) ? s->probed.size() : 0; }
-const char* tactus_session_probe_name (const tactus_session* s, size_t i) { return isOurs (s) ? nameAt (s->probed, i) : nullptr; }
-
-tactus_result tactus_session_probed (tactus_session* s, double* values, size_t count)
+size_t tactus_session_collect_probes (tactus_session* s, uint64_t* ticks, double* rows, size_t most)
 {
-    if (values == nullptr) return TACTUS_MISUSE;
-    return with (s, nullptr, [&] (LiveSession&) {
-        if (count < s->values.size()) return TACTUS_MISUSE;
-        std::ranges::copy (s->values, values);
+    size_t count = 0;
+    with (s, nullptr, [&] (LiveSession&) {
+        count = s->probes.collect (ticks, rows, most);
         return TACTUS_OK;
     });
+    return count;
+}
+
+uint64_t tactus_session_lost_probes (tactus_session* s)
+{
+    std::uint64_t count = 0;
+    with (s, nullptr, [&] (LiveSession&) {
+        count = s->probes.lost();
+        return TACTUS_OK;
+    });
+    return count;
 }
 
 size_t tactus_session_record_count (const tactus_session* s) { return isOurs (s) ? s->records.size() : 0; }
@@ -379,9 +411,8 @@ uint64_t tactus_session_lost (const tactus_session* s) { return isOurs (s) ? s->
 //==============================================================================
 tactus_result tactus_session_status (const tactus_session* s, tactus_status* to)
 {
-    if (s == nullptr || to == nullptr || ! s->isOurs()) return TACTUS_MISUSE;
-    give (to, s->has_started ? tactus::capi::statusOf (s->live->run()) : tactus_status TACTUS_STATUS);
-    return TACTUS_OK;
+    if (s == nullptr || ! s->isOurs()) return notOurs();
+    return give (to, s->has_started ? tactus::capi::statusOf (s->live->run(), true) : tactus_status TACTUS_STATUS);
 }
 
 double tactus_session_rate (const tactus_session* s) { return isOurs (s) ? s->rate : 0.0; }
@@ -400,20 +431,20 @@ size_t tactus_session_health_count (tactus_session* s)
 
 tactus_result tactus_session_health (tactus_session* s, size_t i, tactus_health* to)
 {
-    if (s == nullptr || to == nullptr || ! s->isOurs() || i >= s->health.size()) return TACTUS_MISUSE;
+    if (s == nullptr || ! s->isOurs()) return notOurs();
+    if (i >= s->health.size()) return misuse ("there is no device of this number: call tactus_session_health_count first");
     const auto& h = s->health[i];
-    give (to, tactus_health { .size = to->size,
-                              .role = h.role.c_str(),
-                              .profile = h.profile.c_str(),
-                              .is_connected = h.connected,
-                              .age_s = h.age,
-                              .oldest_s = h.oldest,
-                              .rate_hz = h.rate_hz.value_or (0.0),
-                              .reports = h.reports,
-                              .lost = h.lost,
-                              .departures = h.departures,
-                              .trouble = h.trouble.c_str() });
-    return TACTUS_OK;
+    return give (to, tactus_health { .size = sizeof (tactus_health),
+                                     .role = h.role.c_str(),
+                                     .profile = h.profile.c_str(),
+                                     .is_connected = h.connected,
+                                     .age_s = h.age,
+                                     .oldest_s = h.oldest,
+                                     .rate_hz = h.rate_hz.value_or (0.0),
+                                     .reports = h.reports,
+                                     .lost = h.lost,
+                                     .departures = h.departures,
+                                     .trouble = h.trouble.c_str() });
 }
 
 size_t tactus_session_events (tactus_session* s, tactus_messages* messages)

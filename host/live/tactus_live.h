@@ -19,7 +19,7 @@
  *
  * Conventions
  *  - Those of tactus.h. Text that a function returns stays valid until the next call of the same function for the same session.
- *  - [one thread]: one thread at a time per session; it may wait for a few ms. [any thread]: any thread at any time while the session exists.
+ *  - Threads as in tactus.h and docs/threads.md. Calls for the main thread may wait for a few ms. A session has no tick thread of yours.
  *  - A session has a thread of its own that looks after it, so nothing needs to be called regularly. A program that does nothing or waits in a
  *    function of its own does not affect the ticks. A debugger that stops the whole process does: the devices are brought to rest.
  *  - Graphs never choose or calibrate real devices. Only `devices` and the user's session file do.
@@ -39,42 +39,42 @@ typedef struct tactus_session_options
     uint32_t size;
     const char* const* devices; /**< devices of roles, as for the option --device: "stylus=hid:auto", "stylus=gesture:circle" */
     size_t device_count;
-    const char* session; /**< which file binds the other roles to devices: NULL: the user's session, "off": none, or the name of a file */
-    const char* clock;   /**< what ticks the run: a role (its device), or "timer"; NULL: as the session says, or the first device that can */
-    double rate_hz;      /**< 0: that of the clock, or else the graph's */
-    double duration_s;   /**< 0: until it is stopped */
-    int32_t core;        /**< CPU core for the tick thread, plus 1; 0: any */
-    int32_t is_strict;   /**< 1: a missing device of the session is an error. 0: its role gets no force until the device is there */
-    int32_t fuses;       /**< 1: compiled code replaces the plan while it runs (docs/fusion.md) */
+    const char* session;     /**< which file binds the other roles to devices: NULL: the user's session, "off": none, or the name of a file */
+    const char* clock;       /**< what ticks the run: a role (its device), or "timer"; NULL: as the session says, or the first device that can */
+    double rate_hz;          /**< 0: that of the clock, or else the graph's */
+    double duration_s;       /**< 0: until it is stopped */
+    int32_t core;            /**< CPU core for the tick thread, plus 1; 0: any */
+    int32_t is_strict;       /**< 1: a missing device of the session is an error. 0: its role gets no force until the device is there */
+    int32_t fuses;           /**< 1: compiled code replaces the plan while it runs (docs/fusion.md) */
     const char* const* sets; /**< values that replace those of the graph: "drag.mu=0.3" */
     size_t set_count;
     const char* const* records; /**< ports to record: "motor.force" */
     size_t record_count;
-    double buffer_s; /**< how much of the records is kept until tactus_session_collect, in s; 0: none */
-    const char* log; /**< a file for the log of all inputs (docs/replay.md) */
+    double buffer_s;            /**< how much of the records is kept until tactus_session_collect, in s; 0: none */
+    const char* log;            /**< a file for the log of all inputs (docs/replay.md) */
     tactus_asset_reader assets; /**< as in tactus_run_options */
     void* asset_context;
 } tactus_session_options;
 
-#define TACTUS_SESSION_OPTIONS                                                                  \
-    {                                                                                           \
+#define TACTUS_SESSION_OPTIONS                                                                   \
+    {                                                                                            \
         sizeof (tactus_session_options), 0, 0, 0, 0, 0.0, 0.0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0, 0, 0 \
     }
 
 /** Chooses the clock, compiles the graph and opens its devices. Nothing moves yet. The graph may be freed or edited afterwards. NULL if there are
- *  errors. [one thread] */
+ *  errors. [main thread] */
 TACTUS_API tactus_session* tactus_session_open (const tactus_graph*, const tactus_session_options*, tactus_messages*);
 
-/** Starts the ticks. Real-time privileges that the system refuses are warnings. Call it once. [one thread] */
+/** Starts the ticks. Real-time privileges that the system refuses are warnings. Call it once. [main thread] */
 TACTUS_API tactus_result tactus_session_start (tactus_session*, tactus_messages*);
 
 /** Ramps all forces to zero, ends the ticks, and completes the log. Waits for it: usually for less than a second, with a low slew limit for up to
- *  30 s. If a tick does not end, because a plugin loops, it fails after that time (run/stuck); the device got its last reports long before. [one
- *  thread] */
+ *  30 s. If a tick does not end, because a plugin loops, it fails after that time (run/stuck); the device got its last reports long before.
+ *  [main thread] */
 TACTUS_API tactus_result tactus_session_stop (tactus_session*, tactus_messages*);
 
 /** Stops, releases the devices, and frees the session. No other function may be called at the same time or later. If a tick does not end, the
- *  session stays in memory. [one thread] */
+ *  session stays in memory. [main thread] */
 TACTUS_API void tactus_session_close (tactus_session*);
 
 /** Fades all forces to zero and keeps them there until tactus_session_rearm. The graph keeps running. Safe in a signal handler. [any thread] */
@@ -91,36 +91,41 @@ TACTUS_API char* tactus_graph_file (const char* name);
 /* ---------------------------------------------------------------------------- While it plays */
 
 /** Plays an edited graph, or one that was read again, from the next tick on. What both contain, by name, continues, and no force
- *  jumps. Limits that the graph asks for only tighten until the next start. [one thread] */
+ *  jumps. Limits that the graph asks for only tighten until the next start. [main thread] */
 TACTUS_API tactus_result tactus_session_edit (tactus_session*, const tactus_graph*, tactus_messages*);
 
-/** Sets a parameter to a value in JSON: "drag.mu" to "0.4", "cut.normal" to "[0, 0, 1]". The value ramps to it. [one thread] */
+/** Sets a parameter, as tactus_run_set_value: "drag.mu" to "0.4", "cut.normal" to "[0, 0, 1]", "wave.shape" to "saw". The value ramps to it.
+ *  [main thread] */
 TACTUS_API tactus_result tactus_session_set (tactus_session*, const char* param, const char* value, tactus_messages*);
 
-/** Turns a control of the graph. [one thread] */
+/** Turns a control of the graph, from 0 to 1. tactus_graph_control_id lists them. [main thread] */
 TACTUS_API tactus_result tactus_session_turn (tactus_session*, const char* control, double value, tactus_messages*);
 
-/** Triggers a hit input, with a speed in m/s. [one thread] */
+/** Triggers a hit input, with a speed in m/s. [main thread] */
 TACTUS_API tactus_result tactus_session_hit (tactus_session*, const char* input, double speed, tactus_messages*);
 
 /** From now on, tactus_session_probed returns the values of these ports, instead of earlier ones. If this fails, the earlier ones stay.
- *  [one thread] */
+ *  [main thread] */
 TACTUS_API tactus_result tactus_session_probe (tactus_session*, const char* const* ports, size_t count, tactus_messages*);
 
-/** How many values the probes have: a port with three components has three. [one thread] */
+/** How many values the probes have: a port with three components has three. [main thread] */
 TACTUS_API size_t tactus_session_probe_count (const tactus_session*);
-TACTUS_API const char* tactus_session_probe_name (const tactus_session*, size_t index); /**< "motor.force.x" [one thread] */
+TACTUS_API const char* tactus_session_probe_name (const tactus_session*, size_t index); /**< "motor.force.x" [main thread] */
 
-/** The latest values of the probes. There must be room for all of them. [one thread] */
+/** The latest values of the probes; not numbers until there are some. There must be room for all of them. [main thread] */
 TACTUS_API tactus_result tactus_session_probed (tactus_session*, double* values, size_t count);
 
-TACTUS_API size_t tactus_session_record_count (const tactus_session*);                   /**< components, not ports [one thread] */
-TACTUS_API const char* tactus_session_record_name (const tactus_session*, size_t index); /**< [one thread] */
-TACTUS_API const char* tactus_session_record_unit (const tactus_session*, size_t index); /**< "N"; "" if unknown [one thread] */
+/** Samples of the probes that were not collected yet, and how many were lost, as tactus_run_collect_probes and tactus_run_lost_probes. [main thread] */
+TACTUS_API size_t tactus_session_collect_probes (tactus_session*, uint64_t* ticks, double* rows, size_t most);
+TACTUS_API uint64_t tactus_session_lost_probes (tactus_session*); /**< [main thread] */
 
-/** Moves recorded ticks, the oldest first, into `rows` (up to `most` rows of record count values). Returns how many. [one thread] */
+TACTUS_API size_t tactus_session_record_count (const tactus_session*);                   /**< components, not ports [main thread] */
+TACTUS_API const char* tactus_session_record_name (const tactus_session*, size_t index); /**< [main thread] */
+TACTUS_API const char* tactus_session_record_unit (const tactus_session*, size_t index); /**< "N"; "" if unknown [main thread] */
+
+/** Moves recorded ticks, the oldest first, into `rows` (up to `most` rows of record count values). Returns how many. [main thread] */
 TACTUS_API size_t tactus_session_collect (tactus_session*, double* rows, size_t most);
-TACTUS_API uint64_t tactus_session_lost (const tactus_session*); /**< recorded ticks that were lost because the buffer was full [one thread] */
+TACTUS_API uint64_t tactus_session_lost (const tactus_session*); /**< recorded ticks that were lost because the buffer was full [main thread] */
 
 /* ---------------------------------------------------------------------------- What it does */
 
@@ -141,16 +146,16 @@ typedef struct tactus_health
     const char* trouble; /**< the latest failure, or "" */
 } tactus_health;
 
-#define TACTUS_HEALTH                                          \
-    {                                                          \
+#define TACTUS_HEALTH                                              \
+    {                                                              \
         sizeof (tactus_health), 0, 0, 0, 0.0, 0.0, 0.0, 0, 0, 0, 0 \
     }
 
-TACTUS_API size_t tactus_session_health_count (tactus_session*);                                 /**< real devices, present or awaited [one thread] */
-TACTUS_API tactus_result tactus_session_health (tactus_session*, size_t index, tactus_health*); /**< [one thread] */
+TACTUS_API size_t tactus_session_health_count (tactus_session*);                                /**< real devices, present or awaited [main thread] */
+TACTUS_API tactus_result tactus_session_health (tactus_session*, size_t index, tactus_health*); /**< [main thread] */
 
 /** Moves what has happened since the last call to `messages`: alarms of the guardian, stops of the guards, trouble with devices and the log.
- *  Returns how many. Messages wait until they are asked for; of more than 1000, the oldest are lost. [one thread] */
+ *  Returns how many. Messages wait until they are asked for; of more than 1000, the oldest are lost. [main thread] */
 TACTUS_API size_t tactus_session_events (tactus_session*, tactus_messages*);
 
 #endif

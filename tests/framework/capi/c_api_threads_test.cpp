@@ -2,6 +2,8 @@
 // The C API from five threads at once, mainly for TSan. TACTUS_LIVE_SECONDS makes the test longer.
 #include "c_handles.hpp"
 
+#include <support/temporary_folder.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <atomic>
@@ -44,8 +46,7 @@ TEST_CASE ("C API: while a run ticks itself, one thread edits, and others push r
         });
     };
     beside ([&] (int i) {
-        tactus_reading r {};
-        r.size = sizeof r;
+        tactus_reading r TACTUS_READING;
         r.valid = 1;
         r.position[0] = 1e-5 * (i % 1000);
         r.position[2] = -1e-3;
@@ -53,8 +54,7 @@ TEST_CASE ("C API: while a run ticks itself, one thread edits, and others push r
         ++pushed;
     });
     beside ([&] (int) {
-        tactus_effort e {};
-        e.size = sizeof e;
+        tactus_effort e TACTUS_EFFORT;
         tactus_status status = TACTUS_STATUS;
         broken += tactus_run_take (run.get(), "stylus", &e) != TACTUS_OK || tactus_run_status (run.get(), &status) != TACTUS_OK;
         broken += ! std::isfinite (e.force[0] + e.force[1] + e.force[2]) || status.peak_force < status.force;
@@ -93,4 +93,58 @@ TEST_CASE ("C API: while a run ticks itself, one thread edits, and others push r
     tactus_run_status (run.get(), &status);
     CHECK (status.force == 0.0);
     CHECK (status.ticks > 0);   // under TSan, a starved run soon ends itself
+}
+
+TEST_CASE ("C API: a loop on a thread of its own ticks and logs, and another thread turns, probes, edits and stops", "[c_api][threads]")
+{
+    const TemporaryFolder folder;
+    const auto log = (folder / "run.jsonl").string();
+    const MessageList m { tactus_messages_create() };
+    const GraphHandle g { tactus_graph_load (TACTUS_SOURCE_DIR "/graphs/dry_wood.json", m.get()) };
+    REQUIRE (g);
+    tactus_run_options options = TACTUS_RUN_OPTIONS;
+    options.log = log.c_str();
+    const RunHandle run { tactus_run_create (g.get(), &options, m.get()) };
+    REQUIRE (run);
+    REQUIRE (tactus_run_pushed_device (run.get(), "stylus", nullptr, m.get()) == TACTUS_OK);
+    REQUIRE (tactus_run_open (run.get(), m.get()) == TACTUS_OK);
+    std::atomic<int> ticked = 0, edits = 0;
+    std::atomic<bool> is_over = false;
+    std::jthread ticking ([&] {
+        tactus_reading r TACTUS_READING;
+        r.valid = 1;
+        std::vector<double> records (tactus_run_record_count (run.get()));
+        for (int k = 0; ! is_over; ++k)
+        {
+            r.position[2] = -1e-6 * (k % 1000);
+            if (tactus_run_push (run.get(), "stylus", &r) != TACTUS_OK || tactus_run_tick (run.get()) != TACTUS_OK) return;
+            if (tactus_run_get_records (run.get(), records.data()) != TACTUS_OK) return;
+            for (++ticked; ticked >= 1000 * (edits + 1) && ! is_over;)   // the log buffers 4000 ticks
+                std::this_thread::yield();
+        }
+    });
+    const char* ports[] = { "motor.force" };
+    std::vector<double> rows (3 * 1000);
+    int broken = tactus_run_probe (run.get(), ports, 1, m.get()) != TACTUS_OK;
+    size_t collected = 0;
+    for (; edits < 30; ++edits)
+    {
+        const auto mu = std::to_string (0.2 + 0.01 * edits);
+        broken += tactus_graph_set_param (g.get(), "", "drag", "mu", mu.c_str(), m.get()) != TACTUS_OK;
+        broken += tactus_run_edit (run.get(), g.get(), m.get()) != TACTUS_OK;
+        broken += tactus_run_turn (run.get(), "roughness", 0.03 * edits, m.get()) != TACTUS_OK;
+        broken += tactus_run_attend (run.get(), m.get()) != TACTUS_OK;
+        collected += tactus_run_collect_probes (run.get(), nullptr, rows.data(), 1000);
+        while (ticked < 50 * (edits + 1))
+            std::this_thread::yield();
+    }
+    tactus_effort e TACTUS_EFFORT;
+    broken += tactus_run_stop (run.get()) != TACTUS_OK;   // while the other thread still ticks
+    broken += tactus_run_take (run.get(), "stylus", &e) != TACTUS_OK || e.force[2] != 0.0;
+    is_over = true;
+    ticking.join();
+    INFO (said (m));
+    CHECK (broken == 0);
+    CHECK (collected > 0);
+    CHECK (ticked >= 1500);
 }

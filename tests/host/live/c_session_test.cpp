@@ -6,6 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include <chrono>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -136,7 +138,12 @@ TEST_CASE ("a running session takes parameters, hits, controls, probes and edits
     REQUIRE (tactus_session_probe_count (session.get()) == 4);
     CHECK (std::string (tactus_session_probe_name (session.get(), 3)) == "drag.state");
     std::vector<double> values (4);
-    CHECK (until ([&] { return tactus_session_probed (session.get(), values.data(), 4) == TACTUS_OK && values[0] != 0.0; }));
+    CHECK (until ([&] { return tactus_session_probed (session.get(), values.data(), 4) == TACTUS_OK && std::abs (values[0]) > 0.0; }));
+    std::vector<double> rows (4 * 100);
+    std::vector<std::uint64_t> ticks (100);
+    REQUIRE (until ([&] { return tactus_session_collect_probes (session.get(), ticks.data(), rows.data(), 100) > 1; }));
+    CHECK (ticks[1] == ticks[0] + 4);   // 1000 times a second at 4 kHz
+    CHECK (tactus_session_lost_probes (session.get()) == 0);
     const char* nowhere[] = { "nothing.out" };
     CHECK (tactus_session_probe (session.get(), nowhere, 1, m.get()) == TACTUS_FAILED);
     CHECK (tactus_session_probe_count (session.get()) == 4);
@@ -213,6 +220,13 @@ TEST_CASE ("a session without handles or after its end is a misuse, and crashes 
     CHECK (tactus_session_stop (session.get(), m.get()) == TACTUS_OK);   // never started
     CHECK (tactus_session_set (session.get(), nullptr, nullptr, m.get()) == TACTUS_FAILED);
     CHECK (tactus_session_probed (session.get(), nullptr, 0) == TACTUS_MISUSE);
+    tactus_status status {};
+    CHECK (tactus_session_status (session.get(), &status) == TACTUS_MISUSE);
+    CHECK (std::string (tactus_last_misuse()).find ("TACTUS_STATUS") != std::string::npos);
+    const auto graph = dryWood (m.get());
+    const tactus_session_options cleared {};
+    CHECK (tactus_session_open (graph.get(), &cleared, m.get()) == nullptr);
+    CHECK (idsOf (m.get()).back() == "api/struct");
 }
 
 #if defined(__unix__)
