@@ -5,6 +5,7 @@
 
 #include <tactus/kit/snapshot.hpp>
 #include <tactus/node/device.hpp>
+#include <tactus/run/guard.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -19,11 +20,24 @@ namespace tactus::capi
 class PushedDevice final : public Device
 {
 public:
-    explicit PushedDevice (DeviceLayout parts) : has (std::move (parts)) {}
+    using Seconds = double (*)() noexcept;   ///< a clock: the time since an arbitrary origin, in s   [any thread]
+
+    explicit PushedDevice (DeviceLayout parts, Seconds clock = steadySeconds) : has (std::move (parts)), now_s (clock) {}
+
+    /// How old a reading may get before the guard brings the effort to zero, if the program does not say it. Like most profiles of devices; a
+    /// program that pushes at 60 Hz may be late by two readings.
+    static constexpr double default_watchdog = 0.05;   // in s
+
+    /// The limits of the program, with a watchdog. Only the program itself can ask for a longer one; a graph only tightens.
+    static GuardLimits watched (GuardLimits limits) noexcept
+    {
+        if (limits.watchdog == GuardLimits::none) limits.watchdog = default_watchdog;
+        return limits;
+    }
 
     void prepare (double dt_s) override { period = next_period = dt_s; }
 
-    /// From now on, a reading that is not renewed ages by the clock: a run may lose ticks. [main thread, before the ticks begin]
+    /// From now on, a reading that is not renewed ages by the clock: a run may lose ticks. [main thread, before its tick thread starts]
     void useClock() noexcept { has_clock = true; }
 
     /// The next tick comes this much later than the last one, in s. [tick thread]
@@ -40,7 +54,7 @@ public:
         if (now.number == 0) return { .valid = false };
         if (has_clock)   // a reading that came before a tick that is not late is new
         {
-            const double old = std::chrono::duration<double> (Clock::now() - now.at).count();
+            const double old = now_s() - now.at_s;
             silent = std::max (silent, is_new ? old - period : old);
         }
         const auto& from = now.reading;
@@ -65,8 +79,8 @@ public:
 
     DeviceLayout layout() const override { return has; }
 
-    /// [always the same thread]
-    void push (const tactus_reading& r) noexcept { readings.store ({ r, ++pushes, Clock::now() }); }
+    /// [one thread at a time]
+    void push (const tactus_reading& r) noexcept { readings.store ({ r, ++pushes, now_s() }); }
 
     /// [any thread]
     tactus_effort effort() const noexcept
@@ -79,14 +93,14 @@ public:
     void end() noexcept { has_ended = true; }   ///< from now on, there is no effort   [any thread]
 
 private:
-    using Clock = std::chrono::steady_clock;
-
     struct Pushed
     {
         tactus_reading reading {};
         std::uint64_t number = 0;   // 0: nothing has been pushed yet
-        Clock::time_point at;
+        double at_s = 0.0;
     };
+
+    static double steadySeconds() noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
     static void copy (const double* from, std::uint32_t count, Channels& to) noexcept
     {
@@ -101,6 +115,7 @@ private:
     }
 
     DeviceLayout has;
+    Seconds now_s;
     Snapshot<Pushed> readings;
     Snapshot<tactus_effort> efforts;
     std::uint64_t pushes = 0;   // [pushing thread]

@@ -195,7 +195,7 @@ tactus_result tactus_run_pushed_device (tactus_run* r, const char* role, const t
         add (messages, std::move (found));
         if (is_broken) return TACTUS_FAILED;
         r->described.erase (text (role));
-        r->limits[text (role)] = limits;
+        r->limits[text (role)] = PushedDevice::watched (limits);
         r->waiting[text (role)] = std::make_unique<PushedDevice> (std::move (parts));
         return TACTUS_OK;
     });

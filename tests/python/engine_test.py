@@ -123,7 +123,7 @@ class OwnDevices(TestCase):
         self.fails("device/not_pushed", engine.take, "other")
 
     def test_the_guard_acts_last_and_stops_end_with_rearm(self):
-        _, engine = wall({"max_force": "3 N", "ramp": 0})
+        _, engine = wall({"max_force": "3 N", "ramp": 0, "watchdog": "10 s"})   # one reading for all steps
         engine.push("pen", (0, 0, -1e-2))
         engine.step()
         np.testing.assert_allclose(engine.take("pen").force, (0, 0, 3.0))
