@@ -10,8 +10,9 @@
  *
  * Conventions
  *  - SI units. Text is UTF-8 and ends with a zero byte, unless a length is given with it.
- *  - Each struct begins with its size, which the side that fills the struct sets. Later versions may add members at the end. A reader
- *    uses a member only if the size covers it. Arrays of structs are arrays of pointers, so that their elements can grow.
+ *  - Each struct begins with its size, which the side that fills the struct sets. Begin with its initialiser, such as TACTUS_PLUGIN_PORT_INIT for a
+ *    tactus_plugin_port. Later versions may add members at the end. A reader uses a member only if the size covers it. Arrays of structs are arrays of
+ *    pointers, so that their elements can grow.
  *  - What the plugin describes (entry, nodes, datasheets) stays valid and unchanged from init to deinit. What the host passes to a
  *    hook is valid during the call, unless the comment says otherwise.
  *  - No C++ exception and no longjmp crosses the interface. A hook that can fail returns TACTUS_PLUGIN_FAILED and says why in `report`.
@@ -52,8 +53,13 @@ typedef struct tactus_plugin_report
 {
     uint32_t size;
     void* context;
-    void (*put) (void* context, const char* text, size_t length) TACTUS_PLUGIN_NOEXCEPT;
+    void (*put) (void* context, const char* text, size_t length) TACTUS_PLUGIN_NOEXCEPT; /**< [the thread of the hook] */
 } tactus_plugin_report;
+
+#define TACTUS_PLUGIN_REPORT_INIT           \
+    {                                       \
+        sizeof (tactus_plugin_report), 0, 0 \
+    }
 
 /* ============================================================================ The datasheet */
 
@@ -77,6 +83,11 @@ typedef struct tactus_plugin_unit
     int32_t adds_up;                 /**< 1: several wires of any unit may end at this input */
 } tactus_plugin_unit;
 
+#define TACTUS_PLUGIN_UNIT_INIT                                \
+    {                                                          \
+        sizeof (tactus_plugin_unit), 0, 0, 0, 0, 0, 0, 0, 0, 0 \
+    }
+
 typedef struct tactus_plugin_limits
 {
     uint32_t size;
@@ -84,6 +95,11 @@ typedef struct tactus_plugin_limits
     double hard_min, hard_max;   /**< outside of these the model has no meaning */
     double usual_min, usual_max; /**< range of a slider */
 } tactus_plugin_limits;
+
+#define TACTUS_PLUGIN_LIMITS_INIT                            \
+    {                                                        \
+        sizeof (tactus_plugin_limits), 0, 0.0, 0.0, 0.0, 0.0 \
+    }
 
 enum
 {
@@ -112,6 +128,11 @@ typedef struct tactus_plugin_port
     size_t offset;              /**< not for inputs */
     double initial[3];          /**< default of each component; for a list, of each entry */
 } tactus_plugin_port;
+
+#define TACTUS_PLUGIN_PORT_INIT                                                      \
+    {                                                                                \
+        sizeof (tactus_plugin_port), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, { 0.0, 0.0, 0.0 } \
+    }
 
 enum
 {
@@ -147,9 +168,14 @@ typedef struct tactus_plugin_asset
     uint32_t size;
     int32_t kind; /**< SIGNAL, IMAGE, TABLE, SURFACE or MESH: says what `content` points to */
     const void* content;
-    void (*retain) (const struct tactus_plugin_asset*) TACTUS_PLUGIN_NOEXCEPT;
-    void (*release) (const struct tactus_plugin_asset*) TACTUS_PLUGIN_NOEXCEPT;
+    void (*retain) (const struct tactus_plugin_asset*) TACTUS_PLUGIN_NOEXCEPT;  /**< [any thread] */
+    void (*release) (const struct tactus_plugin_asset*) TACTUS_PLUGIN_NOEXCEPT; /**< [any thread] */
 } tactus_plugin_asset;
+
+#define TACTUS_PLUGIN_ASSET_INIT                 \
+    {                                            \
+        sizeof (tactus_plugin_asset), 0, 0, 0, 0 \
+    }
 
 /** The value of a setting. Only the members of its kind are used; the others are 0. */
 typedef struct tactus_plugin_value
@@ -165,6 +191,11 @@ typedef struct tactus_plugin_value
     const tactus_plugin_asset* asset;                /**< SIGNAL, IMAGE, TABLE, SURFACE; NULL: not given */
 } tactus_plugin_value;
 
+#define TACTUS_PLUGIN_VALUE_INIT                                       \
+    {                                                                  \
+        sizeof (tactus_plugin_value), 0, 0.0, 0.0, 0, 0, 0, 0, 0, 0, 0 \
+    }
+
 typedef struct tactus_plugin_signal
 {
     uint32_t size;
@@ -172,6 +203,11 @@ typedef struct tactus_plugin_signal
     const double* const* channels;
     size_t channel_count, sample_count;
 } tactus_plugin_signal;
+
+#define TACTUS_PLUGIN_SIGNAL_INIT                   \
+    {                                               \
+        sizeof (tactus_plugin_signal), 0.0, 0, 0, 0 \
+    }
 
 /** An image or a table: rows x columns numbers, row after row. */
 typedef struct tactus_plugin_grid
@@ -181,6 +217,11 @@ typedef struct tactus_plugin_grid
     const double* values;
 } tactus_plugin_grid;
 
+#define TACTUS_PLUGIN_GRID_INIT              \
+    {                                        \
+        sizeof (tactus_plugin_grid), 0, 0, 0 \
+    }
+
 typedef struct tactus_plugin_mesh
 {
     uint32_t size;
@@ -189,6 +230,11 @@ typedef struct tactus_plugin_mesh
     const int32_t* triangles; /**< three points each, counted from 0, counter-clockwise as seen from outside */
     size_t triangle_count;
 } tactus_plugin_mesh;
+
+#define TACTUS_PLUGIN_MESH_INIT                 \
+    {                                           \
+        sizeof (tactus_plugin_mesh), 0, 0, 0, 0 \
+    }
 
 /** A body that can be touched; see framework/kit/surface.hpp. */
 typedef struct tactus_plugin_surface
@@ -207,6 +253,11 @@ typedef struct tactus_plugin_surface
     size_t weighted_count;       /**< how many tools have entries */
 } tactus_plugin_surface;
 
+#define TACTUS_PLUGIN_SURFACE_INIT                                      \
+    {                                                                   \
+        sizeof (tactus_plugin_surface), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 \
+    }
+
 /** A setting, or a field of a record. */
 typedef struct tactus_plugin_setting
 {
@@ -220,6 +271,11 @@ typedef struct tactus_plugin_setting
     const tactus_plugin_value* initial;
 } tactus_plugin_setting;
 
+#define TACTUS_PLUGIN_SETTING_INIT                                \
+    {                                                             \
+        sizeof (tactus_plugin_setting), 0, 0, 0, 0, 0, 0, 0, 0, 0 \
+    }
+
 /* ============================================================================ What the host lends */
 
 /** A search for the triangle of a mesh that is nearest to a point. */
@@ -231,6 +287,11 @@ typedef struct tactus_plugin_nearest
     void (*destroy) (void* context) TACTUS_PLUGIN_NOEXCEPT;                        /**< [main thread] */
 } tactus_plugin_nearest;
 
+#define TACTUS_PLUGIN_NEAREST_INIT              \
+    {                                           \
+        sizeof (tactus_plugin_nearest), 0, 0, 0 \
+    }
+
 /** Open questions of a node; see framework/kit/async_query.hpp. */
 typedef struct tactus_plugin_query
 {
@@ -239,6 +300,11 @@ typedef struct tactus_plugin_query
     /** Answers all open questions. Returns 1 if there were any. [answering thread] */
     int32_t (*answer) (void* context) TACTUS_PLUGIN_NOEXCEPT;
 } tactus_plugin_query;
+
+#define TACTUS_PLUGIN_QUERY_INIT           \
+    {                                      \
+        sizeof (tactus_plugin_query), 0, 0 \
+    }
 
 /** What a host lends to nodes. The struct is valid during the call of the hook that gets it; `queries` as long as the node exists. */
 typedef struct tactus_plugin_services
@@ -256,12 +322,22 @@ typedef struct tactus_plugin_services
     int32_t (*is_late) (void* queries, int32_t ready) TACTUS_PLUGIN_NOEXCEPT; /**< 1: the answer due now is late; once per query and tick [tick thread] */
 } tactus_plugin_services;
 
+#define TACTUS_PLUGIN_SERVICES_INIT                       \
+    {                                                     \
+        sizeof (tactus_plugin_services), 0, 0, 0, 0, 0, 0 \
+    }
+
 typedef struct tactus_plugin_setup
 {
     uint32_t size;
     double rate_hz;
     const tactus_plugin_services* services;
 } tactus_plugin_setup;
+
+#define TACTUS_PLUGIN_SETUP_INIT             \
+    {                                        \
+        sizeof (tactus_plugin_setup), 0.0, 0 \
+    }
 
 /** What is known about the mechanics of a device, at its tool. */
 typedef struct tactus_plugin_mechanics
@@ -270,6 +346,11 @@ typedef struct tactus_plugin_mechanics
     double mass;    /**< kg; 0: unknown */
     double damping; /**< N s/m; 0: unknown */
 } tactus_plugin_mechanics;
+
+#define TACTUS_PLUGIN_MECHANICS_INIT               \
+    {                                              \
+        sizeof (tactus_plugin_mechanics), 0.0, 0.0 \
+    }
 
 /** What a device has in addition to a tool. */
 typedef struct tactus_plugin_layout
@@ -285,6 +366,11 @@ typedef struct tactus_plugin_layout
     const tactus_plugin_mechanics* mechanics;
 } tactus_plugin_layout;
 
+#define TACTUS_PLUGIN_LAYOUT_INIT                                \
+    {                                                            \
+        sizeof (tactus_plugin_layout), 0, 0, 0, 0, 0, 0, 0, 0, 0 \
+    }
+
 #define TACTUS_PLUGIN_CHANNELS 32
 
 /** Values in place: `values` has room for TACTUS_PLUGIN_CHANNELS, and `count` says how many are in use now. */
@@ -294,6 +380,11 @@ typedef struct tactus_plugin_channels
     const int32_t* count;
     const double* values;
 } tactus_plugin_channels;
+
+#define TACTUS_PLUGIN_CHANNELS_INIT           \
+    {                                         \
+        sizeof (tactus_plugin_channels), 0, 0 \
+    }
 
 /** The device of a node's role. The host writes the values behind these pointers before each tick, on the tick thread. They are valid
  *  as long as the node, and the pointers never change. The structs themselves and the layout are valid during the call. */
@@ -312,6 +403,11 @@ typedef struct tactus_plugin_device
     const void* state; /**< for TACTUS_PLUGIN_DEVICE_STATE; valid as long as the node, and never changes */
 } tactus_plugin_device;
 
+#define TACTUS_PLUGIN_DEVICE_INIT                                                        \
+    {                                                                                    \
+        sizeof (tactus_plugin_device), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 \
+    }
+
 /** The id of an extension of the host: `state` of a tactus_plugin_device is the tactus::DeviceState that the values are part of. A plugin
  *  in C++ may read it in place, instead of copying the values before each tick, but only if a DeviceState has the same form in both. */
 #define TACTUS_PLUGIN_DEVICE_STATE "tactus.device_state"
@@ -322,6 +418,11 @@ typedef struct tactus_plugin_device_state
     const char* form; /**< as tactus::plugin::formOfDeviceState() describes it in the host: sizes, places and the standard library */
 } tactus_plugin_device_state;
 
+#define TACTUS_PLUGIN_DEVICE_STATE_INIT        \
+    {                                          \
+        sizeof (tactus_plugin_device_state), 0 \
+    }
+
 /** What a sink adds to the effort of its role. The node sets the counts and fills only what it uses. */
 typedef struct tactus_plugin_effort
 {
@@ -331,6 +432,11 @@ typedef struct tactus_plugin_effort
     double axes[TACTUS_PLUGIN_CHANNELS], signals[TACTUS_PLUGIN_CHANNELS];
 } tactus_plugin_effort;
 
+#define TACTUS_PLUGIN_EFFORT_INIT                                                                   \
+    {                                                                                               \
+        sizeof (tactus_plugin_effort), 0, 0, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0 }, { 0.0 } \
+    }
+
 /** The most that checking and preparing a node can cost. */
 typedef struct tactus_plugin_cost
 {
@@ -339,6 +445,11 @@ typedef struct tactus_plugin_cost
     double memory; /**< bytes */
 } tactus_plugin_cost;
 
+#define TACTUS_PLUGIN_COST_INIT               \
+    {                                         \
+        sizeof (tactus_plugin_cost), 0.0, 0.0 \
+    }
+
 /** What a node guarantees; see framework/node/node.hpp. */
 typedef struct tactus_plugin_claims
 {
@@ -346,6 +457,11 @@ typedef struct tactus_plugin_claims
     int32_t passive;
     double stiffness, damping, spatial_frequency, amplitude;
 } tactus_plugin_claims;
+
+#define TACTUS_PLUGIN_CLAIMS_INIT                            \
+    {                                                        \
+        sizeof (tactus_plugin_claims), 0, 0.0, 0.0, 0.0, 0.0 \
+    }
 
 /** What a node looks like in a picture of the scene; see framework/node/appearance.hpp. A host that does not know the kind or a part
  *  leaves it out. */
@@ -357,6 +473,11 @@ typedef struct tactus_plugin_appearance
     const char* const* rows;  /**< by part: the id of a port or setting of the node */
     size_t part_count;
 } tactus_plugin_appearance;
+
+#define TACTUS_PLUGIN_APPEARANCE_INIT                 \
+    {                                                 \
+        sizeof (tactus_plugin_appearance), 0, 0, 0, 0 \
+    }
 
 /* ============================================================================ A node type */
 
@@ -410,17 +531,22 @@ typedef struct tactus_plugin_node
     int32_t (*claims) (const void* node, tactus_plugin_claims*, const tactus_plugin_report*) TACTUS_PLUGIN_NOEXCEPT;
 
     /** A device node has both of these, or neither. `announce` copies what `bind` will need; the node may be ticking at that time. `bind`
-     *  makes the node use what was announced last, and allocates nothing. [announce: main thread; bind: main or tick thread] */
+     *  makes the node use what was announced last, and allocates nothing. [main thread] */
     int32_t (*announce) (void* node, const tactus_plugin_device*, const tactus_plugin_report*) TACTUS_PLUGIN_NOEXCEPT;
-    void (*bind) (void* node) TACTUS_PLUGIN_NOEXCEPT;
+    void (*bind) (void* node) TACTUS_PLUGIN_NOEXCEPT; /**< see announce [main thread or tick thread] */
     /** Optional. [main thread] */
     int32_t (*missing) (const void* node, const tactus_plugin_layout*, const tactus_plugin_report*) TACTUS_PLUGIN_NOEXCEPT;
     /** Optional; makes the node a sink. [tick thread] */
     void (*effort) (const void* node, tactus_plugin_effort*) TACTUS_PLUGIN_NOEXCEPT;
-    /** Optional, not for device nodes. [main or tick thread] */
+    /** Optional, not for device nodes. [main thread or tick thread] */
     void (*learn) (void* node, const tactus_plugin_mechanics*) TACTUS_PLUGIN_NOEXCEPT;
     const tactus_plugin_appearance* appearance; /**< optional; plugins built before this member was added do not have it */
 } tactus_plugin_node;
+
+#define TACTUS_PLUGIN_NODE_INIT                                                                                                        \
+    {                                                                                                                                  \
+        sizeof (tactus_plugin_node), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 \
+    }
 
 /* ============================================================================ The plugin */
 
@@ -433,6 +559,11 @@ typedef struct tactus_plugin_host
     const char* version;                                             /**< "0.2.0" */
     const void* (*extension) (const char* id)TACTUS_PLUGIN_NOEXCEPT; /**< NULL if the host does not have it [any thread] */
 } tactus_plugin_host;
+
+#define TACTUS_PLUGIN_HOST_INIT                                 \
+    {                                                           \
+        sizeof (tactus_plugin_host), TACTUS_PLUGIN_ABI, 0, 0, 0 \
+    }
 
 /** The type of the exported symbol `tactus_plugin_entry`. A program may load the same plugin several times; then init and deinit come in
  *  pairs, and what the nodes describe stays valid until the last deinit. */
@@ -451,6 +582,11 @@ typedef struct tactus_plugin
     /** NULL if the plugin does not have it. [any thread] */
     const void* (*extension) (const char* id)TACTUS_PLUGIN_NOEXCEPT;
 } tactus_plugin;
+
+#define TACTUS_PLUGIN_INIT                                             \
+    {                                                                  \
+        sizeof (tactus_plugin), TACTUS_PLUGIN_ABI, 0, 0, 0, 0, 0, 0, 0 \
+    }
 
 TACTUS_PLUGIN_EXTERN TACTUS_PLUGIN_EXPORT const tactus_plugin tactus_plugin_entry;
 

@@ -9,8 +9,8 @@
  * --device ROLE=NAME:PORT and in descriptions of devices: {"driver": "NAME", "port": "PORT"}. Only a person chooses a driver; a graph cannot.
  *
  * Conventions
- *  - Those of tactus_plugin.h: SI units, UTF-8, structs that begin with their size. x points right, y away from the person, z up. The force and
- *    the torque act on the tool.
+ *  - Those of tactus_plugin.h: SI units, UTF-8, structs that begin with their size and have initialisers, such as TACTUS_DEVICE_BYTES_INIT. x points
+ *    right, y away from the person, z up. The force and the torque act on the tool.
  *  - A struct that a driver fills comes with its size set and everything else 0. A driver writes only members that the size covers.
  *  - No C++ exception and no longjmp crosses the interface: the program would end. A function that can fail returns TACTUS_DEVICE_FAILED and says
  *    why in `report`, in a sentence without a full stop.
@@ -44,6 +44,11 @@ typedef struct tactus_device_description
     const char* json; /**< the keys of the driver as a JSON object, for drivers that have more than "port" */
 } tactus_device_description;
 
+#define TACTUS_DEVICE_DESCRIPTION_INIT           \
+    {                                            \
+        sizeof (tactus_device_description), 0, 0 \
+    }
+
 /** Bytes that are written at once. */
 typedef struct tactus_device_bytes
 {
@@ -51,6 +56,11 @@ typedef struct tactus_device_bytes
     const uint8_t* bytes;
     size_t count;
 } tactus_device_bytes;
+
+#define TACTUS_DEVICE_BYTES_INIT           \
+    {                                      \
+        sizeof (tactus_device_bytes), 0, 0 \
+    }
 
 /** What the tool of a device has. */
 enum
@@ -95,6 +105,11 @@ typedef struct tactus_device_about
                                    at most 0.5 s */
 } tactus_device_about;
 
+#define TACTUS_DEVICE_ABOUT_INIT                                                                   \
+    {                                                                                              \
+        sizeof (tactus_device_about), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0, 0, 0, 0, 0.0 \
+    }
+
 /** Why a device cannot be trusted, by its own account. */
 enum
 {
@@ -115,6 +130,11 @@ typedef struct tactus_device_stamp
     uint64_t number; /**< counted by the device from 1, one more for each reading, without wrapping around */
     double time_s;   /**< when it was measured, by a clock of the device that is right to 0.1 % and does not wrap around */
 } tactus_device_stamp;
+
+#define TACTUS_DEVICE_STAMP_INIT                \
+    {                                           \
+        sizeof (tactus_device_stamp), 0, 0, 0.0 \
+    }
 
 /** The type of the exported symbol `tactus_device_entry`. `device` is what `open` returned. */
 typedef struct tactus_device_driver
@@ -152,6 +172,11 @@ typedef struct tactus_device_driver
     /** Called once. Not called if another function of the device never returns. [opening thread] */
     void (*close) (void* device) TACTUS_PLUGIN_NOEXCEPT;
 } tactus_device_driver;
+
+#define TACTUS_DEVICE_DRIVER_INIT                                                         \
+    {                                                                                     \
+        sizeof (tactus_device_driver), TACTUS_DEVICE_ABI, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 \
+    }
 
 TACTUS_PLUGIN_EXTERN TACTUS_PLUGIN_EXPORT const tactus_device_driver tactus_device_entry;
 
