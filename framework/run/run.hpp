@@ -61,7 +61,8 @@ public:
 ///     auto edit = run.edit (graph);                         // compiled on top of the running plan
 ///     if (edit.plan()) edit.commit();                       // taken over between two ticks
 ///
-/// The caller keeps the graph. All functions are for the main thread unless noted otherwise.
+/// The caller keeps the graph. All functions are for the main thread, which is any one thread at a time, unless noted otherwise. In a loop of your
+/// own, tick() may have a thread of its own beside it (docs/threads.md).
 class Run final : private TickHooks
 {
 public:
@@ -134,7 +135,7 @@ public:
     //==========================================================================
     // Ticking.
 
-    /// Runs one tick. Offline only: a live run is ticked by its clock. [tick thread]
+    /// Runs one tick, in a loop of your own. Not after start(): then the clock ticks the run. [tick thread]
     void tick() noexcept;
 
     /// Starts the tick thread; call it once. The clock must outlive the run. Returns a sentence for each real-time privilege

@@ -38,7 +38,7 @@ public:
     /// with a reading that ages, so that the guard removes the force and a stop request takes effect. [a thread of the run]
     virtual void drive (Ticked&) noexcept = 0;
 
-    /// False if the ticks have no deadlines: then they are never late, and no graph can take too long.
+    /// False if the ticks have no deadlines: then they are never late, and no graph can take too long. [any thread]
     virtual bool isRealTime() const noexcept { return true; }
 
     /// True if this tick comes from a substitute clock, for instance while the clock's device is silent. Then no force is applied.
