@@ -33,6 +33,14 @@ for example in embed embed_c own_node pictures_c; do
     echo "docs/examples/$example: built against the shared library, $(wc -l <"$work/$example.txt") lines printed"
 done
 
+# A loop in C, without a warning, and its log.
+cmake -S "$examples/loop_c" -B "$work/loop_c" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" \
+    -DCMAKE_C_FLAGS="-std=c99 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror" >/dev/null
+cmake --build "$work/loop_c" >/dev/null
+"$work/loop_c/loop_c" "$source/graphs/dry_wood.json" "$work/loop.jsonl" >"$work/loop_c.txt"
+"$build/bin/tactus" render --replay "$work/loop.jsonl" --out "$work/loop.csv" 2>/dev/null
+echo "docs/examples/loop_c: $(cat "$work/loop_c.txt"); its log replays $(($(wc -l <"$work/loop.csv") - 1)) ticks"
+
 cmake -S "$examples/embed_c" -B "$work/static" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" -DTactus_USE_STATIC_LIBS=ON >/dev/null
 cmake --build "$work/static" >/dev/null
 "$work/static/embed_c" graphs/dry_wood.json >"$work/static.txt"
