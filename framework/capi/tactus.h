@@ -429,10 +429,29 @@ TACTUS_API tactus_result tactus_run_status (const tactus_run*, tactus_status*); 
 
 /* ---------------------------------------------------------------------------- While it plays */
 
-/** The same text, or another one that means the same wire. [main thread] */
+/** Sets a parameter by name: "drag.mu", "finger[*]/drag.mu", or a component of a vector: "cut.normal.x". The value ramps to it. Refuses
+ *  a value that is not finite or out of range (param/value, param/out_of_range), a vector as a whole (param/shape) and a choice
+ *  (param/unknown_choice). [main thread] */
 TACTUS_API tactus_result tactus_run_set (tactus_run*, const char* param, double value, tactus_messages*);
 
-/** The same text, or another one that means the same wire. [main thread] */
+/** Sets all components of a vector, or all entries of a list, or none: "cut.normal" to three numbers. [main thread] */
+TACTUS_API tactus_result tactus_run_set_vector (tactus_run*, const char* param, const double* values, size_t count, tactus_messages*);
+
+/** Sets a parameter to a value that is written as in a graph file: a choice by its name, "saw"; a number with a unit, "2 N/mm"; a vector,
+ *  "[0, 0, 1]". Text needs no quotes inside of yours. [main thread] */
+TACTUS_API tactus_result tactus_run_set_value (tactus_run*, const char* param, const char* value, tactus_messages*);
+
+TACTUS_API size_t tactus_run_control_count (const tactus_run*);                 /**< [main thread] */
+TACTUS_API const char* tactus_run_control_id (const tactus_run*, size_t index); /**< valid until tactus_run_edit [main thread] */
+
+/** Where a control stands: where it was turned to, or else where `sets` or the graph puts it. The texts are valid until tactus_run_edit.
+ *  [main thread] */
+TACTUS_API tactus_result tactus_run_get_control (const tactus_run*, const char* control, tactus_control*, tactus_messages*);
+
+/** Turns a control, from 0 to 1, and with it all parameters that it moves. [main thread] */
+TACTUS_API tactus_result tactus_run_turn (tactus_run*, const char* control, double value, tactus_messages*);
+
+/** Triggers a hit input: "ring.hit", in m/s; more than 0, at most 1000 (hit/value). [main thread] */
 TACTUS_API tactus_result tactus_run_hit (tactus_run*, const char* input, double speed, tactus_messages*);
 
 /** Plays an edited graph, or one that was read again, from the next tick on. What both contain, by name, continues, and no force jumps. An edit that
