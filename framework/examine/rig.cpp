@@ -39,7 +39,16 @@ std::size_t firstOf (std::string_view id, const std::vector<Rig::Component>& com
 }
 }   // namespace
 
-Rig::Rig (const NodeType& type, double rate_hz) : sheet (type), setup { rate_hz }, node (type.make()), results (new std::byte[type.outputs_size + guard])
+namespace
+{
+std::shared_ptr<void> made (const NodeType& type)
+{
+    Stage::enter ("create");
+    return type.make();
+}
+}   // namespace
+
+Rig::Rig (const NodeType& type, double rate_hz) : sheet (type), setup { rate_hz }, node (made (type)), results (new std::byte[type.outputs_size + guard])
 {
     std::fill_n (results.get() + type.outputs_size, guard, untouched);
     type.initialiseOutputs (results.get());
@@ -51,6 +60,7 @@ Rig::Rig (std::string_view type_id, double rate_hz) : Rig (typeNamed (type_id), 
 
 Rig& Rig::set (std::string_view id, const SettingValue& value)
 {
+    Stage::enter ("set");
     named (id, sheet.settings).set (node.get(), value);
     if (id == "inputs") list_size = static_cast<int> (std::get<double> (value));
     return *this;
@@ -76,7 +86,11 @@ Rig& Rig::choose (std::string_view id, std::string_view alternative)
     return *this;
 }
 
-std::string Rig::problem() const { return sheet.problem ? sheet.problem (node.get()) : std::string {}; }
+std::string Rig::problem() const
+{
+    Stage::enter ("problem");
+    return sheet.problem ? sheet.problem (node.get()) : std::string {};
+}
 
 void Rig::prepare()
 {
@@ -151,9 +165,18 @@ double Rig::out (std::string_view id, int index) const { return out (firstOf (id
 
 Vec3 Rig::vector (std::string_view id) const { return { out (id, 0), out (id, 1), out (id, 2) }; }
 
-Claims Rig::claims() const { return sheet.claims ? sheet.claims (node.get()) : Claims {}; }
+Claims Rig::claims() const
+{
+    Stage::enter ("claims");
+    return sheet.claims ? sheet.claims (node.get()) : Claims {};
+}
 
-Effort Rig::effort() const noexcept { return sheet.effort ? sheet.effort (node.get()) : Effort {}; }
+Effort Rig::effort() const noexcept
+{
+    if (! sheet.effort) return {};
+    Stage::enter ("effort");
+    return sheet.effort (node.get());
+}
 
 double Rig::out (std::size_t output) const noexcept
 {

@@ -31,7 +31,7 @@ std::string callsUnwatched (const NodeType&)
 namespace
 {
 constexpr int called = 3, ticked = 0;   // exit statuses of the child: it made a system call; it made none
-constexpr rlim_t most_seconds = 10;     // CPU time of the child; 200 ticks take less than a millisecond
+constexpr rlim_t most_seconds = 5;      // CPU time of the child; 200 ticks take less than a millisecond
 
 /// The number of the system call that a child has made, in memory that it shares with its parent: the child may make no other
 /// system call to report it.
@@ -115,6 +115,8 @@ std::string systemCallFault (const NodeType& type, unsigned seed)
     const int number = *number_of_call;
     ::munmap (shared, sizeof (int));
     if (! ended) return "the process that watches system calls could not be started";
+    const bool is_spent = WIFSIGNALED (status) && (WTERMSIG (status) == SIGXCPU || WTERMSIG (status) == SIGKILL);
+    if (is_spent) return say ("`tick` did not return within ", most_seconds, " s of CPU time");
     if (WIFSIGNALED (status)) return say ("the process that ticked was ended by signal ", WTERMSIG (status), ": ", ::strsignal (WTERMSIG (status)));
     if (WEXITSTATUS (status) == called) return say ("a tick calls the operating system: ", nameOf (number));
     return WEXITSTATUS (status) == ticked ? "" : say ("the process that ticked ended with status ", WEXITSTATUS (status));

@@ -27,13 +27,13 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr int most_idle_seconds = 60;
+constexpr int most_idle_seconds = 60, looks_per_second = 5;
 constexpr rlim_t most_memory = rlim_t { 8 } << 30;   // bytes of address space: beyond it, allocations fail
 
 /// What a child tells its parent, in memory that they share: the parent can read it however the child ends.
 struct Slate
 {
-    std::atomic<const char*> hook;
+    examine::Stage::Place stage;
     std::atomic<int> length;   // of the answer; -1: there is no answer yet
     char answer[1 << 20];
 };
@@ -87,6 +87,27 @@ Activity activityOf (pid_t process)
     return all;
 }
 
+/// Follows how much CPU time the work has used since it last entered a hook.
+class CallWatch
+{
+public:
+    explicit CallWatch (const examine::Stage::Place& where) noexcept : stage (where) {}
+
+    double secondsOf (const Activity& now) noexcept
+    {
+        static const auto per_second = static_cast<double> (::sysconf (_SC_CLK_TCK));
+        const auto call = stage.calls.load (std::memory_order_relaxed);
+        if (call != last) begun = now.used;
+        last = call;
+        return static_cast<double> (now.used - begun) / per_second;
+    }
+
+private:
+    const examine::Stage::Place& stage;
+    std::uint32_t last = 0;
+    unsigned long long begun = 0;
+};
+
 [[noreturn]] void workInChild (int cpu_seconds, const std::function<std::string()>& work, Slate& slate)
 {
     ::prctl (PR_SET_PDEATHSIG, SIGKILL);
@@ -96,7 +117,7 @@ Activity activityOf (pid_t process)
     ::setrlimit (RLIMIT_CORE, &none);
     ::setrlimit (RLIMIT_AS, &memory);
     ::dup2 (STDERR_FILENO, STDOUT_FILENO);
-    examine::Stage::keepIn (&slate.hook);
+    examine::Stage::keepIn (&slate.stage);
     std::string answer;
     try
     {
@@ -113,21 +134,30 @@ Activity activityOf (pid_t process)
     ::_exit (0);
 }
 
-/// Waits until the child has ended; then the pipe closes. If the child waits forever, kills it and returns true.
-bool waitFor (pid_t child, int pipe)
+enum class Fate
+{
+    ended,
+    looped,   ///< one call used up its CPU time
+    waited    ///< no thread ran for a minute
+};
+
+/// Waits until the child has ended; then the pipe closes. If a call of the child loops or the child waits forever, kills it.
+Fate waitFor (pid_t child, int pipe, const Budget& budget, const examine::Stage::Place& stage)
 {
     pollfd closing { pipe, POLLIN, 0 };
+    CallWatch call { stage };
     Activity before;
-    for (int idle = 0; ::poll (&closing, 1, 1000) <= 0;)
+    for (int idle = 0; ::poll (&closing, 1, 1000 / looks_per_second) <= 0;)
     {
         const auto now = activityOf (child);
         idle = now.runs || now.used != before.used ? 0 : idle + 1;
         before = now;
-        if (idle < most_idle_seconds) continue;
+        const bool loops = call.secondsOf (now) >= budget.call_seconds;
+        if (! loops && idle < most_idle_seconds * looks_per_second) continue;
         ::kill (-child, SIGKILL);
-        return true;
+        return loops ? Fate::looped : Fate::waited;
     }
-    return false;
+    return Fate::ended;
 }
 
 std::string endOf (int status)
@@ -137,24 +167,28 @@ std::string endOf (int status)
     return "the program was ended by signal " + std::to_string (signal) + " (" + ::strsignal (signal) + ")";
 }
 
-Ending endingOf (const Slate& slate, int status, const rusage& used, bool waited, int cpu_seconds)
+std::string seconds (int n) { return std::to_string (n) + " s of CPU time"; }
+
+Ending endingOf (const Slate& slate, int status, const rusage& used, Fate fate, const Budget& budget)
 {
     if (const int length = slate.length; WIFEXITED (status) && WEXITSTATUS (status) == 0 && length >= 0)
         return { .done = true, .answer = std::string (slate.answer, static_cast<std::size_t> (length)) };
-    const bool spent = WIFSIGNALED (status) && used.ru_utime.tv_sec + used.ru_stime.tv_sec + 1 >= cpu_seconds
+    const bool spent = WIFSIGNALED (status) && used.ru_utime.tv_sec + used.ru_stime.tv_sec + 1 >= budget.cpu_seconds
                        && (WTERMSIG (status) == SIGXCPU || WTERMSIG (status) == SIGKILL);
     std::string why = endOf (status);
-    if (waited)
+    if (fate == Fate::waited)
         why = "never stops waiting";
+    else if (fate == Fate::looped)
+        why = "did not return within " + seconds (budget.call_seconds);
     else if (spent)
-        why = "did not finish within " + std::to_string (cpu_seconds) + " s of CPU time";
-    const char* hook = slate.hook;
-    const std::string place = hook != nullptr ? std::string ("`") + hook + "`: " : "";
-    return { .why = place + why, .endless = waited || spent };
+        why = "returns, but everything together did not finish within " + seconds (budget.cpu_seconds);
+    const char* hook = slate.stage.hook;
+    const auto place = hook != nullptr ? "`" + std::string (hook) + "`" + (budget.of.empty() ? "" : " of " + budget.of) + ": " : std::string();
+    return { .why = place + why, .endless = fate != Fate::ended || spent };
 }
 }   // namespace
 
-Ending runApart (int cpu_seconds, const std::function<std::string()>& work)
+Ending runApart (const Budget& budget, const std::function<std::string()>& work)
 {
     const SharedSlate shared;
     int ends[2];
@@ -164,7 +198,7 @@ Ending runApart (int cpu_seconds, const std::function<std::string()>& work)
     if (child == 0)
     {
         ::close (ends[0]);
-        workInChild (cpu_seconds, work, shared.slate());
+        workInChild (budget.cpu_seconds, work, shared.slate());
     }
     ::close (ends[1]);
     if (child < 0)
@@ -172,13 +206,13 @@ Ending runApart (int cpu_seconds, const std::function<std::string()>& work)
         ::close (ends[0]);
         return { .why = "a process could not be started" };
     }
-    const bool waited = waitFor (child, ends[0]);
+    const auto fate = waitFor (child, ends[0], budget, shared.slate().stage);
     int status = 0;
     rusage used {};
     ::wait4 (child, &status, 0, &used);
     ::close (ends[0]);
     ::kill (-child, SIGKILL);   // processes that the child may have started
-    return endingOf (shared.slate(), status, used, waited, cpu_seconds);
+    return endingOf (shared.slate(), status, used, fate, budget);
 }
 
 }   // namespace tactus::check_plugin

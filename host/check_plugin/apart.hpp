@@ -16,9 +16,17 @@ struct Ending
     bool endless = false;    ///< the process had to be killed, because the work never finished
 };
 
+/// What work in a separate process may take.
+struct Budget
+{
+    int cpu_seconds;     ///< of CPU time, for all of the work
+    int call_seconds;    ///< of CPU time, from one entry into a hook (examine::Stage) to the next
+    std::string of {};   ///< whose hooks they are, for messages: "mylab.rough_wood"
+};
+
 /// Runs `work` in a separate process, and waits until that process has ended. Its standard output goes to standard error. The process
-/// is killed after `cpu_seconds` of CPU time, however long that takes in real time, or once all its threads have been waiting for a
+/// is killed once it has used its CPU time, however long that takes in real time, or once all its threads have been waiting for a
 /// minute. So a busy machine does not change the result. [main thread, no other threads]
-Ending runApart (int cpu_seconds, const std::function<std::string()>& work);
+Ending runApart (const Budget&, const std::function<std::string()>& work);
 
 }   // namespace tactus::check_plugin

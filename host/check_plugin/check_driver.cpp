@@ -38,6 +38,7 @@ using host::OpenedDevice;
 using Clock = std::chrono::steady_clock;
 using Driver = std::shared_ptr<const DeviceDriver>;
 
+constexpr int most_cpu_seconds = 120;          // a driver may spin while it waits
 constexpr unsigned longest_examination = 20;   // s; far longer than any examination takes on a busy computer
 constexpr auto longest_read = 50ms, late = 50ms, longest_write = 100ms;
 constexpr auto far_too_often = 20e3;   // calls per s that return at once
@@ -462,7 +463,7 @@ std::vector<Finding> checkDriver (const Options& options)
             all.push_back (std::move (f));
             continue;
         }
-        f = finding (f.id, f.promise, runApart (options.cpu_seconds * 12, [&] { return examine (options, e); }));
+        f = finding (f.id, f.promise, runApart ({ most_cpu_seconds, most_cpu_seconds }, [&] { return examine (options, e); }));
         if (f.verdict == Verdict::fail && f.why.find (killed) != std::string::npos)
         {
             f.why = f.why.substr (0, f.why.find (':')) + ": does not return within " + std::to_string (longest_examination) + " s";

@@ -104,11 +104,17 @@ std::string examineNode (const NodeType& type, const examine::Examination& exami
     return {};
 }
 
+Budget budgetOf (const Options& options, const std::string& node)
+{
+    constexpr int calls = 24;   // so many calls may take their whole time
+    return { .cpu_seconds = calls * options.cpu_seconds, .call_seconds = options.cpu_seconds, .of = node };
+}
+
 /// Runs the node in two processes with the same seed: its outputs must depend neither on when the plugin was loaded nor on chance.
 Finding runsFinding (const Options& options, const std::string& id)
 {
     const auto print = [&] {
-        return runApart (options.cpu_seconds, [&] {
+        return runApart (budgetOf (options, id), [&] {
             return askNode (options.file, id, [&] (const NodeType& type) { return std::to_string (examine::fingerprint (type, options.seed)); });
         });
     };
@@ -127,8 +133,7 @@ CheckedNode checkNode (const Options& options, const std::string& id)
         Finding f { std::string (examination.id), std::string (examination.promise), Verdict::skipped, endless };
         if (endless.empty())
         {
-            const int budget = options.cpu_seconds * (examination.id == "hooks" ? 1 : 12);
-            const auto ending = runApart (budget, [&] {
+            const auto ending = runApart (budgetOf (options, id), [&] {
                 return askNode (options.file, id, [&] (const NodeType& type) { return examineNode (type, examination, options); });
             });
             f = finding (f.id, f.promise, ending);
@@ -138,7 +143,7 @@ CheckedNode checkNode (const Options& options, const std::string& id)
     }
     if (! endless.empty()) return node;
     node.findings.push_back (runsFinding (options, id));
-    const auto timed = runApart (options.cpu_seconds, [&] {
+    const auto timed = runApart (budgetOf (options, id), [&] {
         return askNode (options.file, id, [] (const NodeType& type) { return std::to_string (examine::tickTime (type)); });
     });
     if (timed.done) node.tick_ns = readNumber (timed.answer).value;
@@ -175,7 +180,7 @@ int Report::failures() const
 Report checkPlugin (const Options& options)
 {
     Report report { .options = options };
-    const auto ending = runApart (options.cpu_seconds, [&] { return describe (options.file); });
+    const auto ending = runApart ({ options.cpu_seconds, options.cpu_seconds }, [&] { return describe (options.file); });
     Finding load { "load", "the plugin loads, and its datasheets are complete" };
     if (! ending.done)
     {

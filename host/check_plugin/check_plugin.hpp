@@ -16,7 +16,7 @@ struct Options
     int level = 5;           ///< 1 to 10: which examinations, and how many trials each
     unsigned seed = 1;       ///< of the first trial; each further trial adds 1
     std::string device {};   ///< of a driver: the keys of a description as a JSON object, to open a device; "": none
-    int cpu_seconds = 10;    ///< for loading, and for `hooks`; most other examinations get twelve times as much
+    int cpu_seconds = 5;     ///< of CPU time, for loading, and for each call of a hook; each examination gets 24 times as much
 };
 
 enum class Verdict

@@ -40,7 +40,7 @@ int main (int argc, char** argv)
     app.addOption ("plugin", file, "The file of the plugin").required();
     app.addOption ("--strict", options.level, "How thoroughly, from 1 to 10; default: 5").check (host::within (1, 10));
     app.addOption ("--seed", seed, "The seed of the first random trial; default: 1").check (host::within (0, std::numeric_limits<int>::max()));
-    app.addOption ("--cpu-seconds", options.cpu_seconds, "The CPU time that loading and the hooks of a node may take; default: 10")
+    app.addOption ("--cpu-seconds", options.cpu_seconds, "The CPU time that loading, or one call of a function of a node, may take; default: 5")
         .check (host::within (1, 3600));
     app.addOption ("--open", options.device, "Of a device driver: the description of a device to open, as JSON. It gets no force");
     app.addFlag ("--json", json, "Print JSON, for use by programs");

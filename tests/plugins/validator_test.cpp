@@ -7,6 +7,8 @@
 #include <host/cli/program.hpp>
 #include <tactus/text/json.hpp>
 
+#include <sys/resource.h>
+
 using namespace tactus;
 
 namespace
@@ -24,6 +26,15 @@ Checked check (const std::string& plugin, std::vector<std::string> more = { "--s
     const auto ran = test::runTactus (words);
     INFO (ran.err);
     return { ran.status, Json::parse (ran.out) };
+}
+
+/// The CPU time of all processes that have ended.
+double cpuSecondsOfChildren()
+{
+    rusage used {};
+    ::getrusage (RUSAGE_CHILDREN, &used);
+    const auto seconds = [] (const timeval& t) { return static_cast<double> (t.tv_sec) + 1e-6 * static_cast<double> (t.tv_usec); };
+    return seconds (used.ru_utime) + seconds (used.ru_stime);
 }
 
 /// A line "id: why" for each examination that failed.
@@ -117,9 +128,21 @@ TEST_CASE ("check-plugin catches a false claim, and its seed repeats the failure
     CHECK (failuresOf (again.report) == first);
 }
 
-TEST_CASE ("check-plugin kills a prepare that never returns, and names the hook", "[plugins]")
+TEST_CASE ("check-plugin kills a function that never returns, and names it and its node", "[plugins]")
 {
     const auto checked = check ("bad_endless", { "--strict", "1", "--cpu-seconds", "1" });
     CHECK (checked.status == 1);
-    CHECK (failuresOf (checked.report) == "hooks: `prepare`: did not finish within 1 s of CPU time\n");
+    CHECK (failuresOf (checked.report) == "hooks: `prepare` of c.twice: did not return within 1 s of CPU time\n");
+}
+
+TEST_CASE ("a node whose tick loops for some inputs costs check-plugin less than 10 s of CPU time", "[plugins]")
+{
+    const auto before = cpuSecondsOfChildren();
+    const auto checked = check ("bad_endless_tick");
+    CHECK (cpuSecondsOfChildren() - before < 10.0);
+    CHECK (checked.status == 1);
+    CHECK (failuresOf (checked.report) == "finite: `tick` of c.twice: did not return within 5 s of CPU time\n");
+    const auto& last = checked.report["nodes"][0]["examinations"].back();
+    CHECK (last["result"] == "SKIPPED");
+    CHECK (last["why"] == "the node did not finish in `finite`");
 }

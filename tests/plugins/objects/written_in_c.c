@@ -88,6 +88,10 @@ static double fault (double v, double* outputs)
 #ifdef BAD_CRASH
     *(volatile int*)0 = 1;
 #endif
+#ifdef BAD_ENDLESS_TICK
+    for (volatile double input = v; input > 1e100;)
+        ;
+#endif
 #ifdef BAD_ALLOCATES
     void* volatile block = malloc (16);
     free (block);
