@@ -30,12 +30,13 @@ if (TARGET tactus_shared)
     install (EXPORT TactusShared NAMESPACE tactus:: DESTINATION ${package} FILE TactusShared.cmake COMPONENT development)
 endif ()
 
-configure_package_config_file (framework/TactusConfig.cmake.in ${PROJECT_BINARY_DIR}/TactusConfig.cmake INSTALL_DESTINATION ${package})
+configure_package_config_file (framework/TactusConfig.cmake.in ${PROJECT_BINARY_DIR}/installed/TactusConfig.cmake INSTALL_DESTINATION ${package})
+configure_file (framework/TactusBuildTree.cmake.in ${PROJECT_BINARY_DIR}/TactusConfig.cmake @ONLY)
 write_basic_package_version_file (${PROJECT_BINARY_DIR}/TactusConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 file (RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)   # so that an installed tree can be moved
 list (JOIN TACTUS_SAME_BITS " " same_bits)
 configure_file (framework/tactus.pc.in ${PROJECT_BINARY_DIR}/tactus.pc @ONLY)
-install (FILES ${PROJECT_BINARY_DIR}/TactusConfig.cmake ${PROJECT_BINARY_DIR}/TactusConfigVersion.cmake framework/node/catalogue.cmake
+install (FILES ${PROJECT_BINARY_DIR}/installed/TactusConfig.cmake ${PROJECT_BINARY_DIR}/TactusConfigVersion.cmake framework/node/catalogue.cmake
     framework/plugin/plugin.cmake framework/plugin/plugin.map framework/plugin/device.map DESTINATION ${package} COMPONENT development)
 install (FILES ${PROJECT_BINARY_DIR}/tactus.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 if (TARGET tactus_live_shared)

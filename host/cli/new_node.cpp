@@ -3,6 +3,7 @@
 #include "report.hpp"
 
 #include <host/platform/atomic_folder.hpp>
+#include <host/platform/start_program.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -119,7 +120,9 @@ add_executable (@NAME@_test @NAME@_test.cpp)
 target_link_libraries (@NAME@_test PRIVATE tactus::plugin_kit)
 add_test (NAME @NAME@ COMMAND @NAME@_test)
 
+# `tactus export` finds the header next to the plugin.
 install (TARGETS @NAME@ LIBRARY DESTINATION lib/tactus/plugins)
+install (FILES @NAME@.hpp DESTINATION lib/tactus/plugins)
 )";
 
 constexpr const char* readme_template = R"(# @FAMILY@.@NAME@
@@ -131,7 +134,8 @@ A node for Tactus, as a plugin.
     tactus play my_graph.json --plugins build
 
 The model is in `@NAME@.hpp`; the same header also works compiled into a program (`tactus_add_nodes`). To have the node in every graph, copy
-`build/@NAME@.tactus` into a folder in which Tactus looks for plugins, such as `~/.config/Tactus/plugins` (docs/plugins.md lists them).
+`build/@NAME@.tactus` into a folder in which Tactus looks for plugins, such as `~/.config/Tactus/plugins` (docs/plugins.md lists them). Copy
+`@NAME@.hpp` next to it, so that `tactus export` finds the code of the node.
 )";
 
 bool isName (const std::string& s)
@@ -189,10 +193,19 @@ std::string shellWord (const fs::path& path)
     return word + "'";
 }
 
+/// Where CMake looks for Tactus: where the user says, then next to this program, in an installation or a build tree.
+std::string prefixes()
+{
+    const char* told = std::getenv ("CMAKE_PREFIX_PATH");
+    std::string all = told != nullptr ? told : "";
+    std::ranges::replace (all, ':', ';');
+    return all + (all.empty() ? "" : ";") + (programFolder() / "..").lexically_normal().string();
+}
+
 void build (const fs::path& folder)
 {
     const auto there = shellWord (folder), into = shellWord (folder / "build");
-    const auto command = "cmake -S " + there + " -B " + into + " -DCMAKE_BUILD_TYPE=Release > /dev/null"
+    const auto command = "cmake -S " + there + " -B " + into + " -DCMAKE_BUILD_TYPE=Release " + shellWord ("-DCMAKE_PREFIX_PATH=" + prefixes()) + " > /dev/null"
                          + " && cmake --build " + into + " && cd " + into + " && ctest";
     std::cout << std::flush;
     if (std::system (command.c_str()) != 0)
