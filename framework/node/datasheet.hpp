@@ -242,14 +242,4 @@ struct SettingsOf<N>
 };
 }   // namespace detail
 
-/// True if `ports` has exactly one row per member of Inputs, Params, Settings and Outputs.
-template <typename N>
-constexpr bool datasheetIsComplete()
-{
-    return detail::rowCount<Role::input> (N::ports) == detail::memberCount<typename N::Inputs>()
-           && detail::rowCount<Role::param> (N::ports) == detail::memberCount<typename N::Params>()
-           && detail::rowCount<Role::setting> (N::ports) == detail::memberCount<typename detail::SettingsOf<N>::Type>()
-           && detail::rowCount<Role::output> (N::ports) == detail::memberCount<typename N::Outputs>();
-}
-
 }   // namespace tactus

@@ -175,14 +175,15 @@ concept Stateless = requires (const N node, const typename N::Inputs in) { { nod
 
 }   // namespace tactus
 
+#include "node_mistake.hpp"
+
 // The build defines this where it adds a node to the catalogue (catalogue.cmake). It has no effect elsewhere.
 #define TACTUS_REGISTER(N)
 
 // The build defines this where it compiles a node for several lanes (lanes.hpp).
 #define TACTUS_LANES(N) static_assert (::tactus::Node<N<double>>, #N "<double> is not a node")
 
-#define TACTUS_NODE(N)                                                                   \
-    TACTUS_REGISTER (N)                                                                  \
-    static_assert (::tactus::Node<N>, #N " is not a node: see framework/node/node.hpp"); \
-    static_assert (::tactus::datasheetIsComplete<N>(),                                   \
-                   #N "::ports must have exactly one row per member of Inputs, Params, Settings and Outputs")
+#define TACTUS_NODE(N)     \
+    TACTUS_CHECK_NODE (N); \
+    TACTUS_REGISTER (N)    \
+    TACTUS_CHECK_ROWS (N)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace tactus::plugin
@@ -136,10 +137,16 @@ private:
 
     std::string hooks()
     {
-        if (! node.create || ! node.destroy || ! node.set || ! node.params || ! node.initialise_outputs || ! node.tick)
-            return "it lacks one of the functions that every node has";
-        if ((node.announce == nullptr) != (node.bind == nullptr)) return "it has only one of announce and bind";
-        if (node.announce == nullptr && (node.missing || node.effort)) return "it has missing or effort, but no bind";
+        const std::pair<const char*, bool> needed[] { { "create", node.create != nullptr },
+                                                      { "destroy", node.destroy != nullptr },
+                                                      { "set", node.set != nullptr },
+                                                      { "params", node.params != nullptr },
+                                                      { "initialise_outputs", node.initialise_outputs != nullptr },
+                                                      { "tick", node.tick != nullptr } };
+        for (const auto& [name, is_there] : needed)
+            if (! is_there) return "it lacks the function " + quote (name) + ", which every node has";
+        if ((node.announce == nullptr) != (node.bind == nullptr)) return "it has " + std::string (node.announce != nullptr ? "announce, but no bind" : "bind, but no announce");
+        if (node.announce == nullptr && (node.missing || node.effort)) return "it has " + std::string (node.missing != nullptr ? "missing" : "effort") + ", but no bind";
         return {};
     }
 

@@ -17,11 +17,24 @@ Message errorIn (const std::string& place, std::string text)
 {
     return Message::error ("live/compile", place, std::move (text), "correct the C++ code and save it; the previous version keeps running");
 }
+
+/// An error at the file, line and column that a line of the compiler names.
+Message at (std::string text, const std::smatch& place)
+{
+    const auto column = place[3].matched ? ":" + place[3].str() : std::string();
+    auto m = errorIn (place[1].str() + ":" + place[2].str() + column, std::move (text));
+    m.file = place[1].str();
+    m.line = std::stoi (place[2].str());
+    m.column = place[3].matched ? std::stoi (place[3].str()) : 1;
+    return m;
+}
 }   // namespace
 
 Messages errorsOf (const std::string& output, const std::string& name)
 {
     static const std::regex error ("(.+?):([0-9]{1,8}):(?:([0-9]{1,8}):)? (?:fatal )?error: (.*)");
+    // GCC places an error in a macro at the macro. What the author can edit is where the macro is used.
+    static const std::regex use ("(.+?):([0-9]{1,8}):([0-9]{1,8}): note: in expansion of macro .TACTUS_NODE.");
     Messages all;
     std::string last_lines;
     std::istringstream lines (output);
@@ -30,12 +43,14 @@ Messages errorsOf (const std::string& output, const std::string& name)
         if (line.size() > longest_line) line.resize (longest_line);
         last_lines += last_lines.empty() ? line : "\n" + line;
         std::smatch parts;
+        if (! all.empty() && line.find ("TACTUS_NODE") != std::string::npos && std::regex_search (line, parts, use))
+        {
+            auto& m = all.back();
+            m = at (m.text, parts);
+            continue;
+        }
         if (all.size() >= most_errors || ! std::regex_match (line, parts, error)) continue;
-        const auto column = parts[3].matched ? ":" + parts[3].str() : std::string();
-        auto& m = all.emplace_back (errorIn (parts[1].str() + ":" + parts[2].str() + column, parts[4].str()));
-        m.file = parts[1].str();
-        m.line = std::stoi (parts[2].str());
-        m.column = parts[3].matched ? std::stoi (parts[3].str()) : 1;
+        all.push_back (at (parts[4].str(), parts));
     }
     if (! all.empty()) return all;
     if (last_lines.size() > longest_line) last_lines.erase (0, last_lines.size() - longest_line);
