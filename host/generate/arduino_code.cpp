@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "arduino_code.hpp"
+#include "single_precision.hpp"
 
 namespace tactus::host
 {
@@ -70,15 +71,20 @@ inline std::uint32_t get (const Report& r, std::size_t at) noexcept
     return value;
 }
 
-/// A number in units of `unit` as 32 bits, at the limit if it is too large.
-inline void put (Report& r, std::size_t at, double value, double unit) noexcept
+/// A number as 32 bits in units of which there are `per_one` in 1, at the limit if it is too large. A float has fewer bits, so a position is added
+/// from two parts.
+inline void put (Report& r, std::size_t at, Fine value, double per_one) noexcept
 {
-    constexpr double most = 2147483647.0;
-    const double scaled = value / unit, rounded = std::floor (scaled + 0.5);
-    put (r, at, static_cast<std::uint32_t> (static_cast<std::int32_t> (rounded > -most ? (rounded < most ? rounded : most) : -most)));
+    using std::floor;
+    constexpr double most = 2147483520.0;
+    Fine rounded = floor (value * per_one + 0.5);
+    if (! (rounded < most)) rounded = most;
+    if (! (rounded > -most)) rounded = -most;
+    const double first = static_cast<double> (rounded), second = static_cast<double> (rounded - first);
+    put (r, at, static_cast<std::uint32_t> (static_cast<std::int32_t> (first) + static_cast<std::int32_t> (second)));
 }
 
-inline double get (const Report& r, std::size_t at, double unit) noexcept { return static_cast<std::int32_t> (get (r, at)) * unit; }
+inline double get (const Report& r, std::size_t at, double unit) noexcept { return static_cast<double> (static_cast<std::int32_t> (get (r, at))) * unit; }
 
 /// CRC-32 (IEEE) of bytes 0 to 59.
 inline std::uint32_t crcOf (const Report& r) noexcept
@@ -95,7 +101,7 @@ inline std::uint32_t crcOf (const Report& r) noexcept
 
 inline Report reportOf (const Reading& reading, const State& state) noexcept
 {
-    constexpr double nano = 1e-9, micro = 1e-6;
+    constexpr double nano = 1e9, micro = 1e6;
     Report r {};
     r[0] = 0x54;
     r[1] = 1;
@@ -245,11 +251,13 @@ static @C@::Outputs out;
 
 const uint32_t period_us = @PERIOD@, report_us = 1000;
 const int sensors[] = { A0, A1, A2 }, motors[] = { 3, 5, 6 }, directions[] = { 7, 8, 9 }, arm_button = 2;
-const double metres_per_count = 0.1 / 4096, middle = 2048, counts_per_newton = 50;
+const int middle = 2048;
+const tactus::Fine metres_per_count = 0.1 / 4096;
+const double counts_per_newton = 50;
 
-static tactus::Vec3 readPosition()
+static tactus::Position readPosition()
 {
-    tactus::Vec3 p;
+    tactus::Position p;
     for (int c = 0; c < 3; ++c)
         p[c] = (analogRead (sensors[c]) - middle) * metres_per_count;
     return p;
@@ -328,9 +336,10 @@ std::vector<std::pair<std::string, std::string>> arduinoFiles (const Exported& e
                                                                    { "@PERIOD@", std::to_string (period) },
                                                                    { "@ROLE@", e.wiring.role_names.front() },
                                                                    { "@PORT@", e.wiring.role_ports.front() } };
+    const auto code = [&e] (const std::string& text) { return e.is_single ? inSinglePrecision (text) : text; };
     return { { "library.properties", filled (properties, marks) },
-             { "src/tactus_board.hpp", board },
-             { "examples/Board/Board.ino", filled (sketch, marks) } };
+             { "src/tactus_board.hpp", code (board) },
+             { "examples/Board/Board.ino", code (filled (sketch, marks)) } };
 }
 
 }   // namespace tactus::host

@@ -54,9 +54,9 @@ void refusePlugins (const Plan& plan, Messages& messages)
 /// Names what has no single-precision export.
 void refuseSingle (const ExportOptions& options, Messages& messages)
 {
-    if (! options.is_single || options.target == ExportTarget::cpp) return;
-    messages.push_back (
-        Message::error ("export/float", "", "only the class alone can be exported in single precision", "write --to cpp, or leave out --float"));
+    if (! options.is_single || options.target == ExportTarget::cpp || options.target == ExportTarget::arduino) return;
+    messages.push_back (Message::error ("export/float", "", "C and FMU interfaces have doubles, so they cannot be exported in single precision",
+                                        "write --to cpp or --to arduino, or leave out --float"));
 }
 
 /// The code of the class in single precision. A number that a float cannot hold is an error.

@@ -237,19 +237,25 @@ TEST_CASE ("a graph gives the same bits from C and in a simulator", "[cli][expor
 TEST_CASE ("a board rests when its host stops, and every force on its motors passes the guard of the patch", "[cli][export]")
 {
     // The limits of the sketch, 3 N, 500 N/s and 0.5 s, hold where the patch has none.
-    const Scratch tight_scratch, loose_scratch;
+    const Scratch tight_scratch, loose_scratch, single_scratch;
     const auto tight = R"("max_force": "0.5 N", "max_slew": "20 N/s", "ramp": "2 s", "max_impulse": "4 N*s", "impulse_window": "10 s")";
     const struct
     {
         const Scratch& scratch;
         std::string guard;
         std::vector<std::string> limits;
-    } patches[] { { loose_scratch, R"("max_force": "6 N")", { "3", "500", "0.5" } }, { tight_scratch, tight, { "0.5", "20", "2" } } };
+        std::vector<std::string> options;
+    } patches[] { { loose_scratch, R"("max_force": "6 N")", { "3", "500", "0.5" }, {} },
+                  { tight_scratch, tight, { "0.5", "20", "2" }, {} },
+                  { single_scratch, tight, { "0.5", "20", "2" }, { "--float" } } };
     const std::string boards = TACTUS_SOURCE_DIR "/tests/host/generate/boards";
     double pushed_s[2] {};
     for (const auto& patch : patches)
     {
-        const auto folder = written (patch.scratch, patch.scratch.write ("plate.json", plateWith (patch.guard)), "arduino");
+        const auto folder = written (patch.scratch, patch.scratch.write ("plate.json", plateWith (patch.guard)), "arduino", patch.options);
+        if (! patch.options.empty())
+            for (const auto* file : { "/src/plate.hpp", "/src/plate.cpp", "/src/tactus_board.hpp", "/examples/Board/Board.ino" })
+                CHECK (textOf (folder + file).find ("double ") == std::string::npos);
         REQUIRE (succeeds ("cd '" + folder + "' && c++ " + flags + "-O1 -Isrc -I'" + boards + "' -DSKETCH='\"" + folder
                                + "/examples/Board/Board.ino\"' -o board '" + boards + "/simulated_board.cpp' $(find src -name '*.cpp')",
                            patch.scratch.path ("said")));
@@ -275,6 +281,19 @@ TEST_CASE ("a board rests when its host stops, and every force on its motors pas
     }
     CHECK (pushed_s[0] > 10.0);   // or the tests would show nothing
     CHECK (pushed_s[1] > 10.0);
+}
+
+TEST_CASE ("an Arduino library in single precision computes what Tactus does, as far as floats can", "[cli][export]")
+{
+    const Scratch scratch;
+    const auto folder = written (scratch, graph, "arduino", { "--float" });
+    const auto said = scratch.path ("said");
+    REQUIRE (succeeds ("cd '" + folder + "' && c++ " + flags + "-Wdouble-promotion -Isrc extras/*.cpp $(find src -name '*.cpp') -o self_test && ./self_test",
+                       said));
+    const auto text = textOf (said);
+    INFO (text);
+    CHECK (text.find (", 0 differ by more than 0.001 of the largest") != std::string::npos);
+    CHECK (text.find ("; 0 allocations from the heap") != std::string::npos);
 }
 
 TEST_CASE ("exported code keeps every limit of the guard, and lets C only tighten them", "[cli][export]")

@@ -93,7 +93,7 @@ TEST_CASE ("export writes and deletes nothing outside of its folder", "[cli][exp
     checkRefused ({ "new-node", "mylab", "wood", folder, "--only-write" }, 1, "is not empty", folder + "/wood.hpp");
 }
 
-TEST_CASE ("export --float writes a class without doubles, and only the class", "[cli][export]")
+TEST_CASE ("export --float writes a class without doubles, and no C or FMU interface", "[cli][export]")
 {
     const Scratch scratch;
     const auto folder = scratch.path ("small");

@@ -33,8 +33,8 @@ SimulatedBoard::Report asking (double force_z, bool drives = true, double force_
     r[0] = 0x54;
     r[1] = 1;
     r[2] = drives ? 1 : 0;
-    tactus::board::put (r, 8, force_x, 1e-6);
-    tactus::board::put (r, 16, force_z, 1e-6);
+    tactus::board::put (r, 8, force_x, 1e6);
+    tactus::board::put (r, 16, force_z, 1e6);
     return signedOff (r);
 }
 
@@ -96,7 +96,7 @@ void story()
     pass (rampTime());
     const double pushed = pushing();
     check (pushed > 0.0, "the board does not play its graph");
-    const double reported = tactus::board::get (RawHID.from_board, 20, 1e-9);
+    const double reported = 1e-9 * static_cast<std::int32_t> (tactus::board::get (RawHID.from_board, 20));
     check (std::abs (reported - (inside - contact) * 0.1 / 4096) < 1e-9, "a wrong position", reported);
 
     const double asked = 0.4 * limits.force;
