@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <map>
 #include <set>
 
 namespace tactus::host
@@ -159,6 +160,26 @@ std::string stemOf (const std::string& file)
     auto stem = identifier (fs::path (file).stem().string());
     for (auto& c : stem)
         c = c >= 'A' && c <= 'Z' ? static_cast<char> (c - 'A' + 'a') : c;
+/// Finds the units of parameters and feeds. Those of generic nodes follow from the wires, so a plan with these ports as records is asked.
+void findUnits (Exported& e, const CompileOptions& options)
+{
+    auto asks = options;
+    asks.records = options.feeds;
+    for (auto& p : e.parameters)
+        if (p.sheet->unit.kind == UnitRule::Kind::fixed)
+            p.unit = p.sheet->unit.unit.symbol;
+        else
+            asks.records.push_back (p.name);
+    std::map<std::string, std::string> units;
+    if (const auto made = compile (e.graph, catalogue(), asks); made.plan)
+        for (const auto& tap : made.plan->taps())
+            units.emplace (tap.name, tap.unit);
+    for (auto& p : e.parameters)
+        if (const auto found = units.find (p.name); found != units.end()) p.unit = found->second;
+    for (const auto& feed : options.feeds)
+        e.feed_units.push_back (units[feed]);
+}
+
     return Names().make (stem);
 }
 
@@ -276,6 +297,7 @@ ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& opti
     folder.files.emplace_back (place + e.stem + "_self_test_data.hpp", std::move (self_test.data));
     folder.stem = e.stem;
     folder.class_name = e.class_name;
+    findUnits (e, options.compile);
     return folder;
 }
 

@@ -25,6 +25,7 @@ struct ExportedParameter
     int slot = 0;   ///< component or entry
     std::size_t knob = 0;
     double value = 0.0;
+    std::string unit {};   ///< SI symbol, "" if unknown
 };
 
 struct ExportedControl
@@ -64,5 +65,6 @@ struct Exported
     std::vector<ExportedRole> roles;
     NodeMemory memory {};
 };
+    std::vector<std::string> feed_units {};   ///< by feed: SI symbol, "" if unknown
 
 }   // namespace tactus::host

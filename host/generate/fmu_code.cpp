@@ -4,12 +4,14 @@
 
 #include <tactus/run/log/run_head.hpp>
 #include <tactus/text/number_text.hpp>
+#include <tactus/text/units.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <set>
 
 namespace tactus::host
 {
@@ -33,6 +35,7 @@ struct Variable
     Kind kind = Kind::input;
     std::string code;   ///< for an input, a statement in which @ is the value; for an output, its value; for a limit, its key; for others, an enumerator
     double start = 0.0, low = -inf, high = inf;
+    std::string unit {};   ///< "N/m"; empty: unknown
 };
 
 struct Variables
@@ -45,37 +48,37 @@ struct Variables
 /// A limit that limits nothing is the largest number, because not every importer reads "INF".
 double finite (double limit) { return std::min (limit, std::numeric_limits<double>::max()); }
 
-void addInput (Variables& all, const std::string& name, const std::string& code, const std::string& about, double start = 0.0)
+void addInput (Variables& all, const std::string& name, const std::string& code, const std::string& unit, const std::string& about)
 {
-    all.reals.push_back ({ .name = "in." + name, .about = about, .kind = Variable::Kind::input, .code = code, .start = start });
+    all.reals.push_back ({ .name = "in." + name, .about = about, .kind = Variable::Kind::input, .code = code, .unit = unit });
 }
 
-void addOutput (Variables& all, const std::string& name, const std::string& code, const std::string& about)
+void addOutput (Variables& all, const std::string& name, const std::string& code, const std::string& unit, const std::string& about = {})
 {
-    all.reals.push_back ({ .name = name, .about = about, .kind = Variable::Kind::output, .code = code });
+    all.reals.push_back ({ .name = name, .about = about, .kind = Variable::Kind::output, .code = code, .unit = unit });
 }
 
 void addRoleInputs (Variables& all, const Exported& e, std::size_t i)
 {
     const auto& role = e.wiring.role_ports[i];
     const auto in = "in." + role + ".";
-    constexpr std::pair<const char*, const char*> vectors[] {
-        { "position", "of the tool, m" },
-        { "rotation", "rotation vector, rad" },
-        { "true_position", "of a simulated device, m" },
-        { "true_velocity", "of a simulated device, m/s" },
-        { "unrendered_force", "force that the motors could not render, N" },
-        { "unrendered_torque", "torque that the motors could not render, N m" },
+    constexpr std::array<const char*, 3> vectors[] {
+        { "position", "m", "of the tool" },
+        { "rotation", "rad", "rotation vector" },
+        { "true_position", "m", "of a simulated device" },
+        { "true_velocity", "m/s", "of a simulated device" },
+        { "unrendered_force", "N", "force that the motors could not render" },
+        { "unrendered_torque", "N*m", "torque that the motors could not render" },
     };
-    for (const auto& [name, about] : vectors)
+    for (const auto& [name, unit, about] : vectors)
         for (const char c : { 'x', 'y', 'z' })
-            addInput (all, role + "." + name + "." + c, in + name + "." + c + "() = @;", about);
-    addInput (all, role + ".pressure", in + "pressure = @;", "N");
-    addInput (all, role + ".age", in + "age = @;", "time since the device took this reading, s");
+            addInput (all, role + "." + name + "." + c, in + name + "." + c + "() = @;", unit, about);
+    addInput (all, role + ".pressure", in + "pressure = @;", "N", "of the hand");
+    addInput (all, role + ".age", in + "age = @;", "s", "time since the device took this reading");
     for (std::size_t a = 0; a < e.roles[i].layout.axes.size(); ++a)
-        addInput (all, role + ".axes." + std::to_string (a), in + "axes.set (" + std::to_string (a) + ", @);", e.roles[i].layout.axes[a]);
+        addInput (all, role + ".axes." + std::to_string (a), in + "axes.set (" + std::to_string (a) + ", @);", "", e.roles[i].layout.axes[a]);
     for (int s = 0; s < e.roles[i].layout.signal_inputs; ++s)
-        addInput (all, role + ".signals." + std::to_string (s), in + "signals.set (" + std::to_string (s) + ", @);", "signal input");
+        addInput (all, role + ".signals." + std::to_string (s), in + "signals.set (" + std::to_string (s) + ", @);", "", "signal input");
     all.buttons.emplace_back ("in." + role + ".buttons", in + "buttons");
     all.valid.emplace_back ("in." + role + ".valid", in + "valid");
 }
@@ -84,13 +87,41 @@ void addRoleOutputs (Variables& all, const Exported& e, std::size_t i)
 {
     const auto& role = e.wiring.role_ports[i];
     const auto out = "out." + role + ".";
-    for (const auto& [name, about] : { std::pair { "force", "on the tool, after the guard, N" }, { "torque", "on the tool, after the guard, N m" } })
+    for (const auto& [name, unit] : { std::pair { "force", "N" }, { "torque", "N*m" } })
         for (const char c : { 'x', 'y', 'z' })
-            addOutput (all, "out." + role + "." + name + "." + c, out + name + "." + c + "()", about);
+            addOutput (all, "out." + role + "." + name + "." + c, out + name + "." + c + "()", unit, "on the tool, after the guard");
     for (std::size_t a = 0; a < e.roles[i].layout.efforts.size(); ++a)
-        addOutput (all, "out." + role + ".axes." + std::to_string (a), out + "axes[" + std::to_string (a) + "]", e.roles[i].layout.efforts[a]);
+        addOutput (all, "out." + role + ".axes." + std::to_string (a), out + "axes[" + std::to_string (a) + "]", "", e.roles[i].layout.efforts[a]);
     for (int s = 0; s < e.roles[i].layout.signal_outputs; ++s)
-        addOutput (all, "out." + role + ".signals." + std::to_string (s), out + "signals[" + std::to_string (s) + "]", "signal output");
+        addOutput (all, "out." + role + ".signals." + std::to_string (s), out + "signals[" + std::to_string (s) + "]", "", "signal output");
+}
+
+/// The unit of a limit; "" for those of axes and signals, which depend on the device.
+std::string unitOf (double GuardLimits::*limit)
+{
+    using L = GuardLimits;
+    constexpr std::pair<double L::*, const char*> units[] {
+        { &L::max_force, "N" },
+        { &L::max_torque, "N*m" },
+        { &L::max_slew, "N/s" },
+        { &L::max_torque_slew, "N*m/s" },
+        { &L::ramp, "s" },
+        { &L::watchdog, "s" },
+        { &L::max_speed, "m/s" },
+        { &L::max_angular_speed, "rad/s" },
+        { &L::max_impulse, "N*s" },
+        { &L::max_angular_impulse, "N*m*s" },
+        { &L::impulse_window, "s" },
+        { &L::max_energy, "J" },
+        { &L::energy_window, "s" },
+        { &L::max_still, "s" },
+        { &L::still_force, "N" },
+        { &L::still_torque, "N*m" },
+        { &L::dead_man_pressure, "N" },
+    };
+    for (const auto& [member, unit] : units)
+        if (member == limit) return unit;
+    return {};
 }
 
 void addLimits (Variables& all, const Exported& e, std::size_t i)
@@ -103,7 +134,8 @@ void addLimits (Variables& all, const Exported& e, std::size_t i)
                                    .about = "limit of the guard; can only be tightened",
                                    .kind = Variable::Kind::limit,
                                    .code = std::string (key),
-                                   .start = finite (limits.*value) });
+                                   .start = finite (limits.*value),
+                                   .unit = unitOf (value) });
     all.held.emplace_back ("limit." + role + "." + std::string (dead_man_buttons), limits.dead_man_buttons);
 }
 
@@ -127,8 +159,8 @@ Variables variablesOf (const Exported& e)
     Variables all;
     for (std::size_t i = 0; i < e.roles.size(); ++i)
         addRoleInputs (all, e, i);
-    for (const auto& feed : e.wiring.feed_names)
-        addInput (all, feed, "in." + feed + " = @;", "drives a port of the graph");
+    for (std::size_t i = 0; i < e.wiring.feed_names.size(); ++i)
+        addInput (all, e.wiring.feed_names[i], "in." + e.wiring.feed_names[i] + " = @;", e.feed_units.at (i), "drives a port of the graph");
     for (std::size_t i = 0; i < e.roles.size(); ++i)
         addRoleOutputs (all, e, i);
     addTaps (all, e);
@@ -144,7 +176,8 @@ Variables variablesOf (const Exported& e)
                                .code = e.class_name + "::Param::" + p.enumerator,
                                .start = p.value,
                                .low = is_choice ? 0.0 : hard.min,
-                               .high = is_choice ? static_cast<double> (p.sheet->choices.size() - 1) : hard.max });
+                               .high = is_choice ? static_cast<double> (p.sheet->choices.size() - 1) : hard.max,
+                               .unit = p.unit });
     }
     for (const auto& c : e.controls)
         all.reals.push_back ({ .name = "control." + c.id,
@@ -153,12 +186,14 @@ Variables variablesOf (const Exported& e)
                                .code = e.class_name + "::Control::" + c.enumerator,
                                .start = c.value,
                                .low = 0.0,
-                               .high = 1.0 });
+                               .high = 1.0,
+                               .unit = "1" });
     for (std::size_t i = 0; i < e.hits.size(); ++i)
         all.reals.push_back ({ .name = "hit." + e.wiring.hit_names[i],
-                               .about = "hits this input at the speed, m/s, at the start of the step",
+                               .about = "hits this input at this speed at the start of the step",
                                .kind = Kind::hit,
-                               .code = e.class_name + "::Hit::" + e.hits[i] });
+                               .code = e.class_name + "::Hit::" + e.hits[i],
+                               .unit = "m/s" });
     return all;
 }
 
@@ -185,7 +220,7 @@ std::string attributesOf (Variable::Kind kind)
 
 std::string realTag (const Variable& v)
 {
-    std::string text = "<Real";
+    std::string text = "<Real" + (v.unit.empty() ? std::string() : " unit=\"" + xml (v.unit) + "\"");
     if (v.low > -inf) text += " min=\"" + numberText (v.low) + "\"";
     if (v.high < inf) text += " max=\"" + numberText (v.high) + "\"";
     if (v.kind != Variable::Kind::output) text += " start=\"" + numberText (v.start) + "\"";
@@ -205,6 +240,34 @@ std::string guidOf (const std::string& text)
     std::snprintf (buffer.data(), buffer.size(), "{%08x-%04x-%04x-%04x-%012llx}", static_cast<unsigned> (a >> 32), static_cast<unsigned> (a >> 16 & 0xffff),
                    static_cast<unsigned> (a & 0xffff), static_cast<unsigned> (b >> 48), static_cast<unsigned long long> (b & 0xffffffffffff));
     return buffer.data();
+}
+
+/// The definition of a unit by those of the SI: N is kg m s-2. A unit without one, such as dB, is only named.
+std::string unitTag (const std::string& unit)
+{
+    const auto tag = "    <Unit name=\"" + xml (unit) + "\"";
+    const auto measure = unit == "1" ? Result<Measure> { Measure {} } : parseMeasure ("1 " + unit);
+    if (! measure) return tag + "/>\n";
+    std::string base;
+    const auto add = [&base] (const char* name, int exponent) {
+        if (exponent != 0) base += std::string (" ") + name + "=\"" + std::to_string (exponent) + "\"";
+    };
+    add ("kg", measure->dimension.kg);
+    add ("m", measure->dimension.m);
+    add ("s", measure->dimension.s);
+    add ("rad", measure->angular ? 1 : 0);
+    return tag + "><BaseUnit" + base + "/></Unit>\n";
+}
+
+std::string unitTags (const Variables& all)
+{
+    std::set<std::string> units;
+    for (const auto& v : all.reals)
+        if (! v.unit.empty()) units.insert (v.unit);
+    std::string text;
+    for (const auto& unit : units)
+        text += unitTag (unit);
+    return text.empty() ? text : "  <UnitDefinitions>\n" + text + "  </UnitDefinitions>\n";
 }
 
 std::string variableTags (const Variables& all, std::string& outputs)
@@ -238,7 +301,7 @@ std::string description (const Exported& e, const Variables& all)
 <fmiModelDescription fmiVersion="2.0" modelName="@NAME@" guid="@GUID@" description="@ABOUT@" generationTool="@TOOL@"
     variableNamingConvention="flat" numberOfEventIndicators="0">
   <CoSimulation modelIdentifier="@S@" canHandleVariableCommunicationStepSize="true" canGetAndSetFMUstate="true" canSerializeFMUstate="false"/>
-  <DefaultExperiment startTime="0" stepSize="@STEP@"/>
+@UNITS@  <DefaultExperiment startTime="0" stepSize="@STEP@"/>
   <ModelVariables>
 @VARIABLES@  </ModelVariables>
 @STRUCTURE@</fmiModelDescription>
@@ -249,6 +312,7 @@ std::string description (const Exported& e, const Variables& all)
                      { "@GUID@", guidOf (e.program + variables) },
                      { "@S@", e.stem },
                      { "@STEP@", numberText (1.0 / e.wiring.plan.rateHz()) },
+                     { "@UNITS@", unitTags (all) },
                      { "@VARIABLES@", variables },
                      { "@STRUCTURE@", structure } });
 }

@@ -59,9 +59,8 @@ std::string tables (const Exported& e)
     text += "## Parameters\n\n| parameter | value in the patch | unit | meaning |\n|---|---|---|---|\n";
     for (const auto& p : e.parameters)
     {
-        const bool is_fixed = p.sheet->unit.kind == UnitRule::Kind::fixed;
         const auto value = p.sheet->choices.empty() ? numberText (p.value) : std::string (p.sheet->choices[static_cast<std::size_t> (p.value)]);
-        text += "| `" + p.enumerator + "` | " + value + " | " + (is_fixed ? std::string (p.sheet->unit.unit.symbol) : "") + " | "
+        text += "| `" + p.enumerator + "` | " + value + " | " + p.unit + " | "
                 + cell (std::string (p.sheet->about)) + " |\n";
     }
     return text + "\n";
