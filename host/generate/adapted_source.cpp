@@ -33,7 +33,8 @@ std::string withTextViews (const std::string& text)
 std::string adapted (const SourceFile& file)
 {
     const std::string before (file.text);
-    if (file.path == "tactus/run/exported_memory.hpp" || ! file.path.starts_with ("tactus/")) return before;
+    const bool is_of_plugin = file.path.starts_with ("plugins/");
+    if (file.path == "tactus/run/exported_memory.hpp" || ! (is_of_plugin || file.path.starts_with ("tactus/"))) return before;
     auto text = filled (before, { { "std::vector<std::string>", "tactus::exported::NameList" },
                                   { "std::vector<", "tactus::exported::Vector<" },
                                   { "std::map<", "tactus::exported::Map<" },
@@ -43,7 +44,7 @@ std::string adapted (const SourceFile& file)
                                   { "std::make_shared<", "tactus::exported::makeShared<" } });
     // Exported code sets all settings, so the default surface would only take memory. It would outlive the graph whose memory it uses.
     text = filled (text, { { "surface = pad();", "surface;" }, { "static const auto made = [] {", "const auto made = [] {" } });
-    if (file.path.starts_with ("tactus/nodes/")) text = withTextViews (text);
+    if (is_of_plugin || file.path.starts_with ("tactus/nodes/")) text = withTextViews (text);
     if (text == before) return text;
     text = filled (text, { { "#include <vector>\n", "" } });
     const auto place = text.find ("#include");

@@ -6,6 +6,7 @@
 #include "class_code.hpp"
 #include "fmu_code.hpp"
 #include "folder_code.hpp"
+#include "plugin_sources.hpp"
 #include "self_test_code.hpp"
 #include "self_test_run.hpp"
 #include "single_precision.hpp"
@@ -38,18 +39,22 @@ const std::set<std::string>& ownWords()
     return words;
 }
 
-/// Names everything that cannot be exported.
-void refusePlugins (const Plan& plan, Messages& messages)
+/// Finds the headers of nodes that come from plugins, and names everything that cannot be exported.
+PluginSources pluginSources (const Plan& plan, Messages& messages)
 {
+    PluginSources plugins;
     for (const auto& node : plan.flat().nodes)
     {
         const bool is_ours = node.type->origin.empty();
         if (! node.runs() || (is_ours && ! classOf (node.type->info.id).header.empty())) continue;
-        const auto where = is_ours ? std::string ("not part of this program") : "in the plugin " + node.type->origin;
-        messages.push_back (Message::error ("export/plugin", "",
-                                            quote (node.path) + " (" + std::string (node.type->info.id) + ") cannot be exported: its code is " + where,
-                                            "bypass it, or use a node that `tactus nodes` lists without a plugin"));
+        auto found = is_ours ? Message::error ("export/plugin", "", "its code is not part of this program", "bypass it, or make a plugin of it")
+                             : plugins.add (*node.type);
+        if (found) continue;
+        auto message = found.error();
+        message.text = quote (node.path) + " (" + std::string (node.type->info.id) + ") cannot be exported: " + message.text;
+        messages.push_back (std::move (message));
     }
+    return plugins;
 }
 
 /// Names what has no single-precision export.
@@ -218,17 +223,20 @@ void addTarget (ExportedFolder& folder, const Exported& e, ExportTarget target)
     if (target != ExportTarget::arduino) return;
     std::erase_if (files, [] (const auto& file) { return file.first == "Makefile" || file.first == "CMakeLists.txt"; });
     for (auto& [path, text] : files)
-        if (path.ends_with (".hpp") || path.ends_with (".cpp")) path = "src/" + path;
+        if (path.ends_with (".hpp") || path.ends_with (".cpp") || path.starts_with ("plugins/")) path = "src/" + path;
     for (auto& file : arduinoFiles (e))
         files.push_back (std::move (file));
 }
 
-void addFiles (ExportedFolder& folder, const Exported& e, const ClassFiles& code, ExportTarget target)
+void addFiles (ExportedFolder& folder, const Exported& e, const PluginSources& plugins, const ClassFiles& code, ExportTarget target)
 {
     std::set<std::string> used { "tactus/run/exported_graph.hpp", "tactus/run/exported_memory.hpp" };
     if (! code.data.empty()) used.insert ("tactus/kit/surface.hpp");
     for (const auto& node : e.wiring.nodes)
         used.insert (node.header);
+    for (const auto& [path, text] : plugins.files())
+        for (auto& included : includesOf ({ path, text }))
+            used.insert (std::move (included));
     const auto sources = e.is_single ? inSinglePrecision (withIncludes (used)) : withIncludes (used);
     auto compiled = sources;
     if (target == ExportTarget::c_api) compiled.insert (e.stem + "_c.cpp");
@@ -242,6 +250,8 @@ void addFiles (ExportedFolder& folder, const Exported& e, const ClassFiles& code
     if (! code.data.empty()) files.emplace_back (e.stem + "_data.hpp", code.data);
     for (const auto& path : sources)
         files.emplace_back (path, e.is_single ? adaptedSingle (path) : adapted (*findSource (path)));
+    for (const auto& [path, text] : plugins.files())
+        files.emplace_back (path, e.is_single ? adaptedSingle ({ path, text }) : adapted ({ path, text }));
     addTarget (folder, e, target);
 }
 
@@ -255,7 +265,7 @@ ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& opti
     folder.messages = tried.load (graph);
     if (hasErrors (folder.messages)) return folder;
     refuseSingle (options, folder.messages);
-    refusePlugins (tried.engine().plan(), folder.messages);
+    const auto plugins = pluginSources (tried.engine().plan(), folder.messages);
     if (options.target == ExportTarget::arduino && tried.engine().plan().roles().empty())
         folder.messages.push_back (Message::error ("export/role", "", "an Arduino library drives a device, but the graph has none", "write --to cpp"));
     tried.openDevices (graph, folder.messages);
@@ -267,7 +277,7 @@ ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& opti
     run.openDevices (graph, known);
     const auto& plan = run.engine().plan();
 
-    Wiring wiring { plan, options.compile.feeds, ownWords() };
+    Wiring wiring { plan, options.compile.feeds, ownWords(), plugins.classes() };
     Exported e { .graph = graph,
                  .wiring = wiring,
                  .file = options.file,
@@ -275,6 +285,8 @@ ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& opti
                  .class_name = {},
                  .program = options.program,
                  .is_single = options.is_single,
+                 .has_makefile = options.target != ExportTarget::arduino,
+                 .has_plugins = ! plugins.files().empty(),
                  .parameters = parametersOf (wiring),
                  .controls = {},
                  .hits = {},
@@ -290,7 +302,7 @@ ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& opti
     auto code = classFiles (e);   // before the run, because it moves the values
     if (e.is_single) makeSingle (code, folder.messages);
     if (hasErrors (folder.messages)) return folder;
-    addFiles (folder, e, code, options.target);
+    addFiles (folder, e, plugins, code, options.target);
     auto self_test = selfTestFiles (e, selfTestOf (run, e));
     const std::string place = options.target == ExportTarget::arduino ? "extras/" : "";
     folder.files.emplace_back (place + e.stem + "_self_test.cpp", std::move (self_test.source));

@@ -59,6 +59,8 @@ struct Exported
     std::string class_name;   ///< "DryWood"
     std::string program;      ///< "tactus 0.2.0"
     bool is_single = false;   ///< see ExportOptions
+    bool has_makefile = true;
+    bool has_plugins = false;   ///< nodes of plugins, whose headers are not ours
     std::vector<ExportedParameter> parameters;
     std::vector<ExportedControl> controls;
     std::vector<std::string> hits;   ///< enumerators

@@ -161,8 +161,9 @@ std::string adaptedSingle (const std::string& path)
 {
     if (path == positions) return std::string (findSource (std::string (own) + "fine.hpp")->text);
     if (path == functions) return std::string (findSource (std::string (own) + "math_names.hpp")->text);
-    const auto& file = *findSource (path);
-    return path.starts_with (own) ? std::string (file.text) : inSinglePrecision (adapted (file));
+    return adaptedSingle (*findSource (path));
 }
+
+std::string adaptedSingle (const SourceFile& file) { return file.path.starts_with (own) ? std::string (file.text) : inSinglePrecision (adapted (file)); }
 
 }   // namespace tactus::host

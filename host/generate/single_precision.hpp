@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "sources.hpp"
+
 #include <set>
 #include <string>
 #include <string_view>
@@ -20,5 +22,6 @@ std::set<std::string> inSinglePrecision (const std::set<std::string>& paths);
 
 /// The text of one of them, adapted like those of other exports.
 std::string adaptedSingle (const std::string& path);
+std::string adaptedSingle (const SourceFile&);
 
 }   // namespace tactus::host

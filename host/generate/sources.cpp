@@ -24,18 +24,6 @@ std::string includedBy (std::string_view line, const std::string& from)
     return path.starts_with ("tactus/") ? path : std::string {};
 }
 
-std::vector<std::string> includesOf (const SourceFile& file)
-{
-    std::vector<std::string> all;
-    for (std::size_t i = 0; i < file.text.size();)
-    {
-        const auto end = std::min (file.text.find ('\n', i), file.text.size());
-        if (auto path = includedBy (file.text.substr (i, end - i), std::string (file.path)); ! path.empty()) all.push_back (std::move (path));
-        i = end + 1;
-    }
-    return all;
-}
-
 /// What follows `key` in the text, up to `end`.
 std::string_view valueAfter (std::string_view text, std::string_view key, std::string_view end)
 {
@@ -64,6 +52,18 @@ const SourceFile* findSource (std::string_view path) noexcept
     const auto all = sourceFiles();
     const auto found = std::ranges::find (all, path, &SourceFile::path);
     return found != all.end() ? &*found : nullptr;
+}
+
+std::vector<std::string> includesOf (const SourceFile& file)
+{
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < file.text.size();)
+    {
+        const auto end = std::min (file.text.find ('\n', i), file.text.size());
+        if (auto path = includedBy (file.text.substr (i, end - i), std::string (file.path)); ! path.empty()) all.push_back (std::move (path));
+        i = end + 1;
+    }
+    return all;
 }
 
 NodeClass classOf (std::string_view id)

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tactus::host
 {
@@ -31,6 +32,9 @@ struct NodeClass
 
 /// The class of a node type, by its id. Empty for a type that is not in nodes/.
 NodeClass classOf (std::string_view id);
+
+/// The paths of what a file includes, if it is one of ours by its name.
+std::vector<std::string> includesOf (const SourceFile&);
 
 /// The paths of these files, of everything that they include, and of the .cpp files that belong to these headers.
 std::set<std::string> withIncludes (const std::set<std::string>& paths);

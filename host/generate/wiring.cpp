@@ -10,7 +10,8 @@
 namespace tactus::host
 {
 
-Wiring::Wiring (const Plan& p, const std::vector<std::string>& feeds, std::set<std::string> taken) : plan (p), members (std::move (taken))
+Wiring::Wiring (const Plan& p, const std::vector<std::string>& feeds, std::set<std::string> taken, PluginClasses of_plugins)
+    : plan (p), members (std::move (taken)), plugin_classes (std::move (of_plugins))
 {
     nameNodes();
     nameOutside (feeds);
@@ -35,7 +36,8 @@ void Wiring::nameNodes()
         }
         if (! flat.runs() || ! instance.node) continue;
         auto& known = classes[flat.type->info.id];
-        if (known.name.empty()) known = classOf (flat.type->info.id);
+        if (const auto ours = plugin_classes.find (flat.type->info.id); known.name.empty())
+            known = ours != plugin_classes.end() ? ours->second : classOf (flat.type->info.id);
         by_address.emplace (instance.node.get(), nodes.size());
         by_params.emplace (bytes (flat.type->paramsOf (instance.node.get())), nodes.size());
         by_instance.emplace (i, nodes.size());

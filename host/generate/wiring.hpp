@@ -2,6 +2,7 @@
 #pragma once
 
 #include "code.hpp"
+#include "sources.hpp"
 
 #include <tactus/plan/ops.hpp>
 #include <tactus/plan/plan.hpp>
@@ -44,8 +45,11 @@ struct ExportedSection
 class Wiring
 {
 public:
-    /// The plan must outlive this object. `taken` are the names of members that exist anyway.
-    Wiring (const Plan&, const std::vector<std::string>& feeds, std::set<std::string> taken);
+    using PluginClasses = std::map<std::string, NodeClass, std::less<>>;   ///< by id
+
+    /// The plan must outlive this object. `taken` are the names of members that exist anyway; `of_plugins` are the classes of nodes that
+    /// are not in nodes/.
+    Wiring (const Plan&, const std::vector<std::string>& feeds, std::set<std::string> taken, PluginClasses of_plugins = {});
 
     const Plan& plan;
     std::vector<ExportedNode> nodes;                         ///< nodes that run, in the order of Plan::instances
@@ -113,6 +117,7 @@ private:
     std::string paramAt (const double*);
 
     Names members;
+    PluginClasses plugin_classes;
     std::set<const double*> reads, known_reads;   // values of records
     std::set<std::size_t> node_reads;             // nodes whose outputs are read
     bool has_noted = false;
