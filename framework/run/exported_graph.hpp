@@ -98,11 +98,18 @@ public:
         state.applied = {};
         state.layout = {};
         dt = dt_s;
-        has_begun = false;
+        has_begun = is_ready = false;
         guard.prepare (all, dt, layout);
     }
 
-    void meet() { state.layout = layout; }
+    void meet()
+    {
+        state.layout = layout;
+        is_ready = true;
+    }
+
+    /// Whether the graph is prepared: before that, nodes have no device, and the guard has no limits.
+    bool isReady() const noexcept { return is_ready; }
 
     void read (const Reading& now) noexcept
     {
@@ -122,7 +129,7 @@ public:
 private:
     GuardLimits all;
     double dt = 1.0;
-    bool has_begun = false;
+    bool has_begun = false, is_ready = false;
 };
 
 /// One component of a parameter.

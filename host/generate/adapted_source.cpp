@@ -42,6 +42,8 @@ std::string adapted (const SourceFile& file)
                                   { "std::unique_ptr<", "std::shared_ptr<" },
                                   { "std::make_unique<", "tactus::exported::makeShared<" },
                                   { "std::make_shared<", "tactus::exported::makeShared<" } });
+    // Exported code binds its nodes before they tick, so a device for those without one would only take memory.
+    text = filled (text, { { "inline const DeviceState no_device { .reading = { .valid = false }, .applied = {} };\n", "" }, { "&no_device", "nullptr" } });
     // Exported code sets all settings, so the default surface would only take memory. It would outlive the graph whose memory it uses.
     text = filled (text, { { "surface = pad();", "surface;" }, { "static const auto made = [] {", "const auto made = [] {" } });
     if (is_of_plugin || file.path.starts_with ("tactus/nodes/")) text = withTextViews (text);

@@ -120,7 +120,7 @@ std::string functions (const Exported& e)
     std::string text = "    /// Resets all nodes, for this many ticks per second. Returns false, and does nothing, if the rate is not above 0\n"
                        "    /// or is above max_rate_hz: the memory of the nodes is measured for that rate.\n"
                        "    bool prepare (double ticks_per_second = rate_hz) noexcept;\n\n"
-                       "    /// Computes one tick. The same inputs give the same bits as in Tactus.\n"
+                       "    /// Computes one tick. The same inputs give the same bits as in Tactus. Before prepare(), all outputs are 0.\n"
                        "    void tick (const Inputs&, Outputs&) noexcept;\n\n";
     if (! e.parameters.empty())
         text += "    /// Moves a parameter to a value in a straight line that takes 20 ms; at once before the first tick. The value is clamped to the hard\n"
@@ -350,6 +350,7 @@ std::string tick (const Exported& e, const std::string& body)
 {
     const bool reads = ! e.roles.empty() || ! e.wiring.feed_names.empty(), writes = ! e.roles.empty() || ! e.wiring.tap_names.empty();
     std::string text = "void " + e.class_name + "::tick (const Inputs& " + (reads ? "in" : "") + ", Outputs& " + (writes ? "out" : "") + ") noexcept\n{\n";
+    if (! e.roles.empty()) text += "    if (! " + e.wiring.role_names.front() + ".isReady())\n    {\n        out = {};\n        return;\n    }\n";
     if (! e.parameters.empty()) text += "    parameters.tick();\n";
     if (! e.hits.empty()) text += "    for (auto& hit : hits)\n        hit.look();\n";
     for (std::size_t i = 0; i < e.roles.size(); ++i)

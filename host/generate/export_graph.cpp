@@ -18,8 +18,8 @@
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
-#include <optional>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace tactus::host
@@ -160,11 +160,6 @@ std::vector<ExportedControl> controlsOf (const graph::Graph& graph, const Wiring
     return all;
 }
 
-std::string stemOf (const std::string& file)
-{
-    auto stem = identifier (fs::path (file).stem().string());
-    for (auto& c : stem)
-        c = c >= 'A' && c <= 'Z' ? static_cast<char> (c - 'A' + 'a') : c;
 /// Finds the units of parameters and feeds. Those of generic nodes follow from the wires, so a plan with these ports as records is asked.
 void findUnits (Exported& e, const CompileOptions& options)
 {
@@ -185,6 +180,11 @@ void findUnits (Exported& e, const CompileOptions& options)
         e.feed_units.push_back (units[feed]);
 }
 
+std::string stemOf (const std::string& file)
+{
+    auto stem = identifier (fs::path (file).stem().string());
+    for (auto& c : stem)
+        c = c >= 'A' && c <= 'Z' ? static_cast<char> (c - 'A' + 'a') : c;
     return Names().make (stem);
 }
 
@@ -297,6 +297,7 @@ ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& opti
     for (const auto& name : wiring.hit_names)
         e.hits.push_back (hits.make (name));
 
+    findUnits (e, options.compile);
     e.roles = rolesOf (run);
     e.memory = memoryOf (wiring);
     auto code = classFiles (e);   // before the run, because it moves the values
@@ -309,7 +310,6 @@ ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& opti
     folder.files.emplace_back (place + e.stem + "_self_test_data.hpp", std::move (self_test.data));
     folder.stem = e.stem;
     folder.class_name = e.class_name;
-    findUnits (e, options.compile);
     return folder;
 }
 

@@ -65,8 +65,8 @@ struct Exported
     std::vector<ExportedControl> controls;
     std::vector<std::string> hits;   ///< enumerators
     std::vector<ExportedRole> roles;
+    std::vector<std::string> feed_units {};   ///< by feed: SI symbol, "" if unknown
     NodeMemory memory {};
 };
-    std::vector<std::string> feed_units {};   ///< by feed: SI symbol, "" if unknown
 
 }   // namespace tactus::host

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "folder_code.hpp"
+#include "object_size.hpp"
 
 #include <tactus/text/number_text.hpp>
 
@@ -128,9 +129,24 @@ instructions: @STEM@_self_test
 	@for n in 1 2; do valgrind --tool=callgrind --callgrind-out-file=/dev/null ./@STEM@_self_test $$n 2>&1 | sed -n 's/.*Collected : //p'; done \
 	    | awk 'NR == 1 { before = $$1 } END { printf "%.0f instructions per tick\n", ($$1 - before) / 1200 }'
 
-.PHONY: test clean instructions
+# What the object, the code and the stack take with this compiler. GCC says how much stack each function takes by itself.
+TOOL = $(if $(filter %g++,$(CXX)),$(patsubst %g++,%$(1),$(CXX)),$(1))
+memory: lib@STEM@.a
+	@printf '#include "@STEM@.hpp"\n@C@ graph;\n@C@::Inputs in;\n@C@::Outputs out;\n' > memory_object.cpp
+	@$(CXX) $(CXXFLAGS) $(FLAGS) -c -o memory_object.o memory_object.cpp
+	@for name in graph in out; do \
+	    size=$$($(call TOOL,nm) -S memory_object.o | sed -n "s/^[0-9a-f]* \([0-9a-f]*\) [A-Z] $$name$$/\1/p"); \
+	    echo "$$name: $$((0x$$size)) bytes of RAM"; done
+	@echo "code and tables, if all of it is used:" && $(call TOOL,size) -t lib@STEM@.a | tail -n 1
+	@-$(CXX) $(CXXFLAGS) $(FLAGS) -fstack-usage -c -o memory_code.o @STEM@.cpp && echo "stack:" && grep -h "::tick\|::prepare" memory_code.su
+	@rm -f memory_object.cpp memory_object.o memory_code.o memory_code.su
+
+.PHONY: test clean instructions memory
 )",
-                   { { "@SOURCES@", compiled (e, sources, " \\\n    ") }, { "@STEM@", e.stem }, { "@WARNINGS@", e.is_single ? " -Wdouble-promotion" : "" } });
+                   { { "@C@", e.class_name },
+                     { "@SOURCES@", compiled (e, sources, " \\\n    ") },
+                     { "@STEM@", e.stem },
+                     { "@WARNINGS@", e.is_single ? " -Wdouble-promotion" : "" } });
 }
 
 namespace
@@ -149,7 +165,7 @@ std::string buildOf (const Exported& e, ExportTarget target)
     make test
 
 Either command builds the self-test and runs it. It compares every output of a recorded run with what Tactus computed, @HOW@. It
-also prints how many bytes the graph takes. `make instructions` counts the instructions of a tick (it needs valgrind).
+also prints how many bytes the graph takes. `make memory` says more, and `make instructions` counts the instructions of a tick (it needs valgrind).
 )",
                                { { "@HOW@", e.is_single ? "in double precision" : "bit for bit" } });
     if (target == ExportTarget::c_api)
@@ -177,13 +193,38 @@ std::string bitsOf (const Exported& e)
            "- The bits are the same on all machines if the code is compiled without contraction into fused multiply-adds (see `CMakeLists.txt`). No function\n";
 }
 
-/// Bytes of the class, roughly: the sizes of parameters, guards and readings on a 64-bit computer.
-std::size_t aboutBytesOf (const Exported& e)
+/// What is known about memory without a compiler.
+std::string memoryOf (const Exported& e)
 {
-    constexpr std::size_t per_parameter = 64, others = 256;
-    return (e.memory.nodes + e.memory.prepared + per_parameter * e.parameters.size() + sizeof (GuardLimits) * e.roles.size() * 2
-            + (sizeof (Guard) + 2 * sizeof (DeviceState)) * e.roles.size() + others + 500)
-           / 1000 * 1000;
+    const auto size = objectSize (e);
+    if (e.memory.nodes == 0) return "`make memory` measures what the object, the code and the stack take.\n";   // under sanitizers
+    return filled (R"(| RAM, in bytes | on a 64-bit computer, at most |
+|---|---|
+| the object, `static @C@ graph` | **@ALL@** |
+| - the nodes | @NODES@ |
+| - reserved for what `prepare` computes | @PREPARED@ |
+| - roles: a guard and a reading each | @ROLES@ |
+| - parameters and their ramps | @PARAMETERS@ |
+| - the rest | @OTHERS@ |
+| `@C@::Inputs`, which you keep | @INPUTS@ |
+| `@C@::Outputs`, which you keep | @OUTPUTS@ |
+
+There are no other variables but one pointer. A board with 4-byte pointers takes less@FLOATS@. How much the code and the
+constant tables take in flash, and a tick on the stack, depends on the compiler and is not known here: @MEASURE@
+)",
+                   { { "@C@", e.class_name },
+                     { "@ALL@", std::to_string (size.all()) },
+                     { "@NODES@", std::to_string (size.nodes) },
+                     { "@PREPARED@", std::to_string (size.prepared) },
+                     { "@ROLES@", std::to_string (size.roles) },
+                     { "@PARAMETERS@", std::to_string (size.parameters) },
+                     { "@OTHERS@", std::to_string (size.others) },
+                     { "@INPUTS@", std::to_string (size.inputs) },
+                     { "@OUTPUTS@", std::to_string (size.outputs) },
+                     { "@FLOATS@", e.is_single ? ", and so do floats: the numbers above are those of doubles" : "" },
+                     { "@MEASURE@", e.has_makefile ? "`make memory` measures\nall of it, also with the compiler of a board: `make memory CXX=arm-none-eabi-g++ "
+                                                     "CXXFLAGS='-Os -mcpu=cortex-m7'`."
+                                                   : "the\nArduino IDE prints the flash when it builds a sketch." } });
 }
 }   // namespace
 
@@ -198,7 +239,7 @@ std::string readmeFile (const Exported& e, ExportTarget target, const std::vecto
     return filled (R"(# @TITLE@
 
 @ABOUT@A graph of Tactus as C++20. `@PROGRAM@ export` wrote this folder from `@FILE@`. It needs only Eigen 3.4 (headers) and the
-standard library, and is under the MIT licence.
+standard library, and is under the MIT licence@BUT@.
 
 @BUILD@
 ## Use it
@@ -208,21 +249,20 @@ nodes are in `tactus/nodes/`, one file per node type.
 
 - All values are in SI units. x points right, y away from the person, z up.
 - Nothing here uses a heap, throws or locks. Tables and meshes are constant data.
-- The object takes about @BYTES@ bytes on a 64-bit computer: @NODES@ for the nodes, @PREPARED@ for what `prepare` computes, and the rest for
-  parameters and guards. Make it `static`. @MEASURED@
 - `prepare` accepts rates up to @RATE@ Hz. For a higher rate, export with `--rate`, because some nodes need more memory then.
 - All functions are for one thread.
 - Each role has a guard, which limits its effort and brings it to zero on bad readings. @LIMITS@ Before `prepare`, set the
   `layout` of each role to that of your device, and `tighten` its limits to those of your motors. Nothing loosens them.
 @BITS@  of `libm` is called, so its version does not matter.
 @MORE@
+## Memory
+
+@MEMORY@
 @TABLES@)",
                    { { "@BITS@", bitsOf (e) },
                      { "@BUILD@", buildOf (e, target) },
-                     { "@BYTES@", std::to_string (aboutBytesOf (e)) },
-                     { "@NODES@", std::to_string (e.memory.nodes) },
-                     { "@PREPARED@", std::to_string (e.memory.prepared) },
-                     { "@MEASURED@", e.memory.nodes > 0 ? "" : "(This program could not measure the nodes.)" },
+                     { "@BUT@", e.has_plugins ? ", except for the headers in `plugins/`, which keep their own" : "" },
+                     { "@MEMORY@", memoryOf (e) },
                      { "@RATE@", numberText (e.wiring.plan.rateHz()) },
                      { "@TITLE@", comment (e.graph.name.empty() ? e.stem : e.graph.name) },
                      { "@ABOUT@", e.graph.about.empty() ? "" : comment (e.graph.about) + "\n\n" },

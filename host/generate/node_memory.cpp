@@ -27,9 +27,13 @@ NodeMemory memoryOf (const Wiring& wiring)
         if (type.prepare) type.prepare (nodes.back().get(), setup);
         if (type.update) type.update (nodes.back().get());
     }
+    // A node of this program is made together with the two counters of a shared pointer.
+    std::size_t counters = 0;
+    for (const auto& n : wiring.nodes)
+        if (wiring.type (n).origin.empty()) counters += sizeof (void*) + 2 * sizeof (int);
     if (! CountedMemory::counts) return { .nodes = 0, .prepared = if_unknown };
     const auto most = count.bytes();
-    return { .nodes = count.nodeBytes(), .prepared = (most + most / spare_part + spare_per_node * (1 + nodes.size()) + 15) / 16 * 16 };
+    return { .nodes = count.nodeBytes() - counters, .prepared = (most + most / spare_part + spare_per_node * (1 + nodes.size()) + 15) / 16 * 16 };
 }
 
 }   // namespace tactus::host

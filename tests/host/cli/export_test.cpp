@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -38,6 +39,25 @@ TEST_CASE ("an exported folder builds and passes its self-test alone", "[cli][ex
     INFO (textOf (said));
     CHECK (status == 0);
     CHECK (textOf (said).find ("0 allocations from the heap") != std::string::npos);
+
+    // README.md says what the compiler says.
+    const auto measured = std::system (("make -s -C '" + folder + "' memory CXXFLAGS=-O0 > '" + said + "' 2>&1").c_str());
+    const auto memory = textOf (said), readme = textOf (folder + "/README.md");
+    INFO (memory);
+    CHECK (measured == 0);
+    const auto after = [] (const std::string& text, const std::string& key) {
+        const auto at = text.find (key);
+        return at == text.npos ? 0ul : std::strtoul (text.c_str() + text.find_first_of ("0123456789", at + key.size()), nullptr, 10);
+    };
+    CHECK (after (readme, "the object, `static DryWood graph` |") == after (memory, "graph: "));
+    CHECK (after (readme, "`DryWood::Inputs`, which you keep |") == after (memory, "in: "));
+    CHECK (after (readme, "`DryWood::Outputs`, which you keep |") == after (memory, "out: "));
+    CHECK (memory.find ("DryWood::tick") != memory.npos);
+    unsigned long code = 0, data = 0, zeros = 0;
+    const auto sizes = memory.find ('\n', memory.find ("code and tables"));
+    REQUIRE (std::sscanf (memory.c_str() + sizes, "%lu %lu %lu", &code, &data, &zeros) == 3);
+    CHECK (code > 10000);
+    CHECK (data + zeros < 128);   // the object is the only variable
 }
 
 TEST_CASE ("export replaces only its own folders, and writes nothing if something is wrong", "[cli][export]")

@@ -39,9 +39,38 @@ void require (ExportedProgram& program, const host::ExportedFolder& exported, co
 {
     INFO (name << ": " << test::text (exported.messages));
     REQUIRE_FALSE (exported.files.empty());
-    for (const auto& [path, text] : exported.files)   // a static within a function would lie in the memory of the graph that calls it first
-        CHECK (text.find ("static const auto ") == std::string::npos);
+    for (const auto& [path, text] : exported.files)
+    {
+        CHECK (text.find ("static const auto ") == std::string::npos);   // would lie in the memory of the graph that calls it first
+        CHECK (text.find ("no_device") == std::string::npos);            // a reading of nothing, which takes memory
+    }
     program.add (exported);
+}
+
+/// The number of bytes in the row of the table of README.md that begins like this.
+std::size_t bytesIn (const std::string& readme, const std::string& row)
+{
+    const auto at = readme.find ("| " + row);
+    if (at == readme.npos) return 0;
+    return std::strtoul (readme.c_str() + readme.find_first_of ("0123456789", readme.find (" | ", at)), nullptr, 10);
+}
+
+/// Compares what a README says about memory with what the program has printed.
+void checkMemory (const std::string& said, const std::string& stem, const std::string& class_name, const std::string& readme)
+{
+    const auto printed = linesWith (said, stem + " takes ");
+    INFO (stem << ":\n"
+               << readme.substr (readme.find ("## Memory")));
+    REQUIRE_FALSE (printed.empty());
+    std::size_t object = 0, inputs = 0, outputs = 0;
+    REQUIRE (std::sscanf (printed[0].c_str() + stem.size(), " takes %zu, %zu and %zu bytes", &object, &inputs, &outputs) == 3);
+    INFO (object << " " << inputs << " " << outputs);
+    constexpr std::size_t rounding = 64;   // of small nodes to words
+    CHECK (bytesIn (readme, "the object") >= object);
+    CHECK (bytesIn (readme, "the object") <= object + rounding);
+    // A struct without members takes a byte.
+    CHECK (std::max<std::size_t> (bytesIn (readme, "`" + class_name + "::Inputs`"), 1) == inputs);
+    CHECK (std::max<std::size_t> (bytesIn (readme, "`" + class_name + "::Outputs`"), 1) == outputs);
 }
 
 /// Two contacts that the plan of a run computes together, as lanes.
@@ -79,10 +108,11 @@ TEST_CASE ("exported graphs give the bits of the engine while parameters move", 
 {
     // Sections with other rates, a mesh, a height map, a recording, a subgraph in several instances, a formula, shocks, noise.
     ExportedProgram program;
+    std::vector<host::ExportedFolder> all;
     for (const auto* name : { "dry_wood", "vibraphone_bar", "two_fingers", "liver", "pebbled_leather", "bronze_bell", "machined_steel", "padded_bench" })
-        require (program, test::exportedPreset (name), name);
+        require (program, all.emplace_back (test::exportedPreset (name)), name);
     for (unsigned seed = 1; seed <= 12; ++seed)
-        require (program, test::exportedRandomGraph (seed, 12), "random graph " + std::to_string (seed));
+        require (program, all.emplace_back (test::exportedRandomGraph (seed, 12)), "random graph " + std::to_string (seed));
     require (program, exportedContacts(), "contacts");
     require (program, exportedPad(), "pad");
 
@@ -107,6 +137,70 @@ TEST_CASE ("exported graphs give the bits of the engine while parameters move", 
     }
     CHECK (right == 22);
     CHECK (wrong == 1);
+    CHECK (linesWith (said, "moves before prepare()").empty());
+    for (auto& folder : all)
+        checkMemory (said, folder.stem, folder.class_name, test::textOf (folder, "README.md"));
+}
+
+TEST_CASE ("a device that no node uses costs nothing in an export", "[export]")
+{
+    const std::string head = R"({ "format": "tactus-graph", "version": 2, "rate_hz": 1000, "devices": { "stylus": { "driver": "sim", "mass": "50 g" })";
+    const std::string others = R"(, "left": { "driver": "sim", "mass": "80 g", "guard": { "max_force": "2 N" } }, "cushion": { "driver": "sim" })";
+    const std::string nodes = R"( }, "nodes": { "hand": { "type": "device.position", "role": "stylus" }, "plate": { "type": "deform.plane" },
+        "motor": { "type": "device.force", "role": "stylus" }, "spare": { "type": "device.position", "role": "cushion", "bypass": true } },
+        "wires": ["hand.position -> plate.position", "plate.force -> motor.force"] })";
+    const auto exported = [] (const std::string& text, host::ExportTarget target) {
+        const auto read = readGraph (text);
+        INFO (test::text (read.messages));
+        REQUIRE_FALSE (hasErrors (read.messages));
+        return host::exportGraph (read.graph, { .file = "plate.json", .program = "tactus", .compile = {}, .target = target, .open = {} });
+    };
+    for (const auto target : { host::ExportTarget::cpp, host::ExportTarget::c_api, host::ExportTarget::arduino, host::ExportTarget::fmu })
+    {
+        const auto without = exported (head + nodes, target), with = exported (head + others + nodes, target);
+        INFO (test::text (with.messages));
+        REQUIRE_FALSE (with.files.empty());
+        CHECK (with.files == without.files);
+    }
+}
+
+TEST_CASE ("a parameter of a unit for simulators has its unit, by the base units of the SI", "[export]")
+{
+    test::Sketch s;
+    s.node ("hand", "device.position").node ("plate", "deform.plane").node ("scale", "signal.gain").node ("motor", "device.force");
+    s.graph.root.nodes[0].role = s.graph.root.nodes[3].role = "stylus";
+    s.wire ("hand.position -> plate.position").wire ("plate.force -> motor.force").wire ("plate.resistance -> scale.in");
+    host::ExportOptions options { .file = "plate.json", .program = "tactus", .compile = { .records = { "scale.out" } }, .target = host::ExportTarget::fmu, .open = {} };
+    auto folder = host::exportGraph (s.graph, options);
+    INFO (test::text (folder.messages));
+    REQUIRE_FALSE (folder.files.empty());
+    const auto& xml = test::textOf (folder, "modelDescription.xml");
+    INFO (xml);
+    const auto unitOf = [&] (const std::string& variable) {
+        const auto at = xml.find ("<ScalarVariable name=\"" + variable + "\""), end = xml.find ("</ScalarVariable>", at), unit = xml.find (" unit=\"", at);
+        if (at == xml.npos || unit > end) return std::string ("none");
+        return xml.substr (unit + 7, xml.find ('"', unit + 7) - unit - 7);
+    };
+    CHECK (unitOf ("in.stylus.position.x") == "m");
+    CHECK (unitOf ("in.stylus.age") == "s");
+    CHECK (unitOf ("out.stylus.force.z") == "N");
+    CHECK (unitOf ("out.stylus.torque.z") == "N*m");
+    CHECK (unitOf ("param.plate.stiffness") == "N/m");
+    CHECK (unitOf ("record.scale.out") == "N");   // a generic node has the unit of its wire
+    CHECK (unitOf ("limit.stylus.max_slew") == "N/s");
+    CHECK (unitOf ("limit.stylus.max_angular_speed") == "rad/s");
+    for (const auto* definition : { "\"N\"><BaseUnit kg=\"1\" m=\"1\" s=\"-2\"/>", "\"N/m\"><BaseUnit kg=\"1\" s=\"-2\"/>",
+                                    "\"rad/s\"><BaseUnit s=\"-1\" rad=\"1\"/>", "\"m\"><BaseUnit m=\"1\"/>" })
+        CHECK (xml.find (std::string ("<Unit name=") + definition) != xml.npos);
+    CHECK (xml.find ("<UnitDefinitions>") < xml.find ("<DefaultExperiment"));   // the order that the schema asks for
+    CHECK (xml.find ("</CoSimulation>") == xml.npos);
+    CHECK (xml.find ("<CoSimulation") < xml.find ("<UnitDefinitions>"));
+    for (std::size_t at = 0; (at = xml.find ("<Real unit=\"", at)) != xml.npos; ++at)
+    {
+        const auto unit = xml.substr (at + 12, xml.find ('"', at + 12) - at - 12);
+        INFO (unit);
+        CHECK (xml.find ("<Unit name=\"" + unit + "\"") != xml.npos);
+    }
 }
 
 TEST_CASE ("all presets and many random graphs give the bits of the engine with each compiler", "[.export_all]")

@@ -168,7 +168,31 @@ std::string ExportedProgram::run (const std::string& compiler, const std::string
     // Hides AVX and FMA from the C library, so that it takes its functions for older processors.
     constexpr const char* old = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4,-AVX512F,-AVX_Usable,-AVX2_Usable,-FMA_Usable,-FMA4_Usable,"
                                 "-AVX512F_Usable ./all";
-    writeMain ({}, "    failed += @S@_self_test::test();\n");
+    constexpr const char* before_prepare = R"(
+template <typename Effort>
+bool isNothing (const Effort& e) { return e.force.isZero (0) && e.torque.isZero (0); }
+
+/// True if a tick before prepare() gives no effort.
+template <typename Graph>
+bool isStillBeforePrepare()
+{
+    static Graph graph;
+    static typename Graph::Inputs in;
+    static typename Graph::Outputs out;
+    if constexpr (requires { out.stylus.force; })
+    {
+        in.stylus.position.z() = -1;
+        out.stylus.force.z() = 1;
+        graph.tick (in, out);
+        return isNothing (out.stylus);
+    }
+    return true;
+}
+
+)";
+    writeMain (before_prepare, "    std::printf (\"@S@ takes %zu, %zu and %zu bytes\\n\", sizeof (@C@), sizeof (@C@::Inputs), sizeof (@C@::Outputs));\n"
+                               "    if (! isStillBeforePrepare<@C@>()) std::printf (\"@S@ moves before prepare()\\n\");\n"
+                               "    failed += @S@_self_test::test();\n");
     return compileAndRun (compiler + " " + flags, {}, std::string ("./all && ") + old);
 }
 
