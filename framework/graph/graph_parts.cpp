@@ -41,7 +41,7 @@ Messages allObjects (std::initializer_list<const Json*> parts)
 bool sameEnds (const Wire& a, const Wire& b) { return a.from == b.from && a.to == b.to && a.delay == b.delay && a.add == b.add; }
 }   // namespace
 
-Messages check (const graph::Node& node)
+Messages graph::check (const graph::Node& node)
 {
     if (auto wrong = allObjects ({ &node.params, &node.settings, &node.overrides, &node.extra }); ! wrong.empty()) return wrong;
     return checked (toJson (node), [&] (PartReader& reader, Json& part) {
@@ -51,7 +51,7 @@ Messages check (const graph::Node& node)
     });
 }
 
-Messages check (const graph::Wire& wire)
+Messages graph::check (const graph::Wire& wire)
 {
     if (auto wrong = allObjects ({ &wire.extra }); ! wrong.empty()) return wrong;
     return checked (toJson (wire), [&] (PartReader& reader, Json& part) {
@@ -63,7 +63,7 @@ Messages check (const graph::Wire& wire)
     });
 }
 
-Messages check (const graph::Control& control)
+Messages graph::check (const graph::Control& control)
 {
     if (auto wrong = allObjects ({ &control.extra }); ! wrong.empty()) return wrong;
     return checked (toJson (control), [&] (PartReader& reader, Json& part) {
@@ -73,7 +73,7 @@ Messages check (const graph::Control& control)
     });
 }
 
-Messages check (const graph::Expose& expose)
+Messages graph::check (const graph::Expose& expose)
 {
     if (auto wrong = allObjects ({ &expose.extra }); ! wrong.empty()) return wrong;
     return checked (toJson (expose), [&] (PartReader& reader, Json& part) {
@@ -85,7 +85,7 @@ Messages check (const graph::Expose& expose)
     });
 }
 
-Messages check (const graph::Patch& patch)
+Messages graph::check (const graph::Patch& patch)
 {
     if (auto wrong = allObjects ({ &patch.extra }); ! wrong.empty()) return wrong;
     for (const auto& node : patch.nodes)

@@ -19,12 +19,15 @@ Json toJson (const graph::Control&);
 Json toJson (const graph::Expose&);
 Json toJson (const graph::Patch&);
 
+namespace graph
+{
 /// The errors that the reader of a file would report for a part, in order.
-Messages check (const graph::Node&);
-Messages check (const graph::Wire&);
-Messages check (const graph::Control&);
-Messages check (const graph::Expose&);
-Messages check (const graph::Patch&);
+Messages check (const Node&);
+Messages check (const Wire&);
+Messages check (const Control&);
+Messages check (const Expose&);
+Messages check (const Patch&);
+}   // namespace graph
 
 /// The same for one key of a node: "role", "count", "ui", …
 Messages checkNodeKey (const std::string& key, const Json& value);

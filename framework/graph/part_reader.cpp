@@ -25,7 +25,7 @@ bool PartReader::checkId (const std::string& id, const std::string& where, std::
 
 void PartReader::addPatch (std::vector<KnownKey>& fields, Patch& patch)
 {
-    const auto addNode = [&] (const std::string& name, Json& node, const Where& where) { readNode (name, node, where, patch.nodes.emplace_back()); };
+    const auto addNode = [&] (const std::string& name, Json& node, const JsonPlace& where) { readNode (name, node, where, patch.nodes.emplace_back()); };
     fields.push_back ({ "nodes", JsonKind::object, [this, addNode, &patch] (Json& v, const std::string& at) {
                            patch.nodes.reserve (v.size());
                            eachId (v, at, "a node", addNode);
@@ -45,33 +45,33 @@ void PartReader::readSubgraph (Json& object, const std::string& where, Patch& pa
     read (object, where, fields, patch.extra);
 }
 
-void PartReader::readNode (const std::string& name, Json& object, const Where& where, graph::Node& node)
+void PartReader::readNode (const std::string& name, Json& object, const JsonPlace& where, graph::Node& node)
 {
     using Self = PartReader;
     using Row = RowKey<PartReader, graph::Node>;
     static const Row keys[] = {
-        { "type", JsonKind::text, [] (Self& self, graph::Node& n, Json& v, const Where& at) { self.readType (v.asString(), at, n); } },
+        { "type", JsonKind::text, [] (Self& self, graph::Node& n, Json& v, const JsonPlace& at) { self.readType (v.asString(), at, n); } },
         { "role", JsonKind::text,
-          [] (Self& self, graph::Node& n, Json& v, const Where& at) {
+          [] (Self& self, graph::Node& n, Json& v, const JsonPlace& at) {
               n.role = v.asString();
               self.checkId (n.role, at, "a role");
           } },
-        { "params", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const Where& at) { self.readValues (v, at, "a parameter", n.params); } },
-        { "settings", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const Where& at) { self.readValues (v, at, "a setting", n.settings); } },
-        { "roles", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const Where& at) { self.readRoles (v, at, n); } },
-        { "overrides", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const Where& at) { self.readOverrides (v, at, n); } },
-        { "bypass", JsonKind::truth, [] (Self&, graph::Node& n, Json& v, const Where&) { n.bypass = v.get<bool>(); } },
-        { "count", JsonKind::number, [] (Self& self, graph::Node& n, Json& v, const Where& at) { self.readCount ("count", v, at, n.extra); } },
-        { "every", JsonKind::number, [] (Self& self, graph::Node& n, Json& v, const Where& at) { self.readCount ("every", v, at, n.extra); } },
-        { "times", JsonKind::number, [] (Self& self, graph::Node& n, Json& v, const Where& at) { self.readCount ("times", v, at, n.extra); } },
+        { "params", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const JsonPlace& at) { self.readValues (v, at, "a parameter", n.params); } },
+        { "settings", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const JsonPlace& at) { self.readValues (v, at, "a setting", n.settings); } },
+        { "roles", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const JsonPlace& at) { self.readRoles (v, at, n); } },
+        { "overrides", JsonKind::object, [] (Self& self, graph::Node& n, Json& v, const JsonPlace& at) { self.readOverrides (v, at, n); } },
+        { "bypass", JsonKind::truth, [] (Self&, graph::Node& n, Json& v, const JsonPlace&) { n.bypass = v.get<bool>(); } },
+        { "count", JsonKind::number, [] (Self& self, graph::Node& n, Json& v, const JsonPlace& at) { self.readCount ("count", v, at, n.extra); } },
+        { "every", JsonKind::number, [] (Self& self, graph::Node& n, Json& v, const JsonPlace& at) { self.readCount ("every", v, at, n.extra); } },
+        { "times", JsonKind::number, [] (Self& self, graph::Node& n, Json& v, const JsonPlace& at) { self.readCount ("times", v, at, n.extra); } },
         { "hold", JsonKind::text,
-          [] (Self& self, graph::Node& n, Json& v, const Where& at) {
+          [] (Self& self, graph::Node& n, Json& v, const JsonPlace& at) {
               if (const std::vector<std::string> holds { "latch", "linear" }; std::ranges::count (holds, v.asString()) == 0)
                   self.error ("file/bad_value", at, "'hold' is " + quote (v.asString()) + "; it should be \"latch\" or \"linear\"",
                               suggestion (v.asString(), holds));
               append (n.extra, "hold", std::move (v));
           } },
-        { "ui", JsonKind::object, [] (Self&, graph::Node& n, Json& v, const Where&) { append (n.extra, "ui", std::move (v)); } },
+        { "ui", JsonKind::object, [] (Self&, graph::Node& n, Json& v, const JsonPlace&) { append (n.extra, "ui", std::move (v)); } },
     };
     node.name = name;
     read (object, where, keys, *this, node, node.extra);
@@ -80,7 +80,7 @@ void PartReader::readNode (const std::string& name, Json& object, const Where& w
                "add \"type\", with an id from the catalogue or \"graph:\" and the name of a subgraph");
 }
 
-void PartReader::readType (std::string& type, const Where& where, graph::Node& node)
+void PartReader::readType (std::string& type, const JsonPlace& where, graph::Node& node)
 {
     constexpr std::string_view subgraph = "graph:", file = "file:";
     if (type.empty() || type == file)
@@ -91,10 +91,10 @@ void PartReader::readType (std::string& type, const Where& where, graph::Node& n
     node.type = std::move (type);
 }
 
-void PartReader::readValues (Json& object, const Where& where, std::string_view what, Json& values)
+void PartReader::readValues (Json& object, const JsonPlace& where, std::string_view what, Json& values)
 {
     for (const auto& [id, value] : object.asObject())
-        if (! isId (id)) checkId (id, Where (where, id), what);
+        if (! isId (id)) checkId (id, JsonPlace (where, id), what);
     values = std::move (object);
 }
 

@@ -20,7 +20,7 @@ class PartReader : public OrderedReader
 {
 public:
     void readSubgraph (Json& object, const std::string& where, graph::Patch&);
-    void readNode (const std::string& name, Json& object, const Where&, graph::Node&);
+    void readNode (const std::string& name, Json& object, const JsonPlace&, graph::Node&);
     void readWire (Json& value, const std::string& where, graph::Patch&);
     void readWire (Json& value, const std::string& list, std::size_t number, graph::Patch&);   ///< an entry of the list of wires
     void readExpose (Json& object, const std::string& where, graph::Expose&);
@@ -37,10 +37,10 @@ protected:
     template <typename F>
     void eachId (Json& object, const std::string& where, std::string_view what, F&& each)
     {
-        const Where around (where);
+        const JsonPlace around (where);
         for (auto& [id, value] : object.asObject())
         {
-            const Where at (around, id);
+            const JsonPlace at (around, id);
             if (! graph::isId (id)) checkId (id, at, what);
             if (matches (value, JsonKind::object) || isKind (value, JsonKind::object, at)) each (id, value, at);
         }
@@ -57,8 +57,8 @@ protected:
     }
 
 private:
-    void readType (std::string& type, const Where&, graph::Node&);
-    void readValues (Json& object, const Where&, std::string_view what, Json& values);
+    void readType (std::string& type, const JsonPlace&, graph::Node&);
+    void readValues (Json& object, const JsonPlace&, std::string_view what, Json& values);
     void readRoles (Json& object, const std::string& where, graph::Node&);
     void readOverrides (Json& object, const std::string& where, graph::Node&);
     void readCount (const std::string& key, Json& value, const std::string& where, Json& extra);

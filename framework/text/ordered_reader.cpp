@@ -30,7 +30,7 @@ bool matches (const Json& value, JsonKind kind) noexcept
     return true;
 }
 
-Where::operator std::string() const
+JsonPlace::operator std::string() const
 {
     if (around == nullptr) return *text;
     std::string pointer = *around;
@@ -115,10 +115,10 @@ bool OrderedReader::isKind (const Json& value, JsonKind kind, const std::string&
 
 void OrderedReader::read (Json& object, const std::string& where, const std::vector<KnownKey>& fields, Json& extra)
 {
-    const Where around (where);
+    const JsonPlace around (where);
     for (auto& [key, value] : object.asObject())
     {
-        const std::string member = Where (around, key);
+        const std::string member = JsonPlace (around, key);
         const auto field = std::ranges::find (fields, key, &KnownKey::key);
         if (field != fields.end())
         {

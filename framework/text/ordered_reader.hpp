@@ -33,20 +33,20 @@ bool matches (const Json&, JsonKind) noexcept;
 
 /// The JSON pointer to a value. It becomes text only where it is passed as a string: most files have no errors, so the text is rarely
 /// needed. What it is made from must outlive it.
-class Where
+class JsonPlace
 {
 public:
-    Where (const std::string& pointer) noexcept : text (&pointer) {}   // implicit: a function that takes a Where also takes the text
-    Where (const Where& object, std::string_view k) noexcept : around (&object), key (k) {}
-    Where (const Where&& object, std::string_view) = delete;
-    Where (const Where&) = delete;
-    Where& operator= (const Where&) = delete;
+    JsonPlace (const std::string& pointer) noexcept : text (&pointer) {}   // implicit: a function that takes a JsonPlace also takes the text
+    JsonPlace (const JsonPlace& object, std::string_view k) noexcept : around (&object), key (k) {}
+    JsonPlace (const JsonPlace&& object, std::string_view) = delete;
+    JsonPlace (const JsonPlace&) = delete;
+    JsonPlace& operator= (const JsonPlace&) = delete;
 
     operator std::string() const;
 
 private:
     const std::string* text = nullptr;
-    const Where* around = nullptr;   // the object that the value is a member of; null if `text` is all
+    const JsonPlace* around = nullptr;   // the object that the value is a member of; null if `text` is all
     std::string_view key;
 };
 
@@ -64,7 +64,7 @@ struct RowKey
 {
     std::string_view key;
     JsonKind kind;
-    void (*read) (Reader&, Read&, Json& value, const Where& where);
+    void (*read) (Reader&, Read&, Json& value, const JsonPlace& where);
 };
 
 class OrderedReader
@@ -81,11 +81,11 @@ public:
 
     /// The same. The functions get `self`, which is this reader, and what they read into.
     template <typename Reader, typename Read, std::size_t n>
-    void read (Json& object, const Where& where, const RowKey<Reader, Read> (&fields)[n], Reader& self, Read& into, Json& extra)
+    void read (Json& object, const JsonPlace& where, const RowKey<Reader, Read> (&fields)[n], Reader& self, Read& into, Json& extra)
     {
         for (auto& [key, value] : object.asObject())
         {
-            const Where member (where, key);
+            const JsonPlace member (where, key);
             const auto* field = std::ranges::find (fields, key, &RowKey<Reader, Read>::key);
             if (field == std::end (fields))
             {
