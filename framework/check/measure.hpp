@@ -30,15 +30,18 @@ struct Slope
     std::vector<double> by_node {};   ///< by node number: the largest response of the node's own forces, in N/m
 };
 
+/// A matrix of slopes. How it gets its memory does not depend on the flags of the compiler, so a program may free what the library has made.
+using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::DontAlign>;
+
 /// How the forces of all roles respond to small displacements of all roles at one point of the motion. Each matrix has three rows and
 /// three columns for each role, in the order of Demand::roles: a row for each component of a force, a column for each component of a
 /// displacement. A positive number pulls the tool back.
 struct Linked
 {
     double t_s = 0.0;
-    Eigen::MatrixXd settled {};       ///< force per displacement once the force has settled, in N/m
-    Eigen::MatrixXd late {};          ///< force that is missing because it comes late, integrated over time, per displacement, in N s/m
-    Eigen::MatrixXd excess {};        ///< excess force while it settles, integrated over time, per displacement, in N s/m
+    Jacobian settled {};              ///< force per displacement once the force has settled, in N/m
+    Jacobian late {};                 ///< force that is missing because it comes late, integrated over time, per displacement, in N s/m
+    Jacobian excess {};               ///< excess force while it settles, integrated over time, per displacement, in N s/m
     std::vector<double> by_node {};   ///< as in Slope: the largest response over all roles
     bool is_smooth = true;            ///< true if opposite displacements have opposite responses; false for friction
 };

@@ -15,7 +15,7 @@ namespace tactus::check
 
 namespace
 {
-using Eigen::MatrixXd;
+using MatrixXd = Jacobian;
 using Eigen::VectorXd;
 using Matrix = Eigen::Matrix3d;
 

@@ -13,6 +13,7 @@ namespace tactus
 {
 
 using Mat3 = Eigen::Matrix3d;
+using Quaternion = Eigen::Quaternion<double, Eigen::DontAlign>;   // has the same layout whatever the flags of the compiler are
 
 /// The matrix of a rotation vector: right-handed about its direction, by its length in rad.
 inline Mat3 rotationMatrix (const Vec3& rotation) noexcept
@@ -41,21 +42,21 @@ inline Vec3 perpendicularTo (const Vec3& v) noexcept
 /// 1.4e-6 rad) take a half turn about perpendicularTo (from) and the short rotation from there to `to`.
 ///
 /// As in Eigen, the error grows as the directions become opposite: about 1e-15 / (1 + cosine of the angle between them).
-inline Eigen::Quaterniond shortestRotation (const Vec3& from, const Vec3& to) noexcept
+inline Quaternion shortestRotation (const Vec3& from, const Vec3& to) noexcept
 {
     const Vec3 v0 = from.normalized();
     const Vec3 v1 = to.normalized();
     const auto arc = [] (const Vec3& a, const Vec3& b, double cosine) {
         const Vec3 axis = a.cross (b);
         const double s = std::sqrt ((1.0 + cosine) * 2.0), inverse = 1.0 / s;
-        return Eigen::Quaterniond { s * 0.5, axis.x() * inverse, axis.y() * inverse, axis.z() * inverse };
+        return Quaternion { s * 0.5, axis.x() * inverse, axis.y() * inverse, axis.z() * inverse };
     };
 
     const double cosine = v1.dot (v0);
     if (! (cosine < -1.0 + margin (1e-12))) return arc (v0, v1, cosine);
 
     const Vec3 axis = perpendicularTo (v0);
-    return arc (-v0, v1, -cosine) * Eigen::Quaterniond { 0.0, axis.x(), axis.y(), axis.z() };
+    return arc (-v0, v1, -cosine) * Quaternion { 0.0, axis.x(), axis.y(), axis.z() };
 }
 
 }   // namespace tactus

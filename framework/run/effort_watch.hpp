@@ -58,7 +58,7 @@ public:
 private:
     [[gnu::noinline]] Vec3 turnedTo (const Reading& reading) noexcept
     {
-        const Eigen::Quaterniond now { rotationMatrix (reading.rotation) };
+        const Quaternion now { rotationMatrix (reading.rotation) };
         const auto step = now * rotation.conjugate();
         rotation = now;
         measured = now.coeffs().allFinite() ? reading.rotation : Vec3 (Vec3::Constant (std::numeric_limits<double>::quiet_NaN()));
@@ -70,7 +70,7 @@ private:
     }
 
     Position position = Position::Zero();
-    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+    Quaternion rotation = Quaternion::Identity();
     Vec3 measured = Vec3::Zero();   // what `rotation` was computed from; not a number if that is not a rotation
     std::array<double, Channels::most> axes {};
     Fine before_at = 0.0;

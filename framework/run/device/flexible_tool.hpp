@@ -77,7 +77,7 @@ private:
     };
 
     /// Multiplied by (v, stretch, end_v, motor force, hand force), gives the change of (x, v, stretch, end_v) in one time step.
-    using Change = Eigen::Matrix<double, 4, 5>;
+    using Change = Eigen::Matrix<double, 4, 5, Eigen::DontAlign>;   // so that its layout does not depend on flags
 
     /// A value that is negative once the phase is over, and its rate of change.
     struct Margin
