@@ -6,9 +6,9 @@
 #                       adds a node as a newcomer would, builds the examples against the installed library, and drives virtual
 #                       HID devices in a QEMU guest
 #   ./test.sh --quick   runs only the tests
-#   ./test.sh --long    adds to ./test.sh: each fuzzer for 60 s, 10 000 mutated files through the command line, the tests under
-#                       TSan (thread tests for 60 s each), the window under ASan and UBSan, the energy of elastic surfaces on
-#                       1000 long loops for each body and friction, and a soak of 1.2e8 ticks
+#   ./test.sh --long    adds to ./test.sh: each fuzzer for 60 s, 10 000 mutated files through the command line, each installed header
+#                       compiled on its own, the tests under TSan (thread tests for 60 s each), the window under ASan and UBSan, the
+#                       energy of elastic surfaces on 1000 long loops for each body and friction, and a soak of 1.2e8 ticks
 #
 # Each of these runs only one part:
 #   ./test.sh --screens drives the host with mouse and keyboard on a virtual display, and draws build/screens/;
@@ -137,6 +137,10 @@ if [ "$mode" = --long ]; then
     build release tactus
     say "Mutated files through the command line"
     /usr/bin/python3 -B tests/fuzz/whole_program.py build/release/bin/tactus --count 10000
+    build release
+    say "Each installed header"
+    cmake --install build/release --component development --prefix build/installed >/dev/null
+    tests/install/headers.sh build/installed/include --each
     build tsan
     say "Tests under TSan"
     TACTUS_LIVE_SECONDS=60 run_tests tsan

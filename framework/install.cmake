@@ -5,7 +5,10 @@ include (CMakePackageConfigHelpers)
 
 set (package ${CMAKE_INSTALL_LIBDIR}/cmake/Tactus)
 install (DIRECTORY framework/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COMPONENT development
-    FILES_MATCHING PATTERN "*.hpp" PATTERN capi EXCLUDE PATTERN examine EXCLUDE PATTERN python EXCLUDE)
+    FILES_MATCHING PATTERN "*.hpp" PATTERN capi EXCLUDE PATTERN examine EXCLUDE PATTERN python EXCLUDE
+    PATTERN "kit/single" EXCLUDE   # exported code has these in place of others
+    # Only sources of the library include these. Their matrices get their memory as the flags of the compiler say (tests/rooms/layouts.py).
+    PATTERN "fit/least_squares.hpp" EXCLUDE PATTERN "fit/spectrum_model.hpp" EXCLUDE PATTERN "check/pair.hpp" EXCLUDE)
 install (FILES framework/capi/tactus.h framework/plugin/tactus_plugin.h host/device_plugins/tactus_device.h
     $<$<TARGET_EXISTS:tactus_live_shared>:${PROJECT_SOURCE_DIR}/host/live/tactus_live.h> DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COMPONENT development)
 install (DIRECTORY nodes/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus/nodes COMPONENT development FILES_MATCHING PATTERN "*.hpp")
@@ -13,6 +16,11 @@ install (DIRECTORY nodes/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus/nodes C
 foreach (part framework nodes run c)
     set_target_properties (tactus_${part} PROPERTIES EXPORT_NAME ${part})
     install (TARGETS tactus_${part} EXPORT TactusStatic ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+    if (TACTUS_OWN_FUNCTIONS)
+        list (JOIN TACTUS_OWN_FUNCTIONS "\" \"" command)
+        install (CODE "execute_process (COMMAND \"${command}\" -D \"archive=\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/$<TARGET_FILE_NAME:tactus_${part}>\"
+            -P \"${PROJECT_SOURCE_DIR}/framework/own_functions.cmake\" COMMAND_ERROR_IS_FATAL ANY)" COMPONENT development)
+    endif ()
 endforeach ()
 install (EXPORT TactusStatic NAMESPACE tactus:: DESTINATION ${package} FILE TactusStatic.cmake COMPONENT development)
 if (TARGET tactus_shared)
@@ -34,10 +42,9 @@ configure_package_config_file (framework/TactusConfig.cmake.in ${PROJECT_BINARY_
 configure_file (framework/TactusBuildTree.cmake.in ${PROJECT_BINARY_DIR}/TactusConfig.cmake @ONLY)
 write_basic_package_version_file (${PROJECT_BINARY_DIR}/TactusConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 file (RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)   # so that an installed tree can be moved
-list (JOIN TACTUS_SAME_BITS " " same_bits)
 configure_file (framework/tactus.pc.in ${PROJECT_BINARY_DIR}/tactus.pc @ONLY)
 install (FILES ${PROJECT_BINARY_DIR}/installed/TactusConfig.cmake ${PROJECT_BINARY_DIR}/TactusConfigVersion.cmake framework/node/catalogue.cmake
-    framework/plugin/plugin.cmake framework/plugin/plugin.map framework/plugin/device.map DESTINATION ${package} COMPONENT development)
+    framework/own_functions.cmake framework/plugin/plugin.cmake framework/plugin/plugin.map framework/plugin/device.map DESTINATION ${package} COMPONENT development)
 install (FILES ${PROJECT_BINARY_DIR}/tactus.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 if (TARGET tactus_live_shared)
     configure_file (host/live/tactus-live.pc.in ${PROJECT_BINARY_DIR}/tactus-live.pc @ONLY)

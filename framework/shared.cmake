@@ -6,12 +6,12 @@ add_library (tactus_shared SHARED
 set_target_properties (tactus_shared PROPERTIES
     OUTPUT_NAME tactus EXPORT_NAME shared VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR} LINKER_LANGUAGE CXX)
 target_compile_features (tactus_shared INTERFACE cxx_std_20)
-target_compile_options (tactus_shared INTERFACE "$<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:${TACTUS_SAME_BITS}>")
 target_include_directories (tactus_shared INTERFACE $<INSTALL_INTERFACE:include>)
 target_link_libraries (tactus_shared PUBLIC Eigen3::Eigen Threads::Threads ${CMAKE_DL_LIBS})
 if (CMAKE_SYSTEM_NAME STREQUAL Linux)
     # Exports our own symbols, but no instances of std templates, which would replace the program's.
     set (exports ${CMAKE_CURRENT_SOURCE_DIR}/framework/exports.map)
-    target_link_options (tactus_shared PRIVATE LINKER:--version-script=${exports} LINKER:-z,defs)
+    # Its calls go to its own functions: the copy that a program has of an inline function may be compiled with other flags.
+    target_link_options (tactus_shared PRIVATE LINKER:--version-script=${exports} LINKER:-z,defs LINKER:-Bsymbolic-functions)
     set_target_properties (tactus_shared PROPERTIES LINK_DEPENDS ${exports})
 endif ()

@@ -2,12 +2,8 @@
 #pragma once
 
 // Where Eigen computes with vectors of several doubles, the order in which it adds the terms of a sum depends on their number, and so
-// do the last bits. All code must agree on this, because the linker keeps one copy of each function.
-#if defined(EIGEN_CORE_H) && ! defined(EIGEN_DONT_VECTORIZE)
-#error "Eigen is included before Tactus: compile with -DEIGEN_DONT_VECTORIZE, or include the headers of Tactus first"
-#elif ! defined(EIGEN_DONT_VECTORIZE)
-#define EIGEN_DONT_VECTORIZE
-#endif
+// do the last bits. So nodes, and all of Tactus, are compiled with -DEIGEN_DONT_VECTORIZE (tactus::node_flags). It is not defined here: the types
+// of Eigen that are aligned for these vectors would then have another layout in programs that include this header than in their other parts.
 #include <Eigen/Core>
 
 #include <algorithm>

@@ -129,6 +129,19 @@ function (tactus_add_nodes program folder)
     # An object library: from a static library, the linker would drop the nodes, because no code calls them.
     add_library (${program}_nodes OBJECT ${sources})
     tactus_add_lanes (${program}_nodes sources)
-    target_link_libraries (${program}_nodes PUBLIC tactus::nodes)
-    target_link_libraries (${program} PRIVATE ${program}_nodes tactus::nodes)
+    target_link_libraries (${program}_nodes PUBLIC tactus::nodes PRIVATE tactus::node_flags)
+    target_link_libraries (${program} PRIVATE tactus::nodes)
+    if (CMAKE_SYSTEM_NAME STREQUAL Linux AND CMAKE_LINKER AND CMAKE_NM AND CMAKE_OBJCOPY)
+        # The program is compiled with other flags, and must not share inline functions with the nodes.
+        set (own ${CMAKE_CURRENT_BINARY_DIR}/${program}_nodes.o)
+        set (here ${CMAKE_CURRENT_FUNCTION_LIST_DIR})   # the script is next to this file in an installed tree, and in the folder above in the sources
+        find_file (script own_functions.cmake PATHS ${here} ${here}/.. NO_DEFAULT_PATH NO_CACHE REQUIRED)
+        set_target_properties (${program}_nodes PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF)
+        add_custom_command (OUTPUT ${own} DEPENDS ${program}_nodes $<TARGET_OBJECTS:${program}_nodes> VERBATIM COMMAND_EXPAND_LISTS
+            COMMAND ${CMAKE_COMMAND} -D linker=${CMAKE_LINKER} -D nm=${CMAKE_NM} -D objcopy=${CMAKE_OBJCOPY} -D result=${own}
+                "-D objects=$<JOIN:$<TARGET_OBJECTS:${program}_nodes>,|>" -P ${script})
+        target_sources (${program} PRIVATE ${own})
+    else ()
+        target_link_libraries (${program} PRIVATE ${program}_nodes)
+    endif ()
 endfunction ()

@@ -363,6 +363,9 @@ constexpr bool namesRows()
 template <Node N>
 NodeType describe()
 {
+#ifndef EIGEN_DONT_VECTORIZE
+    static_assert (sizeof (N) == 0, "code that compiles nodes needs the flags of tactus::node_flags; without them, nodes give other bits: see docs/library.md");
+#endif
     static_assert (detail::namesRows<N>(), "each part of an appearance names a row of the datasheet");
     static_assert (std::is_trivially_destructible_v<typename N::Outputs>, "each tick overwrites the outputs without calling a destructor");
     using E = detail::Erased<N>;

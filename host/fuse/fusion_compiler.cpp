@@ -90,7 +90,7 @@ FusionCompiler::~FusionCompiler()
 std::vector<std::string> FusionCompiler::flags() const
 {
     std::vector<std::string> all { "-std=c++20", options.optimisation, "-DNDEBUG", "-w", "-shared", "-fPIC" };
-    all.insert (all.end(), { "-fvisibility=hidden", "-fvisibility-inlines-hidden", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math" });
+    all.insert (all.end(), { "-fvisibility=hidden", "-fvisibility-inlines-hidden", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-DEIGEN_DONT_VECTORIZE" });
     auto machine = machineFlags();
     std::ranges::move (machine, std::back_inserter (all));
 #if defined(__x86_64__) || defined(__i386__)

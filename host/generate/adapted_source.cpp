@@ -7,6 +7,15 @@ namespace tactus::host
 
 namespace
 {
+/// Exported code may be compiled by anything, so it does not rely on a flag to have the bits of Tactus.
+constexpr const char* scalar_eigen = R"(#if defined(EIGEN_CORE_H) && ! defined(EIGEN_DONT_VECTORIZE)
+#error "Eigen is included before this graph: compile with -DEIGEN_DONT_VECTORIZE, or include the header of the graph first"
+#elif ! defined(EIGEN_DONT_VECTORIZE)
+#define EIGEN_DONT_VECTORIZE
+#endif
+#include <Eigen/Core>
+)";
+
 /// True for "std::string axis" and "std::string text = "in0"": a setting that is a text.
 bool isTextMember (std::string_view line)
 {
@@ -33,6 +42,7 @@ std::string withTextViews (const std::string& text)
 std::string adapted (const SourceFile& file)
 {
     const std::string before (file.text);
+    if (file.path == "tactus/kit/vec3.hpp") return filled (before, { { "#include <Eigen/Core>\n", scalar_eigen } });
     const bool is_of_plugin = file.path.starts_with ("plugins/");
     if (file.path == "tactus/run/exported_memory.hpp" || ! (is_of_plugin || file.path.starts_with ("tactus/"))) return before;
     auto text = filled (before, { { "std::vector<std::string>", "tactus::exported::NameList" },

@@ -144,7 +144,8 @@ Result<> LiveCompiler::run (const std::vector<std::string>& command)
 
 std::vector<std::string> LiveCompiler::commonFlags (const LiveSource& s) const
 {
-    std::vector<std::string> flags { compilerOf (s), "-O3", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math" };
+    std::vector<std::string> flags { compilerOf (s), "-O3", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math",
+                                     "-DEIGEN_DONT_VECTORIZE" };
 #if defined(__x86_64__) || defined(__i386__)
     flags.insert (flags.end(), { "-mno-fma", "-mno-fma4", "-mno-avx512f" });   // as in CMakeLists.txt
 #endif

@@ -18,6 +18,7 @@ if grep -rlE '#include <(nlohmann|juce|hidapi|framework|host)' "$work/prefix/inc
     echo "an installed header includes what is not installed" >&2
     exit 1
 fi
+tests/install/headers.sh "$work/prefix/include"
 
 # Programs that were built against an older version rely on these names.
 nm -D --defined-only "$libs/libtactus.so" | awk '$3 ~ /^tactus_/ { sub (/@.*/, "", $3); print $3 }' | sort -u >"$work/symbols"
@@ -47,6 +48,23 @@ cmake --build "$work/static" >/dev/null
 cmp "$work/static.txt" "$work/embed_c.txt"
 if ldd "$work/static/embed_c" | grep libtactus; then exit 1; fi
 echo "the static libraries give the same bits"
+
+# Beside code that uses Eigen with flags of its own: no flag of ours reaches it, values of Eigen's types pass between libraries with and
+# without Tactus, and functions of the program do not take the place of those of the library and of nodes.
+if nm --defined-only "$libs"/libtactus_*.a 2>/dev/null | grep " W "; then
+    echo "a static library has functions that those of a program may replace" >&2
+    exit 1
+fi
+"$build/bin/tactus" render tests/install/beside/turned.json --duration 1 --record motor.force,turned.out --out "$work/turned.csv" 2>/dev/null
+for static in OFF ON; do
+    cmake -S tests/install/beside -B "$work/beside" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=-march=native -DCMAKE_PREFIX_PATH="$work/prefix" \
+        -DTactus_USE_STATIC_LIBS=$static -DNODES="$examples/own_node/nodes" >/dev/null
+    cmake --build "$work/beside" >"$work/beside.txt" || { cat "$work/beside.txt"; exit 1; }
+    "$work/beside/beside"
+    "$work/beside/own_flags" tests/install/beside/turned.json 4000 motor.force turned.out >"$work/own_flags.csv"
+    python3 tests/install/same_bits.py "$work/turned.csv" "$work/own_flags.csv"
+    rm -r "$work/beside"
+done
 
 # A plugin from the example, and one that `tactus new-node` writes, builds and tests.
 cmake -S "$examples/node_plugin" -B "$work/node_plugin" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" >/dev/null
@@ -104,10 +122,16 @@ eval "cc -Wall -Wextra -Werror \"\$examples/live_c/main.c\" $flags -o \"\$work/l
 LD_LIBRARY_PATH=$libs "$work/live_by_pkg_config" "$source/graphs/dry_wood.json" stylus=gesture:stroke 0.5 >/dev/null
 echo "docs/examples/live_c: built by CMake and by pkg-config; $(cat "$work/live_c.txt")"
 
+if PKG_CONFIG_PATH=$libs/pkgconfig pkg-config --cflags tactus tactus-live | tr ' ' '\n' | grep -vE '^(-I.*)?$'; then
+    echo "pkg-config passes on more than folders of headers" >&2
+    exit 1
+fi
 flags=$(PKG_CONFIG_PATH=$libs/pkgconfig pkg-config --cflags --libs tactus)
-eval "c++ \"\$examples/embed/main.cpp\" $flags -o \"\$work/by_pkg_config\""   # pkg-config quotes folders for the shell
+eval "cc -std=c99 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror \"\$examples/embed_c/main.c\" $flags -o \"\$work/c99\""
+LD_LIBRARY_PATH=$libs "$work/c99" graphs/dry_wood.json | cmp - "$work/embed_c.txt"
+eval "c++ -std=c++20 \"\$examples/embed/main.cpp\" $flags -o \"\$work/by_pkg_config\""   # pkg-config quotes folders for the shell
 LD_LIBRARY_PATH=$libs "$work/by_pkg_config" graphs/dry_wood.json | cmp - "$work/embed.txt"
-echo "pkg-config: built, same output"
+echo "pkg-config: C99 and C++ built, same output"
 
 # As part of another project, Tactus builds only its libraries and changes none of the project's settings.
 mkdir "$work/parent"
