@@ -104,8 +104,9 @@ class Steps(TestCase):
         graph.add_node("more", "signal.gain")
         engine.edit(graph)
         self.same_bits(before, engine.step()["drag.force"])
-        graph.connect("drag.force", "more.in")
-        self.fails("wire/width", engine.edit, graph)
+        self.fails("wire/width", graph.connect, "drag.force", "more.in")
+        wrong = tactus.Graph.parse(graph.text.replace("signal.gain", "signal.gian"))   # a file may be wrong
+        self.fails("node/unknown_type", engine.edit, wrong)
         self.same_bits(before, engine.step()["drag.force"])
 
 

@@ -131,7 +131,7 @@ class Graphs(TestCase):
             ("port/bad_index", graph.connect, "board.depth", "sum.in[2]"),
             ("port/not_a_vector", graph.connect, "board.depth.x", "sum.in[0]"),
             ("wire/syntax", graph.connect, "board.depth", "sum"),
-            ("graph/loop", graph.connect, "sum.out", "sum.in[0]"),
+            ("graph/loop", graph.connect, "sum.out", "sum.in[1]"),
             ("graph/loop", graph.connect, "sum.out", "gain.in"),
             ("edit/unknown_wire", graph.disconnect, "hand.position", "motor.force"),
         ]
