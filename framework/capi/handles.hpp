@@ -11,7 +11,7 @@
 
 #include <tactus/graph/history.hpp>
 #include <tactus/graph/reconcile.hpp>
-#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/kit/threads/spsc_ring.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/run.hpp>
 #include <tactus/run/tick_clock.hpp>

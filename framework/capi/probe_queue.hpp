@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/spsc_ring.hpp>
-#include <tactus/run/port_probes.hpp>
+#include <tactus/kit/threads/spsc_ring.hpp>
+#include <tactus/run/probe/port_probes.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -3,7 +3,7 @@
 
 #include "tactus.h"
 
-#include <tactus/kit/snapshot.hpp>
+#include <tactus/kit/threads/snapshot.hpp>
 #include <tactus/node/device.hpp>
 #include <tactus/run/guard.hpp>
 

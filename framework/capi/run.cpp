@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "handles.hpp"
 
-#include <tactus/kit/nearest_by_boxes.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/run/device/guard_limits.hpp>
 #include <tactus/run/turn.hpp>
@@ -92,7 +92,7 @@ void forgetTurns (tactus_run& r, const tactus::graph::Graph& next)
 /// Writes the log.
 void attendLog (tactus_run& r)
 {
-    if (auto trouble = r.run->attend()) r.log_trouble = std::move (trouble);
+    if (auto trouble = r.run->poll()) r.log_trouble = std::move (trouble);
 }
 }   // namespace
 

@@ -117,7 +117,7 @@ std::vector<TextureWatch> texturesIn (const Plan& plan)
         const auto& instance = plan.instances()[n];
         if (! node.runs() || node.type->claims == nullptr || ! (node.type->claims (instance.node.get()).spatial_frequency > 0.0)) continue;
         all.push_back ({ n, NodeForces (plan, n), std::ranges::count (instance.driven, true) > 0 });
-        all.back().look (plan, true);
+        all.back().poll (plan, true);
     }
     return all;
 }
@@ -183,9 +183,9 @@ private:
                 textures = texturesIn (running);
             }
             for (auto& w : stretches)
-                w.look (running);
+                w.poll (running);
             for (auto& w : textures)
-                w.look (running, w.is_driven && ticks % 16 == 0);
+                w.poll (running, w.is_driven && ticks % 16 == 0);
             ++ticks;
         });
         for (const auto& role : plan->roles())

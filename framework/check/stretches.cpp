@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "stretches.hpp"
 
-#include <tactus/plan/knobs.hpp>
+#include <tactus/plan/steps/knobs.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ StretchWatch::StretchWatch (const Plan& plan, std::size_t n, Kind k) : its_node 
     if (valueInFile (plan, n, "adhesion", 0.0) == 0.0) static_ratio = valueInFile (plan, n, "static_ratio", 1.0);   // only `stick` has teeth
 }
 
-void StretchWatch::look (const Plan& plan)
+void StretchWatch::poll (const Plan& plan)
 {
     if (! (forces.largest() > 0.0)) return;
     kind == Kind::surface ? lookAtSurface (plan) : lookAtFriction (plan);

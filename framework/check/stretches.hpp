@@ -31,7 +31,7 @@ public:
     /// Empty if the node does not stretch like this.
     static std::optional<StretchWatch> of (const Plan&, std::size_t node);
 
-    void look (const Plan&);   ///< call after each tick
+    void poll (const Plan&);   ///< call after each tick
 
     std::size_t node() const noexcept { return its_node; }
     double shortest() const noexcept;   ///< s, in m; infinite if the node gave no force

@@ -3,8 +3,8 @@
 #include "graph_file.hpp"
 #include "migrate.hpp"
 
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/graph_parts.hpp>
-#include <tactus/graph/text.hpp>
 #include <tactus/text/json_text.hpp>
 #include <tactus/text/json_writer.hpp>
 

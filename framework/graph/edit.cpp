@@ -2,13 +2,13 @@
 #include "edit.hpp"
 
 #include "edit_checks.hpp"
+#include "endpoint_text.hpp"
 #include "exchange_member.hpp"
 #include "find_wire.hpp"
 #include "graph_parts.hpp"
 #include "references.hpp"
 #include "refusals.hpp"
 #include "regroup.hpp"
-#include "text.hpp"
 
 #include <tactus/kit/at.hpp>
 #include <tactus/text/quote.hpp>

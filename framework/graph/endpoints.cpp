@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "endpoints.hpp"
 
-#include "text.hpp"
+#include "endpoint_text.hpp"
 
 #include <tactus/text/json_text.hpp>
 

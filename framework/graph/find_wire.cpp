@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "find_wire.hpp"
 
+#include "endpoint_text.hpp"
 #include "inside.hpp"
 #include "instances.hpp"
 #include "refusals.hpp"
-#include "text.hpp"
 
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/quote.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "graph_parts.hpp"
 
+#include "endpoint_text.hpp"
 #include "part_reader.hpp"
-#include "text.hpp"
 
 #include <tactus/text/quote.hpp>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "param_edit.hpp"
 
+#include "endpoint_text.hpp"
 #include "inside.hpp"
 #include "instances.hpp"
-#include "text.hpp"
 
 #include <tactus/text/quote.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "part_reader.hpp"
 
+#include "endpoint_text.hpp"
 #include "meant.hpp"
-#include "text.hpp"
 #include "wire_text.hpp"
 
 #include <tactus/text/closest_match.hpp>

@@ -6,8 +6,8 @@
 #include <tactus/text/json_text.hpp>
 #include <tactus/text/ordered_reader.hpp>
 
+#include "endpoint_text.hpp"
 #include "graph.hpp"
-#include "text.hpp"
 
 #include <optional>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "reconcile.hpp"
-#include "text.hpp"
+#include "endpoint_text.hpp"
 
 #include <algorithm>
 #include <deque>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "regroup.hpp"
 
+#include "endpoint_text.hpp"
 #include "endpoints.hpp"
 #include "instances.hpp"
 #include "overrides.hpp"
 #include "separate.hpp"
-#include "text.hpp"
 
 #include <tactus/text/json_text.hpp>
 #include <tactus/text/quote.hpp>

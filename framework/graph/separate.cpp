@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "separate.hpp"
 
+#include "endpoint_text.hpp"
 #include "instances.hpp"
 #include "overrides.hpp"
-#include "text.hpp"
 
 #include <tactus/kit/at.hpp>
 #include <tactus/text/json_text.hpp>

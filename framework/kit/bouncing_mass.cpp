@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bouncing_mass.hpp"
-#include "held_step.hpp"
 #include "math/math.hpp"
+#include <tactus/kit/signal/held_step.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 # means that there is no AVX-512 either.
 #
 # The wide packs are for Release only. Without optimisation, a compiler emits small functions that it would otherwise inline, such as those
-# of <cmath>, with AVX2 instructions too, and the linker may keep that copy for all code. tests/rooms/lanes.py looks for such copies.
+# of <cmath>, with AVX2 instructions too, and the linker may keep that copy for all code. tests/structure/lanes.py looks for such copies.
 set (TACTUS_LANE_WIDTHS 2)
 set (TACTUS_LANES_2_FLAGS "")
 if (CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$" AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND CMAKE_BUILD_TYPE STREQUAL Release)

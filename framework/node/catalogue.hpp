@@ -202,7 +202,7 @@ int listSize (const N& node) noexcept
 }
 
 template <typename N>
-struct Erased
+struct NodeAdapter
 {
     using Inputs = typename N::Inputs;
     using Outputs = typename N::Outputs;
@@ -335,7 +335,7 @@ void describePorts (NodeType& t)
             auto s = settingSheet (settingOf (fresh, row));
             s.describe (row.id, row.unit, row.about, row.limits);
             s.x_unit = row.x_unit;
-            s.set = &Erased<N>::template set<i>;
+            s.set = &NodeAdapter<N>::template set<i>;
             t.settings.push_back (std::move (s));
         }
     };
@@ -368,7 +368,7 @@ NodeType describe()
 #endif
     static_assert (detail::namesRows<N>(), "each part of an appearance names a row of the datasheet");
     static_assert (std::is_trivially_destructible_v<typename N::Outputs>, "each tick overwrites the outputs without calling a destructor");
-    using E = detail::Erased<N>;
+    using E = detail::NodeAdapter<N>;
     NodeType t {};
     t.info = N::info;
     t.outputs_size = sizeof (typename N::Outputs);

@@ -14,9 +14,9 @@
 #include <tactus/text/quantity.hpp>
 
 #include <tactus/kit/curve.hpp>
+#include <tactus/kit/geometry/surface.hpp>
 #include <tactus/kit/law.hpp>
 #include <tactus/kit/list.hpp>
-#include <tactus/kit/surface.hpp>
 
 #include <cstddef>
 #include <limits>

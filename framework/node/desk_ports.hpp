@@ -3,7 +3,7 @@
 
 #include "generic.hpp"
 
-#include <tactus/kit/mixing_desk.hpp>
+#include <tactus/kit/signal/mixing_desk.hpp>
 
 #include <string>
 #include <string_view>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "compile.hpp"
-#include "aliasing.hpp"
-#include "build.hpp"
-#include "device_of.hpp"
-#include "make_node.hpp"
-#include "sections.hpp"
-#include "slots.hpp"
-#include "wire_fit.hpp"
+#include <tactus/plan/build/build.hpp>
+#include <tactus/plan/build/slots.hpp>
+#include <tactus/plan/flat/device_of.hpp>
+#include <tactus/plan/flat/make_node.hpp>
+#include <tactus/plan/flat/sections.hpp>
+#include <tactus/plan/rules/aliasing.hpp>
+#include <tactus/plan/rules/wire_fit.hpp>
 
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/instances.hpp>
-#include <tactus/graph/text.hpp>
 #include <tactus/node/node_fault.hpp>
 #include <tactus/text/budget.hpp>
 

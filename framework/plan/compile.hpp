@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// From graph to plan, in steps with a file each:
+/// From graph to plan, in steps. Each has a folder:
 ///
-///   flatten      expands subgraphs, resolves names, reads values             flatten.hpp, directory.hpp, values.hpp
-///   unit_check   checks units of wires and values, types generic nodes       unit_check.hpp
-///   order        finds the running order, loops and delays                   order.hpp
-///   sections     handles subgraphs that run at a different rate                  sections.hpp, aliasing.hpp, rate_conversions.hpp
-///   lane_groups  lets instances of subgraphs run together                    lane_groups.hpp, lane_group.hpp, lane_wiring.hpp
-///   build        makes nodes, lays out storage, writes records               build.hpp, settled_nodes.hpp
-///   lateness     warns of delays on the way back to the hand                 lateness.hpp
-///   plan diff    decides what continues from the previous plan                 plan_diff.hpp, matching.hpp, takeover.hpp
+///   flat/       expands subgraphs, resolves names, reads values              flatten.hpp, directory.hpp, sections.hpp, values.hpp
+///   settings/   reads the settings of nodes                                  node_settings.hpp
+///   rules/      checks units, finds the running order, loops and delays,     unit_check.hpp, order.hpp, aliasing.hpp, lateness.hpp
+///               and warns of what will not work well
+///   build/      makes nodes, lays out storage, writes records                build.hpp, lane_groups.hpp, rate_conversions.hpp
+///   steps/      what a tick does besides the nodes: sums, delays, ramps      ops.hpp, sum_step.hpp, ramps.hpp
+///   swap/       decides what continues from the plan before                  plan_diff.hpp, matching.hpp, takeover.hpp
+///   edit/       applies the rules to what an edit touches                    edit_check.cpp, graph_part.hpp
 
-#include "flatten.hpp"
 #include "plan.hpp"
+#include <tactus/plan/flat/flatten.hpp>
 
 #include <tactus/graph/graph.hpp>
 #include <tactus/text/message.hpp>

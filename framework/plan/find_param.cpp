@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "find_param.hpp"
-#include "directory.hpp"
+#include <tactus/plan/flat/directory.hpp>
 
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/instances.hpp>
-#include <tactus/graph/text.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/quote.hpp>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "flat.hpp"
-#include "fused_tick.hpp"
-#include "order.hpp"
-#include "ramps.hpp"
 #include "sum.hpp"
-#include "takeover.hpp"
+#include <tactus/plan/flat/flat.hpp>
+#include <tactus/plan/rules/order.hpp>
+#include <tactus/plan/steps/fused_tick.hpp>
+#include <tactus/plan/steps/ramps.hpp>
+#include <tactus/plan/swap/takeover.hpp>
 
 #include <tactus/node/catalogue.hpp>
 
@@ -142,7 +142,7 @@ public:
     }
 
     /// Starts moving to the targets that were set since the last call, and passes hits on to their inputs. [tick thread]
-    void applyTurns (Journal* journal) noexcept { parts.ramps.look (journal); }
+    void applyTurns (Journal* journal) noexcept { parts.ramps.poll (journal); }
 
     /// Until now, targets applied immediately; from now on, each new target starts a ramp. Call it right before the first tick.
     /// [tick thread]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "settings.hpp"
-#include "files.hpp"
-#include "surface_setting.hpp"
+#include <tactus/plan/settings/files.hpp>
+#include <tactus/plan/settings/surface_setting.hpp>
 
 namespace tactus::plan
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "values.hpp"
-#include "directory.hpp"
+#include <tactus/plan/flat/directory.hpp>
 
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/number_text.hpp>

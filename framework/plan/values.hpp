@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "flat.hpp"
+#include <tactus/plan/flat/flat.hpp>
 
 #include <tactus/text/result.hpp>
 #include <tactus/text/units.hpp>

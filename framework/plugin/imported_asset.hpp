@@ -6,7 +6,7 @@
 #include "law_value.hpp"
 
 #include <tactus/kit/assets.hpp>
-#include <tactus/kit/surface.hpp>
+#include <tactus/kit/geometry/surface.hpp>
 
 #include <map>
 #include <memory>

@@ -2,8 +2,8 @@
 #include "lending.hpp"
 #include "imported_asset.hpp"
 
-#include <tactus/kit/async_query.hpp>
-#include <tactus/kit/nearest_triangle.hpp>
+#include <tactus/kit/geometry/nearest_triangle.hpp>
+#include <tactus/kit/threads/async_query.hpp>
 
 #include <algorithm>
 #include <type_traits>
@@ -76,7 +76,7 @@ std::vector<const char*> textsOf (const std::vector<std::string>& all)
 tactus_plugin_channels shown (const Channels& c) noexcept { return { sizeof (tactus_plugin_channels), c.used(), c.begin() }; }
 }   // namespace
 
-ShownSetup::ShownSetup (const Setup& s) noexcept
+CSetup::CSetup (const Setup& s) noexcept
 {
     services.size = sizeof services;
     if (s.services.nearest_triangle)
@@ -94,8 +94,8 @@ ShownSetup::ShownSetup (const Setup& s) noexcept
     setup = { sizeof setup, s.rate_hz, &services };
 }
 
-ShownLayout::ShownLayout (const DeviceLayout& l) : axes (textsOf (l.axes)), efforts (textsOf (l.efforts)), buttons (textsOf (l.buttons)),
-                                                   mechanics { sizeof mechanics, l.mechanics.mass, l.mechanics.damping }
+CLayout::CLayout (const DeviceLayout& l) : axes (textsOf (l.axes)), efforts (textsOf (l.efforts)), buttons (textsOf (l.buttons)),
+                                           mechanics { sizeof mechanics, l.mechanics.mass, l.mechanics.damping }
 {
     layout = { sizeof layout, axes.data(), axes.size(), efforts.data(), efforts.size(),
                buttons.data(), buttons.size(), l.signal_inputs, l.signal_outputs, &mechanics };

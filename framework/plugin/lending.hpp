@@ -13,12 +13,12 @@ namespace tactus::plugin
 {
 
 /// A Setup as the hooks `prepare` and `warning` get it. Valid as long as this object and the Setup exist.
-class ShownSetup
+class CSetup
 {
 public:
-    explicit ShownSetup (const Setup&) noexcept;
-    ShownSetup (const ShownSetup&) = delete;
-    ShownSetup& operator= (const ShownSetup&) = delete;
+    explicit CSetup (const Setup&) noexcept;
+    CSetup (const CSetup&) = delete;
+    CSetup& operator= (const CSetup&) = delete;
 
     const tactus_plugin_setup* get() const noexcept { return &setup; }
 
@@ -27,12 +27,12 @@ private:
     tactus_plugin_setup setup {};
 };
 
-class ShownLayout
+class CLayout
 {
 public:
-    explicit ShownLayout (const DeviceLayout&);
-    ShownLayout (const ShownLayout&) = delete;
-    ShownLayout& operator= (const ShownLayout&) = delete;
+    explicit CLayout (const DeviceLayout&);
+    CLayout (const CLayout&) = delete;
+    CLayout& operator= (const CLayout&) = delete;
 
     const tactus_plugin_layout* get() const noexcept { return &layout; }
 
@@ -53,7 +53,7 @@ public:
     const tactus_plugin_device* get() const noexcept { return &device; }
 
 private:
-    ShownLayout layout;
+    CLayout layout;
     tactus_plugin_channels axes, signals, applied_axes, applied_signals;
     tactus_plugin_device device {};
 };

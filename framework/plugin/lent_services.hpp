@@ -5,8 +5,8 @@
 
 #include "exported_asset.hpp"
 
-#include <tactus/kit/async_query.hpp>
-#include <tactus/kit/nearest_triangle.hpp>
+#include <tactus/kit/geometry/nearest_triangle.hpp>
+#include <tactus/kit/threads/async_query.hpp>
 #include <tactus/node/node.hpp>
 
 #include <map>

@@ -78,7 +78,7 @@ void give (T* to, T from) noexcept
 template <Node N>
 struct Hooks
 {
-    using Erased = detail::Erased<N>;
+    using NodeAdapter = detail::NodeAdapter<N>;
 
     static Hosted<N>& hosted (void* node) noexcept { return *static_cast<Hosted<N>*> (node); }
     static const N& read (const void* node) noexcept { return static_cast<const Hosted<N>*> (node)->node; }
@@ -117,11 +117,11 @@ struct Hooks
     static void fillCopying (tactus_plugin_node& c) noexcept
     {
         if constexpr (Peekable<N>)
-            c.peek = &renewFirst<&Erased::peek>;
+            c.peek = &renewFirst<&NodeAdapter::peek>;
         else
         {
-            c.tick = &renewFirst<&Erased::tick>;
-            if constexpr (KnowsStored<N>) c.tick_stored = &renewFirst<&Erased::tickStored>;
+            c.tick = &renewFirst<&NodeAdapter::tick>;
+            if constexpr (KnowsStored<N>) c.tick_stored = &renewFirst<&NodeAdapter::tickStored>;
         }
     }
 
@@ -168,10 +168,10 @@ struct Hooks
         c.set = &set;
         c.params = &params;
         c.initialise_outputs = &initialiseOutputs;
-        c.tick = &Erased::tick;
-        if constexpr (KnowsStored<N>) c.tick_stored = &Erased::tickStored;
+        c.tick = &NodeAdapter::tick;
+        if constexpr (KnowsStored<N>) c.tick_stored = &NodeAdapter::tickStored;
         if constexpr (LearnsOfDevice<N>) c.learn = &learn;
-        if constexpr (Peekable<N>) c.peek = &Erased::peek;
+        if constexpr (Peekable<N>) c.peek = &NodeAdapter::peek;
         if constexpr (Delaying<N>) c.delay = [] (const void* n) noexcept -> std::int32_t { return read (n).delay(); };
         if constexpr (Updatable<N>) c.update = [] (void* n) noexcept { hosted (n).node.update(); };
         if constexpr (Adoptable<N>) c.adopt = [] (void* n, const void* old) noexcept { hosted (n).node.adopt (read (old)); };

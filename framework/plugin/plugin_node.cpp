@@ -153,12 +153,12 @@ void addQuestions (NodeType& t, const Guest* g)
         t.problem = [g] (const void* n) { return g->ask ("problem", [&] (auto* r) { return g->hooks.problem (n, r); }); };
     if (g->hooks.warning)
         t.warning = [g] (const void* n, const Setup& s) {
-            const ShownSetup setup { s };
+            const CSetup setup { s };
             return g->ask ("warning", [&] (auto* r) { return g->hooks.warning (n, setup.get(), r); });
         };
     if (g->hooks.prepare)
         t.prepare = [g] (void* n, const Setup& s) {
-            const ShownSetup setup { s };
+            const CSetup setup { s };
             g->ask ("prepare", [&] (auto* r) { return g->hooks.prepare (n, setup.get(), r); });
         };
     if (g->hooks.claims)
@@ -185,7 +185,7 @@ void addDevice (NodeType& t, const Guest* g)
     t.bind = [bind = g->hooks.bind] (void* n, const DeviceState&) { bind (n); };
     if (g->hooks.missing)
         t.missing = [g] (const void* n, const DeviceLayout& l) {
-            const ShownLayout layout { l };
+            const CLayout layout { l };
             return g->ask ("missing", [&] (auto* r) { return g->hooks.missing (n, layout.get(), r); });
         };
     if (g->hooks.effort)

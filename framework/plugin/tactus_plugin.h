@@ -236,7 +236,7 @@ typedef struct tactus_plugin_mesh
         sizeof (tactus_plugin_mesh), 0, 0, 0, 0 \
     }
 
-/** A body that can be touched; see framework/kit/surface.hpp. */
+/** A body that can be touched; see framework/kit/geometry/surface.hpp. */
 typedef struct tactus_plugin_surface
 {
     uint32_t size;
@@ -292,7 +292,7 @@ typedef struct tactus_plugin_nearest
         sizeof (tactus_plugin_nearest), 0, 0, 0 \
     }
 
-/** Open questions of a node; see framework/kit/async_query.hpp. */
+/** Open questions of a node; see framework/kit/threads/async_query.hpp. */
 typedef struct tactus_plugin_query
 {
     uint32_t size;

@@ -4,7 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <tactus/file/graph_file.hpp>
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/text/json.hpp>
 
 #include <set>

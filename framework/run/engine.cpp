@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine.hpp"
 
-#include "effort_sum.hpp"
+#include <tactus/run/guard/effort_sum.hpp>
 
 #include <tactus/plan/find_hit.hpp>
 #include <tactus/plan/find_param.hpp>
@@ -78,8 +78,8 @@ std::unique_ptr<Engine::Running> Engine::makeRunning (std::shared_ptr<Plan> p)
     return made;
 }
 
-/// Gives a role its device. The nodes are bound to it later, by introduce().
-void Engine::equip (Channel& channel, Device& device, const GuardLimits& limits, const Plan& plan, double dt_s)
+/// Gives a role its device. The nodes are bound to it later, by bindDevices().
+void Engine::attachDevice (Channel& channel, Device& device, const GuardLimits& limits, const Plan& plan, double dt_s)
 {
     auto& layout = std::ranges::find (plan.roles(), channel.role, &Plan::RoleUse::name)->state->layout;
     layout = device.layout();
@@ -92,15 +92,15 @@ void Engine::equip (Channel& channel, Device& device, const GuardLimits& limits,
     device.prepare (dt_s);
 }
 
-/// Tells nodes about the layouts of new devices. introduce() then binds the nodes to these layouts.
-void Engine::announce (const Running& plan)
+/// Tells nodes about the layouts of new devices. bindDevices() then binds the nodes to these layouts.
+void Engine::sizeForLayout (const Running& plan)
 {
     for (const auto& node : plan.bound)
         if (node.channel->to_announce && node.type->announce) node.type->announce (node.node, *node.state);
 }
 
 /// Binds nodes to the layouts of new devices, and tells the nodes that learn about a device what it is.
-void Engine::introduce (Running& plan) noexcept
+void Engine::bindDevices (Running& plan) noexcept
 {
     if (std::ranges::none_of (plan.channels, &Channel::is_news)) return;   // so a takeover need not visit the nodes
     for (const auto& node : plan.bound)
@@ -114,9 +114,9 @@ void Engine::attach (std::string_view role, Device& device, const GuardLimits& l
     const auto& roles = newest().roles();
     if (std::ranges::find (roles, role, &Plan::RoleUse::name) == roles.end()) throw std::out_of_range ("the plan has no role '" + std::string (role) + "'");
     auto& channel = channelOf (std::string (role));
-    equip (channel, device, limits, newest(), 1.0 / rate_hz);
-    announce (plans.newest());
-    introduce (plans.newest());
+    attachDevice (channel, device, limits, newest(), 1.0 / rate_hz);
+    sizeForLayout (plans.newest());
+    bindDevices (plans.newest());
     channel.to_announce = false;
 }
 
@@ -142,7 +142,7 @@ void Engine::join (const Joining& joining, const Plan& plan)
     if (const auto* channel = find (joining.role); channel && channel->device)
         throw std::invalid_argument ("the role '" + joining.role + "' already has a device");
     auto& channel = makeChannel (joining.role);
-    equip (channel, joining.device, joining.limits, plan, 1.0 / rate_hz);
+    attachDevice (channel, joining.device, joining.limits, plan, 1.0 / rate_hz);
     channel.bumpless.begin();
 }
 
@@ -160,7 +160,7 @@ void Engine::submit (std::shared_ptr<Plan> next, std::span<const Joining> joinin
             for (const auto& channel : channels)
                 channel->to_announce = channel->to_announce && std::ranges::count (joining, channel->role, &Joining::role) > 0;
         auto made = makeRunning (std::move (next));
-        announce (*made);
+        sizeForLayout (*made);
         plans.give (std::move (made));
     }
     clear();
@@ -223,7 +223,7 @@ void Engine::takeOver (Running& next) noexcept
             next.channels[i]->bumpless.begin();
             next.channels[i]->touched_at = ticks;
         }
-    introduce (next);
+    bindDevices (next);
     tightenGuards (next);
     if (is_stopped)
         for (auto* channel : next.channels)

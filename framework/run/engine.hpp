@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "bumpless.hpp"
 #include "guard.hpp"
-#include "guard_log.hpp"
 #include "plan_swap.hpp"
 #include <tactus/plan/journal.hpp>
 #include <tactus/plan/plan.hpp>
+#include <tactus/run/guard/bumpless.hpp>
+#include <tactus/run/guard/guard_log.hpp>
 #include <tactus/text/result.hpp>
 
 #include <atomic>
@@ -218,9 +218,9 @@ private:
     Channel& channelOf (const std::string& role);
     Channel& makeChannel (const std::string& role);
     void join (const Joining&, const Plan&);
-    static void equip (Channel&, Device&, const GuardLimits&, const Plan&, double dt_s);
-    static void announce (const Running&);
-    static void introduce (Running&) noexcept;
+    static void attachDevice (Channel&, Device&, const GuardLimits&, const Plan&, double dt_s);
+    static void sizeForLayout (const Running&);
+    static void bindDevices (Running&) noexcept;
     void tightenGuards (const Running&) noexcept;
     void applyStops() noexcept;
     std::unique_ptr<Running> makeRunning (std::shared_ptr<Plan>);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "effort_watch.hpp"
-#include "falling_limit.hpp"
 #include <tactus/node/device.hpp>
+#include <tactus/run/guard/effort_watch.hpp>
+#include <tactus/run/guard/falling_limit.hpp>
 
 #include <array>
 #include <cstdint>

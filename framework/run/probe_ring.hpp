@@ -2,7 +2,7 @@
 #pragma once
 
 #include <tactus/graph/instances.hpp>
-#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/kit/threads/spsc_ring.hpp>
 #include <tactus/plan/plan.hpp>
 
 #include <algorithm>

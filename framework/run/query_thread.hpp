@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/async_query.hpp>
+#include <tactus/kit/threads/async_query.hpp>
 #include <tactus/plan/journal.hpp>
 
 #include <atomic>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "log/run_log_reader.hpp"
-#include "replayed_queries.hpp"
 #include "run.hpp"
+#include <tactus/run/log/replayed_queries.hpp>
 
 #include <cstdint>
 #include <map>

@@ -4,8 +4,8 @@
 #include "device/guard_limits.hpp"
 #include "device/make_device.hpp"
 #include "device/sim.hpp"
-#include "included_guards.hpp"
 #include "log/graph_snapshot.hpp"
+#include <tactus/run/guard/included_guards.hpp>
 
 #include <tactus/kit/math/math.hpp>
 #include <tactus/text/number_text.hpp>
@@ -258,10 +258,10 @@ std::vector<std::string> Run::start (TickClock& clock, Runner::Options how)
     return runner->start();
 }
 
-std::optional<Message> Run::attend()
+std::optional<Message> Run::poll()
 {
     if (runner)
-        runner->attend();
+        runner->poll();
     else
         running->clear();
     if (! log || log_failure) return std::nullopt;

@@ -6,7 +6,7 @@
 #include "log/run_log.hpp"
 #include "query_thread.hpp"
 #include "runner.hpp"
-#include "taps.hpp"
+#include <tactus/run/probe/taps.hpp>
 
 #include <tactus/plan/compile.hpp>
 #include <tactus/text/result.hpp>
@@ -150,7 +150,7 @@ public:
 
     /// Frees plans that are no longer used, collects node costs, writes the log. Call it many times a second. Returns what went
     /// wrong with the log, only once: ids output/unwritable, log/broken.
-    std::optional<Message> attend();
+    std::optional<Message> poll();
 
     /// Stops the tick thread, if there is one, and waits until the forces are zero and the thread has ended.
     void end();

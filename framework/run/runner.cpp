@@ -148,7 +148,7 @@ void Runner::publish() noexcept
     });
 }
 
-void Runner::attend()
+void Runner::poll()
 {
     engine.clear();
     node_costs.collect();

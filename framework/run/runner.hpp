@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "node_costs.hpp"
-#include "passed_time.hpp"
 #include "run_status.hpp"
-#include "tick_account.hpp"
 #include "tick_clock.hpp"
+#include <tactus/run/clock/node_costs.hpp>
+#include <tactus/run/clock/passed_time.hpp>
+#include <tactus/run/clock/tick_account.hpp>
 
 #include "engine.hpp"
 
-#include <tactus/kit/snapshot.hpp>
+#include <tactus/kit/threads/snapshot.hpp>
 
 #include <array>
 #include <atomic>
@@ -77,7 +77,7 @@ public:
     const TickAccount& account() const noexcept { return ticks_so_far; }   ///< [any thread]
 
     /// Call it many times a second: frees plans that are no longer used, and collects node costs. [main thread]
-    void attend();
+    void poll();
 
     /// The costs of the nodes of the newest plan measured so far, the most expensive first. [main thread]
     std::vector<NodeCost> costs() { return node_costs.of (engine.newest()); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "turn.hpp"
 
-#include <tactus/plan/directory.hpp>
+#include <tactus/plan/flat/directory.hpp>
 #include <tactus/plan/values.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/json_text.hpp>

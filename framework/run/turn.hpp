@@ -5,7 +5,7 @@
 #include <tactus/graph/graph.hpp>
 #include <tactus/text/json.hpp>
 
-#include <tactus/plan/flatten.hpp>
+#include <tactus/plan/flat/flatten.hpp>
 #include <tactus/text/result.hpp>
 
 #include <optional>

@@ -47,7 +47,7 @@ struct ResultOf<Result<T>>
 };
 
 /// Calls a function at the entry of a thread, where an exception would end the program. What it throws becomes an error at the place `where`, such as
-/// the file that the thread reads. Every thread begins with this call; tests/rooms/threads.py checks that. Id: program/exception.
+/// the file that the thread reads. Every thread begins with this call; tests/structure/threads.py checks that. Id: program/exception.
 template <typename F>
 auto caught (std::string where, F&& act) -> typename ResultOf<std::invoke_result_t<F>>::Type
 {

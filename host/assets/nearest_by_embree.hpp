@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/nearest_triangle.hpp>
+#include <tactus/kit/geometry/nearest_triangle.hpp>
 
 #include <memory>
 

@@ -220,7 +220,7 @@ void AudioRig::before() noexcept
 void AudioRig::after (const Plan& plan, bool halts) noexcept
 {
     if (! mixer) return;
-    mixer->look (plan, halts || (engine != nullptr && engine->isEmergency()));
+    mixer->poll (plan, halts || (engine != nullptr && engine->isEmergency()));
     for (auto& l : lanes)
         for (int i = 0; i < l->per_tick; ++i)
         {
@@ -302,9 +302,9 @@ void AudioRig::clip (float* samples, int frames) noexcept
 }
 
 //==============================================================================
-Result<> AudioRig::attend (CardKeeper::Clock::time_point now)
+Result<> AudioRig::poll (CardKeeper::Clock::time_point now)
 {
-    keeper.attend (now);
+    keeper.poll (now);
     if (! capture) return {};
     if (auto drained = capture->drain(); ! drained) return drained;
     return std::exchange (capture_result, {});

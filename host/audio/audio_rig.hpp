@@ -9,7 +9,7 @@
 #include "stream.hpp"
 
 #include <host/live/run_sound.hpp>
-#include <tactus/run/passed_time.hpp>
+#include <tactus/run/clock/passed_time.hpp>
 #include <tactus/text/result.hpp>
 
 #include <array>
@@ -94,8 +94,8 @@ public:
 
     /// Call this many times a second. Returns an error of the capture once, including audio/capture_rate if the card came
     /// back at a different rate. [main thread]
-    Result<> attend (CardKeeper::Clock::time_point now);
-    Result<> attend() override { return attend (CardKeeper::Clock::now()); }
+    Result<> poll (CardKeeper::Clock::time_point now);
+    Result<> poll() override { return poll (CardKeeper::Clock::now()); }
 
     /// Closes the card and the capture. Returns an error of the capture. Call this when the run no longer ticks. [main thread]
     Result<> end() override;
@@ -158,7 +158,7 @@ private:
     PassedTime passed_time { 0.0 };                        // from block to block [audio thread]
     std::unique_ptr<CardCapture> capture;
     double capture_rate = 0.0;   // rate at which `capture` records, in Hz
-    Result<> capture_result;     // result of a capture that has ended, until attend() returns it
+    Result<> capture_result;     // result of a capture that has ended, until poll() returns it
     std::atomic<CardCapture*> captures = nullptr;
     CardSystem& cards;
     CardKeeper keeper;   // declared last: its card calls the functions of this object

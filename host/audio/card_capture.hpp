@@ -2,7 +2,7 @@
 #pragma once
 
 #include <host/io/wav.hpp>
-#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/kit/threads/spsc_ring.hpp>
 
 #include <filesystem>
 #include <optional>

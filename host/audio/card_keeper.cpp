@@ -37,7 +37,7 @@ Result<> CardKeeper::tryAgain (Clock::time_point now)
     return {};
 }
 
-void CardKeeper::attend (Clock::time_point now)
+void CardKeeper::poll (Clock::time_point now)
 {
     if (! is_wanted) return;
     if (card != nullptr)

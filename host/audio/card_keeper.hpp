@@ -27,12 +27,12 @@ public:
     CardKeeper (CardSystem& s, CardUser& u) : system (s), user (u) {}
     ~CardKeeper() override { close(); }
 
-    /// Opens a card. If it fails, attend() retries until close(). [main thread]
+    /// Opens a card. If it fails, poll() retries until close(). [main thread]
     Result<> open (const CardWanted&, int outputs, int inputs);
     void close();
 
     /// Must be called many times a second. [main thread]
-    void attend (Clock::time_point now = Clock::now());
+    void poll (Clock::time_point now = Clock::now());
 
     bool isOpen() const noexcept { return card != nullptr; }                                   ///< [main thread]
     const OpenedFormat& format() const noexcept { return opened; }                             ///< the latest format [main thread]

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/biquad.hpp>
 #include <tactus/kit/math/math.hpp>
+#include <tactus/kit/signal/biquad.hpp>
 
 #include <numbers>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/biquad.hpp>
+#include <tactus/kit/signal/biquad.hpp>
 #include <tactus/plan/plan.hpp>
 #include <tactus/text/result.hpp>
 

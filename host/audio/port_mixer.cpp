@@ -44,7 +44,7 @@ void PortMixer::find (const Plan& p) noexcept
     }
 }
 
-void PortMixer::look (const Plan& p, bool shut) noexcept
+void PortMixer::poll (const Plan& p, bool shut) noexcept
 {
     plan = &p;
     if (! knows || serial != p.serial()) find (p);

@@ -31,7 +31,7 @@ public:
     PortMixer (std::vector<Route>, const std::vector<int>& samples_per_tick, double tick_rate_hz);
 
     /// Call after each tick. [tick thread]
-    void look (const Plan&, bool shut) noexcept;
+    void poll (const Plan&, bool shut) noexcept;
 
     /// Adds sample `i` of the tick, for all routes with `per_tick` samples, by channel. Call this for each `i` in order. [tick thread]
     void addTo (std::span<double> channels, int i, int per_tick) noexcept;

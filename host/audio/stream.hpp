@@ -4,8 +4,8 @@
 #include "resampler.hpp"
 #include "servo.hpp"
 
-#include <tactus/kit/snapshot.hpp>
-#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/kit/threads/snapshot.hpp>
+#include <tactus/kit/threads/spsc_ring.hpp>
 
 #include <atomic>
 #include <cstdint>

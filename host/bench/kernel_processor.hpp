@@ -53,7 +53,7 @@ public:
 
     void processBlock (juce::AudioBuffer<double>& buffer, juce::MidiBuffer&) override
     {
-        const auto in = detail::Erased<N>::gather (node, buffer.getArrayOfReadPointers());
+        const auto in = detail::NodeAdapter<N>::gather (node, buffer.getArrayOfReadPointers());
         if constexpr (Peekable<N>)
         {
             latest = node.peek();

@@ -37,12 +37,12 @@ private:
     light::Floor foam;
     light::Drag drag;
     light::Ridges ribs, warp, weft;
-    light::Hiss hiss;
+    light::Noise hiss;
     light::Window touch;
     light::Landing landing;
-    light::Thud thud;
+    light::Shock thud;
     light::Ring wood;
-    light::Calm calm;
+    light::Passivity calm;
     light::Limit limit;
     nodes::DeviceForce motor;
 };
@@ -74,12 +74,12 @@ const std::map<std::string, std::string, std::less<>> light_types {
     { "deform.surface", "light.floor" },
     { "friction.elasto_plastic", "light.drag" },
     { "texture.grating", "light.ridges" },
-    { "texture.noise", "light.hiss" },
+    { "texture.noise", "light.noise" },
     { "contact.window", "light.window" },
     { "contact.impact", "light.landing" },
-    { "shock.hunt_crossley", "light.thud" },
+    { "shock.hunt_crossley", "light.shock" },
     { "vibration.modal", "light.ring" },
-    { "safety.passivity", "light.calm" },
+    { "safety.passivity", "light.passivity" },
     { "hold.predictive", "light.limit" },
 };
 }   // namespace
@@ -100,8 +100,8 @@ graph::Graph lightGraph()
 Catalogue lightTypes()
 {
     using namespace light;
-    return catalogue().with ({ describe<Speed>(), describe<Floor>(), describe<Drag>(), describe<Ridges>(), describe<Hiss>(), describe<Window>(),
-                               describe<Landing>(), describe<Thud>(), describe<Ring>(), describe<Calm>(), describe<Limit>() });
+    return catalogue().with ({ describe<Speed>(), describe<Floor>(), describe<Drag>(), describe<Ridges>(), describe<Noise>(), describe<Window>(),
+                               describe<Landing>(), describe<Shock>(), describe<Ring>(), describe<Passivity>(), describe<Limit>() });
 }
 
 std::unique_ptr<Variant> lightByHand() { return std::make_unique<LightByHand>(); }

@@ -116,7 +116,7 @@ struct Ridges
 };
 
 /// In place of texture.noise.
-struct Hiss
+struct Noise
 {
     struct Inputs
     {
@@ -127,7 +127,7 @@ struct Hiss
     {
         double value = 0.0;
     };
-    static constexpr Info info = infoOf ("light.hiss");
+    static constexpr Info info = infoOf ("light.noise");
     static constexpr std::tuple ports { input (&Inputs::speed, "speed", unit::speed, "speed"),
                                         input (&Inputs::normal_force, "normal_force", unit::newton, "load"),
                                         output (&Outputs::value, "value", unit::newton, "their product") };
@@ -185,7 +185,7 @@ private:
 inline constexpr double little = 1e-9;
 
 /// In place of shock.hunt_crossley.
-struct Thud
+struct Shock
 {
     struct Inputs
     {
@@ -196,7 +196,7 @@ struct Thud
     {
         double resistance = 0.0;
     };
-    static constexpr Info info = infoOf ("light.thud");
+    static constexpr Info info = infoOf ("light.shock");
     static constexpr std::tuple ports { input (&Inputs::hit, "hit", unit::hit, "hit"), output (&Outputs::resistance, "resistance", unit::newton, "decays") };
     Params params;
     Outputs tick (const Inputs& in) noexcept { return { left = 0.9 * left + in.hit + little }; }
@@ -208,7 +208,7 @@ private:
 /// In place of vibration.modal.
 struct Ring
 {
-    using Inputs = Thud::Inputs;
+    using Inputs = Shock::Inputs;
     using Params = Empty;
     struct Outputs
     {
@@ -224,7 +224,7 @@ private:
 };
 
 /// In place of safety.passivity.
-struct Calm
+struct Passivity
 {
     struct Inputs
     {
@@ -236,7 +236,7 @@ struct Calm
     {
         Vec3 force = Vec3::Zero();
     };
-    static constexpr Info info = infoOf ("light.calm");
+    static constexpr Info info = infoOf ("light.passivity");
     static constexpr std::tuple ports { input (&Inputs::position, "position", unit::metre, "position"),
                                         input (&Inputs::force, "force", unit::newton, "force"), input (&Inputs::contact, "contact", unit::state, "contact"),
                                         output (&Outputs::force, "force", unit::newton, "braked") };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "one_poles.hpp"
 
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/kit/random.hpp>
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 #include <host/live/live_session.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/run/feed.hpp>
-#include <tactus/run/port_probes.hpp>
+#include <tactus/run/probe/port_probes.hpp>
 
 #include <filesystem>
 #include <memory>

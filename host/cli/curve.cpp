@@ -7,7 +7,7 @@
 #include <host/fitting/surface_preset.hpp>
 #include <host/io/plot.hpp>
 #include <tactus/file/graph_file.hpp>
-#include <tactus/kit/half_space.hpp>
+#include <tactus/kit/geometry/half_space.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <cmath>

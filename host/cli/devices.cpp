@@ -317,7 +317,7 @@ void probe (const std::vector<Listed>& all, const DevicesOptions& options, Json&
     {
         std::this_thread::sleep_for (Probed::period);
         for (const auto& p : probed)
-            p->look();
+            p->poll();
         if (options.json || Clock::now() - shown < (live ? 100ms : 1000ms)) continue;
         shown = Clock::now();
         const auto text = show();

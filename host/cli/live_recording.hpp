@@ -4,7 +4,7 @@
 #include "command_run.hpp"
 #include "recorder.hpp"
 
-#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/kit/threads/spsc_ring.hpp>
 #include <tactus/run/runner.hpp>
 
 #include <string>

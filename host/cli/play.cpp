@@ -129,7 +129,7 @@ public:
         for (int i = 0; ! command.run().live().isOver(); ++i)
         {
             std::this_thread::sleep_for (std::chrono::duration<double> (look_apart_s));
-            attend (i);
+            poll (i);
             if (stopRequested()) endIfStuck();
         }
         finish();
@@ -157,7 +157,7 @@ private:
         if (! lines.empty()) std::fprintf (stderr, "%s%s", terminal ? "\r\033[K" : "", lines.c_str());
     }
 
-    void tell (const LiveSession::News& news)
+    void tell (const LiveSession::Events& news)
     {
         if (news.alarm) print ("warning: " + sentence (*news.alarm) + (emergency.hasKeys() ? " (R)" : "") + " [" + news.alarm->id + "]\n");
         if (news.sound) warnOfCapture (options.capture, *news.sound);
@@ -174,19 +174,19 @@ private:
     }
 
     /// The work that is done every 20 ms.
-    void attend (int i)
+    void poll (int i)
     {
         print (emergency.takeNotes());
         if (recording) recording->drain();
-        tell (session.attend());
-        if (options.watch && i % 10 == 0 && file_watch.look()) reload();
+        tell (session.poll());
+        if (options.watch && i % 10 == 0 && file_watch.poll()) reload();
         if (i % 2 == 0)
-            if (auto news = live.look()) takeOver (*news);
+            if (auto news = live.poll()) takeOver (*news);
         if (options.fuse) tellFusion();
         if (control)
         {
             command.probes().drain ([&] (std::uint64_t tick, std::span<const double> values) { control->values (tick, values); });
-            control->attend();
+            control->poll();
         }
         if (i % 5 != 0 || ! terminal) return;
         const auto fusion = options.fuse ? "   " + session.fuser()->describe() : std::string {};
@@ -228,7 +228,7 @@ private:
     }
 
     /// Uses a new version of the code of a node.
-    void takeOver (LivePlugins::News& news)
+    void takeOver (LivePlugins::RebuiltPlugin& news)
     {
         if (terminal) std::fprintf (stderr, "\r\033[K");
         report (news.messages, {}, news.file.string());

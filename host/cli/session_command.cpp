@@ -12,7 +12,7 @@
 #include <host/sessions/choose_clock.hpp>
 #include <host/sessions/numbers_device.hpp>
 #include <host/sessions/role_fits.hpp>
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/compile.hpp>
 #include <tactus/text/number_text.hpp>

@@ -8,7 +8,7 @@
 #include <host/assets/nearest_by_embree.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/compile.hpp>
-#include <tactus/plan/unheard.hpp>
+#include <tactus/plan/rules/unheard.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/json_text.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "device_driver.hpp"
 
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/text/object_reader.hpp>
 #include <tactus/text/quote.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "driver_about.hpp"
 
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/run/device/guard_limits.hpp>
 #include <tactus/text/json.hpp>
 #include <tactus/text/number_text.hpp>

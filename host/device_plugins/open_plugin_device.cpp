@@ -3,7 +3,7 @@
 
 #include <host/plugins/installed_plugins.hpp>
 #include <host/plugins/quarantine.hpp>
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/run/device/guard_limits.hpp>
 #include <tactus/text/quote.hpp>
 

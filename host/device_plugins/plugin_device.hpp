@@ -3,7 +3,7 @@
 
 #include "device_driver.hpp"
 
-#include <tactus/kit/snapshot.hpp>
+#include <tactus/kit/threads/snapshot.hpp>
 #include <tactus/node/device.hpp>
 
 #include <atomic>

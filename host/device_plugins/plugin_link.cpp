@@ -351,7 +351,7 @@ bool PluginDevice::Link::serve()
     if (! device) return false;
     const auto now = Clock::now();
     const bool fails = failing_since && now - *failing_since > longest_silence;
-    if (isConnected() && ! fails) attend (now);
+    if (isConnected() && ! fails) poll (now);
     if (driven && isConnected() && (fails || now - given > longest_silence))
     {
         if (! std::exchange (is_silent, true))
@@ -372,7 +372,7 @@ bool PluginDevice::Link::serve()
 }
 
 /// Writes what is offered. [with `calling` held]
-void PluginDevice::Link::attend (Clock::time_point now)
+void PluginDevice::Link::poll (Clock::time_point now)
 {
     const auto latest = offered.load();
     const bool is_new = latest.number != handled;

@@ -112,7 +112,7 @@ private:
     void lose (const std::string& why);
 
     bool serve();
-    void attend (Clock::time_point now);
+    void poll (Clock::time_point now);
     void quieten();
     void leaveDevice();
     void leaveFailsafe();

@@ -2,7 +2,7 @@
 #include "surface_preset.hpp"
 
 #include <tactus/file/graph_file.hpp>
-#include <tactus/kit/half_space.hpp>
+#include <tactus/kit/geometry/half_space.hpp>
 
 #include <iomanip>
 #include <sstream>

@@ -9,7 +9,7 @@ namespace tactus::host
 {
 
 /// The functions of a header as LLVM's bitcode, as the program contains it: those of a node (bitcode/node_functions.hpp), or those of
-/// framework/run/fused_parts.hpp (bitcode/parts.cpp).
+/// framework/run/generated/fused_parts.hpp (bitcode/parts.cpp).
 struct Bitcode
 {
     std::string_view header;   ///< as it is included: "tactus/nodes/texture/grating.hpp"

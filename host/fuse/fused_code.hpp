@@ -32,7 +32,7 @@ struct FusedCode
     static constexpr std::size_t most_records = 3000;
 
     /// The header of what code calls for steps that are not nodes.
-    static constexpr const char* parts = "tactus/run/fused_parts.hpp";
+    static constexpr const char* parts = "tactus/run/generated/fused_parts.hpp";
 
     std::string text;                ///< the same for each plan of the same shape
     std::set<std::string> headers;   ///< what it includes, as in sourceFiles(), or whose bitcode it calls

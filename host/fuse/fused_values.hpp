@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/plan/fused_tick.hpp>
-#include <tactus/plan/lane_group.hpp>
-#include <tactus/plan/ops.hpp>
 #include <tactus/plan/plan.hpp>
-#include <tactus/plan/running_section.hpp>
+#include <tactus/plan/steps/fused_tick.hpp>
+#include <tactus/plan/steps/lane_group.hpp>
+#include <tactus/plan/steps/ops.hpp>
+#include <tactus/plan/steps/running_section.hpp>
 
 #include <cstddef>
 #include <map>

@@ -43,7 +43,7 @@ Message Fuser::fail (Message why)
     return why;
 }
 
-std::optional<Message> Fuser::look (const std::shared_ptr<Plan>& plan, double now_s)
+std::optional<Message> Fuser::poll (const std::shared_ptr<Plan>& plan, double now_s)
 {
     if (! std::exchange (has_begun, true) && compiler.cacheTrouble()) return compiler.cacheTrouble();
     if (plan->serial() != serial)

@@ -42,7 +42,7 @@ public:
     /// Call it several times a second with the newest plan of a run and the time in s. If the plan cannot be fused, returns the reason, once. Ids:
     /// those of FusionCompiler, fuse/too_long, fuse/too_large, fuse/nothing, fuse/cannot_load. The first call returns what is wrong with the
     /// cache: fuse/cache.
-    std::optional<Message> look (const std::shared_ptr<Plan>&, double now_s);
+    std::optional<Message> poll (const std::shared_ptr<Plan>&, double now_s);
 
     State state() const noexcept { return now; }
     std::string describe() const;   ///< what runs, for a status line: "plan" or "fused"

@@ -3,7 +3,7 @@
 
 #include "fused_code.hpp"
 
-#include <tactus/plan/fused_tick.hpp>
+#include <tactus/plan/steps/fused_tick.hpp>
 #include <tactus/text/result.hpp>
 
 #include <filesystem>

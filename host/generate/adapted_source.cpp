@@ -44,7 +44,7 @@ std::string adapted (const SourceFile& file)
     const std::string before (file.text);
     if (file.path == "tactus/kit/vec3.hpp") return filled (before, { { "#include <Eigen/Core>\n", scalar_eigen } });
     const bool is_of_plugin = file.path.starts_with ("plugins/");
-    if (file.path == "tactus/run/exported_memory.hpp" || ! (is_of_plugin || file.path.starts_with ("tactus/"))) return before;
+    if (file.path == "tactus/run/generated/exported_memory.hpp" || ! (is_of_plugin || file.path.starts_with ("tactus/"))) return before;
     auto text = filled (before, { { "std::vector<std::string>", "tactus::exported::NameList" },
                                   { "std::vector<", "tactus::exported::Vector<" },
                                   { "std::map<", "tactus::exported::Map<" },
@@ -60,7 +60,7 @@ std::string adapted (const SourceFile& file)
     if (text == before) return text;
     text = filled (text, { { "#include <vector>\n", "" } });
     const auto place = text.find ("#include");
-    if (place != text.npos) text.insert (place, "#include <tactus/run/exported_memory.hpp>\n");
+    if (place != text.npos) text.insert (place, "#include <tactus/run/generated/exported_memory.hpp>\n");
     return text;
 }
 

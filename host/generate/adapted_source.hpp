@@ -8,7 +8,7 @@
 namespace tactus::host
 {
 
-/// A source file as exported code contains it: with the containers of framework/run/exported_memory.hpp instead of those of the C++
+/// A source file as exported code contains it: with the containers of framework/run/generated/exported_memory.hpp instead of those of the C++
 /// library, which take their memory from a heap.
 std::string adapted (const SourceFile&);
 

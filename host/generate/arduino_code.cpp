@@ -26,7 +26,7 @@ constexpr const char* board = R"(// SPDX-License-Identifier: MIT
 /// The reports between a board and Tactus: 64 bytes each way, little-endian, without a report id. docs/devices.md of Tactus describes them.
 /// And who drives the motors: Tactus, or the board's own graph.
 
-#include <tactus/run/exported_graph.hpp>
+#include <tactus/run/generated/exported_graph.hpp>
 
 #include <array>
 #include <cmath>

@@ -205,7 +205,7 @@ std::string members (const Exported& e)
 
 std::string header (const Exported& e)
 {
-    std::set<std::string> headers { "tactus/run/exported_graph.hpp", "tactus/run/exported_memory.hpp" };
+    std::set<std::string> headers { "tactus/run/generated/exported_graph.hpp", "tactus/run/generated/exported_memory.hpp" };
     for (const auto& n : e.wiring.nodes)
         headers.insert (n.header);
     std::string text = std::string (license) + "// " + title (e) + "\n//\n// Written by `" + e.program + " export` from " + comment (e.file)
@@ -269,7 +269,7 @@ std::string prepareNode (const Exported& e, const ExportedNode& n, SettingCode& 
         const auto& p = e.parameters[i];
         if (is_first) text += "    parameters.of (" + n.name + ", " + std::to_string (i) + ");\n";
         is_first = false;
-        const auto member = n.name + ".params." + Wiring::memberOf (*p.sheet, p.slot);
+        const auto member = n.name + ".params." + PlanNames::memberOf (*p.sheet, p.slot);
         text += "    parameters.place (" + member + ", ";
         if (! p.sheet->choices.empty())
             text += std::to_string (static_cast<int> (p.value)) + ", " + std::to_string (p.sheet->choices.size()) + ");   // "
@@ -352,7 +352,7 @@ std::string tick (const Exported& e, const std::string& body)
     std::string text = "void " + e.class_name + "::tick (const Inputs& " + (reads ? "in" : "") + ", Outputs& " + (writes ? "out" : "") + ") noexcept\n{\n";
     if (! e.roles.empty()) text += "    if (! " + e.wiring.role_names.front() + ".isReady())\n    {\n        out = {};\n        return;\n    }\n";
     if (! e.parameters.empty()) text += "    parameters.tick();\n";
-    if (! e.hits.empty()) text += "    for (auto& hit : hits)\n        hit.look();\n";
+    if (! e.hits.empty()) text += "    for (auto& hit : hits)\n        hit.poll();\n";
     for (std::size_t i = 0; i < e.roles.size(); ++i)
         text += "    " + e.wiring.role_names[i] + ".read (in." + e.wiring.role_ports[i] + ");\n";
     text += body + "\n    ++ticks;\n";
@@ -385,8 +385,8 @@ ClassFiles classFiles (const Exported& e)
 // The constant tables of @FILE@.
 #pragma once
 
-#include <tactus/kit/surface.hpp>
-#include <tactus/run/exported_memory.hpp>
+#include <tactus/kit/geometry/surface.hpp>
+#include <tactus/run/generated/exported_memory.hpp>
 
 #include <array>
 

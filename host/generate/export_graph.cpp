@@ -88,7 +88,7 @@ std::vector<std::string> limitsOf (const Plan& plan)
     return all;
 }
 
-std::vector<ExportedParameter> parametersOf (Wiring& wiring)
+std::vector<ExportedParameter> parametersOf (PlanNames& wiring)
 {
     std::vector<ExportedParameter> all;
     Names enumerators;
@@ -114,7 +114,7 @@ std::vector<ExportedParameter> parametersOf (Wiring& wiring)
 }
 
 /// By knob: the target of each knob that was turned since `turns` was read.
-std::vector<std::optional<double>> targets (const Wiring& wiring, const std::vector<ExportedParameter>& parameters, const Plan& turned,
+std::vector<std::optional<double>> targets (const PlanNames& wiring, const std::vector<ExportedParameter>& parameters, const Plan& turned,
                                             const std::vector<std::uint32_t>& before)
 {
     std::vector<std::optional<double>> all (parameters.size());
@@ -128,7 +128,7 @@ std::vector<std::optional<double>> targets (const Wiring& wiring, const std::vec
 
 /// Finds out what a control does by turning it on another plan of the same graph, first as it is, then with its two ends swapped: at 0 a
 /// parameter gets exactly the first of its two values.
-std::vector<ExportedControl> controlsOf (const graph::Graph& graph, const Wiring& wiring, const std::vector<ExportedParameter>& parameters,
+std::vector<ExportedControl> controlsOf (const graph::Graph& graph, const PlanNames& wiring, const std::vector<ExportedParameter>& parameters,
                                          const std::shared_ptr<Plan>& same)
 {
     std::vector<ExportedControl> all;
@@ -230,8 +230,8 @@ void addTarget (ExportedFolder& folder, const Exported& e, ExportTarget target)
 
 void addFiles (ExportedFolder& folder, const Exported& e, const PluginSources& plugins, const ClassFiles& code, ExportTarget target)
 {
-    std::set<std::string> used { "tactus/run/exported_graph.hpp", "tactus/run/exported_memory.hpp" };
-    if (! code.data.empty()) used.insert ("tactus/kit/surface.hpp");
+    std::set<std::string> used { "tactus/run/generated/exported_graph.hpp", "tactus/run/generated/exported_memory.hpp" };
+    if (! code.data.empty()) used.insert ("tactus/kit/geometry/surface.hpp");
     for (const auto& node : e.wiring.nodes)
         used.insert (node.header);
     for (const auto& [path, text] : plugins.files())
@@ -277,7 +277,7 @@ ExportedFolder exportGraph (const graph::Graph& graph, const ExportOptions& opti
     run.openDevices (graph, known);
     const auto& plan = run.engine().plan();
 
-    Wiring wiring { plan, options.compile.feeds, ownWords(), plugins.classes() };
+    PlanNames wiring { plan, options.compile.feeds, ownWords(), plugins.classes() };
     Exported e { .graph = graph,
                  .wiring = wiring,
                  .file = options.file,

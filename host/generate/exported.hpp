@@ -4,7 +4,7 @@
 /// What the parts of the generator share: the graph to export, read from a plan and a run.
 
 #include "node_memory.hpp"
-#include "wiring.hpp"
+#include "plan_names.hpp"
 
 #include <tactus/graph/graph.hpp>
 #include <tactus/run/guard.hpp>
@@ -20,7 +20,7 @@ struct ExportedParameter
 {
     std::string name;         ///< "drag.mu", as in --set
     std::string enumerator;   ///< "drag_mu"
-    std::size_t node = 0;     ///< number in Wiring::nodes
+    std::size_t node = 0;     ///< number in PlanNames::nodes
     const PortSheet* sheet = nullptr;
     int slot = 0;   ///< component or entry
     std::size_t knob = 0;
@@ -53,7 +53,7 @@ struct ExportedRole
 struct Exported
 {
     const graph::Graph& graph;
-    Wiring& wiring;
+    PlanNames& wiring;
     std::string file;         ///< of the graph: "dry_wood.json"
     std::string stem;         ///< of the files: "dry_wood"
     std::string class_name;   ///< "DryWood"

@@ -2,7 +2,7 @@
 #include "node_memory.hpp"
 #include "counted_memory.hpp"
 
-#include <tactus/plan/make_node.hpp>
+#include <tactus/plan/flat/make_node.hpp>
 
 #include <memory>
 #include <vector>
@@ -10,7 +10,7 @@
 namespace tactus::host
 {
 
-NodeMemory memoryOf (const Wiring& wiring)
+NodeMemory memoryOf (const PlanNames& wiring)
 {
     // Containers of exported code can take slightly more than those of the C++ library, for instance for their own book-keeping.
     constexpr std::size_t spare_per_node = 64, spare_part = 8, if_unknown = 1 << 20;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "wiring.hpp"
+#include "plan_names.hpp"
 
 namespace tactus::host
 {
@@ -14,6 +14,6 @@ struct NodeMemory
 };
 
 /// Makes and prepares all nodes once more, as exported code does, and counts. [main thread]
-NodeMemory memoryOf (const Wiring&);
+NodeMemory memoryOf (const PlanNames&);
 
 }   // namespace tactus::host

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "object_size.hpp"
 
-#include <tactus/run/exported_graph.hpp>
-#include <tactus/run/exported_memory.hpp>
+#include <tactus/run/generated/exported_graph.hpp>
+#include <tactus/run/generated/exported_memory.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -15,7 +15,7 @@ namespace tactus::host
 
 namespace
 {
-/// The size of a member of the state: see Wiring::kept.
+/// The size of a member of the state: see PlanNames::kept.
 std::size_t sizeOf (const std::string& type)
 {
     const std::string line = "tactus::exported::DelayLine<";
@@ -24,7 +24,7 @@ std::size_t sizeOf (const std::string& type)
     return type == "tactus::exported::Line" ? sizeof (exported::Line) : sizeof (double);
 }
 
-std::size_t stateSize (const Wiring& wiring)
+std::size_t stateSize (const PlanNames& wiring)
 {
     std::size_t all = 0;
     for (const auto& [type, name] : wiring.kept)

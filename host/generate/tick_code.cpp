@@ -111,7 +111,7 @@ std::vector<std::string> TickCode::inputs (const ExportedNode& n, const std::str
 void TickCode::node (const ExportedNode& n, const Record& r, const std::string& indent)
 {
     const auto& type = wiring.type (n);
-    const auto result = (n.is_inner ? "" : "const auto ") + Wiring::outputsOf (n) + " = ";
+    const auto result = (n.is_inner ? "" : "const auto ") + PlanNames::outputsOf (n) + " = ";
     if (type.peek && r.step == type.peek)
     {
         if (n.is_read) line (indent, result + n.name + ".peek();");
@@ -134,7 +134,7 @@ std::string TickCode::parameter (const plan::DrivenNode::Drive& drive, const Exp
         for (int k = 0; k < wiring.flat (n).slots (row); ++k, ++number)
         {
             if (&knobs->all[knob + static_cast<std::size_t> (k)].value != drive.stored) continue;
-            const auto member = Wiring::memberOf (row, k), value = "parameters.stored (" + std::to_string (number) + ")";
+            const auto member = PlanNames::memberOf (row, k), value = "parameters.stored (" + std::to_string (number) + ")";
             stored += n.name + "_stored." + member + " = " + value + "; ";
             return n.name + "_driven (" + n.name + ".params." + member + ", " + (drive.replace ? wiring.valueAt (drive.replace) : value) + ", "
                    + (drive.add ? wiring.valueAt (drive.add) : "0.0") + ", " + literal (drive.hard.min) + ", " + literal (drive.hard.max) + ");";
@@ -166,9 +166,9 @@ void TickCode::driven (const ExportedNode& n, const plan::DrivenNode& d, const s
     const bool has_result = ! type.peek && n.is_read, has_no_inputs = d.faulted.empty();
     const auto result = ! has_result ? "" : (n.is_inner ? "" : has_no_inputs ? "auto "
                                                                              : "const auto ")
-                                                + Wiring::outputsOf (n) + " = ";
+                                                + PlanNames::outputsOf (n) + " = ";
     code += wrapped (indent, result + n.name + ".tick ({", members, asks_for_stored ? "}, " + n.name + "_stored);" : "});");
-    if (has_result && has_no_inputs) line (indent, "if (" + wires + ".fault) " + Wiring::outputsOf (n) + " = {};");
+    if (has_result && has_no_inputs) line (indent, "if (" + wires + ".fault) " + PlanNames::outputsOf (n) + " = {};");
 }
 
 void TickCode::bypass (const plan::Bypass& b, const double* const* sources, const std::string& indent)

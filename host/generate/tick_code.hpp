@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "wiring.hpp"
+#include "plan_names.hpp"
 
 #include <span>
 #include <string>
@@ -13,7 +13,7 @@ namespace tactus::host
 class TickCode
 {
 public:
-    explicit TickCode (Wiring& w) : wiring (w) {}
+    explicit TickCode (PlanNames& w) : wiring (w) {}
 
     /// The statements of a tick, in running order.
     std::string write();
@@ -32,7 +32,7 @@ private:
     void each (const std::vector<plan::ConversionLink>&, const std::string& indent, std::string (*call) (const std::string& object, const std::string& from));
     void line (const std::string& indent, const std::string& text) { code += indent + text + "\n"; }
 
-    Wiring& wiring;
+    PlanNames& wiring;
     std::string code;
 };
 

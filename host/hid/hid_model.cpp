@@ -51,7 +51,7 @@ const HidSample& HidModel::decode (std::span<const std::uint8_t> report) noexcep
 {
     last.refusal = decoder.decode (report);
     last.lost = decoder.lostBefore();
-    last.succession = decoder.succession();
+    last.report_order = decoder.reportOrder();
     if (last.refusal != Refusal::none) return last;
 
     last.axes = decoder.axes();

@@ -28,7 +28,7 @@ struct HidSample
     std::array<double, most_axes> axes {};     ///< in the order of axisNames()
     double time = 0.0;                         ///< time since the device's first report, on its own clock, in s; 0 unless hasTime()
     std::uint32_t lost = 0;                    ///< reports lost just before this one
-    Succession succession {};                  ///< how the report relates to the previous one
+    ReportOrder report_order {};               ///< how the report relates to the previous one
     bool valid = false;                        ///< true if the device reports the values as valid and the kinematics have a solution
     Refusal refusal = Refusal::none;           ///< why the last report changed nothing
     PoseProblem problem = PoseProblem::none;   ///< why the pose cannot be used; none if it can

@@ -2,7 +2,7 @@
 #include "number_reader.hpp"
 #include "report_reader.hpp"
 
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/rotation.hpp>
+#include <tactus/kit/geometry/rotation.hpp>
 #include <tactus/run/device/device_numbers.hpp>
 #include <tactus/run/guard.hpp>
 #include <tactus/text/message.hpp>

@@ -2,7 +2,7 @@
 #include "profile_fields.hpp"
 #include "hex.hpp"
 
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/units.hpp>
 

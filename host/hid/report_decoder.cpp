@@ -89,7 +89,7 @@ Refusal ReportDecoder::decode (std::span<const std::uint8_t> bytes) noexcept
     auto refusal = bytes.empty() ? Refusal::too_short : Refusal::unknown_id;
     if (r != nullptr) refusal = check (*r, bytes);
     gap = 0;
-    order = Succession::next;
+    order = ReportOrder::next;
     if (refusal != Refusal::none)
     {
         ++tally.refused[static_cast<std::size_t> (refusal)];
@@ -116,9 +116,9 @@ void ReportDecoder::keepTime (Report& r) noexcept
     if (! r.timed)
         r.first_time = now;
     else if (now < r.last_time)
-        order = Succession::back;
-    else if (now == r.last_time && order == Succession::next)
-        order = Succession::clock_stopped;
+        order = ReportOrder::back;
+    else if (now == r.last_time && order == ReportOrder::next)
+        order = ReportOrder::clock_stopped;
     r.timed = true;
     r.last_time = now;
     clock = now - r.first_time;
@@ -168,10 +168,10 @@ void ReportDecoder::follow (Report& r, std::uint32_t raw, std::size_t bits) noex
     const auto range = rangeOf (bits);
     const auto on = (raw - r.count) & range;
     if (r.counted && on == 0)
-        order = Succession::repeated;
+        order = ReportOrder::repeated;
     else if (r.counted && on > range / 2)
     {
-        order = Succession::back;
+        order = ReportOrder::back;
         ++tally.restarts;
     }
     else if (r.counted)
@@ -194,7 +194,7 @@ void ReportDecoder::reset()
     values.fill (0.0);
     raws.fill (0);
     pressed = gap = 0;
-    order = Succession::next;
+    order = ReportOrder::next;
     clock = 0.0;
     tally = {};
 }

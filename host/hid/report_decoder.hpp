@@ -30,7 +30,7 @@ inline constexpr std::size_t refusals = 6;
 std::string_view describe (Refusal) noexcept;
 
 /// How a report relates to the previous report with the same id, judged by its sequence number and the device's clock.
-enum class Succession
+enum class ReportOrder
 {
     next,
     repeated,        ///< the same number again
@@ -59,7 +59,7 @@ public:
     std::uint32_t buttons() const noexcept { return pressed; }
     double time() const noexcept { return clock; }
     std::uint32_t lostBefore() const noexcept { return gap; }
-    Succession succession() const noexcept { return order; }
+    ReportOrder reportOrder() const noexcept { return order; }
     const Counts& counts() const noexcept { return tally; }
     bool hasTime() const noexcept { return has_time; }
 
@@ -117,7 +117,7 @@ private:
     std::uint32_t pressed = 0;
     double clock = 0.0;
     std::uint32_t gap = 0;
-    Succession order = Succession::next;
+    ReportOrder order = ReportOrder::next;
     bool has_time = false;
     Counts tally;
 };

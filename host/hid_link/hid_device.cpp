@@ -131,19 +131,19 @@ void HidDevice::take (const ArrivedReport& report) noexcept
 void HidDevice::judge (const ArrivedReport& report, std::uint64_t lost) noexcept
 {
     standing = ReadingFault::none;
-    switch (values.sample().succession)
+    switch (values.sample().report_order)
     {
-    case Succession::repeated:
+    case ReportOrder::repeated:
         standing = ReadingFault::repeated;
         break;
-    case Succession::clock_stopped:
+    case ReportOrder::clock_stopped:
         standing = ReadingFault::clock_stopped;
         break;
-    case Succession::back:
+    case ReportOrder::back:
         record.restart();
         restarted = true;
         break;
-    case Succession::next:
+    case ReportOrder::next:
         if (expected_rate > 0.0 && arrived_last != 0)
             lost = ReportRecord::missingAfter (1e-9 * static_cast<double> (report.at - arrived_last), expected_rate);
         record.arrived (lost);

@@ -7,9 +7,9 @@
 
 #include <host/hid/hid_model.hpp>
 #include <host/hid/report_record.hpp>
-#include <tactus/kit/snapshot.hpp>
+#include <tactus/kit/threads/snapshot.hpp>
 #include <tactus/node/device.hpp>
-#include <tactus/run/falling_limit.hpp>
+#include <tactus/run/guard/falling_limit.hpp>
 
 #include <array>
 #include <atomic>

@@ -306,7 +306,7 @@ bool HidPort::serve (Transport& t)
     const std::lock_guard lock (writing);
     const auto now = Clock::now();
     for (std::size_t i = 0; i < outputs.size(); ++i)
-        attend (t, *outputs[i], i, now);
+        poll (t, *outputs[i], i, now);
     if (driven && now - given > longest_silence)
     {
         if (! std::exchange (is_silent, true))
@@ -319,7 +319,7 @@ bool HidPort::serve (Transport& t)
     return t.beat (driven);
 }
 
-void HidPort::attend (Transport& t, Output& o, std::size_t report, Clock::time_point now)
+void HidPort::poll (Transport& t, Output& o, std::size_t report, Clock::time_point now)
 {
     const auto& how = description->outputs[report];
     const double rate = how.max_rate * more_than_the_rate;

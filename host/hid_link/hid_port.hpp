@@ -5,8 +5,8 @@
 
 #include <host/hid/hid_model.hpp>
 #include <host/platform/doorbell.hpp>
-#include <tactus/kit/snapshot.hpp>
-#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/kit/threads/snapshot.hpp>
+#include <tactus/kit/threads/spsc_ring.hpp>
 #include <tactus/text/result.hpp>
 
 #include <array>
@@ -214,7 +214,7 @@ private:
 
     void writeOn();
     bool serve (Transport&);
-    void attend (Transport&, Output&, std::size_t report, Clock::time_point now);
+    void poll (Transport&, Output&, std::size_t report, Clock::time_point now);
     Clock::time_point nextLook (Clock::time_point now) const;
     Result<> send (Transport&, std::size_t report, std::span<const std::uint8_t>);
     bool quieten (Transport&);

@@ -2,7 +2,7 @@
 #include "clip_samples.hpp"
 
 #include <tactus/file/clips/clip_signal.hpp>
-#include <tactus/kit/clip_score.hpp>
+#include <tactus/kit/signal/clip_score.hpp>
 
 #include <algorithm>
 #include <cmath>

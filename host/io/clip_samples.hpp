@@ -2,7 +2,7 @@
 #pragma once
 
 #include <tactus/file/csv.hpp>
-#include <tactus/kit/clip.hpp>
+#include <tactus/kit/signal/clip.hpp>
 #include <tactus/text/message.hpp>
 #include <tactus/text/result.hpp>
 

@@ -67,9 +67,9 @@ void FileWatch::watchFolders()
     is_unsettled = true;   // changes in between are not reported
 }
 
-bool FileWatch::look()
+bool FileWatch::poll()
 {
-    if (folders.look())
+    if (folders.poll())
     {
         if (folders.isTold()) quiet = 0;
     }

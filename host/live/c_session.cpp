@@ -9,7 +9,7 @@
 #include <host/platform/preset_folder.hpp>
 #include <host/platform/signals.hpp>
 #include <host/sessions/numbers_device.hpp>
-#include <tactus/kit/nearest_by_boxes.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/run/turn.hpp>
 #include <tactus/text/caught.hpp>
@@ -133,7 +133,7 @@ void tactus_session::tellStops()
 
 void tactus_session::attendOnce()
 {
-    auto news = live->attend();
+    auto news = live->poll();
     for (auto* each : { &news.alarm, &news.log, &news.fusion, &news.sound })
         if (*each) events.push_back (std::move (**each));
     tellStops();

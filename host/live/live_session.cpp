@@ -2,7 +2,7 @@
 #include "live_session.hpp"
 
 #include <host/platform/failsafe.hpp>
-#include <tactus/plan/missing_parts.hpp>
+#include <tactus/plan/rules/missing_parts.hpp>
 #include <tactus/run/device/gesture_device.hpp>
 #include <tactus/run/device/sim.hpp>
 #include <tactus/run/device/trace.hpp>
@@ -187,23 +187,23 @@ std::optional<Message> LiveSession::attendFusion()
 {
     if (! fusing || ! isRunning()) return std::nullopt;
     const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
-    return fusing->look (engine().newestShared(), now.count());
+    return fusing->poll (engine().newestShared(), now.count());
 }
 
-LiveSession::News LiveSession::attend()
+LiveSession::Events LiveSession::poll()
 {
-    News news;
+    Events news;
     if (! isLoaded()) return news;
     news.alarm = noticeAlarm();
-    news.log = running->attend();
+    news.log = running->poll();
     if (const auto now = std::chrono::steady_clock::now(); isLive() && now - looked_at >= looks_apart)
     {
-        watch.look (realDevices(), pluginRoles());
+        watch.poll (realDevices(), pluginRoles());
         looked_at = now;
     }
     news.fusion = attendFusion();
     if (hardware.sound() != nullptr)
-        if (auto attended_sound = hardware.sound()->attend(); ! attended_sound) news.sound = std::move (attended_sound.error());
+        if (auto attended_sound = hardware.sound()->poll(); ! attended_sound) news.sound = std::move (attended_sound.error());
     return news;
 }
 

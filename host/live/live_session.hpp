@@ -31,7 +31,7 @@ namespace tactus::host
 ///     messages = session.openDevices();
 ///     messages = session.beginSound();
 ///     session.start ({});
-///     while (session.isRunning()) session.attend();   // many times a second
+///     while (session.isRunning()) session.poll();   // many times a second
 ///     session.end();
 ///
 /// Each step returns messages. After errors, the caller decides whether to take the next step: the window plays a graph with placeholders for
@@ -87,8 +87,8 @@ public:
     //==========================================================================
     // While it runs.
 
-    /// What attend() noticed, each only once.
-    struct News
+    /// What poll() noticed, each only once.
+    struct Events
     {
         std::optional<Message> alarm {};    ///< of the failsafe: all forces are held at zero until rearm()
         std::optional<Message> log {};      ///< the log is incomplete
@@ -97,7 +97,7 @@ public:
     };
 
     /// Frees what is no longer used, writes the log, and looks after the devices, the sound and the compiled code. Call it many times a second.
-    News attend();
+    Events poll();
 
     void stop() noexcept;            ///< ramps the forces to zero, then ends the ticks; does not wait   [any thread]
     void emergencyStop() noexcept;   ///< ramps the forces to zero and keeps them there; the graph keeps running   [any thread]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "role_devices.hpp"
 
-#include <tactus/run/included_guards.hpp>
+#include <tactus/run/guard/included_guards.hpp>
 #include <tactus/text/message.hpp>
 
 #include <algorithm>

@@ -25,8 +25,8 @@ public:
     virtual Messages begin (const Plan&, double tick_rate_hz, const Engine*) = 0;
     virtual void seal() noexcept = 0;   ///< instead of begin(), if isNeeded() is false
 
-    virtual Result<> attend() = 0;   ///< call it many times a second
-    virtual Result<> end() = 0;      ///< closes the card. Call it when the run no longer ticks
+    virtual Result<> poll() = 0;   ///< call it many times a second
+    virtual Result<> end() = 0;    ///< closes the card. Call it when the run no longer ticks
 };
 
 }   // namespace tactus::host

@@ -23,9 +23,9 @@ constexpr std::size_t most_probes = 16;
 constexpr double highest_rate = 1000.0, usual_rate = 50.0;   // of a probe, in Hz
 constexpr double longest = 60.0, usual_length = 5.0;         // of a probe or a wait for a trigger, in s
 constexpr int usual_before = 100, usual_after = 400;         // ticks before and after a trigger
-constexpr int most_at_a_time = 512;                          // messages handled per attend()
+constexpr int most_at_a_time = 512;                          // messages handled per poll()
 constexpr double most_costs = 100, usual_costs = 10;         // number of nodes
-constexpr int most_rows_at_a_time = 32;                      // messages with rows of a capture per attend(); few enough that none is lost in transit
+constexpr int most_rows_at_a_time = 32;                      // messages with rows of a capture per poll(); few enough that none is lost in transit
 constexpr std::size_t most_numbers = 60;                     // values per message, since readPacket accepts 64 arguments
 
 std::string textOf (const juce::String& s) { return s.toStdString(); }
@@ -111,7 +111,7 @@ RemoteControl::RemoteControl (OscPort& p, Controlled& c, std::string t) : port (
 
 RemoteControl::~RemoteControl() { port.onArrival ({}); }
 
-void RemoteControl::attend (Clock::time_point now)
+void RemoteControl::poll (Clock::time_point now)
 {
     for (int i = 0; i < most_at_a_time; ++i)
         if (const auto received = port.receive())
@@ -123,7 +123,7 @@ void RemoteControl::attend (Clock::time_point now)
             break;
 
     const auto left = std::erase_if (probes, [&] (const Probe& p) { return now >= p.end; });
-    if (left > 0 && probes.empty()) static_cast<void> (look ({}));
+    if (left > 0 && probes.empty()) static_cast<void> (poll ({}));
 
     sendCapture();
     if (capture && capture->sent == 0 && now >= capture->end)
@@ -281,7 +281,7 @@ Result<> RemoteControl::subscribe (const OSCMessage& m, const std::string& host,
             return Message::error ("probe/too_many", {}, "there are already " + std::to_string (most_probes) + " probes", "wait until one of the probes ends");
         auto more = probes;
         more.push_back (probe);
-        if (auto looked = look (more); ! looked) return looked;
+        if (auto looked = poll (more); ! looked) return looked;
     }
 
     const auto& now_probed = *std::ranges::find_if (probes, [&] (const Probe& p) { return p.name == probe.name && p.to == probe.to; });
@@ -359,7 +359,7 @@ void RemoteControl::sendCapture()
 }
 
 /// Replaces all probes with these, if all their ports can be probed together.
-Result<> RemoteControl::look (const std::vector<Probe>& wanted)
+Result<> RemoteControl::poll (const std::vector<Probe>& wanted)
 {
     std::vector<std::string> ports;
     for (const auto& p : wanted)
@@ -390,12 +390,12 @@ void RemoteControl::graphChanged()
     }
     if (probes.empty()) return;
     auto before = std::exchange (probes, {});
-    static_cast<void> (look ({}));
+    static_cast<void> (poll ({}));
     for (auto& p : before)
     {
         auto more = probes;
         more.push_back (p);
-        if (const auto looked = look (more); ! looked) answer (p.to, "/tactus/probe", p.name, looked);
+        if (const auto looked = poll (more); ! looked) answer (p.to, "/tactus/probe", p.name, looked);
     }
 }
 

@@ -3,9 +3,9 @@
 
 #include "osc_port.hpp"
 
-#include <tactus/run/node_costs.hpp>
+#include <tactus/run/clock/node_costs.hpp>
+#include <tactus/run/probe/triggered_capture.hpp>
 #include <tactus/run/run_status.hpp>
-#include <tactus/run/triggered_capture.hpp>
 #include <tactus/text/json.hpp>
 #include <tactus/text/message.hpp>
 
@@ -104,7 +104,7 @@ public:
     RemoteControl& operator= (const RemoteControl&) = delete;
 
     /// Handles the waiting messages and ends expired probes. Call this many times a second.
-    void attend (Clock::time_point now = Clock::now());
+    void poll (Clock::time_point now = Clock::now());
 
     /// Passes on values of the probed components, in the order in which Controlled::probe returned their names.
     void values (std::uint64_t tick, std::span<const double>);
@@ -149,7 +149,7 @@ private:
     Result<> arm (Capture);
     void confirmCapture();
     void sendCapture();
-    Result<> look (const std::vector<Probe>&);
+    Result<> poll (const std::vector<Probe>&);
     void answer (const OscReturn& to, const std::string& address, const std::string& subject, const Result<>&);
 
     OscPort& port;

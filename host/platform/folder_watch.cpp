@@ -74,7 +74,7 @@ void FolderWatch::watch (const std::vector<fs::path>& files)
         is_told = is_told && ::inotify_add_watch (queue, folder.c_str(), events | IN_ONLYDIR) >= 0;
 }
 
-bool FolderWatch::look()
+bool FolderWatch::poll()
 {
     bool is_news = ! is_told;
     alignas (inotify_event) char bytes[4096];
@@ -115,7 +115,7 @@ void FolderWatch::close() noexcept
 {
 }
 void FolderWatch::watch (const std::vector<fs::path>&) {}
-bool FolderWatch::look() { return true; }
+bool FolderWatch::poll() { return true; }
 
 #endif
 

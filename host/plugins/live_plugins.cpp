@@ -44,7 +44,7 @@ std::string layoutOf (const LiveSource& source, std::vector<fs::path> files)
 }
 }   // namespace
 
-double LivePlugins::News::secondsSinceSaved() const { return std::chrono::duration<double> (FileClock::now() - saved).count(); }
+double LivePlugins::RebuiltPlugin::secondsSinceSaved() const { return std::chrono::duration<double> (FileClock::now() - saved).count(); }
 
 LivePlugins::LivePlugins (std::vector<LiveSource> sources)
 {
@@ -52,12 +52,12 @@ LivePlugins::LivePlugins (std::vector<LiveSource> sources)
         all.emplace_back (std::move (source));
 }
 
-std::optional<LivePlugins::News> LivePlugins::look()
+std::optional<LivePlugins::RebuiltPlugin> LivePlugins::poll()
 {
     for (std::size_t i = 0; i < all.size(); ++i)
     {
         auto& watched = all[i];
-        if (! watched.files.look()) continue;
+        if (! watched.files.poll()) continue;
         watched.waits = true;
         watched.saved = lastSaved (watched.source.watched());
         if (compiled == i) compiled.reset();   // what is being compiled is out of date; the next start drops it
@@ -67,18 +67,18 @@ std::optional<LivePlugins::News> LivePlugins::look()
     return output ? load (std::move (*output)) : std::nullopt;
 }
 
-std::optional<LivePlugins::News> LivePlugins::startNext()
+std::optional<LivePlugins::RebuiltPlugin> LivePlugins::startNext()
 {
     const auto next = std::ranges::find (all, true, &Watched::waits);
     if (next == all.end()) return std::nullopt;
     next->waits = false;
     started = FileClock::now();
-    if (auto refused = compiler.start (next->source); ! refused) return News { next->source.file, {}, { refused.error() }, next->saved };
+    if (auto refused = compiler.start (next->source); ! refused) return RebuiltPlugin { next->source.file, {}, { refused.error() }, next->saved };
     compiled = static_cast<std::size_t> (next - all.begin());
     return std::nullopt;
 }
 
-std::optional<LivePlugins::News> LivePlugins::load (LiveCompiler::Output output)
+std::optional<LivePlugins::RebuiltPlugin> LivePlugins::load (LiveCompiler::Output output)
 {
     auto& watched = all[*compiled];
     compiled.reset();
@@ -86,7 +86,7 @@ std::optional<LivePlugins::News> LivePlugins::load (LiveCompiler::Output output)
     if (! output.messages.empty())
     {
         fs::remove (output.plugin, ignored);
-        return News { watched.source.file, {}, std::move (output.messages), watched.saved };
+        return RebuiltPlugin { watched.source.file, {}, std::move (output.messages), watched.saved };
     }
     auto files = watched.source.watched();
     for (const auto& file : output.read)
@@ -109,7 +109,7 @@ std::optional<LivePlugins::News> LivePlugins::load (LiveCompiler::Output output)
 
 Result<> LivePlugins::prepare() { return all.empty() ? Result<> {} : compiler.prepareFor (all.front().source); }
 
-std::vector<LivePlugins::News> LivePlugins::buildHeaders (const std::function<bool()>& stop_wanted)
+std::vector<LivePlugins::RebuiltPlugin> LivePlugins::buildHeaders (const std::function<bool()>& stop_wanted)
 {
     for (auto& watched : all)
         if (watched.source.sources.empty())
@@ -117,19 +117,19 @@ std::vector<LivePlugins::News> LivePlugins::buildHeaders (const std::function<bo
             watched.waits = true;
             watched.saved = FileClock::now();
         }
-    std::vector<News> made;
+    std::vector<RebuiltPlugin> made;
     while (compiled || std::ranges::find (all, true, &Watched::waits) != all.end())
     {
         if (stop_wanted && stop_wanted()) return made;
-        if (auto news = look()) made.push_back (std::move (*news));
+        if (auto news = poll()) made.push_back (std::move (*news));
         std::this_thread::sleep_for (std::chrono::milliseconds (10));
     }
     return made;
 }
 
-LivePlugins::News loadLive (const fs::path& plugin, const fs::path& code, const std::string& layout)
+LivePlugins::RebuiltPlugin loadLive (const fs::path& plugin, const fs::path& code, const std::string& layout)
 {
-    LivePlugins::News news { code };
+    LivePlugins::RebuiltPlugin news { code };
     auto library = PluginLibrary::load (plugin);
     if (! library)
     {

@@ -24,7 +24,7 @@ public:
     explicit LivePlugins (std::vector<LiveSource>);
 
     /// A new version of a plugin, or why there is none.
-    struct News
+    struct RebuiltPlugin
     {
         std::filesystem::path file;                 ///< the code: LiveSource::file
         std::vector<NodeType> types {};             ///< empty if there are errors
@@ -36,14 +36,14 @@ public:
 
     /// What has happened since the last look; empty if nothing has. Code that differs from what it was and stays the same from one look to
     /// the next counts as saved. Call this some thirty times a second.
-    std::optional<News> look();
+    std::optional<RebuiltPlugin> poll();
 
     /// Starts to make the precompiled header, in the background. Ids: those of LiveCompiler::prepareFor.
     Result<> prepare();
 
     /// Compiles the sources that are only a header, because no plugin contains their nodes yet, and waits until that is done. To be
     /// called when a program starts. Returns the result for each header. Ends early once `stop_wanted` returns true.
-    std::vector<News> buildHeaders (const std::function<bool()>& stop_wanted = {});
+    std::vector<RebuiltPlugin> buildHeaders (const std::function<bool()>& stop_wanted = {});
 
     std::size_t count() const noexcept { return all.size(); }
 
@@ -58,8 +58,8 @@ private:
         bool waits = false;   ///< true: to be compiled as soon as the compiler is free
     };
 
-    std::optional<News> startNext();
-    std::optional<News> load (LiveCompiler::Output);
+    std::optional<RebuiltPlugin> startNext();
+    std::optional<RebuiltPlugin> load (LiveCompiler::Output);
 
     std::vector<Watched> all;
     LiveCompiler compiler;
@@ -68,6 +68,6 @@ private:
 };
 
 /// Loads a version of a plugin. `layout`: see PluginLibrary::types.
-LivePlugins::News loadLive (const std::filesystem::path& plugin, const std::filesystem::path& code, const std::string& layout);
+LivePlugins::RebuiltPlugin loadLive (const std::filesystem::path& plugin, const std::filesystem::path& code, const std::string& layout);
 
 }   // namespace tactus::host

@@ -79,7 +79,7 @@ void AwaitedDevice::lookOn()
     }
 }
 
-void AwaitedDevice::look()
+void AwaitedDevice::poll()
 {
     auto made = hid::openDevice (description, {}, system, { .profiles = { wanted }, .messages = {} });
     if (auto* d = dynamic_cast<hid::HidDevice*> (made.device.get()))

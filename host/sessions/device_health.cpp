@@ -74,7 +74,7 @@ HealthWatch::Meter& HealthWatch::meterOf (const std::string& role)
     return at != meters.end() ? *at : meters.emplace_back (Meter { role, {} });
 }
 
-void HealthWatch::look (const PluginRole& plugin)
+void HealthWatch::poll (const PluginRole& plugin)
 {
     const auto& device = *plugin.device;
     const auto counts = device.counts();
@@ -93,11 +93,11 @@ void HealthWatch::look (const PluginRole& plugin)
     auto& meter = meterOf (plugin.role);
     if (std::exchange (meter.departures, counts.departures) != counts.departures) meter.rate.reset();
     const std::chrono::duration<double> at = device.lastArrival().time_since_epoch();
-    if (h.connected && at.count() > 0.0) meter.rate.look (at.count(), counts.readings + counts.lost);
+    if (h.connected && at.count() > 0.0) meter.rate.add (at.count(), counts.readings + counts.lost);
     if (const auto rate = meter.rate.rate()) h.rate_hz = rate->hz;
 }
 
-void HealthWatch::look (std::span<const RealDevice> devices, std::span<const PluginRole> plugins)
+void HealthWatch::poll (std::span<const RealDevice> devices, std::span<const PluginRole> plugins)
 {
     known.clear();
     for (const auto& real : devices)
@@ -126,12 +126,12 @@ void HealthWatch::look (std::span<const RealDevice> devices, std::span<const Plu
 
         auto& meter = meterOf (real.role);
         if (std::exchange (meter.departures, port.departures) != port.departures) meter.rate.reset();
-        if (const auto latest = latestOf (*device); latest && h.connected) meter.rate.look (latest->at_s, latest->reports + read.lost);
+        if (const auto latest = latestOf (*device); latest && h.connected) meter.rate.add (latest->at_s, latest->reports + read.lost);
         if (const auto rate = meter.rate.rate()) h.rate_hz = rate->hz;
     }
 
     for (const auto& plugin : plugins)
-        look (plugin);
+        poll (plugin);
 
     // The speed of a device's clock relative to its nominal rate.
     const auto speed = [&] (const std::string& role) -> std::optional<RateMeter::Rate> {

@@ -70,7 +70,7 @@ public:
     /// `clock_role`: the role whose device ticks the run; empty: none.
     explicit HealthWatch (std::string clock_role = {}, double shortest_span_s = usual_span) : clock (std::move (clock_role)), shortest_span (shortest_span_s) {}
 
-    void look (std::span<const RealDevice>, std::span<const PluginRole> = {});   ///< call about ten times a second
+    void poll (std::span<const RealDevice>, std::span<const PluginRole> = {});   ///< call about ten times a second
 
     const std::vector<DeviceHealth>& health() const noexcept { return known; }   ///< as of the last look
 
@@ -83,7 +83,7 @@ private:
     };
 
     Meter& meterOf (const std::string& role);
-    void look (const PluginRole&);
+    void poll (const PluginRole&);
 
     std::string clock;
     double shortest_span;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "device_session.hpp"
 
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/text/json_text.hpp>
 #include <tactus/text/message.hpp>
 #include <tactus/text/number_text.hpp>

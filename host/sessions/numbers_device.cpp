@@ -3,7 +3,7 @@
 
 #include <host/device_plugins/open_plugin_device.hpp>
 #include <host/hid/physics.hpp>
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/run/device/guard_limits.hpp>
 #include <tactus/text/quote.hpp>
 

@@ -7,7 +7,7 @@
 namespace tactus::host
 {
 
-void RateMeter::look (double time_s, std::uint64_t count) noexcept
+void RateMeter::add (double time_s, std::uint64_t count) noexcept
 {
     if (looks == 0)
     {

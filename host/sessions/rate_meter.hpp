@@ -18,7 +18,7 @@ public:
         double error = 0.0;   ///< standard error in Hz, from the scatter about the line
     };
 
-    void look (double time_s, std::uint64_t count) noexcept;
+    void add (double time_s, std::uint64_t count) noexcept;
     void reset() noexcept { *this = {}; }
 
     /// Empty until there are three readings at different times.

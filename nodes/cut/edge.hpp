@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/cut_places.hpp>
-#include <tactus/kit/line_over_columns.hpp>
-#include <tactus/kit/rotation.hpp>
+#include <tactus/kit/geometry/cut_places.hpp>
+#include <tactus/kit/geometry/rotation.hpp>
+#include <tactus/kit/signal/line_over_columns.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>

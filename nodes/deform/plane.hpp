@@ -4,7 +4,7 @@
 #include <tactus/kit/free_impact.hpp>
 #include <tactus/kit/lanes.hpp>
 #include <tactus/kit/math/math.hpp>
-#include <tactus/kit/past_window.hpp>
+#include <tactus/kit/signal/past_window.hpp>
 #include <tactus/node/node.hpp>
 #include <tactus/text/number_text.hpp>
 

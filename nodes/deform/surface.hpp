@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/async_query.hpp>
+#include <tactus/kit/geometry/patch_search.hpp>
+#include <tactus/kit/geometry/placed_surface.hpp>
+#include <tactus/kit/geometry/surface_check.hpp>
+#include <tactus/kit/geometry/surface_contact.hpp>
 #include <tactus/kit/math/math.hpp>
-#include <tactus/kit/patch_search.hpp>
-#include <tactus/kit/placed_surface.hpp>
-#include <tactus/kit/surface_check.hpp>
-#include <tactus/kit/surface_contact.hpp>
+#include <tactus/kit/threads/async_query.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
@@ -58,7 +58,7 @@ namespace tactus::nodes
 ///    a step, so a fall computed there would grow with the length of the ticks (by a fifth at 1 kHz on the preset `liver`).
 ///  - c moves at most twice as far as the tool, or farther where the tool is about to leave while the contact is still stretched. So
 ///    the force does not step where c would drop from one minimum of U to another, as between the triangles of a sphere.
-///  - Without friction the barycentric weights n_i are replaced by smooth ones (framework/kit/smooth_weights.hpp). The gradient of
+///  - Without friction the barycentric weights n_i are replaced by smooth ones (framework/kit/geometry/smooth_weights.hpp). The gradient of
 ///    barycentric weights steps at the edges, and so would the force. The exception is a flat body whose given frames lean: there
 ///    the weights stay barycentric, and dU/dc neglects that the frames turn. This is the law of the golden set `deformation`. Its
 ///    force steps at edges, and it is not passive; the node warns if the frames lean by more than 5 degrees.

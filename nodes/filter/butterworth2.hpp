@@ -2,7 +2,7 @@
 #pragma once
 
 #include <numbers>
-#include <tactus/kit/biquad.hpp>
+#include <tactus/kit/signal/biquad.hpp>
 #include <tactus/node/generic.hpp>
 
 namespace tactus::nodes

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <tactus/kit/bouncing_mass.hpp>
-#include <tactus/kit/held_step.hpp>
 #include <tactus/kit/math/math.hpp>
+#include <tactus/kit/signal/held_step.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/clip_score.hpp>
 #include <tactus/kit/math/math.hpp>
+#include <tactus/kit/signal/clip_score.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace tactus::nodes
 ///     amplitude = gain sum over tracks  A (t)                            +  transients
 ///     f         = lowest + sharpness (t) (highest - lowest)
 ///
-/// t is the time in the clip, and A and the sharpness are straight between their points (framework/kit/clip_score.hpp). `drive` says
+/// t is the time in the clip, and A and the sharpness are straight between their points (framework/kit/signal/clip_score.hpp). `drive` says
 /// where t comes from:
 ///
 ///     start     a hit, or a gate that opens, plays the clip from its beginning at `speed`

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/band_noise.hpp>
 #include <tactus/kit/random.hpp>
+#include <tactus/kit/signal/band_noise.hpp>
 #include <tactus/node/generic.hpp>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <tactus/kit/math/math.hpp>
-#include <tactus/kit/past_window.hpp>
+#include <tactus/kit/signal/past_window.hpp>
 #include <tactus/node/node.hpp>
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/kit/geometry/spline_surface.hpp>
 #include <tactus/kit/math/math.hpp>
-#include <tactus/kit/spline_surface.hpp>
 #include <tactus/node/node.hpp>
 #include <tactus/node/setting.hpp>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/lattice.hpp>
+#include <tactus/kit/geometry/lattice.hpp>
 #include <tactus/kit/math/math.hpp>
 #include <tactus/kit/random.hpp>
-#include <tactus/kit/stream_resampler.hpp>
+#include <tactus/kit/signal/stream_resampler.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>

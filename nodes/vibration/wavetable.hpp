@@ -2,7 +2,7 @@
 #pragma once
 
 #include <tactus/kit/math/math.hpp>
-#include <tactus/kit/recording.hpp>
+#include <tactus/kit/signal/recording.hpp>
 #include <tactus/node/mode.hpp>
 #include <tactus/node/node.hpp>
 

@@ -7,8 +7,8 @@
 // printed here.
 
 #include <tactus/file/graph_file.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/history.hpp>
-#include <tactus/graph/text.hpp>
 #include <tactus/plan/compile.hpp>
 #include <tactus/run/engine.hpp>
 

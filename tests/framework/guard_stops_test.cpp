@@ -2,7 +2,7 @@
 // The reasons why a guard stops the force: speed, impulse, energy, the dead-man's switch, the emergency stop.
 
 #include <tactus/run/guard.hpp>
-#include <tactus/run/guard_log.hpp>
+#include <tactus/run/guard/guard_log.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <tactus/file/clips/clip_file.hpp>
-#include <tactus/kit/clip_score.hpp>
+#include <tactus/kit/signal/clip_score.hpp>
 
 #include <cmath>
 #include <cstdlib>

@@ -3,8 +3,8 @@
 // program and the sources of the library that it needs are compiled with TSan, which ends it at the first data race.
 //
 // It waits for ticks and not for a time, so a slow computer only makes it take longer.
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/history.hpp>
-#include <tactus/graph/text.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/nodes/deform/plane.hpp>
 #include <tactus/nodes/device/force.hpp>
@@ -172,7 +172,7 @@ int main()
         if (const auto hits = run.engine().hits ("ring.hit"))
             for (const auto& hit : *hits)
                 run.engine().strike (hit, 0.1);
-        run.attend();
+        run.poll();
         if (k % 4 != 3 && ! clock.wait (3)) return 1;   // after every fourth edit, the next one is made at once, and may withdraw the plan
     }
     run.end();

@@ -85,7 +85,7 @@ TEST_CASE ("a node from a plugin is exported with its header from next to the pl
     REQUIRE (text.find (tick) != text.npos);
     text.replace (text.find (include), include.size(), include + "#include \"parts/start.hpp\"\n");
     fs::create_directories (at.plugins / "parts");
-    at.put (at.plugins / "parts/start.hpp", "#pragma once\n#include <tactus/kit/rotation.hpp>\nnamespace live { constexpr double start = 0.0; }\n");
+    at.put (at.plugins / "parts/start.hpp", "#pragma once\n#include <tactus/kit/geometry/rotation.hpp>\nnamespace live { constexpr double start = 0.0; }\n");
     at.put (at.plugins / header_name, text);
     at.passes();
     at.passes ({ "--float" });

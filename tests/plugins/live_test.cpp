@@ -111,7 +111,7 @@ long residentPages()
 }
 
 /// Waits for news.
-host::LivePlugins::News next (host::LivePlugins& live)
+host::LivePlugins::RebuiltPlugin next (host::LivePlugins& live)
 {
     for (int i = 0; i < 60000; ++i)
     {
@@ -148,7 +148,7 @@ TEST_CASE ("a thousand live versions take over without a step, and all but the l
         INFO (test::text (messages));
         REQUIRE_FALSE (hasErrors (messages));
         live.tick (4);
-        live.run.attend();
+        live.run.poll();
         if (i == 100)
         {
             maps = mappings();

@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#include <tactus/kit/nearest_triangle.hpp>
+#include <tactus/kit/geometry/nearest_triangle.hpp>
 #include <tactus/node/datasheet_json.hpp>
 #include <tactus/run/query_thread.hpp>
 

@@ -186,7 +186,7 @@ TEST_CASE ("a graph is played on a serial device whose driver is a plugin", "[pl
         session.start ({});
         const auto until = [&] (auto isSo) {
             return eventually ([&] {
-                session.attend();
+                session.poll();
                 return isSo();
             });
         };

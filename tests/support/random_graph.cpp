@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "random_graph.hpp"
 
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/endpoints.hpp>
-#include <tactus/graph/text.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/compile.hpp>
 #include <tactus/text/units.hpp>

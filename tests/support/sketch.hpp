@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/graph.hpp>
-#include <tactus/graph/text.hpp>
 #include <tactus/plan/compile.hpp>
 #include <tactus/run/engine.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A program that uses its own node in a graph built in code.
 #include <tactus/graph/edit.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/history.hpp>
-#include <tactus/graph/text.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/run.hpp>

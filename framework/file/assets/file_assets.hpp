@@ -28,7 +28,7 @@ class FileAssets : public Assets
 public:
     Loaded<Signal> signal (const std::string& path) override;
     Loaded<Grid> image (const std::string& path) override;
-    Loaded<Grid> table (const std::string& path) override;   ///< numbers, or the rows of a clip or recording (tactus/kit/clip.hpp)
+    Loaded<Grid> table (const std::string& path) override;   ///< numbers, or the rows of a clip or recording (tactus/kit/signal/clip.hpp)
     Loaded<Mesh> mesh (const std::string& path) override;
 
 protected:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "text.hpp"
+#include "lines.hpp"
 
 #include <tactus/kit/assets.hpp>
 #include <tactus/text/budget.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "table.hpp"
-#include "text.hpp"
+#include "lines.hpp"
 
 #include <tactus/text/budget.hpp>
 #include <tactus/text/number_text.hpp>

@@ -2,7 +2,7 @@
 #include "clip_difference.hpp"
 #include "clip_formats.hpp"
 
-#include <tactus/kit/clip_score.hpp>
+#include <tactus/kit/signal/clip_score.hpp>
 
 #include <algorithm>
 #include <cmath>

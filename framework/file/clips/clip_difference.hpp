@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/clip.hpp>
+#include <tactus/kit/signal/clip.hpp>
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <tactus/kit/assets.hpp>
-#include <tactus/kit/clip.hpp>
+#include <tactus/kit/signal/clip.hpp>
 #include <tactus/text/message.hpp>
 
 #include <string>

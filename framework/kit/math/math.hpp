@@ -14,7 +14,7 @@
 ///
 /// Nodes call these instead of those of <cmath>, whose last bits differ between C libraries, and even within one library between
 /// processors. The error is at most 2 ulp; infinities, NaN, subnormal numbers and zeros of both signs are treated as in C. Exact by
-/// IEEE 754, and so allowed from <cmath>: sqrt, abs, floor, ceil, trunc, round, copysign and the like (tests/rooms/functions.py).
+/// IEEE 754, and so allowed from <cmath>: sqrt, abs, floor, ceil, trunc, round, copysign and the like (tests/structure/functions.py).
 namespace tactus::math
 {
 

@@ -10,7 +10,7 @@
 #include <tactus/text/number_text.hpp>
 #include <tactus/text/object_reader.hpp>
 
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/text/json_text.hpp>
 #include <tactus/text/quote.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tactus/kit/held_step.hpp>
+#include <tactus/kit/signal/held_step.hpp>
 #include <tactus/kit/vec3.hpp>
 
 namespace tactus

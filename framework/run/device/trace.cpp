@@ -3,7 +3,7 @@
 #include <tactus/text/message.hpp>
 #include <tactus/text/number_text.hpp>
 
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/quote.hpp>
 

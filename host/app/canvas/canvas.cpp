@@ -3,9 +3,9 @@
 #include "commands.hpp"
 #include "drags.hpp"
 
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/look/key_text.hpp>
-#include <host/app/look/text.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/model/wire_rules.hpp>
 #include <host/app/text/filled.hpp>

@@ -246,11 +246,11 @@ private:
     std::optional<View> framed;                  // the view when it was last fitted to the patch: at the first layout with enough room, or on request
     juce::Rectangle<float> framed_around;        // what the fitted view shows if it cannot show the whole patch readably; empty: it shows all
     /// The view before and after each step of the history that was made with this canvas.
-    struct Sights
+    struct ViewPair
     {
         Sight before, after;
     };
-    std::vector<Sights> sights;
+    std::vector<ViewPair> sights;
     std::size_t seen_position;         // of the history
     juce::Rectangle<float> laid_out;   // of the last layout; the view stays fitted until the user moves it, then keeps its centre
     bool with_map = true;

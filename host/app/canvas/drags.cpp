@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "drags.hpp"
 
-#include <host/app/look/text.hpp>
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/drag_number.hpp>
 #include <host/app/model/patch.hpp>

@@ -3,8 +3,8 @@
 #include "arrange.hpp"
 #include "canvas.hpp"
 
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
-#include <host/app/look/text.hpp>
 #include <host/app/model/clipboard.hpp>
 #include <host/app/model/fragment.hpp>
 #include <host/app/model/param_now.hpp>
@@ -13,8 +13,8 @@
 #include <host/app/model/step_text.hpp>
 #include <host/app/model/wire_rules.hpp>
 #include <host/app/text/filled.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/endpoints.hpp>
-#include <tactus/graph/text.hpp>
 #include <tactus/run/turn.hpp>
 
 #include <array>

@@ -2,7 +2,7 @@
 // What the canvas shows about the thing under the pointer, and what it shows of the run.
 #include "canvas.hpp"
 
-#include <host/app/look/text.hpp>
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
 

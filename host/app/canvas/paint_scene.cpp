@@ -3,8 +3,8 @@
 
 #include <host/app/limits/limit_light.hpp>
 #include <host/app/look/family.hpp>
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/look/glyph.hpp>
-#include <host/app/look/text.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "port_card.hpp"
 
 #include <host/app/look/component_colour.hpp>
-#include <host/app/look/text.hpp>
+#include <host/app/look/fitted_text.hpp>
 #include <host/io/axis.hpp>
 
 #include <algorithm>

@@ -5,8 +5,8 @@
 #include <host/app/model/param_now.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/model/quantities.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/endpoints.hpp>
-#include <tactus/graph/text.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "sound_text.hpp"
 
 #include <host/app/inspector/fields.hpp>
-#include <host/app/look/text.hpp>
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/hid_link/force_feedback.hpp>

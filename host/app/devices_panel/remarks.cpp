@@ -3,7 +3,7 @@
 #include "devices_panel.hpp"
 #include "sound_text.hpp"
 
-#include <host/app/look/text.hpp>
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/audio/audio_rig.hpp>
 #include <host/hid/physics.hpp>

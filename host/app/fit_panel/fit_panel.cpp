@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit_panel.hpp"
 
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
-#include <host/app/look/text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/text/quote.hpp>
@@ -181,7 +181,7 @@ void FitPanel::fail (const std::string& why)
     showResult();
 }
 
-void FitPanel::attend()
+void FitPanel::poll()
 {
     if (! isOpen()) return;
     if (job.isRunning()) repaint (scroll.getBounds());

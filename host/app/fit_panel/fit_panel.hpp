@@ -26,7 +26,7 @@ public:
     void close();   ///< closes the panel, and cancels a running fit; changes nothing
     bool isOpen() const { return isVisible(); }
 
-    void attend();   ///< call many times a second
+    void poll();   ///< call many times a second
 
     void choose (FitKind);   ///< chooses a kind, as the list does
     FitColumns& columns() noexcept { return which; }

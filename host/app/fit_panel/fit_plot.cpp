@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit_plot.hpp"
 
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/look/look.hpp>
-#include <host/app/look/text.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/io/axis.hpp>
 

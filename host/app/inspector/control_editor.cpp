@@ -6,7 +6,7 @@
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/text/filled.hpp>
 
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 
 #include <algorithm>
 

@@ -3,12 +3,12 @@
 #include "formula_block.hpp"
 #include "header.hpp"
 
-#include <host/app/look/text.hpp>
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/model/node_doc.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 
 #include <cmath>
 

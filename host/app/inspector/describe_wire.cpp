@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "describe.hpp"
 
-#include <host/app/look/text.hpp>
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/model/wire_rules.hpp>
 #include <host/app/text/filled.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/endpoints.hpp>
-#include <tactus/graph/text.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "number_field.hpp"
 
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
-#include <host/app/look/text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>

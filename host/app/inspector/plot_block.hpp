@@ -4,7 +4,7 @@
 #include "block.hpp"
 #include "plot_box.hpp"
 
-#include <host/app/look/text.hpp>
+#include <host/app/look/fitted_text.hpp>
 #include <tactus/text/result.hpp>
 
 #include <functional>

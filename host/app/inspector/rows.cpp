@@ -2,7 +2,7 @@
 #include "rows.hpp"
 #include "fields.hpp"
 
-#include <host/app/look/text.hpp>
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/param_now.hpp>
 #include <host/app/model/param_value.hpp>

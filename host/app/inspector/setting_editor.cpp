@@ -2,7 +2,7 @@
 #include "setting_editor.hpp"
 #include "tool_button.hpp"
 
-#include <host/app/look/text.hpp>
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
 

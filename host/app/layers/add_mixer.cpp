@@ -6,8 +6,8 @@
 #include <host/app/model/fragment.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/text/filled.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/endpoints.hpp>
-#include <tactus/graph/text.hpp>
 
 #include <algorithm>
 

@@ -5,8 +5,8 @@
 #include <host/app/model/face.hpp>
 #include <host/app/text/filled.hpp>
 
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/endpoints.hpp>
-#include <tactus/graph/text.hpp>
 
 #include <algorithm>
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/app/look/text.hpp>
+#include <host/app/look/fitted_text.hpp>
 
 namespace tactus::host
 {

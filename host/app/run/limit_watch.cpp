@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 
 // A check begins this long after the latest change, or after the first unchecked one, whichever comes first.
 constexpr std::chrono::milliseconds pause = 300ms, patience = 1s;
-constexpr int ticks_per_look = 6;   // every sixth call to attend() checks the devices: five times a second
+constexpr int ticks_per_look = 6;   // every sixth call to poll() checks the devices: five times a second
 }   // namespace
 
 LimitWatch::LimitWatch (Document& d, const DeviceSetup& s, const LiveRun& l, const Catalogue& c)
@@ -53,7 +53,7 @@ void LimitWatch::lookAtDevices()
     changed();
 }
 
-void LimitWatch::attend()
+void LimitWatch::poll()
 {
     if (attended++ % ticks_per_look == 0) lookAtDevices();
     if (is_busy) take();

@@ -25,7 +25,7 @@ public:
     LimitWatch (Document&, const DeviceSetup&, const LiveRun&, const Catalogue&);
     ~LimitWatch() override;
 
-    void attend();   ///< call many times a second
+    void poll();   ///< call many times a second
 
     /// The result of the latest check. While the next one runs, this is that of an earlier state of the same graph.
     const LimitList& list() const noexcept { return shown; }
@@ -33,7 +33,7 @@ public:
     /// The same list as messages, for the Problems tab.
     const Messages& messages() const noexcept { return said; }
 
-    /// False from an edit until its check is done. attend() notices a change of the devices at most a fifth of a second late.
+    /// False from an edit until its check is done. poll() notices a change of the devices at most a fifth of a second late.
     bool isUpToDate() const noexcept { return ! changed_at && ! is_busy; }
 
 private:

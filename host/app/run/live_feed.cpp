@@ -7,7 +7,7 @@
 #include <host/app/problems/fixes.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/io/axis.hpp>
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -28,12 +28,12 @@ LiveNodes::LiveNodes (std::vector<LiveSource> sources) : plugins (std::move (sou
     if (const auto prepared = plugins.prepare(); ! prepared) said = withPlaces ({ prepared.error() });
 }
 
-bool LiveNodes::attend()
+bool LiveNodes::poll()
 {
     const auto now = std::chrono::steady_clock::now();
     if (now - looked < std::chrono::milliseconds (25)) return false;   // code is compiled once two looks in a row find it unchanged
     looked = now;
-    auto news = plugins.look();
+    auto news = plugins.poll();
     if (! news) return false;
     said = withPlaces (std::move (news->messages));
     if (news->types.empty()) return false;

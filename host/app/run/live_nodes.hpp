@@ -19,7 +19,7 @@ public:
 
     /// True if catalogue() has new types now: everything that shows or runs nodes must be renewed, and then forget() called. Call this
     /// many times a second.
-    bool attend();
+    bool poll();
 
     /// Nothing in the window points into the earlier types any longer. A version is unloaded as soon as no plan uses it.
     void forget() { earlier = {}; }
@@ -27,7 +27,7 @@ public:
     /// What is wrong with the code that was saved last; each text begins with file and line.
     const Messages& messages() const noexcept { return said; }
 
-    /// The version that attend() has added: "rough_wood.hpp: in use 3.1 s after it was saved".
+    /// The version that poll() has added: "rough_wood.hpp: in use 3.1 s after it was saved".
     std::string latest() const;
 
 private:

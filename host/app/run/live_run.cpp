@@ -6,7 +6,7 @@
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/platform/signals.hpp>
 #include <tactus/check/factors.hpp>
-#include <tactus/run/included_guards.hpp>
+#include <tactus/run/guard/included_guards.hpp>
 #include <tactus/run/turn.hpp>
 #include <tactus/text/message.hpp>
 
@@ -425,7 +425,7 @@ std::string LiveRun::fusion() const
     return session && session->fuser() != nullptr ? session->fuser()->describe() : "plan";
 }
 
-void LiveRun::tell (LiveSession::News news)
+void LiveRun::tell (LiveSession::Events news)
 {
     if (news.alarm && ! isRunning() && ! begins) news.alarm.reset();   // it has nothing to do with the next run
     if (news.alarm)
@@ -437,12 +437,12 @@ void LiveRun::tell (LiveSession::News news)
         if (*each) said.push_back (std::move (**each));
 }
 
-void LiveRun::attend()
+void LiveRun::poll()
 {
-    if (session) tell (session->attend());
+    if (session) tell (session->poll());
     if (begins && ! isRunning()) begin();
     if (isLive() && ! isRunning()) endLog();
-    if (sound != nullptr) sound->attend();
+    if (sound != nullptr) sound->poll();
     probes.collect();
     film_tape.collect();
 }

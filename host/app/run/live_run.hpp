@@ -191,10 +191,10 @@ public:
     std::string fusion() const;
 
     /// Frees what is no longer used, and collects new samples. Call this many times a second.
-    void attend();
+    void poll();
 
 private:
-    void tell (LiveSession::News);
+    void tell (LiveSession::Events);
     void documentChanged() override;
     void after (const Plan&, std::uint64_t tick, bool halts) noexcept override;
 

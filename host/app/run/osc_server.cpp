@@ -19,9 +19,9 @@ OscServer::OscServer (std::unique_ptr<OscPort> port, Playback& p, Document& d, s
 {
 }
 
-void OscServer::attend (RemoteControl::Clock::time_point now)
+void OscServer::poll (RemoteControl::Clock::time_point now)
 {
-    control.attend (now);
+    control.poll (now);
     performEdits (now);
     checkProbes();
     sendValues();

@@ -23,7 +23,7 @@ public:
     int port() const noexcept { return osc->number(); }
 
     /// Call many times a second.
-    void attend (RemoteControl::Clock::time_point now = RemoteControl::Clock::now());
+    void poll (RemoteControl::Clock::time_point now = RemoteControl::Clock::now());
 
 private:
     Result<> setParam (const std::string& name, const Json& value) override;

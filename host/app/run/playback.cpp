@@ -113,15 +113,15 @@ void Playback::attendTrial()
     trial->pulsed_ms = now;
 }
 
-void Playback::attend()
+void Playback::poll()
 {
     if (stop_switch.isAhead())
     {
         const auto before = stop_switch.notice();
         stop_switch.noticed().emergencies != before.emergencies ? emergencyStop() : stop();
     }
-    live_run.attend();
-    if (preview_run) preview_run->attend();
+    live_run.poll();
+    if (preview_run) preview_run->poll();
     attendTrial();
 }
 

@@ -39,7 +39,7 @@ public:
     /// Stops the document's run or the preview, even if the message thread is busy. Valid as long as this object exists.
     StopSwitch& stopSwitch() noexcept { return stop_switch; }
 
-    void attend();   ///< call many times a second
+    void poll();   ///< call many times a second
 
 private:
     const Catalogue& catalogue;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <tactus/kit/math/math.hpp>
-#include <tactus/kit/snapshot.hpp>
+#include <tactus/kit/threads/snapshot.hpp>
 #include <tactus/run/device/path.hpp>
 
 namespace tactus::host

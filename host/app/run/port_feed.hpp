@@ -2,7 +2,7 @@
 #pragma once
 
 #include <host/app/model/course.hpp>
-#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/kit/threads/spsc_ring.hpp>
 #include <tactus/run/run.hpp>
 
 #include <array>

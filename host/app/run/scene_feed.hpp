@@ -2,7 +2,7 @@
 #pragma once
 
 #include <host/app/scene/scene.hpp>
-#include <tactus/kit/snapshot.hpp>
+#include <tactus/kit/threads/snapshot.hpp>
 #include <tactus/run/probe_ring.hpp>
 #include <tactus/run/run.hpp>
 

@@ -28,7 +28,7 @@ public:
     Result<> start();
     void stop();
     bool isOn() const noexcept { return on.load (std::memory_order_relaxed); }
-    void attend() { keeper.attend(); }   ///< call many times a second; reopens a card that was lost [main thread]
+    void poll() { keeper.poll(); }   ///< call many times a second; reopens a card that was lost [main thread]
 
     void setTickRate (double hz);                                     ///< call only while nothing ticks [main thread]
     void setVolume (float v) noexcept { volume = v; }                 ///< 0…1

@@ -2,7 +2,7 @@
 // What a scene draws of tools, blades and scissors.
 #include "parts.hpp"
 
-#include <tactus/kit/rotation.hpp>
+#include <tactus/kit/geometry/rotation.hpp>
 
 #include <numbers>
 

@@ -76,7 +76,7 @@ public:
     double coverage() const noexcept;
 
 private:
-    enum class Fate
+    enum class DepthResult
     {
         drawn,
         turned_away,
@@ -85,14 +85,14 @@ private:
 
     /// Fills a triangle whose corners are all in front of the camera.
     template <std::size_t N, typename Shade>
-    Fate fill (const Corner<N>&, const Corner<N>&, const Corner<N>&, Sides, Shade&&);
+    DepthResult fill (const Corner<N>&, const Corner<N>&, const Corner<N>&, Sides, Shade&&);
 
     /// Where the edge between a corner in front of the near plane and one behind it meets the plane.
     template <std::size_t N>
     Corner<N> cut (const Corner<N>& front, const Corner<N>& behind) const noexcept;
 
-    void note (Fate f) noexcept { ++(f == Fate::drawn ? counted.drawn : f == Fate::turned_away ? counted.turned_away
-                                                                                               : counted.outside); }
+    void note (DepthResult f) noexcept { ++(f == DepthResult::drawn ? counted.drawn : f == DepthResult::turned_away ? counted.turned_away
+                                                                                                                    : counted.outside); }
 
     /// The first of `count` samples whose middle is not before this place; `count` if all are. A place may be as far away as a float goes.
     static int firstAfter (float place, int count) noexcept
@@ -118,7 +118,7 @@ template <std::size_t N, typename Shade>
 void Raster::triangle (const Corner<N>& a, const Corner<N>& b, const Corner<N>& c, Sides sides, Shade&& shade)
 {
     if (a.nearness > 0.0f && b.nearness > 0.0f && c.nearness > 0.0f) return note (fill (a, b, c, sides, shade));
-    if (! (a.nearness > 0.0f || b.nearness > 0.0f || c.nearness > 0.0f)) return note (Fate::outside);
+    if (! (a.nearness > 0.0f || b.nearness > 0.0f || c.nearness > 0.0f)) return note (DepthResult::outside);
 
     // The part in front of the near plane has three or four corners, in the same order.
     const std::array all { &a, &b, &c };
@@ -128,13 +128,13 @@ void Raster::triangle (const Corner<N>& a, const Corner<N>& b, const Corner<N>& 
     {
         const auto &from = *all[i], &to = *all[(i + 1) % 3];
         const bool begins = from.nearness > 0.0f, ends = to.nearness > 0.0f;
-        if (! begins && ! (from.near > 0.0f)) return note (Fate::outside);   // its position behind the plane is not known
+        if (! begins && ! (from.near > 0.0f)) return note (DepthResult::outside);   // its position behind the plane is not known
         if (begins) kept[count++] = from;
         if (begins != ends) kept[count++] = begins ? cut (from, to) : cut (to, from);
     }
     auto fate = fill (kept[0], kept[1], kept[2], sides, shade);
     if (count == 4)
-        if (const auto second = fill (kept[0], kept[2], kept[3], sides, shade); fate != Fate::drawn) fate = second;
+        if (const auto second = fill (kept[0], kept[2], kept[3], sides, shade); fate != DepthResult::drawn) fate = second;
     note (fate);
 }
 
@@ -154,14 +154,14 @@ Raster::Corner<N> Raster::cut (const Corner<N>& front, const Corner<N>& behind) 
 }
 
 template <std::size_t N, typename Shade>
-Raster::Fate Raster::fill (const Corner<N>& a, const Corner<N>& b, const Corner<N>& c, Sides sides, Shade&& shade)
+Raster::DepthResult Raster::fill (const Corner<N>& a, const Corner<N>& b, const Corner<N>& c, Sides sides, Shade&& shade)
 {
     const float low_y = std::min ({ a.y, b.y, c.y }), high_y = std::max ({ a.y, b.y, c.y });
     const float low_x = std::min ({ a.x, b.x, c.x }), high_x = std::max ({ a.x, b.x, c.x });
     const auto width = static_cast<float> (columns), height = static_cast<float> (rows);
-    if (! (low_x < width && high_x > 0.0f && low_y < height && high_y > 0.0f)) return Fate::outside;
+    if (! (low_x < width && high_x > 0.0f && low_y < height && high_y > 0.0f)) return DepthResult::outside;
     const float area = (b.x - a.x) * (a.y - c.y) - (a.y - b.y) * (c.x - a.x);   // y points down: positive is counter-clockwise
-    if (area == 0.0f || (area < 0.0f && sides == Sides::front)) return Fate::turned_away;
+    if (area == 0.0f || (area < 0.0f && sides == Sides::front)) return DepthResult::turned_away;
 
     // The nearness, and each value times the nearness, are linear over the picture: `base` at a, and slopes along x and y.
     const float over = 1.0f / area;
@@ -200,7 +200,7 @@ Raster::Fate Raster::fill (const Corner<N>& a, const Corner<N>& b, const Corner<
                 now[i] += along_x[i];
         }
     }
-    return Fate::drawn;
+    return DepthResult::drawn;
 }
 
 template <typename Shade>

@@ -2,7 +2,7 @@
 #include "scene.hpp"
 #include "parts.hpp"
 
-#include <tactus/kit/rotation.hpp>
+#include <tactus/kit/geometry/rotation.hpp>
 
 namespace tactus::host::scene
 {

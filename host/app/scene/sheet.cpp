@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sheet.hpp"
 
-#include <tactus/kit/rotation.hpp>
+#include <tactus/kit/geometry/rotation.hpp>
 
 #include <numbers>
 

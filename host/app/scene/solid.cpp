@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solid.hpp"
 
-#include <tactus/kit/mesh_walk.hpp>
-#include <tactus/kit/rotation.hpp>
+#include <tactus/kit/geometry/mesh_walk.hpp>
+#include <tactus/kit/geometry/rotation.hpp>
 
 namespace tactus::host::scene
 {

@@ -65,7 +65,7 @@ void Take::read (StretchReader::Options options, std::function<void (Result<Stre
     now = State::reading;
 }
 
-void Take::attend()
+void Take::poll()
 {
     if (now == State::recording)
     {

@@ -14,7 +14,7 @@ namespace tactus::host
 {
 
 /// Records everything that enters a run of the window, from its first tick to its end, and reads stretches from the recording. To read, it
-/// replays the recording without devices, a part on each call of attend(), so the window stays responsive. [main thread]
+/// replays the recording without devices, a part on each call of poll(), so the window stays responsive. [main thread]
 class Take
 {
 public:
@@ -43,7 +43,7 @@ public:
     /// Replays the recording, and passes on a stretch, or the reason why this failed. Replaces any earlier request.
     void read (StretchReader::Options, std::function<void (Result<Stretch>)>);
 
-    void attend();   ///< call many times a second
+    void poll();   ///< call many times a second
 
     std::function<void()> onRecorded;   ///< called when a recording is complete
 

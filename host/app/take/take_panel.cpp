@@ -191,7 +191,7 @@ juce::String TakePanel::statusText() const
 void TakePanel::refresh()
 {
     const auto before = recording.state();
-    recording.attend();
+    recording.poll();
     const auto now = recording.state();
     const bool records = now == Take::State::recording, is_ready = now == Take::State::ready && curve.until() > curve.from();
     record.setToggleState (records, juce::dontSendNotification);

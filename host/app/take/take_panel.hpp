@@ -7,7 +7,7 @@
 #include <host/app/inspector/fields.hpp>
 #include <host/app/inspector/tool_button.hpp>
 #include <host/app/text/filled.hpp>
-#include <tactus/kit/clip.hpp>
+#include <tactus/kit/signal/clip.hpp>
 
 namespace tactus::host
 {

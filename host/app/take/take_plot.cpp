@@ -2,7 +2,7 @@
 #include "take_plot.hpp"
 
 #include <host/app/look/component_colour.hpp>
-#include <host/app/look/text.hpp>
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/io/axis.hpp>

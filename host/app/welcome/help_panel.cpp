@@ -3,9 +3,9 @@
 
 #include <host/app/canvas/commands.hpp>
 #include <host/app/inspector/formula_block.hpp>
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/look/key_text.hpp>
-#include <host/app/look/text.hpp>
 #include <host/app/model/node_doc.hpp>
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/model/readable.hpp>

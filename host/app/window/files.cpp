@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "files.hpp"
 
-#include <host/app/look/text.hpp>
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/model/clip_graph.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/presets/preset_list.hpp>
@@ -297,7 +297,7 @@ void Files::beforeRun()
     session->beginTrial();
 }
 
-void Files::attend()
+void Files::poll()
 {
     if (! session) return;
     const auto now = clock();

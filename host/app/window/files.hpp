@@ -54,7 +54,7 @@ public:
     bool recover();
 
     void beforeRun();        ///< call before each run
-    void attend();           ///< call many times a second: an edit that came while another one was being autosaved is handed over here
+    void poll();             ///< call many times a second: an edit that came while another one was being autosaved is handed over here
     void finishAutosave();   ///< waits until the autosave matches the document
     void end();              ///< removes the autosave; call it when the program closes normally
     void endSuddenly();      ///< autosaves unsaved changes; call it when the program must close now

@@ -2,12 +2,12 @@
 #include "main_view.hpp"
 #include "appearance.hpp"
 
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
-#include <host/app/look/text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/storage/language.hpp>
 #include <host/app/text/filled.hpp>
-#include <tactus/plan/unheard.hpp>
+#include <tactus/plan/rules/unheard.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
@@ -184,14 +184,14 @@ void MainView::closeSuddenly()
 
 void MainView::timerCallback()
 {
-    playback.attend();
+    playback.poll();
     // A dialog for files that has just closed gives the focus back to what had it before.
     juce::Component* over = nullptr;
     if (fitting.isOpen()) over = &fitting;
     if (question.isOpen()) over = &question;
     if (over != nullptr && ! over->hasKeyboardFocus (true) && juce::Component::getNumCurrentlyModalComponents() == 0) takeFocus (*over);
     shade.follow();
-    if (osc_server) osc_server->attend();
+    if (osc_server) osc_server->poll();
     strip.refresh();
     if (direct_stop)
     {
@@ -202,13 +202,13 @@ void MainView::timerCallback()
     hand.setSeen (hand.isShowing() && ! hand.getBounds().isEmpty());
     hand.refresh();
     live.refresh();
-    limits.attend();
+    limits.poll();
     attendLiveNodes();
     showProblems();
-    files.attend();
+    files.poll();
     presets.refresh();
     if (welcome.isVisible()) welcome.refresh();
-    fitting.attend();
+    fitting.poll();
     if (ticks_to_save > 0 && --ticks_to_save == 0)
         if (const auto saved = saveSettings (settings, home); ! saved)
             status.notify (filled (TRANS ("Could not save the settings: %1"), fromUtf8 (saved.error().text)));
@@ -220,7 +220,7 @@ void MainView::timerCallback()
 
 void MainView::attendLiveNodes()
 {
-    if (! live_nodes || ! live_nodes->attend()) return;
+    if (! live_nodes || ! live_nodes->poll()) return;
     edited.renew();
     pictures.use (catalogue);
     if (help.isOpen() && ! help.type().empty()) help.showNode (help.type());

@@ -30,7 +30,7 @@
 #include <host/app/welcome/help_panel.hpp>
 #include <host/app/welcome/welcome_page.hpp>
 
-#include <tactus/kit/clip.hpp>
+#include <tactus/kit/signal/clip.hpp>
 
 #include <array>
 #include <utility>

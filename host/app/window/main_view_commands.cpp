@@ -3,9 +3,9 @@
 #include "appearance.hpp"
 #include "main_view.hpp"
 
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/look/key_text.hpp>
-#include <host/app/look/text.hpp>
 #include <host/app/storage/language.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/app/welcome/example.hpp>

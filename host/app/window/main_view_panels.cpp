@@ -2,8 +2,8 @@
 // What the window does on the callbacks of its panels, panel by panel.
 #include "main_view.hpp"
 
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
-#include <host/app/look/text.hpp>
 #include <host/app/model/fragment.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>

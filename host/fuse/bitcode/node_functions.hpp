@@ -18,12 +18,12 @@ struct NodeFunctions
     static void tickStored ([[maybe_unused]] void* node, [[maybe_unused]] const void* stored, [[maybe_unused]] const double* const* sources,
                             [[maybe_unused]] void* outputs) noexcept
     {
-        if constexpr (KnowsStored<N>) tactus::detail::Erased<N>::tickStored (node, stored, sources, outputs);
+        if constexpr (KnowsStored<N>) tactus::detail::NodeAdapter<N>::tickStored (node, stored, sources, outputs);
     }
 
     static void peek ([[maybe_unused]] void* node, [[maybe_unused]] void* outputs) noexcept
     {
-        if constexpr (Peekable<N>) tactus::detail::Erased<N>::peek (node, nullptr, outputs);
+        if constexpr (Peekable<N>) tactus::detail::NodeAdapter<N>::peek (node, nullptr, outputs);
     }
 
     static void update ([[maybe_unused]] void* node) noexcept
@@ -34,13 +34,13 @@ struct NodeFunctions
 
 }   // namespace tactus::host
 
-/// Defines the functions. Wiring asks that they are inlined, because their arguments are known there.
+/// Defines the functions. PlanNames asks that they are inlined, because their arguments are known there.
 #define TACTUS_NODE_FUNCTIONS(N, name)                                                                           \
     extern "C"                                                                                                   \
     {                                                                                                            \
         void tactus_fused_tick_##name (void* node, const double* const* sources, void* outputs) noexcept         \
         {                                                                                                        \
-            tactus::detail::Erased<N>::tick (node, sources, outputs);                                            \
+            tactus::detail::NodeAdapter<N>::tick (node, sources, outputs);                                       \
         }                                                                                                        \
         void tactus_fused_tick_stored_##name (void* node, const void* stored, const double* const* sources,      \
                                               void* outputs) noexcept                                            \

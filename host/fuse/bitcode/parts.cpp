@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The steps of a plan that are not nodes, for wiring (host/fuse/wiring_writer.hpp). The build compiles this file to bitcode.
-#include <tactus/run/fused_parts.hpp>
+#include <tactus/run/generated/fused_parts.hpp>
 
 using namespace tactus;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/file/graph_file.hpp>
 #include <tactus/file/migrate.hpp>
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/text/closest_match.hpp>
 
 #include <catch2/catch.hpp>

@@ -3,7 +3,7 @@
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/edit.hpp>
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -5,9 +5,9 @@
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/edit.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/history.hpp>
 #include <tactus/graph/param_edit.hpp>
-#include <tactus/graph/text.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

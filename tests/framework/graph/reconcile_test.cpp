@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/file/graph_file.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/reconcile.hpp>
-#include <tactus/graph/text.hpp>
 
 #include "support/sketch.hpp"
 #include "wild_graph.hpp"

@@ -2,7 +2,7 @@
 #include "edit_rig.hpp"
 
 #include <tactus/file/graph_file.hpp>
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 
 #include <catch2/catch.hpp>
 

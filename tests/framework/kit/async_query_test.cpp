@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <tactus/run/log/replayed_queries.hpp>
 #include <tactus/run/query_thread.hpp>
-#include <tactus/run/replayed_queries.hpp>
 
 #include "support/no_allocation.hpp"
 

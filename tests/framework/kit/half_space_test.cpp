@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <tactus/kit/half_space.hpp>
+#include <tactus/kit/geometry/half_space.hpp>
 
 #include <catch2/catch.hpp>
 

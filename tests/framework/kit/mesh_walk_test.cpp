@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <tactus/kit/mesh_walk.hpp>
+#include <tactus/kit/geometry/mesh_walk.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

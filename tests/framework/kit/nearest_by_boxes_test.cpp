@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <tactus/kit/nearest_by_boxes.hpp>
+#include <tactus/kit/geometry/nearest_by_boxes.hpp>
 
 #include "support/no_allocation.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <tactus/kit/nearest_triangle.hpp>
+#include <tactus/kit/geometry/nearest_triangle.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <tactus/kit/rotation.hpp>
+#include <tactus/kit/geometry/rotation.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The parts shared by nodes that play recordings and noise: lattice, stream resampler, recording, windowed sinc.
 
-#include <tactus/kit/lattice.hpp>
+#include <tactus/kit/geometry/lattice.hpp>
 #include <tactus/kit/random.hpp>
-#include <tactus/kit/recording.hpp>
-#include <tactus/kit/stream_resampler.hpp>
+#include <tactus/kit/signal/recording.hpp>
+#include <tactus/kit/signal/stream_resampler.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

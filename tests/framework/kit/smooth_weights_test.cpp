@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <tactus/kit/placed_surface.hpp>
+#include <tactus/kit/geometry/placed_surface.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

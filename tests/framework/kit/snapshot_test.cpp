@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <tactus/kit/snapshot.hpp>
+#include <tactus/kit/threads/snapshot.hpp>
 
 #include <catch2/catch.hpp>
 

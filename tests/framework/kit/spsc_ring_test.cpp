@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/kit/threads/spsc_ring.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -5,7 +5,7 @@
 #include "support/sketch.hpp"
 
 #include "support/live.hpp"
-#include <tactus/plan/missing_parts.hpp>
+#include <tactus/plan/rules/missing_parts.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -154,7 +154,7 @@ Felt play (const graph::Graph& g, const std::vector<std::string>& records, unsig
         }
         const bool taken = before != &live.engine().plan();
         felt.taken += taken;
-        if (rule) rule->look (live.engine().plan(), taken, right.last, live.engine().guardOf ("right").stop() != Guard::Stop::none);
+        if (rule) rule->poll (live.engine().plan(), taken, right.last, live.engine().guardOf ("right").stop() != Guard::Stop::none);
         for (const auto& tap : live.engine().plan().taps())
             felt.recorded.push_back (*tap.value == *tap.value ? std::bit_cast<std::uint64_t> (*tap.value) : ~0ull);
     }

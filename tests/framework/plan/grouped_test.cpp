@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <tactus/plan/grouped.hpp>
+#include <tactus/plan/flat/grouped.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -6,7 +6,7 @@
 #include <tactus/graph/instances.hpp>
 #include <tactus/kit/random.hpp>
 #include <tactus/plan/find_param.hpp>
-#include <tactus/plan/lane_group.hpp>
+#include <tactus/plan/steps/lane_group.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <tactus/plan/names.hpp>
+#include <tactus/plan/flat/names.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -3,7 +3,7 @@
 
 #include "support/sketch.hpp"
 
-#include <tactus/plan/sum_step.hpp>
+#include <tactus/plan/steps/sum_step.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -3,7 +3,7 @@
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/plan/compile.hpp>
-#include <tactus/plan/unheard.hpp>
+#include <tactus/plan/rules/unheard.hpp>
 
 #include <catch2/catch.hpp>
 

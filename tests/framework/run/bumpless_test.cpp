@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The fade between two plans. tests/framework/live has its effect on a device.
-#include <tactus/run/bumpless.hpp>
+#include <tactus/run/guard/bumpless.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -6,7 +6,7 @@
 #include "support/temporary_folder.hpp"
 
 #include <tactus/file/graph_file.hpp>
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/replay.hpp>
 #include <tactus/run/run.hpp>

@@ -4,8 +4,8 @@
 #include "support/sketch.hpp"
 
 #include <tactus/file/graph_file.hpp>
-#include <tactus/graph/text.hpp>
-#include <tactus/run/included_guards.hpp>
+#include <tactus/graph/endpoint_text.hpp>
+#include <tactus/run/guard/included_guards.hpp>
 #include <tactus/run/run.hpp>
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <tactus/node/generic.hpp>
-#include <tactus/run/node_costs.hpp>
+#include <tactus/run/clock/node_costs.hpp>
 
 #include "support/interpreter.hpp"
 #include "support/random_graph.hpp"

@@ -2,7 +2,7 @@
 // Guards count seconds, not ticks: what happens to stops and limits when ticks are missing, or come too fast.
 #include "support/sketch.hpp"
 
-#include <tactus/run/passed_time.hpp>
+#include <tactus/run/clock/passed_time.hpp>
 #include <tactus/run/runner.hpp>
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/kit/threads/spsc_ring.hpp>
+#include <tactus/run/clock/tick_account.hpp>
 #include <tactus/run/probe_ring.hpp>
-#include <tactus/run/tick_account.hpp>
 
 #include "support/no_allocation.hpp"
 #include "support/sketch.hpp"

@@ -4,7 +4,7 @@
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
 
-#include <tactus/run/port_probes.hpp>
+#include <tactus/run/probe/port_probes.hpp>
 #include <tactus/run/replay.hpp>
 #include <tactus/run/tick_clock.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All threads of a live run at the same time, mainly for TSan. TACTUS_LIVE_SECONDS makes the test longer.
 
-#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/kit/threads/spsc_ring.hpp>
 #include <tactus/run/probe_ring.hpp>
 #include <tactus/run/runner.hpp>
 
@@ -125,7 +125,7 @@ TEST_CASE ("an editor, a turned knob, a probe reader, a recorder and a status re
         auto messages = live.perform (test::randomEdit (random, live.graph(), "e_", "right"));
         while (hasErrors (messages))
             messages = live.undo();
-        runner.attend();
+        runner.poll();
         if (edits % 10 == 0) broken += runner.costs().size() > live.engine().newest().instances().size();
     }
     others.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tactus/run/tick_account.hpp>
+#include <tactus/run/clock/tick_account.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/no_allocation.hpp"
 
-#include <tactus/run/triggered_capture.hpp>
+#include <tactus/run/probe/triggered_capture.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

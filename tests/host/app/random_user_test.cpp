@@ -86,7 +86,7 @@ void play (unsigned seed, int actions, bool prints)
         const auto action = monkey.act();
         if (prints) std::cerr << action << std::endl;
         done.add (std::to_string (n) + ": " + action);
-        if (n % 3 == 0) monkey.attend (1);
+        if (n % 3 == 0) monkey.poll (1);
         check (disagreement (*monkey.view));
         if (n % 20 == 0) check (disagreementWithCompile (*monkey.view, assets));
         if (n % 50 == 0) monkey.paint();

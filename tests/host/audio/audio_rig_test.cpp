@@ -143,7 +143,7 @@ TEST_CASE ("samples beyond full scale are limited and counted; values that are n
                   for (int k = 0; k < 600; ++k)
                   {
                       now = k == 300 ? value : 0.25;
-                      mixer.look (plan, false);
+                      mixer.poll (plan, false);
                       double channel = 0.0;
                       mixer.addTo ({ &channel, 1 }, 0, 1);
                       RC_ASSERT (std::abs (channel) <= PortMixer::most_sample);
@@ -294,7 +294,7 @@ TEST_CASE ("the output of the card is recorded as a WAV file, bit for bit", "[au
     for (int k = 0; k < 10; ++k)
     {
         s.run (0.05);
-        CHECK (s.rig.attend());
+        CHECK (s.rig.poll());
     }
     CHECK_FALSE (std::filesystem::exists (file));
     CHECK (s.rig.end());
@@ -312,7 +312,7 @@ TEST_CASE ("the output of the card is recorded as a WAV file, bit for bit", "[au
     back.card.rate_hz = 44'100.0;
     int reported = 0;
     for (int ms = 0; ms < 2000; ms += 100)   // silent for so long that the card is reopened
-        reported += ! back.rig.attend (CardKeeper::Clock::now() + std::chrono::milliseconds (ms));
+        reported += ! back.rig.poll (CardKeeper::Clock::now() + std::chrono::milliseconds (ms));
     CHECK (back.card.opened == 2);
     CHECK (reported == 1);
     CHECK (back.rig.end());
@@ -333,7 +333,7 @@ TEST_CASE ("a full disk ends the recording with one error, and the run continues
     for (int k = 0; k < 20; ++k)
     {
         s.run (0.05);
-        reported += ! s.rig.attend();
+        reported += ! s.rig.poll();
     }
     CHECK (reported == 1);
     CHECK (s.level (0) == Approx (0.5).margin (1e-3));

@@ -139,7 +139,7 @@ TEST_CASE ("a card that went away is closed and reopened when it is back; until 
         for (const auto end = now + time; now < end; now += 20ms)
         {
             if (plays) cards.play();
-            keeper.attend (now);
+            keeper.poll (now);
         }
     };
     REQUIRE (keeper.open ({}, 2, 0));

@@ -7,7 +7,7 @@
 #include <host/assets/file_assets.hpp>
 #include <host/io/plot.hpp>
 #include <tactus/file/csv.hpp>
-#include <tactus/kit/mesh_walk.hpp>
+#include <tactus/kit/geometry/mesh_walk.hpp>
 
 #include <catch2/catch.hpp>
 

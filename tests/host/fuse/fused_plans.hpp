@@ -2,7 +2,7 @@
 #pragma once
 
 #include <host/fuse/fused_code.hpp>
-#include <tactus/plan/fused_tick.hpp>
+#include <tactus/plan/steps/fused_tick.hpp>
 
 #include <memory>
 #include <string>

@@ -81,7 +81,7 @@ std::optional<Message> finish (Fuser& fuser, const std::shared_ptr<Plan>& plan, 
 {
     for (;;)
     {
-        if (auto message = fuser.look (plan, now_s)) return message;
+        if (auto message = fuser.poll (plan, now_s)) return message;
         if (fuser.state() != Fuser::State::compiles) return std::nullopt;
         std::this_thread::sleep_for (std::chrono::milliseconds (2));
     }
@@ -105,7 +105,7 @@ TEST_CASE ("a plan runs on by its records if the compiler fails, is killed, or m
     CHECK (fuser.state() == Fuser::State::fails);
     CHECK (fuser.describe() == "plan");
     CHECK_FALSE (plan->isFused());
-    CHECK_FALSE (fuser.look (plan, 100.0));   // says it once, and does not try again
+    CHECK_FALSE (fuser.poll (plan, 100.0));   // says it once, and does not try again
     CHECK (compiler.runs() == 1);
     CHECK (outputs (*plan, 50) == outputs (*other, 50));
 }
@@ -115,11 +115,11 @@ TEST_CASE ("a compiler that hangs is ended, and the plan runs on by its records"
     const FakeCompiler compiler { "while true; do sleep 1; done" };
     Fuser fuser { compiler.options() };
     const auto plan = smallPlan();
-    CHECK_FALSE (fuser.look (plan, 0.0));
+    CHECK_FALSE (fuser.poll (plan, 0.0));
     CHECK (fuser.state() == Fuser::State::compiles);
     CHECK (fuser.describe() == "plan, fusing");
-    CHECK_FALSE (fuser.look (plan, 299.0));
-    const auto said = fuser.look (plan, 301.0);
+    CHECK_FALSE (fuser.poll (plan, 299.0));
+    const auto said = fuser.poll (plan, 301.0);
     REQUIRE (said);
     CHECK (said->id == "fuse/too_long");
     CHECK (fuser.state() == Fuser::State::fails);
@@ -130,11 +130,11 @@ TEST_CASE ("without a compiler, no plan is fused, and this is said once", "[fuse
 {
     Fuser fuser { { .compiler = { .compiler = "/no/such/compiler", .llvm = "/no/such/program" } } };
     const auto plan = smallPlan(), next = smallPlan();
-    const auto said = fuser.look (plan, 0.0);
+    const auto said = fuser.poll (plan, 0.0);
     REQUIRE (said);
     CHECK (said->id == "fuse/no_compiler");
-    CHECK_FALSE (fuser.look (next, 1.0));
-    CHECK_FALSE (fuser.look (next, 100.0));
+    CHECK_FALSE (fuser.poll (next, 1.0));
+    CHECK_FALSE (fuser.poll (next, 100.0));
     CHECK (fuser.state() == Fuser::State::fails);
 }
 
@@ -150,11 +150,11 @@ TEST_CASE ("an edited plan runs by its records until there have been no edits fo
     CHECK (compiler.runs() == 1);
 
     const auto edited = smallPlan (30.0), again = smallPlan (40.0), compared = smallPlan (40.0);
-    CHECK_FALSE (fuser.look (edited, 10.0));
+    CHECK_FALSE (fuser.poll (edited, 10.0));
     CHECK (fuser.state() == Fuser::State::rests);
-    CHECK_FALSE (fuser.look (edited, 10.4));
-    CHECK_FALSE (fuser.look (again, 10.45));   // the rest begins again
-    CHECK_FALSE (fuser.look (again, 10.9));
+    CHECK_FALSE (fuser.poll (edited, 10.4));
+    CHECK_FALSE (fuser.poll (again, 10.45));   // the rest begins again
+    CHECK_FALSE (fuser.poll (again, 10.9));
     CHECK (fuser.state() == Fuser::State::rests);
     CHECK_FALSE (edited->isFused());
     CHECK_FALSE (again->isFused());
@@ -196,7 +196,7 @@ TEST_CASE ("code that another user could have put into the cache is not loaded",
     const auto plan = smallPlan();
     if (foreign.find ("folder") != std::string::npos)
     {
-        const auto said = fuser.look (plan, 0.0);
+        const auto said = fuser.poll (plan, 0.0);
         REQUIRE (said);
         CHECK (said->id == "fuse/cache");
         CHECK (said->severity == Message::Severity::warning);
@@ -220,7 +220,7 @@ TEST_CASE ("if LLVM fails, is killed, makes nonsense or is not installed, the co
     const auto plan = smallPlan(), other = smallPlan();
     const FakeCompiler compiler { copies (test::compiledFusion (host::FusedCode::of (*plan))), script };
     Fuser fuser { compiler.options() };
-    CHECK_FALSE (fuser.look (plan, 0.0));
+    CHECK_FALSE (fuser.poll (plan, 0.0));
     CHECK (fuser.describe() == "plan, fusing");
     CHECK (compiler.runs() == 0);
     CHECK_FALSE (finish (fuser, plan, 0.0));
@@ -241,8 +241,8 @@ TEST_CASE ("if LLVM hangs, it is ended, and the compiler takes its place", "[fus
     const auto plan = smallPlan();
     const FakeCompiler compiler { copies (test::compiledFusion (host::FusedCode::of (*plan))), "while true; do sleep 1; done" };
     Fuser fuser { compiler.options() };
-    CHECK_FALSE (fuser.look (plan, 0.0));
-    CHECK_FALSE (fuser.look (plan, 59.0));
+    CHECK_FALSE (fuser.poll (plan, 0.0));
+    CHECK_FALSE (fuser.poll (plan, 59.0));
     CHECK (compiler.runs() == 0);
     CHECK_FALSE (finish (fuser, plan, 61.0));
     CHECK (fuser.state() == Fuser::State::fused);

@@ -73,23 +73,23 @@ TEST_CASE ("a profile can use every alarm of a device, and none that only the ho
 TEST_CASE ("a report says whether it repeats the last one, has the same time, or goes back", "[hid][safety]")
 {
     HidModel board (test::profileOf ("tactus_board"));
-    const auto follows = [&] (std::uint32_t sequence, std::uint32_t time_us) { return board.decode (report (3, sequence, time_us)).succession; };
-    CHECK (follows (10, 10'000) == Succession::next);
-    CHECK (follows (11, 11'000) == Succession::next);
-    CHECK (follows (11, 11'000) == Succession::repeated);
-    CHECK (follows (12, 11'000) == Succession::clock_stopped);
-    CHECK (follows (13, 12'000) == Succession::next);
-    CHECK (follows (16, 15'000) == Succession::next);
-    CHECK (follows (15, 14'000) == Succession::back);
-    CHECK (follows (17, 16'000) == Succession::next);
-    CHECK (follows (0, 100) == Succession::back);   // a restart
-    CHECK (follows (1, 50) == Succession::back);    // only the clock
-    CHECK (follows (0, 60) == Succession::back);    // only the number
-    CHECK (follows (~0u, 1000) == Succession::back);
-    CHECK (follows (0, 2000) == Succession::next);                     // the number wraps around
-    CHECK (board.decode (Bytes (3)).succession == Succession::next);   // refused
+    const auto follows = [&] (std::uint32_t sequence, std::uint32_t time_us) { return board.decode (report (3, sequence, time_us)).report_order; };
+    CHECK (follows (10, 10'000) == ReportOrder::next);
+    CHECK (follows (11, 11'000) == ReportOrder::next);
+    CHECK (follows (11, 11'000) == ReportOrder::repeated);
+    CHECK (follows (12, 11'000) == ReportOrder::clock_stopped);
+    CHECK (follows (13, 12'000) == ReportOrder::next);
+    CHECK (follows (16, 15'000) == ReportOrder::next);
+    CHECK (follows (15, 14'000) == ReportOrder::back);
+    CHECK (follows (17, 16'000) == ReportOrder::next);
+    CHECK (follows (0, 100) == ReportOrder::back);   // a restart
+    CHECK (follows (1, 50) == ReportOrder::back);    // only the clock
+    CHECK (follows (0, 60) == ReportOrder::back);    // only the number
+    CHECK (follows (~0u, 1000) == ReportOrder::back);
+    CHECK (follows (0, 2000) == ReportOrder::next);                       // the number wraps around
+    CHECK (board.decode (Bytes (3)).report_order == ReportOrder::next);   // refused
     board.reset();
-    CHECK (follows (0, 0) == Succession::next);
+    CHECK (follows (0, 0) == ReportOrder::next);
     CHECK (board.counts().restarts == 0);
 }
 

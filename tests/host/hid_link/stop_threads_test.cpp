@@ -144,7 +144,7 @@ TEST_CASE ("stops by a signal, from threads and by the failsafe, rearms, edits a
         auto messages = live.perform (test::randomEdit (random, live.graph(), "e_", "right"));
         while (hasErrors (messages))
             messages = live.undo();
-        runner.attend();
+        runner.poll();
     }
     beside.end();
     engine.emergencyStop();

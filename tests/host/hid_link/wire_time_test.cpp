@@ -3,8 +3,8 @@
 
 #include "fake_board.hpp"
 
+#include <tactus/run/clock/passed_time.hpp>
 #include <tactus/run/guard.hpp>
-#include <tactus/run/passed_time.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

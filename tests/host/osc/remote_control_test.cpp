@@ -133,7 +133,7 @@ struct Stage
         other->send (port->number(), OSCMessage ("/tactus/status", marker->number()));
         for (int i = 0; i < 4000; ++i)
         {
-            control.attend (now);
+            control.poll (now);
             if (marker->next (5ms)) return;
         }
         FAIL ("no message arrived");
@@ -288,16 +288,16 @@ TEST_CASE ("a probe sends the requested values at the requested rate, and ends i
         CHECK ((*again->next (20s))[2].getFloat32() == 2.0f);
 
     stage.now += 1900ms;
-    stage.control.attend (stage.now);
+    stage.control.poll (stage.now);
     CHECK (stage.control.isProbing());
     stage.ask ("/tactus/probe", String ("drag.force"), stage.me(), 100.0f, 2.0f);   // continues the probe
     stage.now += 200ms;
-    stage.control.attend (stage.now);
+    stage.control.poll (stage.now);
     stage.control.values (9000, std::vector<double> { 1.0, 2.0, 3.0 });
     CHECK (address (*stage.other->next (20s)) == "/tactus/value");
     CHECK_FALSE (again->next (50ms));
     stage.now += 2s;
-    stage.control.attend (stage.now);
+    stage.control.poll (stage.now);
     CHECK_FALSE (stage.control.isProbing());
     CHECK (stage.puppet.probed.empty());
 }
@@ -373,8 +373,8 @@ TEST_CASE ("a trigger sends its complete window, then ends", "[osc]")
 
     run (*stage.puppet.capturing, 2000, 300);
     int next = -20;
-    stage.control.attend (stage.now);
-    stage.control.attend (stage.now);   // the window is sent in several parts
+    stage.control.poll (stage.now);
+    stage.control.poll (stage.now);   // the window is sent in several parts
     for (;;)
     {
         const auto rows = stage.other->next (next < 1001 ? 20s : 50ms);
@@ -415,12 +415,12 @@ TEST_CASE ("only one trigger is awaited at a time, until it expires", "[osc]")
     stage.now += 4s;
     CHECK (ask ("drag.force") == "/tactus/done");   // the probe continues
     stage.now += 4s;
-    stage.control.attend (stage.now);
+    stage.control.poll (stage.now);
     CHECK (stage.puppet.capturing);
     stage.control.graphChanged();
     CHECK (address (*stage.other->next (20s)) == "/tactus/done");
     stage.now += 2s;
-    stage.control.attend (stage.now);
+    stage.control.poll (stage.now);
     CHECK_FALSE (stage.puppet.capturing);
     CHECK (ask ("drag.state") == "/tactus/done");
 }

@@ -249,7 +249,7 @@ TEST_CASE ("the state of a device is reported while it is awaited, while it is p
     REQUIRE (device);
     HealthWatch watch { "stylus" };
     REQUIRE (board.until ([&] {
-        watch.look (std::span (&*device, 1));
+        watch.poll (std::span (&*device, 1));
         return ! watch.health().front().trouble.empty();
     }));
     CHECK_FALSE (watch.health().front().has_come);
@@ -260,7 +260,7 @@ TEST_CASE ("the state of a device is reported while it is awaited, while it is p
     CHECK (board.until ([&] {
         board.send (boardReport (++n));
         real.read();
-        watch.look (std::span (&*device, 1));
+        watch.poll (std::span (&*device, 1));
         return watch.health().front().rate_hz.has_value();
     }));
     const auto there = watch.health().front();
@@ -272,7 +272,7 @@ TEST_CASE ("the state of a device is reported while it is awaited, while it is p
 
     board.plug (false);
     CHECK (board.until ([&] {
-        watch.look (std::span (&*device, 1));
+        watch.poll (std::span (&*device, 1));
         return ! watch.health().front().connected;
     }));
     CHECK (describe (watch.health().front()).find ("unplugged") == 0);
@@ -299,8 +299,8 @@ TEST_CASE ("the drift of a device is the speed of its clock relative to the cloc
         std::this_thread::sleep_for (2ms);
         owner->read();
         follower->read();
-        by_device.look (devices);
-        too_early.look (devices);
+        by_device.poll (devices);
+        too_early.poll (devices);
         return n > 400 && by_device.health()[1].drift_ppm;
     });
     REQUIRE (measured);

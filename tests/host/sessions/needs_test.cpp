@@ -5,7 +5,7 @@
 
 #include <host/sessions/choose_clock.hpp>
 #include <host/sessions/role_fits.hpp>
-#include <tactus/plan/missing_parts.hpp>
+#include <tactus/plan/rules/missing_parts.hpp>
 
 #include "support/sketch.hpp"
 

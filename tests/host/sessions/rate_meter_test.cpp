@@ -19,7 +19,7 @@ TEST_CASE ("a rate is accurate to a few millionths within ten seconds, even if r
             // The time of a report, up to 0.1 ms late, and a count that may be off by one report.
             const auto count = static_cast<std::uint64_t> ((0.1 * k + 1.0) * hz);
             const double late = 1e-7 * *rc::gen::inRange (0, 1000);
-            meter.look (begin + static_cast<double> (count) / hz + late, 77 + count);
+            meter.add (begin + static_cast<double> (count) / hz + late, 77 + count);
         }
         const auto rate = meter.rate();
         RC_ASSERT (rate.has_value());
@@ -33,12 +33,12 @@ TEST_CASE ("without readings at different times there is no rate", "[sessions]")
     RateMeter meter;
     CHECK_FALSE (meter.rate());
     for (int k = 0; k < 5; ++k)
-        meter.look (3.0, 100);
+        meter.add (3.0, 100);
     CHECK_FALSE (meter.rate());
-    meter.look (4.0, 1100);
+    meter.add (4.0, 1100);
     REQUIRE (meter.rate());
     CHECK (meter.rate()->hz == Approx (1000.0));
-    meter.look (2.0, 0);   // a clock that goes backwards is ignored
+    meter.add (2.0, 0);   // a clock that goes backwards is ignored
     CHECK (meter.rate()->hz == Approx (1000.0));
     meter.reset();
     CHECK_FALSE (meter.rate());

@@ -2,7 +2,7 @@
 // Renders a graph as `tactus render` does. It contains functions of Eigen and Tactus that the library and its own node have, too, but compiled with
 // other flags: those of the processor, with fused multiply-adds. They must not take their place.
 #include <tactus/file/graph_file.hpp>
-#include <tactus/kit/rotation.hpp>
+#include <tactus/kit/geometry/rotation.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/run.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <tactus/kit/rotation.hpp>
+#include <tactus/kit/geometry/rotation.hpp>
 #include <tactus/nodes/cut/blade.hpp>
 #include <tactus/nodes/cut/edge.hpp>
 

@@ -3,7 +3,7 @@
 #include <tactus/nodes/filter/reconstruction.hpp>
 
 #include <support/ready.hpp>
-#include <tactus/kit/rotation.hpp>
+#include <tactus/kit/geometry/rotation.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -2,7 +2,7 @@
 // Clip files made by others, if they are there: ../shared/data/haptic_*.
 #include <tactus/file/clips/clip_difference.hpp>
 #include <tactus/file/clips/clip_file.hpp>
-#include <tactus/kit/clip_score.hpp>
+#include <tactus/kit/signal/clip_score.hpp>
 #include <tactus/text/json_text.hpp>
 
 #include <catch2/catch.hpp>

@@ -40,7 +40,7 @@ std::string logOf (const fs::path& folder)
     for (int k = 0; k < logged_ticks; ++k)
     {
         run.tick();
-        if (k % 50 == 0) run.attend();
+        if (k % 50 == 0) run.poll();
     }
     REQUIRE (run.finish());
     return log;

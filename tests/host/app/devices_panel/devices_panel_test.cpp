@@ -33,7 +33,7 @@ struct Rig
     bool until (F&& isSo)
     {
         return board.until ([&] {
-            run.attend();
+            run.poll();
             panel.refresh();
             return isSo();
         });

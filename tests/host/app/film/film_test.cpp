@@ -222,7 +222,7 @@ TEST_CASE ("the button saves what the scene showed, while the run continues", "[
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (60);
         while (! isSo() && std::chrono::steady_clock::now() < end)
         {
-            playback.attend();
+            playback.poll();
             panel.refresh();
             std::this_thread::sleep_for (std::chrono::milliseconds (5));
         }
@@ -276,13 +276,13 @@ TEST_CASE ("a film is made of the scene while it is hidden\\, too", "[app][film]
     playback.start ({ LiveRun::Hand::Kind::path, "stroke" });
     auto& tape = playback.run().film();
     const auto attend = [&] {
-        playback.attend();
+        playback.poll();
         panel.refresh();
         std::this_thread::sleep_for (std::chrono::milliseconds (5));
     };
     const auto until = [&] (auto&& isSo) {
         for (int i = 0; i < 12000 && ! isSo(); ++i)
-            attend();
+            poll();
         return isSo();
     };
     REQUIRE (until ([&] { return playback.run().status() && playback.run().status()->ticks > 2000; }));

@@ -47,7 +47,7 @@ struct FitRig
     {
         for (int i = 0; i < 4000 && panel().isFitting(); ++i)
         {
-            panel().attend();
+            panel().poll();
             juce::Thread::sleep (5);
         }
         REQUIRE_FALSE (panel().isFitting());

@@ -5,7 +5,7 @@
 #include <host/app/inspector/table_row.hpp>
 #include <host/app/model/controlled_param.hpp>
 
-#include <tactus/graph/text.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/plan/compile.hpp>
 
 #include <catch2/catch.hpp>

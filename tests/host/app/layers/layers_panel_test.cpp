@@ -173,7 +173,7 @@ TEST_CASE ("during a run, the strips show the level after gain, and the spectrum
     for (int i = 0; i < 400 && (strongest < 0.05 || sounded == 0.0); ++i)
     {
         std::this_thread::sleep_for (std::chrono::milliseconds (10));
-        rig.live_run->attend();
+        rig.live_run->poll();
         rig.panel->refresh();
         strongest = std::max (strongest, rig.panel->layer (1).meter().peak());
         for (const double p : rig.panel->layer (1).bands().power)
@@ -223,7 +223,7 @@ TEST_CASE ("the master strip shows the gain reduction of the ceiling", "[layers]
     for (int i = 0; i < 200 && rig.panel->mix()->reduction() == 0.0; ++i)
     {
         std::this_thread::sleep_for (std::chrono::milliseconds (10));
-        rig.live_run->attend();
+        rig.live_run->poll();
         rig.panel->refresh();
     }
     CHECK (rig.panel->mix()->reduction() == Approx (20.0 * std::log10 (2.0)));

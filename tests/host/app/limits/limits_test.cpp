@@ -141,7 +141,7 @@ TEST_CASE ("the lights follow edits, devices and the graph that is open", "[app]
     const auto settled = [&] {
         for (int i = 0; i < 4000; ++i)
         {
-            watch.attend();
+            watch.poll();
             feed.refresh();
             light.show (watch.list());
             if (i > 10 && watch.isUpToDate()) return true;
@@ -189,14 +189,14 @@ TEST_CASE ("closing waits for a running check, and a series of edits ends with a
     for (int k = 0; k < 40; ++k)
     {
         rig.document.perform (graph::SetParam { "", "wall", "stiffness", 4000.0 - 50.0 * k });
-        watch.attend();
+        watch.poll();
         std::this_thread::sleep_for (std::chrono::milliseconds (5));
         CHECK_FALSE (watch.isUpToDate());
     }
     rig.document.perform (graph::SetParam { "", "wall", "stiffness", 100.0 });
     for (int i = 0; i < 4000 && ! watch.isUpToDate(); ++i)
     {
-        watch.attend();
+        watch.poll();
         std::this_thread::sleep_for (std::chrono::milliseconds (5));
     }
     CHECK (watch.list().is_checked);

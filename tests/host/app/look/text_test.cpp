@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/look/look.hpp>
-#include <host/app/look/text.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

@@ -31,7 +31,7 @@ struct TrialRig
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (20);
         while (! isSo() && std::chrono::steady_clock::now() < end)
         {
-            playback.attend();
+            playback.poll();
             std::this_thread::sleep_for (std::chrono::milliseconds (2));
         }
         return isSo();

@@ -121,10 +121,10 @@ struct Window final : private Application, public juce::Component
     void paint (juce::Graphics& g) override { g.fillAll (juce::Colours::black); }
 
     /// Handles messages for 10 ms, then does what the timer of the real window does.
-    void attend()
+    void poll()
     {
         juce::MessageManager::getInstance()->runDispatchLoopUntil (10);
-        playback.attend();
+        playback.poll();
         strip.refresh();
         if (const auto why = direct.follow (strip, strip.stopPlace())) FAIL (why->text);
     }
@@ -133,7 +133,7 @@ struct Window final : private Application, public juce::Component
     bool until (F&& isSo)
     {
         for (const auto end = std::chrono::steady_clock::now() + 20s; ! isSo() && std::chrono::steady_clock::now() < end;)
-            attend();
+            poll();
         return isSo();
     }
 
@@ -200,7 +200,7 @@ TEST_CASE ("on a screen: Shift+Esc", "[.screen]")
     std::this_thread::sleep_for (2s);   // the message thread is still stuck
     CHECK (w.force() == 0.0);
 
-    w.attend();
+    w.poll();
     CHECK_FALSE (w.run().canRearm());   // the pause before a REARM counts from when the window notices the stop
     REQUIRE (w.until ([&] { return w.run().canRearm(); }));
     CHECK (w.run().isStoppedForGood());
@@ -228,13 +228,13 @@ TEST_CASE ("on a screen: a click on STOP", "[.screen]")
     std::this_thread::sleep_for (1s);
     const auto shown = std::chrono::steady_clock::now();
     for (int i = 0; i < 10; ++i)
-        w.attend();
+        w.poll();
     CHECK_FALSE (w.run().isWanted());
     CHECK_FALSE (w.run().isRunning());
 
     xdo ("click 1");   // the button has been START for less than a second
     std::this_thread::sleep_for (50ms);
-    w.attend();
+    w.poll();
     if (std::chrono::steady_clock::now() - shown < 950ms) CHECK_FALSE (w.run().isWanted());   // otherwise the machine was too slow for this test
     const auto later = std::chrono::steady_clock::now() + 1200ms;
     w.until ([&] { return std::chrono::steady_clock::now() > later; });
@@ -260,13 +260,13 @@ TEST_CASE ("on a screen: a covered STOP", "[.screen]")
     cover.setVisible (true);
     cover.toFront (false);
     for (int i = 0; i < 20; ++i)
-        w.attend();
+        w.poll();
     xdo ("mousemove " + w.stopPlace() + " click 1");
     std::this_thread::sleep_for (200ms);
     CHECK (w.force() == 2.0);
     cover.removeFromDesktop();
     for (int i = 0; i < 20; ++i)
-        w.attend();
+        w.poll();
     xdo ("click 1");
     CHECK (Window::untilStuck ([&] { return ! w.run().isRunning(); }));
 }
@@ -321,7 +321,7 @@ TEST_CASE ("a press of the stop switch before a run begins is not lost", "[app][
     is_emergency ? playback.stopSwitch().emergencyStop() : playback.stopSwitch().stop();
     playback.restart();   // a click on START, made before the press but handled after it
     CHECK_FALSE (playback.run().isWanted());
-    playback.attend();
+    playback.poll();
     CHECK_FALSE (playback.run().isRunning());
 
     playback.restart();

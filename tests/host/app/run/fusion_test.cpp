@@ -30,7 +30,7 @@ bool until (LiveRun& p, F&& isSo)
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (300);
     while (! isSo() && std::chrono::steady_clock::now() < end)
     {
-        p.attend();
+        p.poll();
         std::this_thread::sleep_for (std::chrono::milliseconds (2));
     }
     return isSo();
@@ -47,7 +47,7 @@ struct Forces
     std::uint64_t end() const { return begin + ticks.size(); }
 };
 
-/// Plays until `isDone`, which gets the number of recorded ticks and is called before each attend().
+/// Plays until `isDone`, which gets the number of recorded ticks and is called before each poll().
 Forces play (LiveRun& p, const std::function<bool (std::uint64_t)>& isDone)
 {
     Traces::Client probe { p.traces() };
@@ -77,7 +77,7 @@ TEST_CASE ("the window fuses what runs, an edit runs by the plan at once, and is
     REQUIRE (until (p, [&] { return isFused (p); }));
 
     REQUIRE (rig.document.perform (graph::SetParam { "", "drag", "mu", Json (0.5) }));
-    p.attend();
+    p.poll();
     CHECK (p.fusion() == "plan");
     CHECK (until (p, [&] { return isFused (p); }));   // from the cache: the value of a parameter is not part of the code
 

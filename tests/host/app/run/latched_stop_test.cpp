@@ -44,7 +44,7 @@ struct Rig
         for (int times = 0; times < 20; times = isSo() ? times + 1 : 0)
         {
             if (std::chrono::steady_clock::now() > end) return false;
-            playback.attend();
+            playback.poll();
             std::this_thread::sleep_for (std::chrono::milliseconds (2));
         }
         return true;
@@ -115,7 +115,7 @@ TEST_CASE ("only START and REARM end a latched stop: no press into the tool view
     CHECK (r.until ([&] { return r.run.isStoppedForGood(); }));
     for (int k = 0; k < 50; ++k)
     {
-        r.playback.attend();
+        r.playback.poll();
         REQUIRE (r.run.status()->force == 0.0);
         std::this_thread::sleep_for (std::chrono::milliseconds (1));
     }

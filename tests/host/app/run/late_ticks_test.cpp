@@ -123,7 +123,7 @@ TEST_CASE ("with the scene and the scopes on the screen, ticks are late no more 
             while (Clock::now() < end)
             {
                 const auto next = Clock::now() + picture;
-                playback.attend();
+                playback.poll();
                 if (is_shown)
                 {
                     panel.refresh();

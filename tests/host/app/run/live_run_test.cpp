@@ -39,7 +39,7 @@ bool until (
     while (! isSo() && std::chrono::steady_clock::now() < end)
     {
         meanwhile();
-        p.attend();
+        p.poll();
         std::this_thread::sleep_for (std::chrono::milliseconds (2));
     }
     return isSo();
@@ -117,7 +117,7 @@ TEST_CASE ("stop removes the forces, start restores them, and an edit does not r
     REQUIRE (until (p, [&] { return ! p.isRunning(); }));
     CHECK (p.status()->force == 0.0);
     rig.hand().key ("b");
-    p.attend();
+    p.poll();
     CHECK_FALSE (p.isRunning());
     p.start (LiveRun::Hand::pointer());
     CHECK (until (p, [&] { return p.isRunning() && p.tool().has_value(); }));
@@ -140,7 +140,7 @@ TEST_CASE ("the emergency stop removes the forces while the graph keeps running,
     REQUIRE (until (p, [&] { return p.status()->ticks > tick + 400; }));
     CHECK (force() == 0.0);
     rig.hand().key ("b");   // an edit does not bring the force back
-    p.attend();
+    p.poll();
     CHECK (p.isStoppedForGood());
 
     rig.document.perform (graph::SetHeader { .rate_hz = 5000.0 });   // nor does an edit that restarts the run

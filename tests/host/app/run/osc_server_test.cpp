@@ -36,8 +36,8 @@ struct Rig
         const auto end = std::chrono::steady_clock::now() + 20s;
         while (! isSo() && std::chrono::steady_clock::now() < end)
         {
-            live_run.attend();
-            server.attend();
+            live_run.poll();
+            server.poll();
             std::this_thread::sleep_for (2ms);
         }
         return isSo();
@@ -146,7 +146,7 @@ TEST_CASE ("random packets do not harm the window", "[app][osc]")
         if (i % 3 == 0) bytes.insert (0, std::string ("/tactus/param\0\0\0,sf\0", 20));
         if (i % 7 == 0) bytes.insert (0, std::string ("#bundle\0\0\0\0\0\0\0\0\1", 16));
         socket.write ("127.0.0.1", r.server.port(), bytes.data(), static_cast<int> (bytes.size()));
-        if (i % 500 == 0) r.server.attend();
+        if (i % 500 == 0) r.server.poll();
     }
     std::optional<OSCMessage> status;   // packets that do not fit into the queue are dropped
     CHECK (r.until ([&] {

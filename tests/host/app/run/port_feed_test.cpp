@@ -176,7 +176,7 @@ bool until (LiveRun& live_run, LiveFeed& live, F&& isSo)
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (300);
     while (! isSo() && std::chrono::steady_clock::now() < end)
     {
-        live_run.attend();
+        live_run.poll();
         live.refresh();
         std::this_thread::sleep_for (std::chrono::milliseconds (2));
     }

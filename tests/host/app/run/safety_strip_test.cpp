@@ -38,7 +38,7 @@ TEST_CASE ("REARM never appears in the place of STOP", "[app][run]")
     const auto until = [&] (auto isSo) {
         for (int i = 0; i < 2000; ++i)
         {
-            run.attend();
+            run.poll();
             strip.refresh();
             if (isSo()) return true;
             std::this_thread::sleep_for (std::chrono::milliseconds (5));
@@ -86,7 +86,7 @@ TEST_CASE ("while an edit has errors, the strip says that the last valid version
     int shown = 0;
     strip.onProblems = [&] { ++shown; };
     const auto refresh = [&] {
-        playback.attend();
+        playback.poll();
         strip.refresh();
         juce::Image picture (juce::Image::RGB, strip.getWidth(), strip.getHeight(), true);
         juce::Graphics g (picture);

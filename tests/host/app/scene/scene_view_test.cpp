@@ -60,7 +60,7 @@ struct Rig
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (10);
         while (! isSo() && std::chrono::steady_clock::now() < end)
         {
-            playback.attend();
+            playback.poll();
             panel.refresh();
             std::this_thread::sleep_for (std::chrono::milliseconds (2));
         }

@@ -301,7 +301,7 @@ TEST_CASE ("scopes: a real-time run is shown, and stays shown when a port is add
         for (int i = 0; i < 1000 && ticksOf (port) < ticks; ++i)
         {
             juce::Thread::sleep (10);
-            b.live_run.attend();
+            b.live_run.poll();
             b.panel->refresh();
         }
         return ticksOf (port) >= ticks;

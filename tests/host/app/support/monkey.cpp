@@ -100,7 +100,7 @@ std::string Monkey::act()
     return {};
 }
 
-void Monkey::attend (int ms)
+void Monkey::poll (int ms)
 {
     juce::MessageManager::getInstance()->runDispatchLoopUntil (ms);
     juce::ModifierKeys::currentModifiers = {};
@@ -117,7 +117,7 @@ void Monkey::settle()
     for (int i = 0; i < 20 && juce::ModalComponentManager::getInstance()->getNumModalComponents() > 0; ++i)
     {
         juce::ModalComponentManager::getInstance()->cancelAllModalComponents();
-        attend (1);
+        poll (1);
     }
     if (view->asked().isOpen()) view->asked().cancel();
     view->endPreview();

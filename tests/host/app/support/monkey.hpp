@@ -48,7 +48,7 @@ public:
     std::string act();
 
     /// Lets the window work for this time, then closes dialogs of JUCE.
-    void attend (int ms);
+    void poll (int ms);
 
     void paint();
 

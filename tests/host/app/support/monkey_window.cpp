@@ -55,7 +55,7 @@ std::string Monkey::typeSomewhere()
 std::string Monkey::wait()
 {
     const int ms = 1 + upTo (40);
-    attend (ms);
+    poll (ms);
     return "wait " + std::to_string (ms) + " ms";
 }
 

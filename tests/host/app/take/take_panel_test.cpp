@@ -60,7 +60,7 @@ struct TakeRig
     {
         for (int i = 0; i < 6000 && ! isSo(); ++i)
         {
-            playback->attend();
+            playback->poll();
             panel->refresh();
             std::this_thread::sleep_for (std::chrono::milliseconds (5));
         }

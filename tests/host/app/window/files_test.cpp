@@ -280,7 +280,7 @@ TEST_CASE ("a drag is autosaved while it goes on: a step that comes while anothe
     for (int i = 0; i < 300; ++i)
     {
         d.edit (1e-3 * i);
-        if (i % 10 == 0) d.files->attend();
+        if (i % 10 == 0) d.files->poll();
     }
     d.files->finishAutosave();
     CHECK (d.autosaved()->graph == writeGraph (d.document.graph()));
@@ -302,7 +302,7 @@ TEST_CASE ("writing an autosave does not keep the thread of the window")
     }
     d.edit (0.9);
     d.edit (0.8);
-    d.files->attend();   // returns, as do the edits
+    d.files->poll();   // returns, as do the edits
     for (const auto& entry : fs::directory_iterator (d.folder / "sessions", failed))
     {
         std::ifstream reader (entry.path() / "kept.json");
@@ -321,17 +321,17 @@ TEST_CASE ("an edit during a run is autosaved before it runs, and counts as a tr
     d.files->open (wood);
     CHECK (d.isInTrial());
     d.now += 11.0;
-    d.files->attend();
+    d.files->poll();
     CHECK_FALSE (d.isInTrial());
 
     d.edit (0.9);
     CHECK (d.isInTrial());
     CHECK (d.autosaved()->graph == writeGraph (d.document.graph()));
     d.now += 5.0;
-    d.files->attend();
+    d.files->poll();
     CHECK (d.isInTrial());
     d.runs = false;   // stopped by the user: it did not crash the program
-    d.files->attend();
+    d.files->poll();
     CHECK_FALSE (d.isInTrial());
 }
 

@@ -43,7 +43,7 @@ struct Opened
     {
         for (int i = 0; i < 4000 && ! isSo(); ++i)
         {
-            view->run().attend();
+            view->run().poll();
             juce::Thread::sleep (5);
         }
         return isSo();

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <tactus/plan/flat/flat.hpp>
+
+namespace tactus::plan
+{
+
+/// Reads the gain of a wire. Reports an error (wire/gain) and returns false if the gain is not a number.
+bool readGain (const graph::Wire&, FlatWire&, Flat&);
+
+/// True if the ends of a wire go together. If not, reports the first of these errors: wire/which_entry, wire/onto_choice,
+/// wire/add_to_input, wire/width. unit_check checks the units.
+bool wireFits (const FlatWire&, Flat&);
+
+/// True if several values of this quantity can be summed, so that several wires may end at one input.
+constexpr bool addsUp (Quantity q) noexcept { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; }
+
+}   // namespace tactus::plan

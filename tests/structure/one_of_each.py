@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Checks that what must be done in one way only is done in one place.
+
+Usage: one_of_each.py [SOURCE_FOLDER]. Prints FILE:LINE for each problem. Exit status 1 if there are any.
+
+Each row of ONLY is a step of a live run, a pattern of the code that takes it, and the files of host/ where this may be. Each pattern must occur in
+the first file, so that a row cannot rot."""
+
+import pathlib
+import re
+import sys
+
+SESSION = "host/live/live_session.cpp"
+ONLY = [
+    ("choosing a clock", r"host::chooseClock \(", ["host/live/role_devices.cpp"]),
+    ("opening the device of a session", r"host::openBound \(", ["host/live/role_devices.cpp"]),
+    ("opening a real device", r"hid::openDevice \(", ["host/live/hardware.cpp", "host/sessions/awaited_device.cpp"]),
+    ("opening the devices of a live run", r"running->openDevices \(", [SESSION]),
+    ("making the clock of a device", r"make_unique<RunClock>", [SESSION]),
+    ("starting the ticks", r"running->start \(", [SESSION]),
+    ("starting a log", r"startLog \(", [SESSION]),
+    ("looking at alarms of the failsafe", r"Failsafe::alarms \(|Failsafe::alarms\(\)(?! noexcept)", [SESSION]),
+    ("arming a device", r"= Failsafe::arm \(", ["host/hid_link/hidapi_system.cpp", "host/device_plugins/driver_about.cpp"]),
+    ("rearming a run", r"engine\(\)\.rearm\(\)", [SESSION]),
+    ("stopping an engine", r"engine\(\)\.emergencyStop\(\)", [SESSION]),
+    ("watching the health of devices", r"= HealthWatch \{", [SESSION]),
+    ("fusing what runs", r"fusing->poll \(", [SESSION]),
+]
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2])
+    texts = {path.relative_to(root).as_posix(): path.read_text(encoding="utf-8").splitlines() for path in (root / "host").rglob("*.[ch]pp")}
+    found = []
+    for what, pattern, allowed in ONLY:
+        if not any(re.search(pattern, line) for line in texts.get(allowed[0], [])):
+            found.append(f"{allowed[0]}: {what} is no longer here; correct the row of one_of_each.py")
+        for name, lines in sorted(texts.items()):
+            found += [f"{name}:{number}: {what} belongs in {allowed[0]}" for number, line in enumerate(lines, 1)
+                      if name not in allowed and re.search(pattern, line) and not line.lstrip().startswith("///")]
+    print("\n".join(found) or f"{len(ONLY)} steps of a live run have one place each")
+    return 1 if found else 0
+
+
+sys.exit(main())
