@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "recording.hpp"
+#include "recorded_text.hpp"
 
 #include <tactus/file/text_file.hpp>
-#include <tactus/kit/at.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/units.hpp>
 
@@ -18,60 +18,23 @@ namespace
 {
 constexpr double gram_force = 9.80665e-3, standard_gravity = 9.80665;
 
-std::string trimmed (const std::string& s)
+/// Units that some programs write in full, as their symbols: "um" for "Micrometer", "s" for "sec". Other text stays as it is.
+std::string symbolIn (const std::string& unit)
 {
-    const auto from = s.find_first_not_of (" \t\r\"#"), to = s.find_last_not_of (" \t\r\"");
-    return from == std::string::npos ? "" : s.substr (from, to - from + 1);
+    std::string word = unit;
+    std::ranges::transform (word, word.begin(), [] (unsigned char c) { return static_cast<char> (std::tolower (c)); });
+    if (word.size() > 4 && word.ends_with ('s')) word.pop_back();
+    if (word == "sec") return "s";
+    if (word == "micron") return "um";
+    constexpr std::pair<const char*, const char*> prefixes[] { { "nano", "n" }, { "micro", "u" }, { "milli", "m" }, { "centi", "c" }, { "", "" } };
+    constexpr std::pair<const char*, const char*> units[] { { "meter", "m" }, { "metre", "m" }, { "newton", "N" }, { "second", "s" } };
+    for (const auto& [prefix, letter] : prefixes)
+        for (const auto& [name, symbol] : units)
+            if (word == std::string (prefix) + name) return std::string (letter) + symbol;
+    return unit;
 }
 
-std::vector<std::string> split (const std::string& line, char at)
-{
-    std::vector<std::string> parts { "" };
-    for (const char c : line)
-        if (c == at)
-            parts.emplace_back();
-        else
-            parts.back() += c;
-    return parts;
-}
-
-/// The name of a column that has none in the file.
-std::string columnName (std::size_t index) { return "column " + std::to_string (index + 1); }
-
-/// A header or a row as readTable expects it. Programs such as pandas leave the name of the first column empty.
-std::string withCommas (const std::string& line, char separator, bool is_header)
-{
-    std::string joined;
-    if (separator == ' ')
-    {
-        for (const char c : trimmed (line))
-            if (c != ' ' && c != '\t')
-                joined += c;
-            else if (joined.back() != ',')
-                joined += ',';
-        return joined;
-    }
-    const auto parts = split (line, separator);
-    for (std::size_t i = 0; i < parts.size(); ++i)
-    {
-        const auto part = trimmed (parts[i]);
-        joined += (i > 0 ? "," : "") + (is_header && part.empty() ? columnName (i) : part);
-    }
-    return joined;
-}
-
-bool startsWithNumber (const std::string& line)
-{
-    const auto start = trimmed (line);
-    return ! start.empty() && (std::isdigit (static_cast<unsigned char> (start[0])) || start[0] == '-' || start[0] == '+' || start[0] == '.');
-}
-
-char separatorOf (const std::string& line)
-{
-    for (const char c : { ',', ';', '\t' })
-        if (line.find (c) != std::string::npos) return c;
-    return ' ';
-}
+bool isUnit (const std::string& text) { return text == "gf" || text == "g" || parseMeasure ("1 " + symbolIn (text)).has_value(); }
 }   // namespace
 
 std::string unitIn (const std::string& column)
@@ -79,15 +42,15 @@ std::string unitIn (const std::string& column)
     for (const auto& [open, close] : { std::pair { '[', ']' }, std::pair { '(', ')' } })
         if (const auto from = column.find (open), to = column.rfind (close); from != std::string::npos && to != std::string::npos && from < to)
             return trimmed (column.substr (from + 1, to - from - 1));
-    const auto from = column.rfind ('_');
+    const auto from = column.find_last_of ("_ ");
     if (from == std::string::npos) return "";
     const auto unit = column.substr (from + 1);
-    return unit == "gf" || unit == "g" || parseMeasure ("1 " + unit) ? unit : "";
+    return isUnit (unit) ? unit : "";
 }
 
 std::optional<double> factorOf (const std::string& text, const std::string& si_unit)
 {
-    const auto unit = trimmed (text);
+    const auto unit = symbolIn (trimmed (text));
     if (unit == "gf" && si_unit == "N") return gram_force;
     if (unit == "g" && si_unit == "m/s2") return standard_gravity;
     const auto measure = parseMeasure (startsWithNumber (unit) ? unit : "1 " + unit), si = parseMeasure ("1 " + si_unit);
@@ -97,22 +60,9 @@ std::optional<double> factorOf (const std::string& text, const std::string& si_u
 
 namespace
 {
-/// A recording as readTable expects it, and the line in the file of each of its lines.
-struct PlainText
-{
-    std::string text {};
-    std::vector<std::size_t> lines {};   // from 1
-
-    void add (const std::string& line, std::size_t index)
-    {
-        text += line + '\n';
-        lines.push_back (index + 1);
-    }
-};
-
 /// Replaces the line number in the place of a message, name:line:column, by that in the file. The column may differ there, so it is left
 /// out.
-Message inFile (Message message, const std::string& name, const PlainText& plain)
+Message inFile (Message message, const std::string& name, const RecordedText& plain)
 {
     if (! message.where.starts_with (name + ":")) return message;
     const auto line = std::strtoul (message.where.c_str() + name.size() + 1, nullptr, 10);
@@ -126,30 +76,10 @@ Result<Table> readRecording (const std::filesystem::path& path)
     const auto name = path.string();
     const auto text = readFile (path);
     if (! text) return readTable (path);   // for its message
-    const auto lines = split (*text, '\n');
-    std::size_t header = 0;
-    while (header < lines.size() && trimmed (lines[header]).empty())
-        ++header;
-    const auto has_names = [&] { return std::ranges::none_of (split (lines[header], ','), [] (const auto& part) { return trimmed (part).empty(); }); };
-    const bool is_plain = header < lines.size() && separatorOf (lines[header]) == ',' && header + 1 < lines.size() && separatorOf (lines[header + 1]) == ','
-                          && lines[header].find ('#') == std::string::npos && has_names();
-    if (is_plain || header + 1 >= lines.size()) return readTable (*text, name);
-
-    PlainText plain;
-    const auto first_row = startsWithNumber (lines[header]) ? header : header + 1;
-    auto names = withCommas (lines[header], separatorOf (lines[header]), true);
-    if (first_row == header)
-    {
-        const auto count = at (std::ranges::count (withCommas (lines[header], separatorOf (lines[header]), false), ','));
-        names = columnName (0);
-        for (std::size_t i = 1; i <= count; ++i)
-            names += "," + columnName (i);
-    }
-    plain.add (names, header);
-    for (std::size_t i = first_row; i < lines.size(); ++i)
-        if (! trimmed (lines[i]).empty()) plain.add (withCommas (lines[i], separatorOf (lines[i]), false), i);
-    auto table = readTable (plain.text, name);
-    if (! table) return inFile (table.error(), name, plain);
+    const auto plain = tableIn (*text);
+    if (! plain) return readTable (*text, name);
+    auto table = readTable (plain->text, name);
+    if (! table) return inFile (table.error(), name, *plain);
     return table;
 }
 

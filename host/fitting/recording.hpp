@@ -29,11 +29,12 @@ struct ColumnChoice
     std::map<std::string, double> units {};        ///< what 1 means, in SI
 };
 
-/// Reads numbers under a header row, separated by commas, semicolons, tabs or spaces. The header may start with #.
+/// Reads numbers under a header row, separated by commas, semicolons, tabs or spaces. The header may start with #, lines about the measurement may
+/// stand above it, and rows may end with empty fields: see tableIn.
 /// Errors: those of readTable. [any thread]
 Result<Table> readRecording (const std::filesystem::path&);
 
-/// The unit in the name of a column, such as "mm" for "Position [mm]" or x_mm; empty if there is none.
+/// The unit in the name of a column, such as "mm" for "Position [mm]", "Position mm" or x_mm; empty if there is none.
 std::string unitIn (const std::string& column);
 
 /// What 1 in a column means in an SI unit: 0.001 for "mm" or "1 mm" in m, 0.5 for "0.5 N" in N. Empty if the text does not fit.

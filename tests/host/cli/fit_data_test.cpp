@@ -104,3 +104,19 @@ TEST_CASE ("key switches: the fitted curves take the recorded work per stroke wi
         CHECK (work == Approx (fit->work).epsilon (0.05));
     }
 }
+
+TEST_CASE ("the file of a profilometer, with its preamble and empty columns, is read as it is", "[fit][data]")
+{
+    const auto folder = test::sharedData ("topography_contactengineering");
+    if (folder.empty()) return;
+    const auto table = recordingIn (folder + "/dektak-1.csv");
+    CHECK (table.rows() == 9600);
+    CHECK (host::guessKind (table) == host::FitKind::grating);
+    const auto position = columnIn (table, host::FitKind::grating, "position"), height = columnIn (table, host::FitKind::grating, "height");
+    CHECK (position.back() == Approx (9599 * 0.156e-6).epsilon (0.01));
+    CHECK (std::abs (height.back() - height.front()) == Approx (16.6e-6).epsilon (0.02));   // tilt
+    const auto fit = host::fitRecording (host::FitKind::grating, table, "dektak-1.csv", {});
+    INFO ((fit ? "" : describe (fit.error())));
+    REQUIRE (fit);
+    CHECK_FALSE (fit->report.is_good);   // a step on a flat surface is no grating
+}
