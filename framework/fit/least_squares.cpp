@@ -152,14 +152,13 @@ std::vector<bool> isSet (const LeastSquaresFit& fit)
     return set;
 }
 
+namespace
+{
 /// Independent errors e pass an all-pole filter and become the residuals r. So the influence of e on an estimate is the influence of r, filtered
 /// backwards in time. Each fitted parameter takes up the error of one independent row. If rows depend on one another, several of them count as
 /// one independent row.
-Eigen::MatrixXd covarianceOf (const Eigen::MatrixXd& influence, const Eigen::VectorXd& residual, Eigen::Index parameters, double size)
+Eigen::MatrixXd covarianceOfRows (const Eigen::MatrixXd& influence, const Eigen::VectorXd& residual, Eigen::Index parameters)
 {
-    constexpr double finest = 1e-6;   // error of a sensor over the size of the signal
-    if (residual.squaredNorm() <= static_cast<double> (residual.size()) * finest * finest * size * size)
-        return finest * finest * size * size * influence * influence.transpose();
     const auto n = residual.size(), p = influence.rows();
     const auto dependence = dependenceOf (residual);
     const double independent = independentRows (residual), taken = std::min (static_cast<double> (parameters), 0.8 * independent);
@@ -176,6 +175,40 @@ Eigen::MatrixXd covarianceOf (const Eigen::MatrixXd& influence, const Eigen::Vec
             if (const auto later = s + 1 + static_cast<Eigen::Index> (k); later < n + before) filtered.col (s) += dependence.a[k] * filtered.col (later);
     }
     return variance * filtered * filtered.transpose();
+}
+}   // namespace
+
+void widenByParts (Eigen::MatrixXd& covariance, const Eigen::MatrixXd& of_quarters)
+{
+    Eigen::VectorXd factor = Eigen::VectorXd::Ones (covariance.rows());
+    const auto disagree = [&] (const Eigen::MatrixXd& parts) {
+        const auto count = static_cast<double> (parts.cols());
+        const Eigen::VectorXd variance = (parts.colwise() - parts.rowwise().mean()).rowwise().squaredNorm() * count / (count - 1.0);
+        for (Eigen::Index i = 0; i < factor.size(); ++i)
+            if (covariance (i, i) > 0.0 && std::isfinite (variance[i])) factor[i] = std::max (factor[i], std::sqrt (variance[i] / covariance (i, i)));
+    };
+    disagree (of_quarters);
+    Eigen::MatrixXd halves (of_quarters.rows(), 2);
+    halves << of_quarters.leftCols (quarters / 2).rowwise().sum(), of_quarters.rightCols (quarters / 2).rowwise().sum();
+    disagree (halves);
+    covariance = (factor.asDiagonal() * covariance * factor.asDiagonal()).eval();
+}
+
+Eigen::MatrixXd covarianceOf (const Eigen::MatrixXd& influence, const Eigen::VectorXd& residual, Eigen::Index parameters, double size)
+{
+    constexpr double finest = 1e-6;   // error of a sensor over the size of the signal
+    if (residual.squaredNorm() <= static_cast<double> (residual.size()) * finest * finest * size * size)
+        return finest * finest * size * size * influence * influence.transpose();
+    Eigen::MatrixXd covariance = covarianceOfRows (influence, residual, parameters);
+    const auto n = residual.size();
+    Eigen::MatrixXd of_quarters (influence.rows(), quarters);
+    for (Eigen::Index q = 0; q < quarters; ++q)
+    {
+        const auto from = n * q / quarters, count = n * (q + 1) / quarters - from;
+        of_quarters.col (q) = influence.middleCols (from, count) * residual.segment (from, count);
+    }
+    widenByParts (covariance, of_quarters);
+    return covariance;
 }
 
 Eigen::MatrixXd covarianceOf (const LeastSquaresFit& fit)

@@ -163,6 +163,20 @@ public:
         return g;
     }
 
+    /// The power of each line over that of the model, minus 1.
+    VectorXd excess (const VectorXd& x) const
+    {
+        const VectorXd a = coefficients (x);
+        const double variance = math::exp (x[order]), level = math::exp (x[order + 1]);
+        VectorXd over (turns.cosine.rows());
+        for (Index i = 0; i < over.size(); ++i)
+        {
+            const double re = 1.0 - turns.cosine.row (i).head (order).dot (a.transpose()), im = turns.sine.row (i).head (order).dot (a.transpose());
+            over[i] = data.power[static_cast<std::size_t> (i)] / (variance / (re * re + im * im) + level) - 1.0;
+        }
+        return over;
+    }
+
 private:
     void set (const VectorXd& x, VectorXd* residual, MatrixXd* jacobian) const
     {
@@ -197,6 +211,45 @@ private:
     Index order;
     const FitCourse* course;
 };
+
+/// Cuts stretches into parts of as many rows each.
+std::vector<std::vector<std::span<const double>>> quartersOf (const std::vector<std::span<const double>>& stretches)
+{
+    constexpr std::size_t count_of_parts = quarters, shortest = 32;   // shorter pieces have too few lines
+    std::size_t rows = 0, done = 0;
+    for (const auto y : stretches)
+        rows += y.size();
+    std::vector<std::vector<std::span<const double>>> parts (count_of_parts);
+    for (auto y : stretches)
+        while (! y.empty())
+        {
+            const auto part = std::min (count_of_parts - 1, done * count_of_parts / rows), end = rows * (part + 1) / count_of_parts;
+            const auto count = part + 1 < count_of_parts ? std::clamp<std::size_t> (end - done, 1, y.size()) : y.size();
+            if (count >= shortest) parts[part].push_back (y.first (count));
+            y = y.subspan (count);
+            done += count;
+        }
+    return parts;
+}
+
+/// What each quarter of the rows contributes to the estimates, by one step of Fisher's scoring. `inverse` is that of the information of all rows, in
+/// which the floor counts in units of `power`.
+MatrixXd contributionsOf (const std::vector<std::span<const double>>& stretches, const VectorXd& x, Index order, double power, const MatrixXd& inverse)
+{
+    const auto parts = quartersOf (stretches);
+    MatrixXd of_quarters = MatrixXd::Zero (inverse.rows(), static_cast<Index> (parts.size()));
+    for (std::size_t q = 0; q < parts.size(); ++q)
+    {
+        const auto data = periodogramOf (parts[q]);
+        if (data.power.empty()) return MatrixXd::Zero (inverse.rows(), of_quarters.cols());
+        const Turns turns (data, static_cast<int> (order));
+        const SpectrumSearch search (data, turns, order, nullptr);
+        MatrixXd g = search.slopes (x, false);
+        g.col (order + 1) *= power;
+        of_quarters.col (static_cast<Index> (q)) = inverse * (g.transpose() * search.excess (x));
+    }
+    return of_quarters;
+}
 }   // namespace
 
 Periodogram periodogramOf (const std::vector<std::span<const double>>& stretches)
@@ -254,12 +307,9 @@ SpectrumModel fitSpectrum (const Periodogram& data, const std::vector<std::span<
         const VectorXd a = search.coefficients (fit.x);
         least = score;
         best_order = order;
-        best = { { a.begin(), a.end() },
-                 math::exp (fit.x[order]),
-                 math::exp (fit.x[order + 1]),
-                 fit.sum() / n,
-                 data.widening
-                     * (information.eigenvectors() * information.eigenvalues().cwiseInverse().asDiagonal() * information.eigenvectors().transpose()) };
+        const MatrixXd inverse = information.eigenvectors() * information.eigenvalues().cwiseInverse().asDiagonal() * information.eigenvectors().transpose();
+        best = { { a.begin(), a.end() }, math::exp (fit.x[order]), math::exp (fit.x[order + 1]), fit.sum() / n, data.widening * inverse };
+        widenByParts (best.covariance, contributionsOf (stretches, fit.x, order, power, inverse));
         best.covariance.row (order + 1) *= power;
         best.covariance.col (order + 1) *= power;
     }
