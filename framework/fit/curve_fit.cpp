@@ -25,7 +25,6 @@ constexpr std::size_t fewest_branch_rows = 8;
 struct Fitted
 {
     std::vector<double> force, weight;   // in N; the number of rows that each force is based on
-    double drop = 0.0;                   // N
 };
 
 constexpr double straight = 1e-6;   // weight of the second differences, in rows
@@ -93,15 +92,51 @@ void pool (Fitted& fitted)
             before.size += last.size;
         }
     }
-    double highest = 0.0;
     std::size_t i = 0;
     for (const auto& block : blocks)
         for (std::size_t k = 0; k < block.size; ++k, ++i)
-        {
-            highest = std::max (highest, fitted.force[i]);
-            fitted.drop = std::max (fitted.drop, highest - fitted.force[i]);
             fitted.force[i] = std::max (0.0, block.force);
-        }
+}
+
+/// The noise of a row, from its distance to the straight line through its neighbours.
+double noiseOf (const std::vector<double>& f)
+{
+    double squares = 0.0;
+    for (std::size_t i = 2; i < f.size(); ++i)
+        squares += (f[i] - 2.0 * f[i - 1] + f[i - 2]) * (f[i] - 2.0 * f[i - 1] + f[i - 2]);
+    return std::sqrt (squares / (6.0 * static_cast<double> (std::max<std::size_t> (3, f.size()) - 2)));
+}
+
+/// The largest fall of the force as the depth grows, between means over a fortieth of the depth. Falls that may be noise do not count.
+struct Fall
+{
+    double by = 0.0, from = 0.0;   // N
+};
+
+Fall largestFall (const std::vector<double>& d, const std::vector<double>& f, double deepest)
+{
+    constexpr double noisy = 5.0;   // deviations; a fall is the largest of several hundred differences
+    const auto bins = std::clamp<std::size_t> (d.size() / 4, 1, 40);
+    std::vector<double> sum (bins), rows (bins);
+    for (std::size_t i = 0; i < d.size(); ++i)
+    {
+        const auto bin = std::min (bins - 1, static_cast<std::size_t> (d[i] / deepest * static_cast<double> (bins)));
+        sum[bin] += f[i];
+        rows[bin] += 1.0;
+    }
+    const double noise = noiseOf (f);
+    Fall largest;
+    double highest = -std::numeric_limits<double>::infinity(), rows_there = 1.0;
+    for (std::size_t k = 0; k < bins; ++k)
+    {
+        if (rows[k] == 0.0) continue;
+        const double mean = sum[k] / rows[k], by = highest - mean;
+        if (by > largest.by && by > noisy * noise * std::sqrt (1.0 / rows[k] + 1.0 / rows_there)) largest = { by, highest };
+        if (mean <= highest) continue;
+        highest = mean;
+        rows_there = rows[k];
+    }
+    return largest;
 }
 
 /// Straight lines through these forces.
@@ -313,7 +348,11 @@ Result<CurveFit> fitCurve (const RecordedLoop& loop, int points, FitCourse* cour
     const auto branch = [&] (const std::vector<double>& d, const std::vector<double>& f) {
         auto fitted = leastSquares (d, f, spacing, points);
         pool (fitted);
-        fit.drop = std::max (fit.drop, fitted.drop);
+        if (const auto fall = largestFall (d, f, fit.depth_in.back()); fall.by > fit.drop)
+        {
+            fit.drop = fall.by;
+            fit.falls_from = fall.from;
+        }
         auto law = tableOf (spacing, std::move (fitted.force));
         for (std::size_t i = 0; i < d.size(); ++i)
             sum += (f[i] - law (d[i])) * (f[i] - law (d[i]));
@@ -342,7 +381,14 @@ Result<CurveFit> fitCurve (const RecordedLoop& loop, int points, FitCourse* cour
     if (! detail::isCancelled (course)) reportResiduals (fit, points);
     if (detail::isCancelled (course)) return detail::fitCancelled();
     fit.report.picture = pictureOf (fit);
-    judge (fit.report, "Press slowly and along the normal, from the touch to the deepest point and back, and record at least 20 rows per point of the curve.");
+    if (fit.clicks())
+        fit.report.lacking.push_back ("the curve flattens a fall of the recorded force by " + roundedText (fit.drop, 3) + " N, from "
+                                      + roundedText (fit.falls_from, 3) + " N, as in a key that clicks or a sample that bursts");
+    judge (fit.report,
+           fit.clicks() ? "For a key, record the way in and the way out, and use switch_to_graph: its graph keeps the click. For a sample that bursts, use "
+                          "tactus fit blade."
+                        : "Press slowly and along the normal, from the touch to the deepest point and back, and record at least 20 rows per point of the "
+                          "curve.");
     return rows;
 }
 

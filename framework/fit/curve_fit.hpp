@@ -21,10 +21,18 @@ struct CurveFit
     double work = 0.0;            ///< recorded work of the hand on the way in, J
     double residual = 0.0;        ///< root mean square of the recorded forces on the way in minus `in`, and on the way out minus `out`, N
     double drop = 0.0;            ///< the largest fall of the recorded force that the curve flattens, N; 0 if the force never falls with depth
+    double falls_from = 0.0;      ///< the recorded force where this fall begins, N
     double peak = 0.0;            ///< largest recorded force, N
 
     std::vector<double> depth_in {}, force_in {}, depth_out {}, force_out {};   ///< the rows that were used, m and N
     FitReport report {};
+
+    /// True if a hand feels the fall that the curve flattens, so that the curve is not what was recorded.
+    bool clicks() const noexcept
+    {
+        constexpr double felt = 0.05, of_peak = 0.02;   // a hand notices differences of force from about 7 % on
+        return drop > felt * falls_from && drop > of_peak * peak;
+    }
 };
 
 /// Fits a table of force over depth to the contact around the deepest row: straight lines between `points` evenly spaced depths, by least
@@ -32,7 +40,8 @@ struct CurveFit
 /// is the gradient of an energy: a node that plays it is passive, and does not show the recorded hysteresis.
 ///
 /// The rows are in the order of time. Times are not used, so the indentation must be slow. The depth must be 0 at the touch.
-/// `points` is from 2 to 1000. The cross-validation leaves out every fifth of 50 blocks of rows.
+/// `points` is from 2 to 1000. If the recorded force falls by more than a hand notices, the verdict is poor. The cross-validation leaves out every
+/// fifth of 50 blocks of rows.
 ///
 /// Errors: fit/too_short, fit/not_finite, fit/no_contact, fit/pulls, fit/cancelled. [any thread]
 ///

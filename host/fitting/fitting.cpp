@@ -140,14 +140,13 @@ Result<FittedGraph> curve (const Columns& c, const std::string& file, const FitS
     else
         made.details.push_back ("hysteresis  " + shortNumber (1e3 * fit->area, 6) + " mJ, " + shortNumber (100.0 * fit->area / fit->work, 2)
                                 + " % of the work on the way in; the curve is the mean of both ways and loses nothing");
+    if (fit->clicks())
+        made.warnings.push_back (Message::warning (
+            "fit/falls", file, "the recorded force falls by up to " + shortNumber (fit->drop) + " N as the depth grows; the curve is flat there",
+            "for a key that clicks, use switch_to_graph; for a sample that bursts, use tactus fit blade"));
     const auto curves = curvesOf (body);
     made.snippets.push_back ("for deform.plane    \"law\": " + toJson (fit->law).dump());
     made.snippets.push_back ("for deform.surface  \"curves\": " + curves.at ("curves").dump() + ", \"mu\": " + curves.at ("mu").dump());
-    constexpr double much = 0.02;
-    if (fit->drop > much * fit->peak)
-        made.warnings.push_back (Message::warning (
-            "fit/falls", file, "the recorded force falls by up to " + shortNumber (fit->drop) + " N as the depth grows; the curve is flat there",
-            "a curve of deform.surface does not snap: for a button or a cut, see the presets tactile_key and potato_cut"));
     made.report = std::move (fit->report);
     return made;
 }
