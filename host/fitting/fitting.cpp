@@ -37,6 +37,20 @@ std::string sourceOf (FitKind kind, const std::string& file, const FitReport& re
            + shortNumber (100.0 * report.residual / report.size, 2) + " % of the recording, " + (report.is_good ? "good" : "poor");
 }
 
+/// An error if an option gives what the recording contains. One of the two would be ignored.
+Result<> checkGivenOnce (const Columns& c, FitKind kind, const FitSettings& s)
+{
+    const auto refuse = [&] (const std::string& role, double value) -> Result<> {
+        if (! (value > 0.0) || c.at (role).empty()) return {};
+        return Message::error ("fit/given_twice", {}, "--" + role + " gives the " + role + ", but the recording has a column for it",
+                               "leave out --" + role + ", or leave out the column: --column " + role + "=");
+    };
+    if (kind == FitKind::friction) return refuse ("load", s.load);
+    if (kind != FitKind::texture) return {};
+    if (auto speed = refuse ("speed", s.speed); ! speed) return speed;
+    return refuse ("force", s.force);
+}
+
 Result<FittedGraph> friction (const Columns& c, const std::string& file, const FitSettings& s, FitCourse* course)
 {
     auto fit = fitFriction ({ c.at ("position"), c.at ("force"), c.at ("load"), orElse (s.load, 1.0) }, course);
@@ -198,6 +212,7 @@ Result<FittedGraph> fitRecording (FitKind kind, const Table& table, const std::s
 {
     const auto columns = columnsOf (kind, table, file, settings.columns);
     if (! columns) return columns.error();
+    if (auto once = checkGivenOnce (*columns, kind, settings); ! once) return Message::error (once.error().id, file, once.error().text, once.error().remedy);
     auto made = fitted (kind, *columns, file, settings, course);
     if (! made) return Message::error (made.error().id, file, made.error().text, made.error().remedy);
     made->preset.name = std::filesystem::path (file).stem().string();
