@@ -4,7 +4,6 @@
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/kit/math/math.hpp>
-#include <tactus/text/read_number.hpp>
 
 #include <algorithm>
 #include <numbers>
@@ -117,9 +116,6 @@ void setSources (graph::Graph& graph, std::initializer_list<std::pair<const char
 }
 
 constexpr const char* board_guess = "guess: what the simulated device can render";
-
-/// Rounds a number to six digits, which is more than the accuracy of any fit; places along a path need them.
-double tidy (double v, int digits = 6) { return readNumber (shortNumber (v, digits)).value; }
 }   // namespace
 
 graph::Graph frictionPreset (const FrictionFit& fit, const std::string& load_source, const std::string& source)
@@ -222,16 +218,11 @@ graph::Graph bladePreset (const BladeFit& fit, const std::string& source)
 {
     auto graph = graphOf (bladeSketch());
     auto& node = nodeIn (graph, "blade");
-    const auto tidied = [] (Law law) {
-        law.a = tidy (law.a);
-        law.b = tidy (law.b);
-        return toJson (law);
-    };
     node.params = { { "width", tidy (fit.width) },
                     { "toughness", tidy (fit.toughness) },
                     { "rupture_force", std::max (tidy (fit.rupture_force), tidy (fit.width) * tidy (fit.toughness)) } };
-    node.settings["law"] = tidied (fit.law);
-    if (fit.cracked_law) node.settings["cracked_law"] = tidied (fit.cracked_law);
+    node.settings["law"] = toJson (fit.law);
+    if (fit.cracked_law) node.settings["cracked_law"] = toJson (fit.cracked_law);
     graph.about =
         "A fitted cut: the sample bursts at " + shortNumber (fit.rupture_force) + " N and is cut at " + shortNumber (fit.toughness * fit.width) + " N.";
     if (! fit.bursts)
@@ -248,7 +239,7 @@ graph::Graph shockPreset (const ShockFit& fit, const std::string& source)
     graph.about = "A tap whose loop of force against depth has the same area as a recorded loop: " + shortNumber (1e3 * fit.recorded_area) + " mJ at "
                   + shortNumber (fit.speed) + " m/s.";
     auto& blow = nodeIn (graph, "blow");
-    blow.params["mass"] = fit.mass;
+    blow.params["mass"] = tidy (fit.mass);
     blow.settings["stiffness"] = toJson (fit.stiffness);
     blow.settings["damping"] = toJson (fit.damping);
     graph.controls = { { .id = "blow", .name = "Blow", .value = 0.5, .to = { { .path = "blow.gain", .low = 0, .high = 2 } } } };

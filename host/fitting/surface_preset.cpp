@@ -3,9 +3,11 @@
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/kit/geometry/half_space.hpp>
+#include <tactus/text/read_number.hpp>
 
 #include <iomanip>
 #include <sstream>
+#include <vector>
 
 namespace tactus::host
 {
@@ -39,18 +41,25 @@ constexpr const char* pressed_preset = R"({
 })";
 }   // namespace
 
+double tidy (double value, int digits) { return readNumber (shortNumber (value, digits)).value; }
+
 Json toJson (const Law& law)
 {
+    const auto column = [] (std::vector<double> numbers) {
+        for (double& v : numbers)
+            v = tidy (v);
+        return numbers;
+    };
     switch (law.kind)
     {
     case Law::Kind::power:
-        return { { "power", { law.a, law.b } } };
+        return { { "power", { tidy (law.a), tidy (law.b) } } };
     case Law::Kind::exponential:
-        return { { "exponential", { law.a, law.b } } };
+        return { { "exponential", { tidy (law.a), tidy (law.b) } } };
     case Law::Kind::table:
-        return { { "table", { law.table.x, law.table.y } } };
+        return { { "table", { column (law.table.x), column (law.table.y) } } };
     case Law::Kind::dissipation:
-        return { { "dissipation", law.a } };
+        return { { "dissipation", tidy (law.a) } };
     case Law::Kind::none:
         break;
     }
@@ -64,7 +73,7 @@ Json curvesOf (const EvenBody& body)
     const Json across = toJson (acrossOf (body.along, drag, body.ratio)), along = toJson (body.along);
     Json curves = Json::array();
     curves.push_back (Json::array ({ across, across, along }));
-    return { { "curves", curves }, { "mu", body.mu > 0.0 ? body.ratio : 0.0 } };
+    return { { "curves", curves }, { "mu", body.mu > 0.0 ? tidy (body.ratio) : 0.0 } };
 }
 
 graph::Graph surfacePreset (const EvenBody& body, const std::string& name, const std::string& about, const std::string& source)

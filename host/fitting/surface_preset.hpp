@@ -18,7 +18,7 @@ struct EvenBody
     double ratio = 0.45;   ///< the sideways deflection at which the tool slides, over its depth; above 0
 };
 
-/// A law as a graph file contains it.
+/// A law as a graph file contains it, with six digits.
 Json toJson (const Law&);
 
 /// The members "curves" and "mu" of a setting of kind `surface`.
@@ -29,5 +29,8 @@ graph::Graph surfacePreset (const EvenBody&, const std::string& name, const std:
 
 /// The number with this many significant digits.
 std::string shortNumber (double value, int digits = 3);
+
+/// The number rounded to so many digits. Six are more than the accuracy of any fit; places along a path need them.
+double tidy (double value, int digits = 6);
 
 }   // namespace tactus::host

@@ -154,3 +154,48 @@ TEST_CASE ("a recording of numbers near the smallest is fitted or refused with a
     CHECK ((ran.status == 0 || ran.err.find ("tiny.csv") != std::string::npos));
     CHECK (ran.err.find ("should not happen") == std::string::npos);
 }
+
+TEST_CASE ("fit: an option for what the recording contains is refused, and no option is ignored", "[cli][fit]")
+{
+    const Scratch scratch;
+    const auto preset = scratch.path ("out.json");
+    const auto drag = scratch.write ("drag.csv", table ("x,force,load", 400, [] (std::ostream& out, int i) {
+                                         const double phase = 0.05 * i;
+                                         out << 1e-3 * std::sin (phase) << "," << (std::cos (phase) > 0.0 ? -0.8 : 0.8) << ",2";
+                                     }));
+    const auto refused = runTactus ({ "fit", "friction", drag, "-o", preset, "--load", "7 N" });
+    CHECK (refused.status == 1);
+    CHECK (refused.err.find ("--load gives the load, but the recording has a column for it") != std::string::npos);
+    CHECK (refused.err.find ("[fit/given_twice]") != std::string::npos);
+    CHECK (runTactus ({ "fit", "friction", drag, "-o", preset, "--load", "7 N", "--column", "load=" }).status == 0);
+    CHECK (loadGraph (preset).graph.root.find ("drag")->params.at ("reference_load").get<double>() == 7.0);
+
+    Random random { 6 };
+    const auto hiss = [&] (std::ostream& out, int i) { out << i * 1e-3 << ",0.1," << random.normal(); };
+    const auto cloth = scratch.write ("cloth.csv", table ("t,speed,acceleration", 2000, hiss));
+    CHECK (runTactus ({ "fit", "texture", cloth, "-o", preset, "--speed", "0.2 m/s" }).err.find ("[fit/given_twice]") != std::string::npos);
+    CHECK (runTactus ({ "fit", "texture", cloth, "-o", preset, "--force", "2 N" }).status == 0);
+}
+
+TEST_CASE ("fit: printed and saved tables have six digits, and a click is a reason for a poor verdict", "[cli][fit]")
+{
+    const Scratch scratch;
+    const auto key = table ("x_mm,force_N", 1600, [] (std::ostream& out, int i) {
+        const double depth = 4e-3 * std::min (i, 1600 - i) / 800.0 * 1e3, fall = std::clamp ((depth - 1.5) / 0.4, 0.0, 1.0) * 0.19;
+        out << depth << "," << (0.6 * std::min (1.0, depth) - fall + 0.6 * std::max (0.0, depth - 3.0)) * (i < 800 ? 1.0 : 0.93);
+    });
+    std::string printed;
+    const auto graph = fitted (scratch, "curve", key, {}, &printed);
+    INFO (printed);
+    CHECK (printed.find ("poor") != std::string::npos);
+    CHECK (printed.find ("switch_to_graph") != std::string::npos);
+    CHECK (printed.find ("[fit/falls]") != std::string::npos);
+    int longest = 0, digits = 0;
+    for (const char c : printed + test::textOf (scratch.path ("preset.json")))
+    {
+        digits = c >= '0' && c <= '9' ? digits + 1 : c == '.' ? digits
+                                                              : 0;
+        longest = std::max (longest, digits);
+    }
+    CHECK (longest <= 11);   // 0.0000123456
+}
