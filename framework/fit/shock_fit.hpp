@@ -22,7 +22,7 @@ struct RecordedLoop
 struct ShockFit
 {
     Law stiffness;                                 ///< K = k d^n
-    Law damping;                                   ///< {"dissipation": lambda}: D = lambda K
+    Law damping;                                   ///< {"dissipation": lambda}: D = lambda K; or {"power": [B0, 1]}: D = B0 d
     double mass = 0.0;                             ///< mass that rebounded, in kg: as given, or estimated from the times
     double speed = 0.0;                            ///< at the touch, on the way in, in m/s
     double recorded_area = 0.0;                    ///< of the recorded loop, in J
@@ -34,8 +34,8 @@ struct ShockFit
     FitReport report {};
 };
 
-/// Fits N = max (0, K + D d'), K = k d^n, D = lambda K, to the contact around the deepest row: by least squares among all laws whose
-/// loop has the recorded area. n is from 0.5 to 4.
+/// Fits N = max (0, K + D d'), K = k d^n, to the contact around the deepest row: by least squares among all laws whose loop has the recorded
+/// area. n is from 0.5 to 4. D is lambda K, as in Hunt & Crossley, or B0 d, as in the chapter's example, if that fits clearly better.
 ///
 /// If the recording has times, d' comes from them, and the recording may follow any path. Without times, it must be a free impact:
 /// d' then follows from the energy that the mass has lost so far, v^2 = 2 (W_deepest - W) / m. `mass` is in kg. If it is 0, the
@@ -48,7 +48,7 @@ struct ShockFit
 /// fit/cancelled. [any thread]
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 6: the area of the loop of force against deflection matters
-/// more than its shape. The law is eq. (10) with Hunt & Crossley's D = lambda K.
+/// more than its shape. The law is eq. (10).
 Result<ShockFit> fitShock (const RecordedLoop&, double mass = 0.0, FitCourse* = nullptr);
 
 }   // namespace tactus
