@@ -7,11 +7,13 @@
 #include <tactus/file/csv.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/budget.hpp>
+#include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/read_number.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -42,6 +44,40 @@ double rateFor (const Clip& clip, double wanted_hz)
     return usual_rate_hz;
 }
 
+std::vector<ClipLoss> lossesOf (const Clip& clip, const Clip& back, bool is_mixed, const std::string& why = {})
+{
+    std::vector<ClipLoss> losses;
+    for (const auto& d : readers::compareClips (clip, back, is_mixed))
+        losses.push_back ({ is_mixed ? "all channels" : "channel " + std::to_string (d.channel), d, why });
+    return losses;
+}
+
+/// The largest value of a signal, at least 1.
+double peakOf (const RenderedClip& rendered)
+{
+    double peak = 1.0;
+    for (const auto& channel : rendered.value)
+        for (const double v : channel)
+            peak = std::max (peak, std::abs (v));
+    return peak;
+}
+
+/// The recording as a clip that compares with the one it was rendered from: as loud, on the same channels.
+Clip clipOfRendered (const RenderedClip& rendered, double rate_hz)
+{
+    Messages ignored;
+    Clip clip = readers::clipOfSignal ({ .rate_hz = rate_hz, .channels = rendered.value }, ignored);
+    const double peak = peakOf (rendered);   // clipOfSignal divides by it
+    for (std::size_t c = 0; c < clip.tracks.size(); ++c)
+    {
+        clip.tracks[c].channel = rendered.channels[c];
+        for (auto& p : clip.tracks[c].amplitude)
+            p.value *= peak;
+    }
+    return clip;
+}
+
+/// Other programs clip samples beyond 1, and signal.clip refuses them.
 Result<SavedClip> saveWave (const Clip& clip, const fs::path& path, double wanted_hz)
 {
     const double rate_hz = rateFor (clip, wanted_hz);
@@ -50,19 +86,25 @@ Result<SavedClip> saveWave (const Clip& clip, const fs::path& path, double wante
     if (all.channels.empty()) return Message::error ("clip/too_few", path.string(), "the clip has no channel to render", "check that it is a clip");
     auto file = WavWriter::create (path, rate_hz, all.channels.size());
     if (! file) return file.error();
+    const double peak = peakOf (all);
     std::vector<double> frame (all.channels.size());
     for (std::size_t k = 0; k < all.value.front().size(); ++k)
     {
         for (std::size_t c = 0; c < frame.size(); ++c)
-            frame[c] = all.value[c][k];
+            frame[c] = all.value[c][k] / peak;
         if (auto written = file->frame (frame); ! written) return written.error();
     }
     if (auto written = file->commit(); ! written) return written.error();
-    Messages ignored;
-    Clip back = readers::clipOfSignal ({ .rate_hz = rate_hz, .channels = all.value }, ignored);
-    for (std::size_t c = 0; c < back.tracks.size(); ++c)
-        back.tracks[c].channel = all.channels[c];
-    return SavedClip { {}, readers::compareClips (clip, back, false), false };
+    const bool is_wave = std::ranges::any_of (clip.tracks, &ClipTrack::is_wave);
+    SavedClip saved { {},
+                      lossesOf (clip, clipOfRendered (all, rate_hz), false,
+                                is_wave ? "" : "read back from the samples in steps of 10 ms; the samples are the signal that the clip plays"),
+                      false };
+    if (peak > 1.0)
+        saved.losses.push_back (Message::warning (
+            "clip/changed", path.string(), "the signal reaches " + roundedText (peak) + ", so all samples are divided by this number: beyond 1, programs clip",
+            "multiply the gain of the signal.clip that plays it by " + roundedText (peak)));
+    return saved;
 }
 
 Result<SavedClip> saveRows (const Clip& clip, const fs::path& path)
@@ -74,11 +116,42 @@ Result<SavedClip> saveRows (const Clip& clip, const fs::path& path)
     for (int r = 0; r < grid.rows; ++r)
         if (auto written = file->row (std::span (grid.values).subspan (at (r) * columns.size(), columns.size())); ! written) return written.error();
     if (auto written = file->commit(); ! written) return written.error();
-    SavedClip saved { {}, readers::compareClips (clip, clipOf (grid).clip, false), false };
+    SavedClip saved { {}, lossesOf (clip, clipOf (grid).clip, false), false };
     for (const auto& [key, value] : clip.notes)
         saved.losses.push_back (
             Message::warning ("clip/not_carried", "notes/" + key, "the note is left out: a table holds only numbers", "keep the original file"));
     return saved;
+}
+
+/// Only the envelopes of a clip, or only its transients.
+Clip partOf (Clip clip, bool taps)
+{
+    for (auto& t : clip.tracks)
+        taps ? t.amplitude.clear() : t.taps.clear();
+    return clip;
+}
+
+/// A phone applies the curves of an .ahap to its transients too. So this compares what the file holds, envelope and transients apart, and then how a
+/// phone plays it.
+std::vector<ClipLoss> lossesOfAhap (const Clip& clip, const Clip& back, const std::string& name)
+{
+    auto played = lossesOf (clip, back, true);
+    const auto has = [&] (auto part) { return std::ranges::any_of (clip.tracks, [&] (const ClipTrack& t) { return ! (t.*part).empty(); }); };
+    if (! has (&ClipTrack::amplitude) || ! has (&ClipTrack::taps)) return played;
+    std::vector<ClipLoss> losses;
+    for (const bool taps : { false, true })
+    {
+        const auto part = partOf (clip, taps);
+        const auto made = readers::writeClip (part, name);
+        const auto read = made ? readers::readClip (made->text, name) : made.error();
+        if (! read) return played;
+        for (auto& loss : lossesOf (part, read->clip, true))
+            losses.push_back ({ loss.part + (taps ? ", the transients alone" : ", the envelope alone"), loss.difference, {} });
+    }
+    for (auto& loss : played)
+        losses.push_back ({ loss.part + ", as a phone plays the file", loss.difference,
+                            "the curves act on the transients too, and dip at each, as in files of Meta's converter; two files by --split do not" });
+    return losses;
 }
 }   // namespace
 
@@ -151,19 +224,19 @@ Result<SavedClip> saveClip (const Clip& clip, const fs::path& path, double rate_
     if (! back) return back.error();
     if (auto written = writeTextFile (path, made->text); ! written) return written.error();
     const bool is_mixed = extension == ".haptic" || extension == ".ahap";
-    return SavedClip { std::move (made->losses), readers::compareClips (clip, back->clip, is_mixed), is_mixed };
+    return SavedClip { std::move (made->losses), extension == ".ahap" ? lossesOfAhap (clip, back->clip, path.string()) : lossesOf (clip, back->clip, is_mixed),
+                       is_mixed };
 }
 
 std::vector<std::string> differenceReport (const SavedClip& saved)
 {
     constexpr double none = 1e-9, little_hertz = 0.05;
     std::vector<std::string> sentences;
-    for (const auto& d : saved.differences)
+    for (const auto& [part, d, why] : saved.differences)
     {
         if (d.difference <= none && d.frequency <= little_hertz) continue;
-        sentences.push_back ((saved.is_mixed ? "all channels" : "channel " + std::to_string (d.channel)) + ": the envelope differs by "
-                             + threeDigits (d.difference) + " rms, " + threeDigits (100.0 * d.part()) + " % of its " + threeDigits (d.rms)
-                             + "; the frequency by " + threeDigits (d.frequency) + " Hz rms");
+        sentences.push_back (part + ": the envelope differs by " + threeDigits (d.difference) + " rms, " + threeDigits (100.0 * d.part()) + " % of its "
+                             + threeDigits (d.rms) + "; the frequency by " + threeDigits (d.frequency) + " Hz rms" + (why.empty() ? "" : " (" + why + ")"));
     }
     if (sentences.empty()) sentences.emplace_back ("none in the rendered envelope and frequency");
     return sentences;

@@ -25,17 +25,26 @@ bool isClipFile (const std::filesystem::path&);
 /// file/unreadable, clip/unknown_kind. [main thread]
 Result<readers::ClipFile> loadClip (const std::filesystem::path&);
 
+/// How far a part of the clip in the file is from the clip that was saved. Both are rendered.
+struct ClipLoss
+{
+    std::string part {};   ///< "channel 1", "all channels, the envelope alone"
+    readers::ChannelDifference difference {};
+    std::string why {};   ///< what was compared, or why it differs; may be empty
+};
+
 /// The result of saving a clip: what was lost.
 struct SavedClip
 {
-    Messages losses;                                       ///< what the format cannot hold
-    std::vector<readers::ChannelDifference> differences;   ///< of the rendered clip; only those that can be measured
-    bool is_mixed = false;                                 ///< all channels were added up
+    Messages losses;                     ///< what the format cannot hold
+    std::vector<ClipLoss> differences;   ///< only those that can be measured
+    bool is_mixed = false;               ///< all channels were added up
 };
 
 /// Writes a clip in the format of the extension: .haptic, .ahap, .hjif, .json, .wav or the rows of a clip in a .csv. Reads it back to
-/// find out what was lost. `rate_hz` is for a .wav; 0: the rate of the recording that the clip came from, or 8 kHz. Ids: those of
-/// writeClip, WavWriter and TableWriter, clip/too_large, clip/too_few. [main thread]
+/// find out what was lost. `rate_hz` is for a .wav; 0: the rate of the recording that the clip came from, or 8 kHz. Samples of a .wav are from -1 to 1:
+/// if the signal exceeds 1, all channels are divided by the same factor, and the losses say so (clip/changed). An .ahap is compared twice: what it holds,
+/// envelope and transients apart, and how a phone plays it. Ids: those of writeClip, WavWriter and TableWriter, clip/too_large, clip/too_few. [main thread]
 Result<SavedClip> saveClip (const Clip&, const std::filesystem::path&, double rate_hz = 0.0);
 
 /// The losses as sentences: each thing that the format cannot hold, and how far the rendered clip differs. Never empty.
