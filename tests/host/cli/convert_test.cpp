@@ -82,7 +82,8 @@ TEST_CASE ("convert: a WAV is the rendered clip, and comes back as it was", "[cl
     CHECK (wav->rate_hz == 4000.0);
     REQUIRE (wav->channels.at (0).size() == 2000);
     double peak = 0.0;   // the signal exceeds 1, and is divided by its largest value
-    for (const double v : host::renderClip (host::loadClip (haptic)->clip, 4000.0).value[0])
+    const auto rendered = host::renderClip (host::loadClip (haptic)->clip, 4000.0);
+    for (const double v : rendered.value[0])
         peak = std::max (peak, std::abs (v));
     CHECK (peak * wav->channels[0][3] == Approx (0.506 * std::sin (2.0 * 3.14159265358979 * 127.5 * 3.0 / 4000.0)).epsilon (0.01));
 
