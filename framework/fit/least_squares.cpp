@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 
 namespace tactus::detail
@@ -60,6 +61,8 @@ struct Functor
         return isCancelled (problem.course) ? -1 : 0;
     }
 };
+
+constexpr double finest = 1e-6;   // error of a sensor over the size of the signal
 
 /// An autoregressive model of residuals.
 struct Dependence
@@ -154,6 +157,13 @@ std::vector<bool> isSet (const LeastSquaresFit& fit)
 
 namespace
 {
+/// The variance of the independent errors behind the residuals.
+double innovationOf (const Eigen::VectorXd& residual, const Dependence& dependence, Eigen::Index parameters)
+{
+    const double independent = independentRows (residual), taken = std::min (static_cast<double> (parameters), 0.8 * independent);
+    return residual.squaredNorm() / static_cast<double> (residual.size()) * independent / (independent - taken) * dependence.variance;
+}
+
 /// Independent errors e pass an all-pole filter and become the residuals r. So the influence of e on an estimate is the influence of r, filtered
 /// backwards in time. Each fitted parameter takes up the error of one independent row. If rows depend on one another, several of them count as
 /// one independent row.
@@ -161,8 +171,7 @@ Eigen::MatrixXd covarianceOfRows (const Eigen::MatrixXd& influence, const Eigen:
 {
     const auto n = residual.size(), p = influence.rows();
     const auto dependence = dependenceOf (residual);
-    const double independent = independentRows (residual), taken = std::min (static_cast<double> (parameters), 0.8 * independent);
-    const double variance = residual.squaredNorm() / static_cast<double> (n) * independent / (independent - taken) * dependence.variance;
+    const double variance = innovationOf (residual, dependence, parameters);
     if (dependence.a.empty()) return variance * influence * influence.transpose();
 
     // The response of the filter extends to before the first row.
@@ -196,7 +205,6 @@ void widenByParts (Eigen::MatrixXd& covariance, const Eigen::MatrixXd& of_quarte
 
 Eigen::MatrixXd covarianceOf (const Eigen::MatrixXd& influence, const Eigen::VectorXd& residual, Eigen::Index parameters, double size)
 {
-    constexpr double finest = 1e-6;   // error of a sensor over the size of the signal
     if (residual.squaredNorm() <= static_cast<double> (residual.size()) * finest * finest * size * size)
         return finest * finest * size * size * influence * influence.transpose();
     Eigen::MatrixXd covariance = covarianceOfRows (influence, residual, parameters);
@@ -240,6 +248,24 @@ double independentRows (const Eigen::VectorXd& residual)
     for (const double a : dependence.a)
         gain -= a;
     return static_cast<double> (residual.size()) * std::min (1.0, gain * gain / dependence.variance);
+}
+
+Eigen::VectorXd errorPowers (const Eigen::VectorXd& residual, const Eigen::VectorXd& angles, double size)
+{
+    const auto dependence = dependenceOf (residual);
+    const double variance = innovationOf (residual, dependence, angles.size());
+    Eigen::VectorXd powers (angles.size());
+    for (Eigen::Index i = 0; i < angles.size(); ++i)
+    {
+        std::complex<double> gain = 1.0;
+        for (std::size_t k = 0; k < dependence.a.size(); ++k)
+        {
+            const auto [sine, cosine] = math::sinCos (angles[i] * static_cast<double> (k + 1));
+            gain -= dependence.a[k] * std::complex<double> { cosine, -sine };
+        }
+        powers[i] = std::max (variance / std::norm (gain), finest * finest * size * size);
+    }
+    return powers;
 }
 
 double halfWidth95 (double freedom)

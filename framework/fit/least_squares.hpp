@@ -65,6 +65,10 @@ inline constexpr Eigen::Index quarters = 4;
 /// the covariance of Liang & Zeger 1986 with the parts as clusters.
 void widenByParts (Eigen::MatrixXd& covariance, const Eigen::MatrixXd& of_quarters);
 
+/// The power of the errors per row at each angle per row, with the same model of the residuals: the variance if they are white. One angle for each
+/// fitted parameter.
+Eigen::VectorXd errorPowers (const Eigen::VectorXd& residual, const Eigen::VectorXd& angles, double size);
+
 /// The covariance of the fitted parameters. The variance of a parameter that the recording does not determine is infinite, and its covariances
 /// with the others are 0.
 Eigen::MatrixXd covarianceOf (const LeastSquaresFit&);

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "modes_fit.hpp"
 #include "least_squares.hpp"
+#include "ring_search.hpp"
 
 #include <tactus/kit/at.hpp>
 #include <tactus/kit/math/math.hpp>
 #include <tactus/text/number_text.hpp>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -21,6 +20,7 @@ namespace tactus
 namespace
 {
 using detail::fitError;
+using detail::RingModel;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -36,124 +36,7 @@ struct Ring
 
     Index size() const { return value.size(); }
     double duration() const { return dt * static_cast<double> (size()); }
-};
-
-/// A tone in the search: frequency and decay, and the amplitudes of its cosine and sine.
-struct Part
-{
-    double frequency, decay, cosine, sine;
-};
-
-/// The parameters of the search: ln frequency, ln decay, cosine and sine of each tone, then the coefficients of the drift.
-class RingSearch
-{
-public:
-    static constexpr Index per_tone = 4;
-
-    RingSearch (const Ring& r, Index t, Index d, const FitCourse* c, bool skips = false) : ring (r), tones (t), drift (d), course (c)
-    {
-        const Index block = std::max<Index> (1, ring.size() / 50);
-        weight = VectorXd::Ones (ring.size());
-        for (Index i = 0; skips && i < ring.size(); ++i)
-            if (i / block % 5 == 2) weight[i] = 0.0;
-    }
-
-    Index parameters() const { return per_tone * tones + drift; }
-    bool isLeftOut (Index i) const { return weight[i] == 0.0; }
-    static Part part (const VectorXd& x, Index tone)
-    {
-        return { math::exp (x[per_tone * tone]), math::exp (x[per_tone * tone + 1]), x[per_tone * tone + 2], x[per_tone * tone + 3] };
-    }
-
-    VectorXd modelled (const VectorXd& x) const
-    {
-        VectorXd sum = driftTerms() * x.tail (drift);
-        for (Index k = 0; k < tones; ++k)
-        {
-            const auto p = part (x, k);
-            visit (p, [&] (Index i, double, std::complex<double> z) { sum[i] += p.cosine * z.real() + p.sine * z.imag(); });
-        }
-        return sum;
-    }
-
-    MatrixXd slopes (const VectorXd& x) const
-    {
-        MatrixXd j (ring.size(), parameters());
-        for (Index k = 0; k < tones; ++k)
-        {
-            const auto p = part (x, k);
-            visit (p, [&] (Index i, double t, std::complex<double> z) {
-                j (i, per_tone * k) = full_turn * p.frequency * t * (p.sine * z.real() - p.cosine * z.imag());
-                j (i, per_tone * k + 1) = -p.decay * t * (p.cosine * z.real() + p.sine * z.imag());
-                j (i, per_tone * k + 2) = z.real();
-                j (i, per_tone * k + 3) = z.imag();
-            });
-        }
-        j.rightCols (drift) = driftTerms();
-        return j;
-    }
-
-    /// The parameters for these frequencies and decays, with the rest by linear least squares.
-    VectorXd start (const std::vector<std::complex<double>>& rates) const
-    {
-        VectorXd x = VectorXd::Zero (parameters());
-        for (Index k = 0; k < tones; ++k)
-        {
-            x[per_tone * k] = math::log (rates[at (k)].imag() / full_turn);
-            x[per_tone * k + 1] = math::log (-rates[at (k)].real());
-        }
-        const MatrixXd all = slopes (x);
-        MatrixXd linear (ring.size(), 2 * tones + drift);
-        for (Index k = 0; k < tones; ++k)
-            linear.middleCols (2 * k, 2) = all.middleCols (per_tone * k + 2, 2);
-        linear.rightCols (drift) = all.rightCols (drift);
-        const VectorXd amounts = (linear.transpose() * linear).ldlt().solve (linear.transpose() * ring.value);
-        for (Index k = 0; k < tones; ++k)
-            x.segment (per_tone * k + 2, 2) = amounts.segment (2 * k, 2);
-        x.tail (drift) = amounts.tail (drift);
-        return x;
-    }
-
-    detail::LeastSquares problem() const
-    {
-        return { .rows = ring.size(),
-                 .residual = [this] (const VectorXd& x, VectorXd& r) { r = weight.cwiseProduct (ring.value - modelled (x)); },
-                 .jacobian = [this] (const VectorXd& x, MatrixXd& j) { j = -(weight.asDiagonal() * slopes (x)); },
-                 .size = std::sqrt (ring.value.squaredNorm() / static_cast<double> (ring.size())),
-                 .course = course };
-    }
-
-private:
-    /// Calls with the index, the time and e^((-decay + i 2 pi frequency) t) of each row.
-    template <typename Visit>
-    void visit (const Part& p, Visit visit) const
-    {
-        const auto [sine, cosine] = math::sinCos (std::fmod (full_turn * p.frequency * ring.dt, full_turn));
-        const std::complex<double> factor = math::exp (-p.decay * ring.dt) * std::complex<double> { cosine, sine };
-        std::complex<double> z = 1.0;
-        for (Index i = 0; i < ring.size();
-             ++i, z = { z.real() * factor.real() - z.imag() * factor.imag(), z.real() * factor.imag() + z.imag() * factor.real() })
-            visit (i, ring.dt * static_cast<double> (i), z);
-    }
-
-    /// Chebyshev polynomials over the fitted part.
-    MatrixXd driftTerms() const
-    {
-        MatrixXd terms (ring.size(), drift);
-        for (Index i = 0; i < ring.size(); ++i)
-        {
-            const double u = 2.0 * static_cast<double> (i) / static_cast<double> (ring.size() - 1) - 1.0;
-            for (Index k = 0; k < drift; ++k)
-                terms (i, k) = k == 0 ? 1.0 : k == 1 ? u
-                                                     : 2.0 * u * terms (i, k - 1) - terms (i, k - 2);
-        }
-        return terms;
-    }
-
-    const Ring& ring;
-    Index tones, drift;
-    const FitCourse* course;
-    VectorXd weight;
+    double meanSquare() const { return value.squaredNorm() / static_cast<double> (size()); }
 };
 
 /// The time of the blow before the fitted part: where the half-wave with the largest value begins. Looks back until the values have not grown for
@@ -172,6 +55,44 @@ double blowBefore (const RecordedRing& recorded, std::size_t from, std::size_t t
     return recorded.time[first];
 }
 
+/// The default start: after the largest value, because the blow may still last. If the ring beats, its largest value may come long after the blow, so
+/// an earlier half-wave that is more than half as large counts, unless the time between them is long.
+std::size_t startOfRing (const std::vector<double>& v, double largest)
+{
+    const auto size = [&] (std::size_t i) { return std::abs (v[i]); };
+    std::size_t clipped = 0, last_large = 0, top = 0;
+    for (std::size_t i = 0; i < v.size(); ++i)
+    {
+        if (size (i) >= 0.999 * largest) ++clipped;
+        if (size (i) >= 0.5 * largest) last_large = i;
+        if (size (i) > size (top)) top = i;
+    }
+    if (clipped >= 3) return last_large + 1;   // a sensor that clips needs some time afterwards
+    auto first = top;
+    const auto longest_gap = std::max<std::size_t> (16, v.size() / 50);
+    for (auto i = top; i-- > 0 && first - i <= longest_gap;)
+        if (size (i) > 0.5 * largest) first = i;
+    while (first + 1 < v.size() && size (first + 1) > size (first))
+        ++first;
+    return first + 1;
+}
+
+/// The default end: that of the recording. In a long one, silence after the ring is at most three times as long as the ring.
+std::size_t endOfRing (const std::vector<double>& v, std::size_t from)
+{
+    constexpr std::size_t blocks = 200, is_short = 1 << 16;
+    if (v.size() <= from + is_short) return v.size();
+    const auto rows = (v.size() - from) / blocks;
+    std::vector<double> squares (blocks);
+    for (std::size_t i = 0; i < blocks * rows; ++i)
+        squares[i / rows] += v[from + i] * v[from + i];
+    const double silence = *std::ranges::min_element (squares);
+    auto loud = blocks;
+    while (loud > 1 && ! (squares[loud - 1] > 2.0 * silence))
+        --loud;
+    return std::min (v.size(), from + std::max (is_short, 4 * (loud + 1) * rows));
+}
+
 Result<Ring> ringOf (const RecordedRing& recorded)
 {
     if (auto checked = detail::checkColumns ({ &recorded.value, &recorded.time }, fewest_ring_rows, "the ring from the blow until it cannot be felt any more");
@@ -187,29 +108,7 @@ Result<Ring> ringOf (const RecordedRing& recorded)
     for (std::size_t i = 0; i < v.size(); ++i)
         largest = std::max (largest, size (i));
     if (! (largest > 0.0)) return fitError ("fit/silent", "the recording is 0 throughout", "check which column is read");
-    std::size_t from = 0, to = v.size();
-    if (recorded.from)
-        from = rowAt (*recorded.from);
-    else
-    {
-        // A sensor that clips needs some time afterwards, and the blow may still last.
-        const auto top = [&] (std::size_t i) { return size (i) >= 0.999 * largest; };
-        std::size_t clipped = 0;
-        for (std::size_t i = 0; i < v.size(); ++i)
-            if (top (i)) ++clipped;
-        for (std::size_t i = 0; i < v.size(); ++i)
-            if (clipped >= 3 ? size (i) > 0.5 * largest : top (i)) from = i + 1;
-    }
-    if (recorded.to)
-        to = rowAt (*recorded.to);
-    else
-    {
-        double first = 0.0;
-        for (std::size_t i = from; i < v.size(); ++i)
-            first = std::max (first, size (i));
-        while (to > from && ! (size (to - 1) > 0.05 * first))
-            --to;
-    }
+    const std::size_t from = recorded.from ? rowAt (*recorded.from) : startOfRing (v, largest), to = recorded.to ? rowAt (*recorded.to) : endOfRing (v, from);
     if (to < from + fewest_ring_rows)
         return fitError ("fit/too_short",
                          "the ring has " + std::to_string (to > from ? to - from : 0) + " rows; a fit needs at least " + std::to_string (fewest_ring_rows),
@@ -228,140 +127,113 @@ Result<Ring> ringOf (const RecordedRing& recorded)
     return ring;
 }
 
-/// The values without a slow drift, averaged over `factor` rows.
-VectorXd thinned (const Ring& ring, Index factor, Index drift)
-{
-    const VectorXd without = ring.value - RingSearch (ring, 0, drift, nullptr).modelled (RingSearch (ring, 0, drift, nullptr).start ({}));
-    VectorXd few (ring.size() / factor);
-    for (Index i = 0; i < few.size(); ++i)
-        few[i] = without.segment (i * factor, factor).mean();
-    return few;
-}
+/// Tones that describe one mode: each of the others is so close to the first and strongest one that both may be one tone whose pitch or decay changes.
+using Cluster = std::vector<detail::DecayingTone>;
 
-/// The number of rows that can be averaged. About six averaged rows remain per period of the highest important frequency. The mean square of the
-/// slope depends mostly on high frequencies, so noise keeps the number small.
-Index thinning (const Ring& ring)
+std::vector<Cluster> clustersOf (const RingModel& found)
 {
-    const Index n = ring.size();
-    Index factor = 1;
-    while (n / (2 * factor) >= 4 * static_cast<Index> (fewest_ring_rows))
+    const auto gains = found.gains();
+    std::vector<std::size_t> order;
+    for (std::size_t k = 0; k < gains.size(); ++k)
+        order.push_back (k);
+    std::ranges::sort (order, std::greater<> {}, [&] (std::size_t k) { return gains[k]; });
+    std::vector<Cluster> clusters;
+    for (const auto k : order)
     {
-        const VectorXd now = thinned (ring, factor, 1), next = thinned (ring, 2 * factor, 1);
-        const double kept = next.squaredNorm() / static_cast<double> (next.size()) / (now.squaredNorm() / static_cast<double> (now.size()));
-        if (! (kept > 0.93)) break;
-        factor *= 2;
+        const auto& tone = found.tones[k];
+        const auto is_close = [&] (const Cluster& other) {
+            return std::norm (tone.rate - other.front().rate) < std::pow (tone.rate.real() + other.front().rate.real(), 2);
+        };
+        const auto own = std::ranges::find_if (clusters, is_close);
+        const bool is_click = -tone.rate.real() > 0.99 * std::min (tone.rate.imag(), detail::fastest_decay);   // as fast as the search allows
+        if (own != clusters.end())
+            own->push_back (tone);
+        else if (! is_click)
+            clusters.push_back ({ tone });
     }
-    return factor;
+    return clusters;
 }
 
-/// The basis of the signal: eigenvectors of the matrix of products of delayed signals, strongest last.
-MatrixXd delayBasis (const VectorXd& y)
+/// One mode for each cluster, at most `most`, all refined together.
+RingModel refined (const Ring& ring, const RingModel& found, int most, const FitCourse* course)
 {
-    const Index n = y.size(), length = std::min<Index> (n / 3, 120) + 1;
-    MatrixXd products (length, length);
-    for (Index j = 0; j < length; ++j)
-        products (0, j) = products (j, 0) = y.head (n - length + 1).dot (y.segment (j, n - length + 1));
-    for (Index i = 1; i < length; ++i)
-        for (Index j = i; j < length; ++j)
-            products (i, j) = products (j, i) = products (i - 1, j - 1) + y[n - length + i] * y[n - length + j] - y[i - 1] * y[j - 1];
-    return Eigen::SelfAdjointEigenSolver<MatrixXd> (products).eigenvectors();
-}
-
-/// Rates -decay + i 2 pi frequency of `count` tones.
-std::vector<std::complex<double>> pencil (const MatrixXd& basis, Index count, double step, double duration)
-{
-    const auto strongest = basis.rightCols (2 * count);
-    const MatrixXd first = strongest.topRows (basis.rows() - 1), second = strongest.bottomRows (basis.rows() - 1);
-    const MatrixXd turn = first.householderQr().solve (second);
-    const Eigen::VectorXcd poles = Eigen::EigenSolver<MatrixXd> (turn, false).eigenvalues();
+    const auto clusters = clustersOf (found);
     std::vector<std::complex<double>> rates;
-    for (const auto& z : poles)
+    for (const auto& cluster : clusters)
+        if (rates.size() < static_cast<std::size_t> (most)) rates.push_back (cluster.front().rate);
+    return rates.size() == found.tones.size() ? found : detail::fitRing (ring.value, rates, found.drift.size(), 50, course);
+}
+
+/// The modes. If some tones leave only noise, each cluster of them becomes the mode that is most like it, and the other modes stay as they are. If no
+/// number of tones leaves only noise, the object does not ring in modes alone. Then the faint tones may just make up for what the strong ones are
+/// not, so a mode must stand out from the whole residual.
+RingModel modesOf (const Ring& ring, int most, double least, FitCourse* course)
+{
+    constexpr int doubles = 8;
+    const auto found = detail::searchRing (ring.value, ring.size() > 400 ? 5 : 3, most + doubles, least, course);
+    const auto rows = static_cast<double> (ring.size());
+    if (const auto clusters = clustersOf (found.model); found.is_whole && clusters.size() <= at (most))
     {
-        const double angle = math::atan2 (z.imag(), z.real()), decay = -math::log (std::max (1e-6, math::hypot (z.real(), z.imag()))) / step;
-        if (angle > 0.0 && angle < std::numbers::pi * 0.999) rates.emplace_back (-std::max (decay, 0.1 / duration), angle / step);
+        RingModel modes { .drift = found.model.drift, .rows = ring.size() };
+        for (const auto& cluster : clusters)
+            modes.tones.push_back (cluster.size() == 1
+                                       ? cluster.front()
+                                       : detail::fitRing (RingModel { .tones = cluster, .rows = ring.size() }.values(), { cluster.front().rate }, 0, 50, course)
+                                             .tones.front());
+        return modes;
     }
-    return rates;
-}
-
-struct FoundRing
-{
-    Index tones = 0, drift = 1;
-    detail::LeastSquaresFit fit;
-    double score = std::numeric_limits<double>::infinity();
-};
-
-/// False if the frequency, decay or amplitude of a tone is outside its possible range, if a tone is too faint to matter, or if two tones are so
-/// close that they describe one tone whose pitch or decay changes.
-bool isRing (const VectorXd& x, Index tones, const Ring& ring)
-{
-    for (Index k = 0; k < tones; ++k)
+    auto modes = refined (ring, found.model, most, course);
+    for (std::size_t before = 0; before != modes.tones.size();)   // each mode that goes raises the floor for the others
     {
-        const auto p = RingSearch::part (x, k);
-        if (! (p.frequency * ring.dt < 0.5) || ! (p.frequency * ring.duration() > 1.0) || ! (p.decay * ring.duration() < 200.0) || ! (p.decay * ring.dt < 1.0))
-            return false;
-        if (! (p.decay > 1e-3 / ring.duration()) || ! (math::hypot (p.cosine, p.sine) < 10.0) || ! (p.decay < full_turn * p.frequency)) return false;
-        for (Index l = 0; l < k; ++l)
-        {
-            const auto other = RingSearch::part (x, l);
-            if (full_turn * std::abs (p.frequency - other.frequency) < p.decay + other.decay) return false;
-        }
+        before = modes.tones.size();
+        const double floor = modes.sum / rows;
+        modes = detail::withoutFaint (
+            ring.value, std::move (modes), [floor] (double) { return floor; }, detail::ResidualSpectrum::thresholdOf (rows), course);
+        modes = refined (ring, modes, most, course);
     }
-    return true;
+    return modes;
 }
 
-/// Tries increasing numbers of tones, until two more do not improve the fit.
-FoundRing searchRing (const Ring& ring, int most, FitCourse* course)
+/// The residual of rows that were left out of the fit. The fit to the others follows from one Gauss-Newton step.
+double leftOut (const RingModel& model, const VectorXd& residual)
 {
-    const Index factor = thinning (ring), slow = ring.size() > 400 ? 7 : 3;
-    const double step = ring.dt * static_cast<double> (factor);
-    const auto basis = delayBasis (thinned (ring, factor, slow));
-    FoundRing best;
-    constexpr double faint = 3e-3;   // share of the energy of the recording that another tone must explain
-    double independent = 0.0;
-    for (Index count = 1; count <= most && count <= best.tones + 2; ++count)
+    const Index rows = residual.size(), block = std::max<Index> (1, rows / 50), p = model.parameters();
+    MatrixXd products = MatrixXd::Zero (p, p);
+    VectorXd slopes = VectorXd::Zero (p);
+    double squares = 0.0, count = 0.0;
+    for (Index begin = 2 * block; begin < rows; begin += 5 * block)
     {
-        detail::setShare (course, 0.8 * static_cast<double> (count) / (most + 1));
-        if (detail::isCancelled (course)) return best;
-        const auto rates = pencil (basis, count, step, ring.duration());
-        if (rates.empty()) continue;
-        for (const Index drift : { Index { 1 }, slow })
-        {
-            const auto tones = static_cast<Index> (rates.size());
-            const RingSearch search (ring, tones, drift, course);
-            auto fit = detail::minimise (search.problem(), search.start (rates));
-            if (! fit.x.allFinite() || ! isRing (fit.x, tones, ring)) continue;
-            if (best.tones > 0 && tones > best.tones
-                && ! (fit.sum() < best.fit.sum() - faint * static_cast<double> (tones - best.tones) * ring.value.squaredNorm()))
-                continue;
-            if (independent == 0.0 || best.tones > 0) independent = std::max (30.0, detail::independentRows (fit.residual));
-            const double n = static_cast<double> (ring.size());
-            const double score = n * math::log (fit.sumToCompare()) + static_cast<double> (search.parameters()) * math::log (n) * n / std::min (n, independent);
-            if (score < best.score) best = { tones, drift, std::move (fit), score };
-        }
+        const Index end = std::min (rows, begin + block);
+        products += model.products (begin, end);
+        slopes += model.productsWith (residual, begin, end);
+        squares += residual.segment (begin, end - begin).squaredNorm();
+        count += static_cast<double> (end - begin);
     }
-    return best;
+    const MatrixXd kept = model.products (0, rows) - products;
+    const VectorXd pull = model.productsWith (residual, 0, rows) - slopes;
+    const VectorXd scale = kept.diagonal().cwiseMax (1e-300).cwiseSqrt().cwiseInverse();
+    const VectorXd step = scale.asDiagonal() * (scale.asDiagonal() * kept * scale.asDiagonal()).fullPivLu().solve (scale.asDiagonal() * pull);
+    return std::sqrt (std::max (0.0, squares - 2.0 * step.dot (slopes) + step.dot (products * step)) / count);
 }
 
-double leftOut (const Ring& ring, const FoundRing& found, FitCourse* course)
+/// The covariance of the parameters. Each tone is fitted in a narrow band, so the noise there counts.
+MatrixXd covarianceOf (const Ring& ring, const RingModel& model, const VectorXd& residual)
 {
-    const RingSearch search (ring, found.tones, found.drift, course, true);
-    const auto fit = detail::minimise (search.problem(), found.fit.x);
-    const VectorXd off = ring.value - search.modelled (fit.x);
-    double sum = 0.0, count = 0.0;
-    for (Index i = 0; i < off.size(); ++i)
-        if (search.isLeftOut (i))
-        {
-            sum += off[i] * off[i];
-            count += 1.0;
-        }
-    return std::sqrt (sum / count);
+    VectorXd angles = VectorXd::Zero (model.parameters());
+    for (std::size_t k = 0; k < model.tones.size(); ++k)
+        angles.segment<4> (4 * static_cast<Index> (k)).setConstant (model.tones[k].rate.imag());
+    const VectorXd errors = detail::errorPowers (residual, angles, std::sqrt (ring.meanSquare())).cwiseSqrt();
+    const MatrixXd normal = model.products (0, ring.size());
+    const VectorXd scale = normal.diagonal().cwiseMax (1e-300).cwiseSqrt().cwiseInverse();
+    const MatrixXd inverse = (scale.asDiagonal() * normal * scale.asDiagonal()).fullPivLu().inverse();
+    const VectorXd factor = scale.cwiseProduct (errors);
+    return factor.asDiagonal() * inverse * factor.asDiagonal();
 }
 
-void reportTones (const Ring& ring, const FoundRing& found, ModesFit& result)
+void reportTones (const Ring& ring, const RingModel& model, const VectorXd& residual, ModesFit& result)
 {
-    const auto& x = found.fit.x;
-    const MatrixXd covariance = detail::covarianceOf (found.fit);
-    const double freedom = detail::independentRows (found.fit.residual) - static_cast<double> (x.size());
+    const MatrixXd covariance = covarianceOf (ring, model, residual);
+    const double freedom = detail::independentRows (residual) - static_cast<double> (model.parameters());
     struct Row
     {
         ModesFit::Tone tone;
@@ -369,19 +241,20 @@ void reportTones (const Ring& ring, const FoundRing& found, ModesFit& result)
     };
     std::vector<Row> rows;
     double all = 0.0;
-    for (Index k = 0; k < found.tones; ++k)
+    for (std::size_t k = 0; k < model.tones.size(); ++k)
     {
-        const auto p = RingSearch::part (x, k);
-        const Index i = RingSearch::per_tone * k;
-        const double amplitude = math::hypot (p.cosine, p.sine);
-        // ln amplitude at the blow, by ln decay, cosine and sine.
-        const double since = p.decay * (ring.start - ring.blow);
-        const Eigen::Vector3d along { since, p.cosine / (amplitude * amplitude), p.sine / (amplitude * amplitude) };
-        const double energy = amplitude * amplitude / p.decay * (1.0 - math::exp (-2.0 * p.decay * ring.duration()));
-        rows.push_back ({ { p.frequency, p.decay, ring.largest * amplitude * math::exp (since), math::atan2 (p.cosine, p.sine), energy },
-                          std::sqrt (covariance (i, i)),
-                          std::sqrt (covariance (i + 1, i + 1)),
-                          std::sqrt (detail::varianceAlong (covariance, i + 1, along)) });
+        const auto [rate, a] = model.tones[k];
+        const auto i = 4 * static_cast<Index> (k);
+        const double decay = -rate.real() / ring.dt, size = math::hypot (a.real(), a.imag()), since = (ring.start - ring.blow) / ring.dt;
+        // ln amplitude at the blow, by the decay and the two parts of the amplitude.
+        Eigen::Vector3d along { since, a.real() / (size * size), a.imag() / (size * size) };
+        const std::vector<Index> of_amplitude { i, i + 2, i + 3 };
+        const auto deviation = [] (double variance) { return variance >= 0.0 ? std::sqrt (variance) : std::numeric_limits<double>::infinity(); };
+        const double energy = size * size / decay * (1.0 - math::exp (-2.0 * decay * ring.duration()));
+        rows.push_back ({ { .frequency = rate.imag() / full_turn / ring.dt, .decay = decay, .amplitude = ring.largest * size * math::exp (-rate.real() * since), .phase = math::atan2 (a.real(), -a.imag()), .energy = energy },
+                          deviation (covariance (i + 1, i + 1)) / rate.imag(),
+                          deviation (covariance (i, i)) / -rate.real(),
+                          deviation (along.dot (covariance (of_amplitude, of_amplitude) * along)) });
         all += energy;
     }
     std::ranges::sort (rows, {}, [] (const Row& r) { return r.tone.frequency; });
@@ -397,6 +270,20 @@ void reportTones (const Ring& ring, const FoundRing& found, ModesFit& result)
         result.report.values.push_back (detail::withLogInterval (name + " amplitude", "", tone.amplitude, of_amplitude, freedom, is_main));
     }
 }
+
+/// What the modes do not explain: tones that stand out from the noise, and a residual that decays, as noise does not.
+void examineResidual (const Ring& ring, const VectorXd& residual, double least, FitReport& report)
+{
+    if (const auto left = detail::ResidualSpectrum (residual, least).strongest())
+        report.lacking.push_back ("a tone at " + roundedText (left->rate.imag() / full_turn / ring.dt, 4)
+                                  + " Hz is left in the residual: more modes are needed (--most), or a mode changes its pitch, or is two modes that are closer than "
+                                    "their bandwidths");
+    const Index third = ring.size() / 3;
+    const double early = residual.head (third).squaredNorm() / static_cast<double> (third), late = residual.tail (third).squaredNorm() / static_cast<double> (third);
+    const double chance = 5.0 * std::sqrt (12.0 / std::max (12.0, detail::independentRows (residual)));
+    if (early > (1.0 + chance) * std::max (late, least))
+        report.lacking.push_back ("the residual decays with the ring, so it is not noise: the decay of the modes is not exponential, or the blow still lasts");
+}
 }   // namespace
 
 Result<ModesFit> fitModes (const RecordedRing& recorded, FitCourse* course)
@@ -404,30 +291,33 @@ Result<ModesFit> fitModes (const RecordedRing& recorded, FitCourse* course)
     auto read = ringOf (recorded);
     if (! read) return read.error();
     const auto& ring = *read;
-    const auto found = searchRing (ring, recorded.most_modes, course);
+    constexpr double finest = 1e-6;   // error of a sensor over the size of the signal
+    const double least = finest * finest * ring.meanSquare();
+    const auto found = modesOf (ring, recorded.most_modes, least, course);
     if (detail::isCancelled (course)) return detail::fitCancelled();
-    if (found.tones == 0)
+    if (found.tones.empty())
         return fitError ("fit/no_ring", "no decaying tone explains the recording", "check which column is read, and that the recording begins at the blow");
 
     ModesFit result { .start = ring.start, .blow = ring.blow };
     auto& report = result.report;
-    reportTones (ring, found, result);
-    const RingSearch search (ring, found.tones, found.drift, course);
-    const VectorXd modelled = ring.largest * search.modelled (found.fit.x);
+    const VectorXd modelled = found.values(), residual = ring.value - modelled;
+    reportTones (ring, found, residual, result);
     report.rows = static_cast<std::size_t> (ring.size());
-    report.residual = ring.largest * std::sqrt (found.fit.sum() / static_cast<double> (ring.size()));
-    report.left_out_residual = ring.largest * leftOut (ring, found, course);
-    report.size = ring.largest * std::sqrt (ring.value.squaredNorm() / static_cast<double> (ring.size()));
+    report.residual = ring.largest * std::sqrt (residual.squaredNorm() / static_cast<double> (ring.size()));
+    report.left_out_residual = ring.largest * leftOut (found, residual);
+    report.size = ring.largest * std::sqrt (ring.meanSquare());
     report.notes.push_back ("fitted from " + roundedText (ring.start, 4) + " s to " + roundedText (ring.start + ring.duration(), 4)
                             + " s; the amplitudes are those at the blow, at " + roundedText (ring.blow, 4) + " s");
-    std::vector<double> t;
+    std::vector<double> t, fitted;
     for (Index i = 0; i < ring.size(); ++i)
+    {
         t.push_back (ring.start + ring.dt * static_cast<double> (i));
-    report.picture = {
-        "time", "s", "ring", "", { { "recorded", recorded.time, recorded.value, true }, { "fitted", t, { modelled.begin(), modelled.end() } } }
-    };
-    if (detail::isCancelled (course)) return detail::fitCancelled();
-    judge (report, "Strike once, cleanly, and record until the ring has died away, at a sample rate of at least five times the highest frequency.");
+        fitted.push_back (ring.largest * modelled[i]);
+    }
+    report.picture = { "time", "s", "ring", "", { { "recorded", recorded.time, recorded.value, true }, { "fitted", t, fitted } } };
+    examineResidual (ring, residual, least, report);
+    judge (report, "Strike once, cleanly, and record until the ring has died away, at a sample rate of at least five times the highest frequency.",
+           std::numeric_limits<double>::infinity());
     return result;
 }
 
