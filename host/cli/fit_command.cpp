@@ -5,6 +5,7 @@
 #include "report.hpp"
 
 #include <host/assets/file_assets.hpp>
+#include <host/fitting/recording_file.hpp>
 #include <host/io/plot.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/node/catalogue.hpp>
@@ -92,7 +93,7 @@ void runFit (FitKind kind, FitCommandOptions options)
     if (! options.plot.empty()) outputs.push_back (options.plot);
     refuseOverwriting (outputs, { options.recording });
 
-    const auto table = orFail (readRecording (options.recording));
+    const auto table = orFail (readRecordingOrWav (options.recording));
     auto made = orFail (fitRecording (kind, table, options.recording, options.settings));
     made.preset.name = std::filesystem::path (options.preset).stem().string();
     checkPreset (made, options.recording);
@@ -136,7 +137,7 @@ FitCommand addFitKind (const Command& fit, FitKind kind, const std::string& abou
             (columns.empty() ? "" : ", ") + column.role + (column.unit.empty() ? "" : " (" + column.unit + ")") + (column.required ? "" : " if recorded");
         roles += (roles.empty() ? "" : ", ") + column.role;
     }
-    made.command.addOption ("recording", options->recording, "CSV file with the columns " + columns + ", in order of time").required();
+    made.command.addOption ("recording", options->recording, "CSV file with the columns " + columns + ", in order of time; or a WAV with the columns t and \"channel 1\", \"channel 2\" …").required();
     made.command.addOption ("-o,--out", options->preset, "The preset to write: a graph file").required();
     made.command.addOption ("--plot", options->plot, "Plot the recording and the fit into this PNG, SVG or PDF file");
     made.command.addFlag ("--json", options->json, "Print JSON, for use by programs");

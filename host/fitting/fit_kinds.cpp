@@ -86,7 +86,7 @@ const std::vector<FitKindInfo>& fitKinds()
           "Ring",
           "The tones of a struck object: vibration.modal",
           { column ("t", "s", true, { "time" }, "time"),
-            column ("value", "", true, { "acceleration", "accel", "acc", "velocity", "force", "sound", "signal", "a", "y", "column_2" },
+            column ("value", "", true, { "acceleration", "accel", "acc", "velocity", "force", "sound", "signal", "a", "y", "column_2", "channel_1" },
                     "ring, in any unit") } },
         { FitKind::texture,
           "texture",

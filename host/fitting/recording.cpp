@@ -83,6 +83,22 @@ Result<Table> readRecording (const std::filesystem::path& path)
     return table;
 }
 
+Table tableOf (const Signal& signal)
+{
+    Table table { .columns = { "t" }, .values = {} };
+    for (std::size_t c = 1; c <= signal.channels.size(); ++c)
+        table.columns.push_back ("channel " + std::to_string (c));
+    const auto rows = signal.channels.empty() ? 0 : signal.channels.front().size();
+    table.values.reserve (rows * table.columns.size());
+    for (std::size_t i = 0; i < rows; ++i)
+    {
+        table.values.push_back (static_cast<double> (i) / signal.rate_hz);
+        for (const auto& channel : signal.channels)
+            table.values.push_back (channel[i]);
+    }
+    return table;
+}
+
 std::string bareName (const std::string& column)
 {
     auto name = column;

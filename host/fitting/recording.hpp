@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tactus/file/csv.hpp>
+#include <tactus/kit/assets.hpp>
 
 #include <filesystem>
 #include <map>
@@ -33,6 +34,9 @@ struct ColumnChoice
 /// stand above it, and rows may end with empty fields: see tableIn.
 /// Errors: those of readTable. [any thread]
 Result<Table> readRecording (const std::filesystem::path&);
+
+/// The samples of a WAV as a recording: the column t, and "channel 1", "channel 2" and so on.
+Table tableOf (const Signal&);
 
 /// The unit in the name of a column, such as "mm" for "Position [mm]", "Position mm" or x_mm; empty if there is none.
 std::string unitIn (const std::string& column);

@@ -5,6 +5,7 @@
 #include <host/app/look/focus.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/fitting/recording_file.hpp>
 #include <tactus/text/quote.hpp>
 #include <tactus/text/units.hpp>
 
@@ -100,7 +101,7 @@ void FitPanel::open (const std::filesystem::path& path)
     plot.show ({});
     setVisible (true);
     toFront (false);
-    auto read = readRecording (path);
+    auto read = readRecordingOrWav (path);
     if (read)
         table = std::make_shared<const Table> (std::move (*read));
     else

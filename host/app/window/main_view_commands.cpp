@@ -286,7 +286,7 @@ void MainView::askForFile (bool saves, const std::filesystem::path& begin, std::
 void MainView::askForRecording()
 {
     const auto home_folder = juce::File::getSpecialLocation (juce::File::userHomeDirectory);
-    launchChooser (TRANS ("Fit a recording"), "*.csv;*.tsv;*.txt", recordings.isDirectory() ? recordings : home_folder,
+    launchChooser (TRANS ("Fit a recording"), "*.csv;*.tsv;*.txt;*.wav", recordings.isDirectory() ? recordings : home_folder,
                    juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this] (const std::filesystem::path& file) {
                        recordings = juce::File (file.parent_path().string());
                        fitRecordingIn (file);

@@ -70,7 +70,7 @@ TEST_CASE ("presliding friction: one half of a recording predicts the other half
     CHECK (energy == Approx (1.0).margin (0.03));
 }
 
-TEST_CASE ("the ring of a board after a shock has one mode near 805 Hz that decays at 44 1/s", "[fit][data]")
+TEST_CASE ("the ring of a board after a shock is one mode near 805 Hz that decays at 44 1/s, and not quite linear", "[fit][data]")
 {
     const auto folder = test::sharedData ("shock_highrate_shm");
     if (folder.empty()) return;
@@ -81,9 +81,11 @@ TEST_CASE ("the ring of a board after a shock has one mode near 805 Hz that deca
     REQUIRE (fit);
     const auto &frequency = fit->report.at ("mode 1 frequency"), &decay = fit->report.at ("mode 1 decay");
     WARN ("board: " << host::textOf (frequency) << ", " << host::textOf (decay));
-    CHECK (fit->report.values.size() == 3);
     CHECK (frequency.value == Approx (805.0).epsilon (0.005));
     CHECK (decay.value == Approx (44.0).epsilon (0.1));
+    for (const auto& value : fit->report.values)   // others are faint, and near the third harmonic
+        CHECK ((! value.is_main || value.name.starts_with ("mode 1")));
+    CHECK_FALSE (fit->report.is_good);   // the residual of 6 % rings, too
 }
 
 TEST_CASE ("key switches: the fitted curves take the recorded work per stroke within 5 %", "[fit][data]")

@@ -5,8 +5,10 @@
 #include "table_text.hpp"
 
 #include <host/fitting/fitting.hpp>
+#include <host/io/wav.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/kit/random.hpp>
+#include <tactus/text/json.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -80,6 +82,39 @@ TEST_CASE ("fit modes: the preset rings as loud as the recorded blow, wherever t
         const auto graph = fitted (scratch, "modes", tap(), arguments);
         CHECK (graph.root.find ("ring")->settings.at ("modes")[0].at ("amplitude").get<double>() == Approx (100.0 * 0.02 / 0.3).epsilon (0.04));
     }
+}
+
+TEST_CASE ("fit modes: a WAV is a recording, at its rate, with its channels", "[cli][fit]")
+{
+    const Scratch scratch;
+    for (const double rate : { 8000.0, 44100.0 })
+    {
+        auto wav = host::WavWriter::create (scratch.path ("bell.WAV"), rate, 2);
+        REQUIRE (wav);
+        for (int i = 0; i < rate; ++i)
+        {
+            const double t = i / rate;
+            const double samples[] { std::exp (-4.0 * t) * std::sin (full_circle * 440.0 * t), 0.5 * std::exp (-9.0 * t) * std::sin (full_circle * 1234.0 * t) };
+            REQUIRE (wav->frame (samples));
+        }
+        REQUIRE (wav->commit());
+        for (const bool second : { false, true })
+        {
+            std::vector<std::string> arguments { "fit", "modes", scratch.path ("bell.WAV"), "-o", scratch.path ("bell.json"), "--json" };
+            if (second) arguments.insert (arguments.end(), { "--column", "value=channel 2" });
+            const auto ran = runTactus (arguments);
+            INFO (ran.out << ran.err);
+            REQUIRE (ran.status == 0);
+            const auto report = Json::parse (ran.out);
+            CHECK (report["verdict"] == "good");
+            REQUIRE (report["parameters"].size() == 3);
+            CHECK (report["parameters"][0]["value"].get<double>() == Approx (second ? 1234.0 : 440.0).epsilon (1e-5));
+            CHECK (report["parameters"][1]["value"].get<double>() == Approx (second ? 9.0 : 4.0).epsilon (1e-3));
+        }
+    }
+    const auto refused = runTactus ({ "fit", "friction", scratch.path ("bell.WAV"), "-o", scratch.path ("p.json") });
+    CHECK (refused.status == 1);
+    CHECK (refused.err.find ("channel 1, channel 2") != std::string::npos);
 }
 
 TEST_CASE ("fit: places and times may be 0 or negative", "[cli][fit]")
