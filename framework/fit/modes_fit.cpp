@@ -2,6 +2,7 @@
 #include "modes_fit.hpp"
 #include "least_squares.hpp"
 #include "ring_search.hpp"
+#include "ring_sums.hpp"
 
 #include <tactus/kit/at.hpp>
 #include <tactus/kit/math/math.hpp>
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace tactus
 {
@@ -20,12 +20,12 @@ namespace tactus
 namespace
 {
 using detail::fitError;
+using detail::full_turn;
 using detail::RingModel;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double full_turn = 2.0 * std::numbers::pi;
 constexpr std::size_t fewest_ring_rows = 64;
 
 /// The rows that are fitted. Times run from 0 in steps of dt, values are relative to the largest.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "ring_model.hpp"
+#include "ring_sums.hpp"
 
 #include <tactus/kit/at.hpp>
-#include <tactus/kit/math/math.hpp>
 
 #include <Eigen/Cholesky>
 
@@ -17,112 +17,10 @@ namespace tactus::detail
 
 namespace
 {
-using Complex = std::complex<double>;
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index most_drift = 5, per_tone = 4;
-constexpr double full_turn = 2.0 * std::numbers::pi;
-
-/// Without the tests for infinities of std::complex.
-Complex times (Complex a, Complex b) { return { a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real() }; }
-
-Complex powerOf (Complex rate, double n)
-{
-    const auto [sine, cosine] = math::sinCos (std::fmod (rate.imag() * n, full_turn));
-    return math::exp (rate.real() * n) * Complex { cosine, sine };
-}
-
-/// Sums over rows of (n / rows)^c e^(rate n), for c from 0.
-using Sums = std::array<Complex, 2 * most_drift - 1>;
-
-/// The same sums if each row is later by `by`, in units of all rows, without the factor e^(rate by).
-void shift (Sums& s, double by, std::size_t most)
-{
-    for (std::size_t k = 1; k <= most; ++k)
-        for (std::size_t c = most; c >= k; --c)
-            s[c] += by * s[c - 1];
-}
-
-/// Doubles the number of rows again and again, so nothing cancels.
-Sums sumsOf (Complex rate, Index begin, Index end, Index rows, std::size_t most)
-{
-    const double unit = 1.0 / static_cast<double> (rows);
-    const Complex factor = powerOf (rate, 1.0);
-    Sums sums {};
-    Complex power = 1.0;
-    Index done = 0;
-    const auto count = static_cast<std::uint64_t> (end - begin);
-    for (int bit = 63; bit-- > 0;)
-    {
-        if (done > 0)
-        {
-            auto later = sums;
-            shift (later, unit * static_cast<double> (done), most);
-            for (std::size_t c = 0; c <= most; ++c)
-                sums[c] += times (power, later[c]);
-            power = times (power, power);
-            done *= 2;
-        }
-        if ((count >> bit & 1) == 0) continue;
-        double u = 1.0;
-        for (std::size_t c = 0; c <= most; ++c, u *= unit * static_cast<double> (done))
-            sums[c] += u * power;
-        power = times (power, factor);
-        ++done;
-    }
-    if (begin == 0) return sums;
-    shift (sums, unit * static_cast<double> (begin), most);
-    const Complex first = powerOf (rate, static_cast<double> (begin));
-    for (std::size_t c = 0; c <= most; ++c)
-        sums[c] = times (first, sums[c]);
-    return sums;
-}
-
-/// Calls with the first row of each block of rows, their number, and e^(rate n) of the first row, until the tone has died away.
-constexpr Index block = 32;
-
-template <typename Visit>
-void visitBlocks (Complex rate, Index begin, Index end, Visit visit)
-{
-    for (Index n = begin; n < end; n += block)
-    {
-        if (rate.real() * static_cast<double> (n) < -70.0) return;
-        visit (n, std::min (block, end - n), powerOf (rate, static_cast<double> (n)));
-    }
-}
-
-std::array<Complex, block> powersOf (Complex rate)
-{
-    std::array<Complex, block> powers;
-    for (std::size_t i = 0; i < powers.size(); ++i)
-        powers[i] = powerOf (rate, static_cast<double> (i));
-    return powers;
-}
-
-/// Sums over rows of signal e^(rate n), and of signal (n / rows) e^(rate n).
-std::pair<Complex, Complex> correlate (const VectorXd& signal, Complex rate, Index begin, Index end)
-{
-    const auto powers = powersOf (rate);
-    Complex plain, by_row;
-    visitBlocks (rate, begin, end, [&] (Index first, Index count, Complex z) {
-        double re = 0.0, im = 0.0, re_by_row = 0.0, im_by_row = 0.0;
-        for (Index i = 0; i < count; ++i)
-        {
-            const auto& p = powers[at (i)];
-            const double v = signal[first + i], by = static_cast<double> (i) * v;
-            re += v * p.real();
-            im += v * p.imag();
-            re_by_row += by * p.real();
-            im_by_row += by * p.imag();
-        }
-        const Complex here { re, im };
-        plain += times (z, here);
-        by_row += times (z, static_cast<double> (first) * here + Complex { re_by_row, im_by_row });
-    });
-    return { plain, by_row / static_cast<double> (signal.size()) };
-}
+constexpr Index per_tone = 4;
 
 /// What the model is made of, without amplitudes: for each tone Re z, Re i z, Re u z and Re i u z, with z = e^(rate n) and u = n / rows, then the powers
 /// of u of the drift.
@@ -264,15 +162,15 @@ std::vector<Complex> moved (const std::vector<Complex>& rates, const VectorXd& s
     }
     return next;
 }
+}   // namespace
 
-std::vector<Complex> ratesOf (const RingModel& model)
+std::vector<std::complex<double>> RingModel::allRates() const
 {
     std::vector<Complex> rates;
-    for (const auto& tone : model.tones)
+    for (const auto& tone : tones)
         rates.push_back (tone.rate);
     return rates;
 }
-}   // namespace
 
 VectorXd RingModel::values() const
 {
@@ -294,7 +192,7 @@ VectorXd RingModel::values() const
 
 MatrixXd RingModel::products (Index begin, Index end) const
 {
-    const auto rates = ratesOf (*this);
+    const auto rates = allRates();
     const Basis basis { rates, drift.size(), rows };
     const MatrixXd slopes = slopesIn (basis, tones);
     return slopes.transpose() * basis.products (begin, end) * slopes;
@@ -302,14 +200,14 @@ MatrixXd RingModel::products (Index begin, Index end) const
 
 VectorXd RingModel::productsWith (const VectorXd& signal, Index begin, Index end) const
 {
-    const auto rates = ratesOf (*this);
+    const auto rates = allRates();
     const Basis basis { rates, drift.size(), rows };
     return slopesIn (basis, tones).transpose() * basis.productsWith (signal, begin, end);
 }
 
 std::vector<double> RingModel::gains() const
 {
-    const auto rates = ratesOf (*this);
+    const auto rates = allRates();
     const Basis basis { rates, drift.size(), rows };
     const auto linear = linearOf (basis);
     const MatrixXd products = basis.products (0, rows) (linear, linear);

@@ -28,6 +28,7 @@ struct RingModel
     double sum = 0.0;   ///< of the squared residuals
 
     Eigen::Index parameters() const { return 4 * static_cast<Eigen::Index> (tones.size()) + drift.size(); }
+    std::vector<std::complex<double>> allRates() const;
     Eigen::VectorXd values() const;
 
     /// The products of the slopes of the model with one another, over the rows from `begin` to `end`. The parameters are decay, angle, and the real

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ring_search.hpp"
+#include "ring_sums.hpp"
 
 #include <tactus/kit/at.hpp>
 #include <tactus/kit/math/math.hpp>
@@ -16,12 +17,10 @@ namespace tactus::detail
 
 namespace
 {
-using Complex = std::complex<double>;
-using Eigen::Index;
 using Eigen::VectorXd;
 
 /// Decays times the length of the signal. Between them, a tone loses at most 8 % of its power over the noise.
-constexpr double decays[] { 0.0, 2.0, 6.0, 18.0, 54.0, 162.0, 486.0 };
+constexpr double ring_decays[] { 0.0, 2.0, 6.0, 18.0, 54.0, 162.0, 486.0 };
 
 /// A spectrum of the signal weighted with e^(-decay n), as power over that of white noise of variance 1.
 std::vector<double> weightedSpectrum (const VectorXd& signal, double decay)
@@ -53,7 +52,7 @@ ResidualSpectrum::ResidualSpectrum (const VectorXd& residual, double least)
     const auto bands = static_cast<std::size_t> (std::clamp (n / 2.0 / 64.0, 1.0, 48.0));
     const double lines_per_band = n / 2.0 / static_cast<double> (bands);
     limit = thresholdOf (n) * (1.0 + 2.5 / std::sqrt (lines_per_band));
-    for (const double decay : decays)
+    for (const double decay : ring_decays)
     {
         const auto power = weightedSpectrum (residual, decay / n);
         const double step = std::numbers::pi / static_cast<double> (power.size() - 1);
@@ -89,15 +88,7 @@ double ResidualSpectrum::floorAt (double angle) const
 
 namespace
 {
-constexpr int most_steps = 30;
-
-std::vector<Complex> ratesOf (const RingModel& model)
-{
-    std::vector<Complex> rates;
-    for (const auto& tone : model.tones)
-        rates.push_back (tone.rate);
-    return rates;
-}
+constexpr int most_ring_steps = 30;
 }   // namespace
 
 RingModel withoutFaint (const VectorXd& signal, RingModel model, const std::function<double (double)>& floor, double least, const FitCourse* course)
@@ -109,9 +100,9 @@ RingModel withoutFaint (const VectorXd& signal, RingModel model, const std::func
             scores[k] *= 0.5 / floor (model.tones[k].rate.imag());
         const auto weakest = std::ranges::min_element (scores);
         if (*weakest > least) break;
-        auto rates = ratesOf (model);
+        auto rates = model.allRates();
         rates.erase (rates.begin() + (weakest - scores.begin()));
-        model = fitRing (signal, rates, model.drift.size(), most_steps, course);
+        model = fitRing (signal, rates, model.drift.size(), most_ring_steps, course);
     }
     return model;
 }
@@ -119,7 +110,7 @@ RingModel withoutFaint (const VectorXd& signal, RingModel model, const std::func
 FoundRing searchRing (const VectorXd& signal, Index drift, int most_tones, double least, FitCourse* course)
 {
     constexpr double hysteresis = 0.8;   // a tone that was found may lose a little
-    RingModel model = fitRing (signal, {}, drift, most_steps, course);
+    RingModel model = fitRing (signal, {}, drift, most_ring_steps, course);
     while (! isCancelled (course))
     {
         const VectorXd residual = signal - model.values();
@@ -127,10 +118,10 @@ FoundRing searchRing (const VectorXd& signal, Index drift, int most_tones, doubl
         if (! spectrum.strongest()) return { std::move (model), true };
         if (static_cast<int> (model.tones.size()) >= most_tones) break;
         setShare (course, 0.8 * static_cast<double> (model.tones.size()) / most_tones);
-        auto rates = ratesOf (model);
-        rates.push_back (fitRing (residual, { spectrum.strongest()->rate }, 0, most_steps, course).tones.front().rate);
+        auto rates = model.allRates();
+        rates.push_back (fitRing (residual, { spectrum.strongest()->rate }, 0, most_ring_steps, course).tones.front().rate);
         auto next = withoutFaint (
-            signal, fitRing (signal, rates, drift, most_steps, course), [&] (double angle) { return spectrum.floorAt (angle); }, hysteresis * spectrum.threshold(),
+            signal, fitRing (signal, rates, drift, most_ring_steps, course), [&] (double angle) { return spectrum.floorAt (angle); }, hysteresis * spectrum.threshold(),
             course);
         if (! (next.sum < model.sum)) break;
         model = std::move (next);
