@@ -117,7 +117,7 @@ FoundRing searchRing (const VectorXd& signal, Index drift, int most_tones, doubl
         const ResidualSpectrum spectrum (residual, least);
         if (! spectrum.strongest()) return { std::move (model), true };
         if (static_cast<int> (model.tones.size()) >= most_tones) break;
-        setShare (course, 0.8 * static_cast<double> (model.tones.size()) / most_tones);
+        setShare (course, 0.8 * static_cast<double> (model.tones.size() + 1) / (most_tones + 1));
         auto rates = model.allRates();
         rates.push_back (fitRing (residual, { spectrum.strongest()->rate }, 0, most_ring_steps, course).tones.front().rate);
         auto next = withoutFaint (
