@@ -97,7 +97,7 @@ struct TextureWatch
     Claims claims {};       // the largest value of each claim
     double loudest = 0.0;   // largest force, in N
 
-    void look (const Plan& plan, bool with_claims)
+    void poll (const Plan& plan, bool with_claims)
     {
         loudest = std::max (loudest, forces.largest());
         if (! with_claims) return;

@@ -179,9 +179,9 @@ class Probed
 public:
     explicit Probed (std::unique_ptr<HidPort> port) : device (std::move (port)) { device.prepare (1e-3 * static_cast<double> (period.count())); }
 
-    static constexpr auto period = 5ms;   // period of look(); the port's buffer lasts far longer
+    static constexpr auto period = 5ms;   // period of poll(); the port's buffer lasts far longer
 
-    void look() { latest = device.read(); }
+    void poll() { latest = device.read(); }
 
     std::string text (double seconds) const
     {

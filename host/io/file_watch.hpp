@@ -28,7 +28,7 @@ public:
     /// Where the system reports which files are written, a look at unchanged files costs one system call. A file that a program still has
     /// open is not reported until `most_quiet` looks have passed without a write to it. All files are compared after `most_quiet` looks
     /// in any case, because the system does not report changes that another computer makes in a shared folder.
-    bool look();
+    bool poll();
 
     /// True if the system reports which files are written, so that a look at unchanged files costs little.
     bool isTold() const noexcept { return folders.isTold(); }

@@ -27,7 +27,7 @@ public:
     bool isTold() const noexcept { return is_told; }
 
     /// True if any of the files may have been written, replaced or removed since the last call. Does not wait.
-    bool look();
+    bool poll();
 
     /// True if a file has been written to, but not closed yet.
     bool isWriting() const noexcept

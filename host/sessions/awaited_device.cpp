@@ -72,7 +72,7 @@ void AwaitedDevice::lookOn()
 {
     while (device() == nullptr)
     {
-        look();
+        poll();
         std::unique_lock lock (mutex);
         if (stopped.wait_for (lock, pause, [this] { return stopping; }))
             return;

@@ -47,7 +47,7 @@ public:
 
 private:
     void lookOn();
-    void look();
+    void poll();
     void note (const std::string& trouble);
     bool isStopping() const;
 

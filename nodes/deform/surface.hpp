@@ -272,7 +272,7 @@ struct ElasticSurface
         const Spot& spot = isTouching() ? touch.spot : near;
         if (spot.triangle >= 0)
         {
-            const Felt felt = followed ? *followed : body->feel (spot, in.position, tool);
+            const ContactSample felt = followed ? *followed : body->feel (spot, in.position, tool);
             out.normal = -felt.frame.row (2).transpose();
             if (isTouching()) report (felt, in.position, out);
             last.depth = felt.d.z();
@@ -297,7 +297,7 @@ struct ElasticSurface
     double movedAt() const noexcept { return moved_at; }
 
 private:
-    using Felt = PlacedSurface::Felt;
+    using ContactSample = PlacedSurface::ContactSample;
 
     struct Touch
     {
@@ -319,7 +319,7 @@ private:
 
     /// Updates the contact for a tool at p: the contact begins, sticks, slips or ends. Returns what is felt at the resulting spot,
     /// if that was computed on the way.
-    std::optional<Felt> follow (const Inputs& in, std::optional<int> found) noexcept
+    std::optional<ContactSample> follow (const Inputs& in, std::optional<int> found) noexcept
     {
         touch.slipped = false;
         touch.hit = 0.0;
@@ -327,7 +327,7 @@ private:
         return move ({ .from = last.position, .to = in.position, .free = once_per_tick && ! touch.frictionless, .once = once_per_tick });
     }
 
-    std::optional<Felt> open (const Inputs& in, std::optional<int> found) noexcept
+    std::optional<ContactSample> open (const Inputs& in, std::optional<int> found) noexcept
     {
         const auto& p = in.position;
         const bool found_late = search.takesTime() && near.triangle < 0;
@@ -339,7 +339,7 @@ private:
         Spot spot = near;
         tool.smooth = isFrictionless() && ! leans;
         body->choose (in.tool, spot, tool);
-        Felt felt = body->feel (spot, p, tool);
+        ContactSample felt = body->feel (spot, p, tool);
         if (entered >= 0) belongTo (entered, in, spot, felt);
 
         const bool past_rim = entered < 0 && last.known && last.depth <= 0.0 && body->walk().isOpen();
@@ -368,11 +368,11 @@ private:
 
     /// Puts the contact point of a tool that entered through a triangle on that side of the body, even if another side is nearer. If
     /// the tool is already outside again, this happens only if it is below that side, as behind a thin plate, and not off to its side.
-    void belongTo (int entered, const Inputs& in, Spot& spot, Felt& felt) noexcept
+    void belongTo (int entered, const Inputs& in, Spot& spot, ContactSample& felt) noexcept
     {
         const Spot there = body->walk().nearestFacing (entered, in.position, in.position - last.position);
         body->choose (in.tool, there, tool);
-        const Felt now = body->feel (there, in.position, tool);
+        const ContactSample now = body->feel (there, in.position, tool);
         const bool through = ! (felt.d.z() > 0.0), beside = math::hypot (now.d.x(), now.d.y()) > now.d.z();
         if (through && beside) return;
         spot = there;
@@ -380,7 +380,7 @@ private:
     }
 
     /// Moves the contact point while the tool moves. At the start of a contact, the path has no length.
-    Felt move (const SurfacePath& path) noexcept
+    ContactSample move (const SurfacePath& path) noexcept
     {
         const SurfaceStep step = stepped (path);
         moved_at = step.share;
@@ -401,12 +401,12 @@ private:
 
     /// Ends the contact. A tool that is still inside another part of the body must leave the body before it can touch again: a touch
     /// that begins inside would create energy. A tool that is no deeper than the length of this step counts as outside.
-    Felt letGo (const Felt& felt, const Vec3& p) noexcept
+    ContactSample letGo (const ContactSample& felt, const Vec3& p) noexcept
     {
         dissipate (felt.energy);
         near = body->walk().nearest (touch.spot.triangle, p);
         touch = {};
-        const Felt now = body->feel (near, p, tool);
+        const ContactSample now = body->feel (near, p, tool);
         behind = now.d.z() > (last.known ? (p - last.position).norm() : 0.0);
         return now;
     }
@@ -416,7 +416,7 @@ private:
         if (isFinite (dissipated + energy)) dissipated += energy;
     }
 
-    void report (const Felt& felt, const Vec3& p, Outputs& out) const noexcept
+    void report (const ContactSample& felt, const Vec3& p, Outputs& out) const noexcept
     {
         out.force = -(felt.frame.transpose() * felt.f);
         if (touch.frictionless && projects) out.force -= body->slope (touch.spot, felt, p, tool);

@@ -115,7 +115,7 @@ host::LivePlugins::RebuiltPlugin next (host::LivePlugins& live)
 {
     for (int i = 0; i < 60000; ++i)
     {
-        if (auto news = live.look()) return std::move (*news);
+        if (auto news = live.poll()) return std::move (*news);
         std::this_thread::sleep_for (std::chrono::milliseconds (5));
     }
     FAIL ("the compiler does not finish");
@@ -217,7 +217,7 @@ TEST_CASE ("saved C code is compiled and loaded; with errors, or if it cannot be
     folder.write ("twice.c", code);
     host::LiveSource source { .file = folder / "p.tactus", .sources = { folder / "twice.c" }, .compiler = "cc" };
     host::LivePlugins live ({ source });
-    CHECK_FALSE (live.look());
+    CHECK_FALSE (live.poll());
 
     folder.write ("twice.c", replaced (code, "2.0 * v", "3.0 * v"));
     auto good = next (live);

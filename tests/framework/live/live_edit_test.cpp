@@ -82,7 +82,7 @@ struct Felt
 class BumplessRule
 {
 public:
-    void look (const Plan& plan, bool taken_over, const Effort& applied, bool stopped)
+    void poll (const Plan& plan, bool taken_over, const Effort& applied, bool stopped)
     {
         const auto role = std::ranges::find (plan.roles(), "right", &Plan::RoleUse::name);
         Effort wanted;

@@ -20,7 +20,7 @@ int changes (FileWatch& watch)
 {
     int n = 0;
     for (int i = 0; i < 4; ++i)
-        n += watch.look();
+        n += watch.poll();
     return n;
 }
 }   // namespace
@@ -60,7 +60,7 @@ TEST_CASE ("a file that keeps changing is not reported yet", "[watch]")
     for (const auto* half : { "{", "{ \"a\"", "{ \"a\": 1" })
     {
         scratch.write ("g.json", half);
-        CHECK_FALSE (watch.look());
+        CHECK_FALSE (watch.poll());
     }
     scratch.write ("g.json", "{ \"a\": 1 }");
     CHECK (changes (watch) == 1);
@@ -75,11 +75,11 @@ TEST_CASE ("saving unchanged, or changing and reverting, is not an edit", "[watc
     fs::last_write_time (file, fs::file_time_type::clock::now() + std::chrono::hours (1));
     CHECK (changes (watch) == 0);
     scratch.write ("g.json", "b");
-    CHECK_FALSE (watch.look());
+    CHECK_FALSE (watch.poll());
     scratch.write ("g.json", "a");
     CHECK (changes (watch) == 0);
     scratch.write ("g.json", "b");
-    CHECK_FALSE (watch.look());
+    CHECK_FALSE (watch.poll());
 }
 
 TEST_CASE ("a file may be replaced by renaming, and be missing for a while", "[watch]")
@@ -216,7 +216,7 @@ TEST_CASE ("a folder that is deleted and made again, or renamed, is watched agai
     CHECK_FALSE (watch.isTold());
     fs::create_directories (folder);
     for (int i = 0; i < FileWatch::most_quiet; ++i)
-        CHECK_FALSE (watch.look());
+        CHECK_FALSE (watch.poll());
     CHECK (watch.isTold());
     scratch.write ("work/g.json", "c");
     CHECK (changes (watch) == 1);
@@ -237,7 +237,7 @@ TEST_CASE ("what the system does not tell is noticed after a while", "[watch]")
     fs::create_directory_symlink ("two", folder / "now");   // one folder above those that are watched
     int n = 0;
     for (int i = 0; i < 2 * FileWatch::most_quiet; ++i)
-        n += watch.look();
+        n += watch.poll();
     CHECK (n == 1);
     scratch.write ("two/g.json", "edited");
     CHECK (changes (watch) == 1);
@@ -262,7 +262,7 @@ TEST_CASE ("a file that is still open is not reported", "[watch]")
     CHECK (changes (watch) == 0);
     int n = 0;
     for (int i = 0; i < 2 * FileWatch::most_quiet; ++i)
-        n += watch.look();
+        n += watch.poll();
     CHECK (n == 1);
 }
 #endif
