@@ -228,7 +228,7 @@ public:
     /// Starts the ramps to new targets, and moves all ramps by one tick.
     void tick() noexcept
     {
-        if (is_touched) look();
+        if (is_touched) poll();
         is_started = true;
         if (ramping > 0) step();
     }
@@ -240,7 +240,7 @@ private:
         all[group.first + group.count++] = p;
     }
 
-    void look() noexcept
+    void poll() noexcept
     {
         is_touched = false;
         for (std::size_t n = 0; n < node_count; ++n)
@@ -307,7 +307,7 @@ struct Hits
         if (isFinite (speed) && speed > 0.0) asked += speed;
     }
 
-    void look() noexcept
+    void poll() noexcept
     {
         if (asked == 0.0) return;
         pending += asked;
