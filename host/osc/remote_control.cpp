@@ -123,7 +123,7 @@ void RemoteControl::poll (Clock::time_point now)
             break;
 
     const auto left = std::erase_if (probes, [&] (const Probe& p) { return now >= p.end; });
-    if (left > 0 && probes.empty()) static_cast<void> (poll ({}));
+    if (left > 0 && probes.empty()) static_cast<void> (listenTo ({}));
 
     sendCapture();
     if (capture && capture->sent == 0 && now >= capture->end)
@@ -281,7 +281,7 @@ Result<> RemoteControl::subscribe (const OSCMessage& m, const std::string& host,
             return Message::error ("probe/too_many", {}, "there are already " + std::to_string (most_probes) + " probes", "wait until one of the probes ends");
         auto more = probes;
         more.push_back (probe);
-        if (auto looked = poll (more); ! looked) return looked;
+        if (auto looked = listenTo (more); ! looked) return looked;
     }
 
     const auto& now_probed = *std::ranges::find_if (probes, [&] (const Probe& p) { return p.name == probe.name && p.to == probe.to; });
@@ -359,7 +359,7 @@ void RemoteControl::sendCapture()
 }
 
 /// Replaces all probes with these, if all their ports can be probed together.
-Result<> RemoteControl::poll (const std::vector<Probe>& wanted)
+Result<> RemoteControl::listenTo (const std::vector<Probe>& wanted)
 {
     std::vector<std::string> ports;
     for (const auto& p : wanted)
@@ -390,12 +390,12 @@ void RemoteControl::graphChanged()
     }
     if (probes.empty()) return;
     auto before = std::exchange (probes, {});
-    static_cast<void> (poll ({}));
+    static_cast<void> (listenTo ({}));
     for (auto& p : before)
     {
         auto more = probes;
         more.push_back (p);
-        if (const auto looked = poll (more); ! looked) answer (p.to, "/tactus/probe", p.name, looked);
+        if (const auto looked = listenTo (more); ! looked) answer (p.to, "/tactus/probe", p.name, looked);
     }
 }
 

@@ -149,7 +149,7 @@ private:
     Result<> arm (Capture);
     void confirmCapture();
     void sendCapture();
-    Result<> poll (const std::vector<Probe>&);
+    Result<> listenTo (const std::vector<Probe>&);
     void answer (const OscReturn& to, const std::string& address, const std::string& subject, const Result<>&);
 
     OscPort& port;
