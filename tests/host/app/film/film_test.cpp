@@ -275,7 +275,7 @@ TEST_CASE ("a film is made of the scene while it is hidden\\, too", "[app][film]
     CHECK (panel.film().isVisible());
     playback.start ({ LiveRun::Hand::Kind::path, "stroke" });
     auto& tape = playback.run().film();
-    const auto attend = [&] {
+    const auto poll = [&] {
         playback.poll();
         panel.refresh();
         std::this_thread::sleep_for (std::chrono::milliseconds (5));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The stops of a guard in words.
-#include <tactus/run/guard.hpp>
+#include "guard.hpp"
 
 #include <tactus/kit/math/math.hpp>
 

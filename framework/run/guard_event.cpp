@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a guard reports about a stop.
-#include <tactus/run/guard.hpp>
+#include "guard.hpp"
 
 #include <algorithm>
 
