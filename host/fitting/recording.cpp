@@ -45,7 +45,8 @@ std::string unitIn (const std::string& column)
     const auto from = column.find_last_of ("_ ");
     if (from == std::string::npos) return "";
     const auto unit = column.substr (from + 1);
-    return isUnit (unit) ? unit : "";
+    const bool is_number = unit.find_first_not_of ("0123456789.") == std::string::npos;   // "channel 1" is a name
+    return ! is_number && isUnit (unit) ? unit : "";
 }
 
 std::optional<double> factorOf (const std::string& text, const std::string& si_unit)

@@ -96,12 +96,12 @@ TEST_CASE ("check-plugin names what keeps a plugin from being loaded", "[plugins
 TEST_CASE ("check-plugin names the hook that throws", "[plugins]")
 {
     catches ("throwing_always", { "hooks: ", "thrown in cost", "thrown in problem", "thrown in warning", "thrown in prepare", "thrown in claims",
-                                  "`tick`: the program was ended by signal 6" });
+                                  "`tick` of bad.in_tick: the program was ended by signal 6" });
 }
 
 TEST_CASE ("check-plugin catches what a tick must not do", "[plugins]")
 {
-    catches ("bad_crash", { "finite: `tick`: the program was ended by signal 11" });
+    catches ("bad_crash", { "finite: `tick` of c.twice: the program was ended by signal 11" });
     catches ("bad_allocates", { "allocations: a tick allocates or frees memory 2 times" });
     catches ("bad_locks", { "locks: a tick locks a mutex" });
     catches ("bad_calls", { "system_calls: a tick calls the operating system: `getppid`" });

@@ -16,7 +16,7 @@ class Live
 {
 public:
     Live (graph::Graph g, const Catalogue& catalogue, CompileOptions options, std::shared_ptr<Plan> first)
-        : edits (std::move (g)), run (catalogue, std::move (options))
+        : edits (std::move (g), nullptr), run (catalogue, std::move (options))
     {
         run.begin (std::move (first));
     }
@@ -46,7 +46,7 @@ private:
         return std::move (edit.messages());
     }
 
-    graph::History edits;
+    graph::History edits;   // accepts edits with errors, as the window does
     Run run;
 };
 

@@ -7,7 +7,7 @@ namespace tactus::host
 {
 
 Document::Document (graph::Graph g, std::filesystem::path file)
-    : edits (std::move (g)), origins { std::make_shared<Origin> (Origin { { std::move (file) }, writeGraph (edits.graph()) }) }
+    : edits (std::move (g), nullptr), origins { std::make_shared<Origin> (Origin { { std::move (file) }, writeGraph (edits.graph()) }) }
 {
 }
 

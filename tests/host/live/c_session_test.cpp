@@ -151,10 +151,16 @@ TEST_CASE ("a running session takes parameters, hits, controls, probes and edits
     auto edited = dryWood (m.get());
     REQUIRE (tactus_graph_set_param (edited.get(), "", "drag", "mu", "0.7", m.get()) == TACTUS_OK);
     CHECK (tactus_session_edit (session.get(), edited.get(), m.get()) == TACTUS_OK);
-    REQUIRE (tactus_graph_remove_node (edited.get(), "", "drag", m.get()) == TACTUS_OK);
-    REQUIRE (tactus_graph_add_node (edited.get(), "", "drag", "no.such_node", nullptr) == TACTUS_OK);
+    CHECK (tactus_graph_add_node (edited.get(), "", "rub", "no.such_node", nullptr) == TACTUS_FAILED);
+    char* const whole = tactus_graph_text (edited.get());
+    std::string text (whole);
+    tactus_text_free (whole);
+    const std::string type = "friction.elasto_plastic";
+    text.replace (text.find (type), type.size(), "no.such_node");
+    const std::unique_ptr<tactus_graph, decltype (&tactus_graph_free)> broken { tactus_graph_parse (text.data(), text.size(), nullptr, m.get()), tactus_graph_free };
+    REQUIRE (broken);   // a file may have nodes of types that are not here
     tactus_messages_clear (m.get());
-    CHECK (tactus_session_edit (session.get(), edited.get(), m.get()) == TACTUS_FAILED);
+    CHECK (tactus_session_edit (session.get(), broken.get(), m.get()) == TACTUS_FAILED);
     CHECK (tactus_messages_have_errors (m.get()) == 1);
     CHECK (statusOf (session).phase == TACTUS_RUNNING);
 }
