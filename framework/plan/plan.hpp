@@ -14,7 +14,6 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -103,7 +102,7 @@ struct PlanParts
 
     // For the next plan, and for turning knobs.
     Flat flat;                                       ///< what the plan was built from
-    std::deque<Instance> instances;                  ///< numbered as in flat.nodes
+    std::vector<Instance> instances;                 ///< numbered as in flat.nodes
     std::vector<LineUse> lines;                      ///< by wire, then component
     std::vector<RateConverterUse> rate_converters;   ///< by wire, then component, then step
     std::vector<std::vector<PortRef>> fed;           ///< by feed: the ports it drives
@@ -215,8 +214,8 @@ public:
     /// The periods, in ticks, of the sections that do not run on every tick; in rising order.
     const std::vector<std::uint64_t>& rests() const noexcept { return parts.rests; }
 
-    const plan::Flat& flat() const noexcept { return parts.flat; }                             ///< what it was built from
-    const std::deque<plan::Instance>& instances() const noexcept { return parts.instances; }   ///< numbered as in flat().nodes
+    const plan::Flat& flat() const noexcept { return parts.flat; }                              ///< what it was built from
+    const std::vector<plan::Instance>& instances() const noexcept { return parts.instances; }   ///< numbered as in flat().nodes
 
     /// The numbers of the nodes that run and belong to a role: those whose type has one of the hooks bind and learn.
     const std::vector<std::uint32_t>& bound() const noexcept { return parts.bound; }

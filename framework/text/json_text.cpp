@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "json_text.hpp"
 
-#include "json_reader.hpp"
-
 #include <algorithm>
 
 namespace tactus
@@ -24,19 +22,6 @@ void appendPointerPart (std::string& pointer, std::string_view key)
             done = i + 1;
         }
     pointer.append (key.substr (done));
-}
-
-JsonText readJson (std::string_view text, double most_values)
-{
-    if (const auto size = static_cast<double> (text.size()); size > budgets().file)
-    {
-        JsonText result;
-        result.messages.push_back (overBudget ("file/too_large", &Budgets::file, "the text", size, "put meshes and samples into separate files"));
-        return result;
-    }
-    JsonText result;
-    if (! JsonReader (text, result, most_values).file()) result.root = nullptr;
-    return result;
 }
 
 std::string pointerPart (std::string_view key)

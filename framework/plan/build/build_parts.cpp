@@ -82,7 +82,7 @@ void dropKept (PlanParts& parts, const std::vector<std::string>& kept)
                    [&] (const Takeover::Change& change) { return std::ranges::count (kept, nameOf (parts.flat, change.instance, change.knob)) > 0; });
 }
 
-std::vector<int> nodeDelays (const Flat& flat, const std::deque<Instance>& instances)
+std::vector<int> nodeDelays (const Flat& flat, const std::vector<Instance>& instances)
 {
     std::vector<int> delays;
     delays.reserve (flat.nodes.size());

@@ -9,7 +9,6 @@
 #include <tactus/plan/swap/owned_records.hpp>
 
 #include <cstdint>
-#include <deque>
 #include <vector>
 
 namespace tactus::plan
@@ -50,6 +49,6 @@ void keepFlat (Flat&, PlanParts&);
 void dropKept (PlanParts&, const std::vector<std::string>& kept);
 
 /// By node: the ticks from its inputs to its outputs.
-std::vector<int> nodeDelays (const Flat&, const std::deque<Instance>&);
+std::vector<int> nodeDelays (const Flat&, const std::vector<Instance>&);
 
 }   // namespace tactus::plan

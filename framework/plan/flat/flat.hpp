@@ -147,9 +147,9 @@ struct Section
 
 struct Flat
 {
-    Catalogue catalogue {};       ///< keeps the types of the nodes alive
-    std::deque<FlatNode> nodes;   ///< in file order; where a subgraph node was, there are the nodes of its subgraph
-    std::deque<FlatWire> wires;
+    Catalogue catalogue {};        ///< keeps the types of the nodes alive
+    std::vector<FlatNode> nodes;   ///< in file order; where a subgraph node was, there are the nodes of its subgraph
+    std::vector<FlatWire> wires;
     std::vector<double> values;                                            ///< values of all params, node by node and row by row
     std::vector<Assignment> assignments;                                   ///< in order of precedence, lowest first
     std::deque<NodeType> made_types;                                       ///< types of bypassed subgraphs

@@ -48,6 +48,8 @@ public:
         top = std::make_unique<Scope>();
         top->owner = &g;
         top->patch = &g.root;
+        flat.nodes.reserve (g.root.nodes.size());
+        flat.wires.reserve (g.root.wires.size());
         expand (*top, {}, false);
         if (! hasToStop()) readControls (g);
         if (! hasToStop()) readOverrides();

@@ -8,7 +8,7 @@
 namespace tactus::plan
 {
 
-KnobIndex::KnobIndex (const std::deque<Instance>& instances)
+KnobIndex::KnobIndex (const std::vector<Instance>& instances)
 {
     const auto before = [] (const Entry& e, const KnobBoard* b) { return std::less<const KnobBoard*> {}(e.board.get(), b); };
     for (std::uint32_t i = 0; const auto& instance : instances)
@@ -30,7 +30,7 @@ std::uint32_t KnobIndex::operator[] (const Knobs& knobs) const noexcept
     return entry != all.end() && entry->board == knobs.board ? entry->nodes[knobs.place] : none;
 }
 
-void Ramps::prepare (const std::deque<Instance>& all, std::shared_ptr<const KnobIndex> i, double rate_hz)
+void Ramps::prepare (const std::vector<Instance>& all, std::shared_ptr<const KnobIndex> i, double rate_hz)
 {
     instances = &all;
     index = std::move (i);

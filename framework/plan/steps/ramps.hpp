@@ -5,7 +5,6 @@
 #include <tactus/plan/journal.hpp>
 
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <vector>
 
@@ -19,7 +18,7 @@ class KnobIndex
 public:
     static constexpr std::uint32_t none = ~std::uint32_t {};
 
-    explicit KnobIndex (const std::deque<Instance>&);   // [main thread]
+    explicit KnobIndex (const std::vector<Instance>&);   // [main thread]
 
     /// A board, and the number of the node at each of its places; `none` if the node is not in the plan.
     struct Entry
@@ -45,7 +44,7 @@ public:
     static constexpr double ramp_s = 0.020;
 
     /// `index` is that of the instances. [main thread]
-    void prepare (const std::deque<Instance>& instances, std::shared_ptr<const KnobIndex> index, double rate_hz);
+    void prepare (const std::vector<Instance>& instances, std::shared_ptr<const KnobIndex> index, double rate_hz);
 
     void poll (Journal* = nullptr) noexcept;    ///< starts ramps to all targets set since the last call, and passes hits on   [tick thread]
     void goOn (const Ramps& before) noexcept;   ///< continues the ramps of the previous plan                                     [tick thread]
@@ -73,7 +72,7 @@ private:
     void turn (std::size_t instance, Journal*) noexcept;
     static void strike (std::size_t instance, const Instance&, Journal*) noexcept;
 
-    const std::deque<Instance>* instances = nullptr;
+    const std::vector<Instance>* instances = nullptr;
     std::shared_ptr<const KnobIndex> index;
     std::vector<std::uint32_t> moving;   // numbers of the instances with a ramp; has room for all instances
     int ticks = 1;                       // length of a ramp, in ticks

@@ -7,7 +7,7 @@
 namespace tactus::plan
 {
 
-void Takeover::carryOut (const std::deque<Instance>& instances, Ramps& ramps, const Ramps& before, Journal* journal) const noexcept
+void Takeover::carryOut (const std::vector<Instance>& instances, Ramps& ramps, const Ramps& before, Journal* journal) const noexcept
 {
     for (const auto& [line, old] : relays)
         line->adopt (*old);

@@ -4,7 +4,6 @@
 #include <tactus/plan/steps/ramps.hpp>
 
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <vector>
 
@@ -77,7 +76,7 @@ struct Takeover
     std::vector<HeldValue> held;
     std::vector<LaneGroup*> ended, begun;   ///< groups of lanes that only the previous plan has, or only this one
 
-    void carryOut (const std::deque<Instance>&, Ramps&, const Ramps& before, Journal*) const noexcept;   // [tick thread]
+    void carryOut (const std::vector<Instance>&, Ramps&, const Ramps& before, Journal*) const noexcept;   // [tick thread]
 };
 
 }   // namespace tactus::plan
