@@ -96,7 +96,9 @@ TEST_CASE ("the schema has the keys of the devices and guards that are read, wit
     for (const auto& [name, schema] : properties.items())
     {
         CAPTURE (name);
-        const auto kind = [&] (const char* id, const Json& value) { return count (problemsOf (driver, key, { { name, value } }), id, name); };
+        const auto kind = [&, &driver = driver, &key = key, &name = name] (const char* id, const Json& value) {
+            return count (problemsOf (driver, key, { { name, value } }), id, name);
+        };   // clang 14 captures no structured bindings by itself
         const auto& alternatives = schema.is_object() && schema.contains ("anyOf") ? schema["anyOf"] : Json::array ({ schema });
         for (const auto& one : alternatives)
             if (const auto unit = unitOf (one); ! unit.empty())
