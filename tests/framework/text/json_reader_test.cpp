@@ -145,7 +145,7 @@ bool isAccepted (std::string_view text) { return readJson (text, most).messages.
 
 TEST_CASE ("JSON reads as what it means, and each part is where it was written", "[json][property]")
 {
-    int twins = 0, refused = 0;
+    int cases = 0, refused = 0;
     rc::prop ("any text", [&] {
         OddWriter odd (*rc::gen::arbitrary<unsigned>());
         const auto meaning = odd.value (4, "");
@@ -157,7 +157,7 @@ TEST_CASE ("JSON reads as what it means, and each part is where it was written",
         RC_ASSERT (read.root.dump() == meaning.dump());   // numbers of different types compare as equal, but are written differently
         for (const auto& [pointer, place] : odd.places)
             if (! odd.has_twins) RC_ASSERT (read.positions.find (pointer) == place);
-        twins += odd.has_twins;
+        ++cases;
 
         static constexpr char all_bytes[] = "\0\x01\n\"\\/{}[],:0129-+.eEutfn \x7f\x80\xBF\xC0\xC2\xE0\xED\xF0\xF4\xF5\xFF";
         static constexpr std::string_view bytes (all_bytes, sizeof all_bytes - 1);
@@ -183,7 +183,7 @@ TEST_CASE ("JSON reads as what it means, and each part is where it was written",
         if (again.messages.empty()) RC_ASSERT (readJson (again.root.dump(), most).root == again.root);
         refused += again.root.is_null() && ! again.messages.empty();
     });
-    CHECK (refused > 20);
+    CHECK (4 * refused > cases);
 }
 
 TEST_CASE ("JSON beyond a limit is refused", "[json]")
