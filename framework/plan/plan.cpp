@@ -29,7 +29,7 @@ void Plan::forgetGraph()
 {
     parts.flat = {};
     parts.exposed = std::make_shared<std::map<std::string, std::vector<plan::PortRef>>>();
-    parts.instances = {};
+    parts.instances = std::vector<plan::Instance>();   // = {} would keep the memory
     parts.ramps = {};
     parts.takeover = {};
 }
