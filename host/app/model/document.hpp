@@ -106,7 +106,7 @@ private:
     Origin& origin() const noexcept { return *origins[edits.position()]; }
 
     const Catalogue* types = &catalogue();
-    graph::History edits;   // accepts edits with errors: the window shows them as problems, and offers to mend them
+    graph::History edits;                           // accepts edits with errors: the window shows them as problems, and offers to mend them
     std::vector<std::shared_ptr<Origin>> origins;   // one per position of the history
     std::vector<Listener*> listeners;
     bool is_stepping = false;
