@@ -476,7 +476,7 @@ TACTUS_API tactus_result tactus_run_probed (tactus_run*, double* values, size_t 
  *  into `ticks`, which may be NULL. Returns how many. [main thread] */
 TACTUS_API size_t tactus_run_collect_probes (tactus_run*, uint64_t* ticks, double* rows, size_t most);
 
-/** Samples that were lost so far, because nobody collected 4096 of them in time. [main thread] */
+/** Samples lost so far: the queue holds 4096, and later ones are dropped until you collect. [main thread] */
 TACTUS_API uint64_t tactus_run_lost_probes (const tactus_run*);
 
 /** Fades all forces to zero and keeps them there, from the next tick on, until tactus_run_rearm. Safe in a signal handler. [any thread] */
