@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Fails on dead links and dead paths in the pages: README.md, CONTRIBUTING.md, docs/*.md, graphs/README.md.
+"""Fails on dead links and dead paths in the pages: README.md, CONTRIBUTING.md, docs/*.md, docs/decisions/*.md, graphs/README.md.
 
     links.py [ROOT]     ROOT is the repository, by default the one that contains this file
 
@@ -14,14 +14,16 @@ import sys
 
 ROOT = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else __file__).resolve()
 ROOT = ROOT if len(sys.argv) > 1 else ROOT.parents[2]
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(ROOT.glob("docs/*.md")), ROOT / "graphs/README.md"]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(ROOT.glob("docs/*.md")), *sorted(ROOT.glob("docs/decisions/*.md")),
+         ROOT / "graphs/README.md"]
 
 LINK = re.compile(r"\]\(([^)\s]+)\)|<img [^>]*src=\"([^\"]+)\"")
 CODE = re.compile(r"^```.*?^```|`[^`\n]+`", re.M | re.S)
 TOP = r"(?:framework|nodes|graphs|host|tests|docs|LICENSES|\.ci)/[\w./*<>-]*|\./\w+\.sh|CMake\w+\.\w+"
 PATH = re.compile(rf"(?<![\w/.~-])(?:{TOP})")
 BARE = re.compile(r"`(\w+_test|\w+\.(?:hpp|cpp|py|sh|md))`")
-FOREIGN = re.compile(r"juce_")  # bare names of files that belong to other projects
+# Bare names of files that belong to other projects.
+FOREIGN = re.compile(r"juce_|(CWoodenDevice|DS5_Output)\.cpp|(SpaceMouseWireless|SpaceNavigator|bluetooth_hid_notes|rumble_data_table)\.md")
 
 
 def anchors(page):
