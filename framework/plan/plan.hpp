@@ -26,7 +26,7 @@
 namespace tactus
 {
 
-/// One step of a tick: a function and the pointers it works on, all resolved.
+/// One step of a tick: a function and the pointers it works on, all resolved (docs/decisions/flat_plan.md).
 struct Record
 {
     void (*step) (void* self, const double* const* sources, void* outputs) noexcept;

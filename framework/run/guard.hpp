@@ -63,7 +63,7 @@ GuardLimits tightened (const GuardLimits& of_device, const GuardLimits& by) noex
 /// The last stage before a device, one per role, always present. It passes efforts that are finite and within the limits for
 /// size and slew, shortens other efforts keeping their direction, and brings everything to zero when there is a cause to stop.
 ///
-/// Each tick, in this order:
+/// Each tick, in this order (docs/decisions/guard_order.md):
 ///
 ///     cause      see below
 ///     length     k w            so that |force| <= max_force, |torque| <= max_torque, each |axis| <= max_axis_effort; w: wanted now

@@ -10,7 +10,8 @@ namespace tactus
 
 /// Real-time priorities (SCHED_FIFO), above those of interrupt threads, which have 50. The thread of an emergency stop comes before
 /// the tick, so that a graph that takes most of its period cannot delay the stop; this thread does very little. The thread that
-/// receives messages comes after the tick, because anyone can flood it: it runs in the pauses between ticks. Drivers of others come between these two.
+/// receives messages comes after the tick, because anyone can flood it: it runs in the pauses between ticks. Drivers of others come between
+/// these two. Figures: docs/decisions/stop_threads.md.
 namespace priority
 {
 inline constexpr int messages = 60, devices = 65, tick = 70, stop = 71;

@@ -79,8 +79,7 @@ concept Map = Range<R> && requires (std::ranges::range_reference_t<R> member)
 ///
 /// A function that needs a different type throws JsonError, unless it says otherwise.
 ///
-/// This is our own class, because every file that uses values of a graph includes it: compilers read it in a tenth of the time that
-/// the templates of nlohmann/json take.
+/// Why it is our own: docs/decisions/own_json.md.
 class Json
 {
 public:

@@ -35,7 +35,8 @@ namespace tactus::nodes
 /// adhesion function of Fig. 2 may move c, with d_max = mu_c d^z and d_stick = static_ratio d_max: see friction.elasto_plastic.
 ///
 /// c moves only downhill: it moves along its path only while the stored energy U (c, p) does not rise. Where the path leads uphill,
-/// as from soft to stiff or over an edge, c stays where it is, even beyond its bound, as a real contact catches on an edge. With
+/// as from soft to stiff or over an edge, c stays where it is, even beyond its bound. On an edge a real contact catches, too. Where a body
+/// becomes stiffer it does not, but here c may stop for good, and the stiffer place is not felt (docs/decisions/surface_slips.md). With
 /// `friction: frictionless`, or mu 0 everywhere, c slides down to a local minimum of U. On a flat body c is then the projection of
 /// p, and the force includes -dU/dc: without that term, a slide from soft to stiff would create energy.
 ///

@@ -64,13 +64,11 @@ namespace tactus::nodes
 ///    release (1.6e-4 J in 50 strokes; see the test). `load: passive` adds none, because new contact area is not sheared yet,
 ///    but the contact point walks: if the load trembles by 10 % at 10 Hz, a tool that leans with 0.2 N on a contact that can hold
 ///    0.5 N creeps by 81 um/s, although the state is 1. `load: bound` neither gives energy nor walks, however the load changes,
-///    and is the default. In graph files of version 1, the default was `passive`.
+///    and is the default (docs/decisions/friction_load.md). Graph files of version 1 mean `passive` if they say nothing.
 ///  - Eq. (1) to (4) are one-dimensional. Here d and dp lie in the tangent plane. When the normal turns, the plane turns with it
-///    by the smallest angle and takes d along (parallel transport), so d keeps its length and the turn does no work. The plain
-///    extension of eq. (3) projects p - c on the new plane instead. Then every turn shortens d, and under a normal that trembles, the
-///    contact walks: with +-5 degrees at 10 Hz about one axis, a tool that is held in place loses 36 % of its force in a minute at
-///    1 kHz, and 2 % at 20 kHz; on a cone of 5 degrees, a tool that leans with a fifth of the force that the contact holds walks by 4.8 um/s
-///    at any rate. For a constant normal, both are the same.
+///    by the smallest angle and takes d along (parallel transport), so d keeps its length and the turn does no work. If
+///    p - c were projected on the new plane, every turn would shorten d, and under a normal that trembles the contact would lose its
+///    force and walk (docs/decisions/parallel_transport.md). For a constant normal, both are the same.
 ///
 /// Good to know
 ///  - Time-free: only displacement moves the state. A tool at rest feels a constant force forever, and repeating a sample does

@@ -13,8 +13,9 @@
 /// All elementary functions: exp exp2 expm1 log log1p log2 log10 pow, sin cos sinCos tan, asin acos atan atan2, hypot fmod remainder. [any thread]
 ///
 /// Nodes call these instead of those of <cmath>, whose last bits differ between C libraries, and even within one library between
-/// processors. The error is at most 2 ulp; infinities, NaN, subnormal numbers and zeros of both signs are treated as in C. Exact by
-/// IEEE 754, and so allowed from <cmath>: sqrt, abs, floor, ceil, trunc, round, copysign and the like (tests/structure/functions.py).
+/// processors (docs/decisions/elementary_functions.md). The error is at most 2 ulp; infinities, NaN, subnormal numbers and zeros of both
+/// signs are treated as in C. Exact by IEEE 754, and so allowed from <cmath>: sqrt, abs, floor, ceil, trunc, round, copysign and the like
+/// (tests/structure/functions.py).
 namespace tactus::math
 {
 

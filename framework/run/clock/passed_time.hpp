@@ -8,6 +8,7 @@ namespace tactus
 
 /// The time that passes from one tick of a run to the next, by the wall clock. The guards count it, so their limits hold in seconds
 /// and not in ticks: a device that reports faster than its profile says gains nothing, and ticks that are missing count.
+/// Why: docs/decisions/wall_time.md.
 ///
 /// A tick usually takes one period out of what the clock has added, and leaves the rest to later ticks, so jitter and batches of reports
 /// look like regular ticks. If a tick is late by more than a period and a block, ticks are missing, and all but a block passes at once. So

@@ -33,7 +33,7 @@ struct Tremor
     }
 };
 
-/// A contact without parallel transport: the stretch is projected on the tangent plane of each sample.
+/// A contact without parallel transport: the stretch is projected on the tangent plane of each sample (docs/decisions/parallel_transport.md).
 struct Projected
 {
     Bristle bristle { .d_max = 1e-4, .d_stick = 1e-4 };
@@ -129,7 +129,7 @@ TEST_CASE ("friction: under a trembling normal, a tool that leans with a constan
             }
 }
 
-TEST_CASE ("friction: if the stretch were projected on the plane of each sample, the contact would walk, as the header says", "[nodes][friction]")
+TEST_CASE ("friction: if the stretch were projected on the plane of each sample, the contact would walk", "[nodes][friction]")
 {
     for (const double rate : { 1000.0, 20'000.0 })
     {
