@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "code_writer.hpp"
 
-#include <host/generate/code.hpp>
+#include <host/generate/sources/code.hpp>
 
 #include <set>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <host/generate/sources.hpp>
+#include <host/generate/sources/sources.hpp>
 #include <tactus/plan/plan.hpp>
 
 #include <cstddef>

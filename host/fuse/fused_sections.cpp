@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "code_writer.hpp"
 
-#include <host/generate/code.hpp>
+#include <host/generate/sources/code.hpp>
 
 // The values in a section are all in memory, because outside of it, and on ticks on which it does not run, they keep their last value.
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fused_values.hpp"
 
-#include <host/generate/address_map.hpp>
+#include <host/generate/walk/address_map.hpp>
 
 #include <tactus/kit/vec3.hpp>
 

@@ -2,7 +2,7 @@
 #include "fusion_compiler.hpp"
 #include "bitcode.hpp"
 
-#include <host/generate/sources.hpp>
+#include <host/generate/sources/sources.hpp>
 #include <host/platform/private_folder.hpp>
 #include <host/platform/start_program.hpp>
 #include <tactus/file/text_file.hpp>

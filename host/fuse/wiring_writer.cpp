@@ -2,7 +2,7 @@
 #include "wiring_writer.hpp"
 #include "bitcode.hpp"
 
-#include <host/generate/code.hpp>
+#include <host/generate/sources/code.hpp>
 
 #include <array>
 #include <bit>

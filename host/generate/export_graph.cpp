@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "export_graph.hpp"
-#include "adapted_source.hpp"
-#include "arduino_code.hpp"
-#include "c_api_code.hpp"
-#include "class_code.hpp"
-#include "fmu_code.hpp"
 #include "folder_code.hpp"
-#include "plugin_sources.hpp"
-#include "self_test_code.hpp"
-#include "self_test_run.hpp"
-#include "single_precision.hpp"
-#include "sources.hpp"
+#include <host/generate/class/class_code.hpp>
+#include <host/generate/self_test/self_test_code.hpp>
+#include <host/generate/self_test/self_test_run.hpp>
+#include <host/generate/sources/adapted_source.hpp>
+#include <host/generate/sources/plugin_sources.hpp>
+#include <host/generate/sources/single_precision.hpp>
+#include <host/generate/sources/sources.hpp>
+#include <host/generate/targets/arduino_code.hpp>
+#include <host/generate/targets/c_api_code.hpp>
+#include <host/generate/targets/fmu_code.hpp>
 
 #include <host/platform/atomic_folder.hpp>
 #include <tactus/plan/find_param.hpp>

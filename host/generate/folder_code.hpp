@@ -2,7 +2,7 @@
 #pragma once
 
 #include "export_graph.hpp"
-#include "exported.hpp"
+#include <host/generate/class/exported.hpp>
 
 #include <set>
 #include <string>

@@ -4,7 +4,7 @@
 #include <host/fuse/bitcode.hpp>
 #include <host/fuse/fusion_compiler.hpp>
 #include <host/fuse/load_fused.hpp>
-#include <host/generate/code.hpp>
+#include <host/generate/sources/code.hpp>
 #include <support/sketch.hpp>
 
 #include <catch2/catch.hpp>

@@ -4,8 +4,8 @@
 
 #include "exported_code.hpp"
 
-#include <host/generate/code.hpp>
-#include <host/generate/sources.hpp>
+#include <host/generate/sources/code.hpp>
+#include <host/generate/sources/sources.hpp>
 #include <support/sketch.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/run/log/run_head.hpp>

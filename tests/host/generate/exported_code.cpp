@@ -3,7 +3,7 @@
 
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
-#include <host/generate/code.hpp>
+#include <host/generate/sources/code.hpp>
 #include <support/interpreter.hpp>
 #include <support/random_graph.hpp>
 #include <tactus/file/graph_file.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "code.hpp"
-#include "sources.hpp"
+#include <host/generate/sources/code.hpp>
+#include <host/generate/sources/sources.hpp>
 
 #include <tactus/plan/plan.hpp>
 #include <tactus/plan/steps/ops.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plan_names.hpp"
-#include "address_map.hpp"
-#include "sources.hpp"
+#include <host/generate/sources/sources.hpp>
+#include <host/generate/walk/address_map.hpp>
 
 #include <tactus/plan/find_hit.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include <host/generate/single_precision.hpp>
+#include <host/generate/sources/single_precision.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "arduino_code.hpp"
-#include "single_precision.hpp"
+#include <host/generate/sources/single_precision.hpp>
 
 namespace tactus::host
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "code.hpp"
+#include <host/generate/sources/code.hpp>
 
 #include <tactus/node/setting.hpp>
 

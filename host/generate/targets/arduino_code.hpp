@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "exported.hpp"
+#include <host/generate/class/exported.hpp>
 
 #include <string>
 #include <utility>
