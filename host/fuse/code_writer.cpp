@@ -3,39 +3,31 @@
 
 #include <host/generate/sources/code.hpp>
 
+#include <algorithm>
 #include <set>
 
 namespace tactus::host
 {
 
-CodeWriter::Block::Block (CodeWriter& w, const std::string& head) : writer (w)
+CodeWriter::CodeWriter (const Plan& p, const FusedCode::Classes& more)
+    : CppWalk (p, "tactus::fused::"), values (p), nodes (p, more, [] (const std::string&) { return true; })
 {
-    if (! head.empty()) writer.line (head);
-    writer.line ("{");
-    writer.indent += 4;
-    writer.values.openScope();
 }
 
-CodeWriter::Block::~Block()
+FusedCode CodeWriter::fused()
 {
-    writer.values.closeScope();
-    writer.indent -= 4;
-    writer.line ("}");
+    write();
+    return { FusedCode::Language::cpp, whole(), nodes.headers(), values.objects(), count - called, called };
 }
 
-std::string CodeWriter::end (const std::vector<const Known*>& nodes)
+std::string CodeWriter::whole() const
 {
-    std::set<std::string> headers { FusedCode::parts };
     std::set<std::string> checks;
-    for (const auto* n : nodes)
-    {
-        headers.insert (n->header);
-        const auto& type = *flatOf (*n).type;
-        checks.insert ("static_assert (sizeof (" + n->type + "::Outputs) == " + std::to_string (type.outputs_size) + " && sizeof (" + n->type
-                       + "::Params) == " + std::to_string (type.params_size) + ");\n");
-    }
+    for (const auto& n : nodes.all())
+        checks.insert ("static_assert (sizeof (" + n.type + "::Outputs) == " + std::to_string (type (n).outputs_size) + " && sizeof (" + n.type
+                       + "::Params) == " + std::to_string (type (n).params_size) + ");\n");
     std::string text;
-    for (const auto& header : headers)
+    for (const auto& header : nodes.headers())
         text += "#include <" + header + ">\n";
     text += "\n";
     for (const auto& check : checks)
@@ -49,7 +41,7 @@ std::string CodeWriter::end (const std::vector<const Known*>& nodes)
 
 void CodeWriter::begin()
 {
-    code.clear();
+    CppWalk::begin();
     names = 0;
 }
 
@@ -61,59 +53,58 @@ void CodeWriter::beginPart()
     line ("{");
     indent = 4;
     line ("(void) p;");
+    values.openScope();
 }
 
 void CodeWriter::endPart()
 {
+    values.closeScope();
     indent = 0;
     line ("}");
-    line ("");
+    line();
 }
 
-std::string CodeWriter::read (const double* v)
+void CodeWriter::block (const Text& head, const Body& body)
+{
+    values.openScope();
+    CppWalk::block (head, body);
+    values.closeScope();
+}
+
+CodeWriter::Text CodeWriter::read (const double* v)
 {
     using Kind = FusedValues::Place::Kind;
     const auto place = values.find (v);
-    switch (place.kind)
-    {
-    case Kind::variable:
-        return place.name;
-    case Kind::member:
-    {
-        const auto member = place.name + "." + std::string (place.sheet->id);
-        return place.sheet->list || place.sheet->width == 3 ? member + "[" + std::to_string (place.slot) + "]" : member;
-    }
-    case Kind::constant:
-        return literal (*v);
-    case Kind::memory:
-        break;
-    }
-    return value (v);
+    if (place.kind == Kind::variable) return place.name;
+    if (place.kind == Kind::constant) return literal (*v);
+    if (place.kind == Kind::memory) return value (v);
+    const bool is_entry = place.sheet->list || place.sheet->width == 3;
+    return place.name + "." + std::string (place.sheet->id) + (is_entry ? "[" + std::to_string (place.slot) + "]" : "");
+}
+
+CodeWriter::Text CodeWriter::vector (const double* const* three, const Text&)
+{
+    return "tactus::Vec3 { " + read (three[0]) + ", " + read (three[1]) + ", " + read (three[2]) + " }";
 }
 
 void CodeWriter::call (const Record& r)
 {
+    values.need (r);
     line ("p.run (" + values.numbers ({ reinterpret_cast<const void*> (r.step), r.self, r.sources, r.outputs }) + ");");
 }
 
-void CodeWriter::sum (const plan::Sum& s, bool is_inner)
+/// Gives a value a name, and puts it in memory if something else reads it there.
+void CodeWriter::keep (const double* out, const char* stem, const Text& is)
 {
-    std::vector<std::string> terms;
-    for (const auto& term : s.terms)
-        terms.push_back ((term.gain == 1.0 ? "" : literal (term.gain) + " * ") + read (term.from));
-    const auto name = fresh ("s");
-    const auto memory = is_inner || values.isNeeded (&s.out) ? value (&s.out) + " = " : std::string {};
-    line ("const double " + name + " = " + memory + "tactus::fused::sumOf (" + listed (terms) + ");");
-    values.name (&s.out, name);
+    const auto name = fresh (stem);
+    const auto memory = is_inner || values.isNeeded (out) ? value (out) + " = " : Text {};
+    line ("const double " + name + " = " + memory + "tactus::fused::" + is + ";");
+    values.name (out, name);
 }
 
-void CodeWriter::strike (const plan::Strike& s, bool is_inner)
-{
-    const auto name = fresh ("k");
-    const auto memory = is_inner || values.isNeeded (&s.out) ? value (&s.out) + " = " : std::string {};
-    line ("const double " + name + " = " + memory + "tactus::fused::struck (" + read (s.from) + ", " + value (&s.pulse->pending) + ");");
-    values.name (&s.out, name);
-}
+void CodeWriter::sum (const plan::Sum& s) { keep (&s.out, "s", sumOf (s)); }
+
+void CodeWriter::strike (const plan::Strike& s) { keep (&s.out, "k", "struck (" + read (s.from) + ", " + value (&s.pulse->pending) + ")"); }
 
 void CodeWriter::readDelay (const plan::Line& wire)
 {
@@ -122,10 +113,92 @@ void CodeWriter::readDelay (const plan::Line& wire)
     values.name (&wire.out, name);
 }
 
-void CodeWriter::writeDelay (const double* from, const plan::Line& wire)
+void CodeWriter::writeDelay (const plan::Line& wire, const double* from)
 {
     line ("tactus::fused::delay (" + read (from) + ", " + value (wire.samples.data()) + ", " + size (&wire.now) + ", "
           + std::to_string (wire.samples.size()) + ");");
+}
+
+CodeWriter::Text CodeWriter::list (const PlanNode& n, const PortSheet& row, const double* const* sources, int slots, const Text& fault)
+{
+    const auto all = std::span (sources, at (slots));
+    if (all.empty()) return "{ nullptr, 0 }";
+    if (! fault.empty() || std::ranges::any_of (all, [this] (const double* v) { return values.isInSight (v); }))
+        return CppWalk::list (n, row, sources, slots, fault);
+    for (const auto* v : all)
+        values.need (v);
+    return "{ p.sources (" + values.number (sources) + "), " + std::to_string (slots / row.width) + " }";
+}
+
+void CodeWriter::title (const PlanNode& n)
+{
+    line (titleOf (n));
+    line ("auto& " + self (n) + " = p.as<" + n.type + "> (" + values.number (object (n)) + ");");
+}
+
+void CodeWriter::peek (const PlanNode& n)
+{
+    line ("auto& " + n.name + " = p.as<" + n.type + "> (" + values.number (object (n)) + ");   // " + comment (flat (n).path));
+    const auto [before, after] = outputs (n);
+    line (before + n.name + ".peek()" + after + ";");
+}
+
+/// Gives the outputs of a node a name. They are put in memory if something else reads them there. Returns what stands before and after them.
+std::pair<CodeWriter::Text, CodeWriter::Text> CodeWriter::outputs (const PlanNode& n)
+{
+    const auto name = fresh ("o");
+    values.nameOutputs (n.instance, name);
+    const bool in_memory = is_inner || values.isNeeded (n.instance);
+    if (type (n).outputs_size == 0 || ! in_memory) return { "[[maybe_unused]] const auto " + name + " = ", "" };
+    const auto place = values.number (plan.instances()[n.instance].outputs);
+    return { "[[maybe_unused]] const auto& " + name + " = *new (p.at (" + place + ")) " + n.type + "::Outputs (", ")" };
+}
+
+void CodeWriter::tick (const PlanNode& n, const Texts& inputs, const Text& stored, const Text& reset)
+{
+    if (type (n).peek) return callTick (n, {}, inputs, stored);
+    if (reset.empty())
+    {
+        const auto [before, after] = outputs (n);
+        return callTick (n, before, inputs, stored, after);
+    }
+    const auto result = n.name + "_result";
+    callTick (n, "auto " + result + " = ", inputs, stored);
+    line ("if (" + reset + ".fault) " + result + " = {};");
+    const auto [before, after] = outputs (n);
+    line (before + result + after + ";");
+}
+
+std::pair<CodeWriter::Text, CodeWriter::Text> CodeWriter::placeOf (const PlanNode&, const plan::DrivenNode::Drive& d)
+{
+    return { value (d.target), d.replace ? Text {} : value (d.stored) };
+}
+
+CodeWriter::Text CodeWriter::store (const PlanNode& n, const plan::DrivenNode& d, const plan::DrivenNode::Drive& drive)
+{
+    const auto offset = reinterpret_cast<const std::byte*> (drive.target) - static_cast<const std::byte*> (d.type->paramsOf (d.node));
+    return "tactus::fused::store (" + n.name + "_stored, " + std::to_string (offset) + ", " + value (drive.stored) + ");";
+}
+
+void CodeWriter::section (const SectionStep& s, const Body& body)
+{
+    const auto factor = std::to_string (s.running.factor);
+    block ("// A section that runs " + (s.kind == plan::Section::Kind::every ? "on every tick of " + factor : factor + " times a tick"), body);
+}
+
+/// The values in a section are all in memory, because outside of it, and on ticks on which it does not run, they keep their last value.
+void CodeWriter::convert (Action action, const plan::ConversionLink& link, const Text& part)
+{
+    const auto& [from, c] = link;
+    if (action == Action::latch) line (value (&c->out) + " = " + read (from) + ";");
+    if (action == Action::silence) line (value (&c->out) + " = 0.0;");
+    if (action == Action::gather) line (value (&c->gathered) + " += " + read (from) + ";");
+    if (action == Action::deliver) line ("tactus::fused::deliver (" + value (&c->out) + ", " + value (&c->gathered) + ");");
+    if (action == Action::head)
+        line ("tactus::fused::head (" + read (from) + ", " + value (&c->before) + ", " + value (&c->newest) + ", " + flag (&c->begun) + ");");
+    if (action == Action::follow)
+        line (value (&c->out) + " = tactus::fused::follow (" + read (from) + ", " + value (&c->before) + ", " + value (&c->newest) + ", "
+              + flag (&c->begun) + ", " + part + ");");
 }
 
 }   // namespace tactus::host

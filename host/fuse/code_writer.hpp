@@ -1,77 +1,66 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "plan_writer.hpp"
+#include "fused_nodes.hpp"
+#include "fused_values.hpp"
+
+#include <host/generate/walk/cpp_walk.hpp>
 
 #include <cstdint>
 #include <string>
-#include <string_view>
-#include <vector>
+#include <utility>
 
 namespace tactus::host
 {
 
-/// Writes what the records of a plan do in one tick, as C++. [main thread]
-class CodeWriter final : public PlanWriter
+/// Writes what the records of a plan do in one tick, as a C++ function. [main thread]
+class CodeWriter final : public CppWalk
 {
 public:
-    CodeWriter (const Plan& plan, const FusedCode::Classes& classes) : PlanWriter (plan, classes) {}
+    CodeWriter (const Plan&, const FusedCode::Classes&);
+
+    FusedCode fused();
 
 private:
-    /// An indented block with its own variables.
-    class Block
-    {
-    public:
-        Block (CodeWriter&, const std::string& head);
-        ~Block();
-        Block (const Block&) = delete;
-        Block& operator= (const Block&) = delete;
-
-    private:
-        CodeWriter& writer;
-    };
-
-    bool has (const std::string&) const override { return true; }
     void begin() override;
     void beginPart() override;
     void endPart() override;
-    std::string end (const std::vector<const Known*>&) override;
-
-    void sum (const plan::Sum&, bool is_inner) override;
-    void strike (const plan::Strike&, bool is_inner) override;
-    void readDelay (const plan::Line&) override;
-    void writeDelay (const double* from, const plan::Line&) override;
-    void peek (const Known&, bool is_inner) override;
-    void node (const Known&, const Record&, bool is_inner) override;
-    void driven (const Known&, const Record&, bool is_inner) override;
-    void every (const plan::RunningSection&) override;
-    void times (const plan::RunningSection&) override;
+    bool isFinal() override { return values.settled(); }
+    const PlanNode* find (const void* node) const override { return nodes.find (node); }
     void call (const Record&) override;
 
-    void drive (const std::string& wires, const plan::DrivenNode::Drive&);
-    std::string stored (const Known&, const plan::DrivenNode&);
-    void takeOutputs (const Known&, const std::string& result, bool is_inner);
-    std::vector<std::string> inputs (const Known&, const double* const* sources, const std::string& driven);
-    std::string list (const Known&, const PortSheet&, const double* const* sources, int slots, const std::string& driven);
+    void sum (const plan::Sum&) override;
+    void strike (const plan::Strike&) override;
+    void readDelay (const plan::Line&) override;
+    void writeDelay (const plan::Line&, const double* from) override;
+    void title (const PlanNode&) override;
+    void peek (const PlanNode&) override;
+    void tick (const PlanNode&, const Texts& inputs, const Text& stored, const Text& reset) override;
+    void convert (Action, const plan::ConversionLink&, const Text& part) override;
+    void section (const SectionStep&, const Body&) override;
 
-    void latch (const Links&);
-    void silence (const Links&);
-    void gather (const Links&);
-    void deliver (const Links&);
-    void head (const Links&);
-    void follow (const Links&);
+    Text read (const double*) override;
+    Text vector (const double* const* three, const Text&) override;
+    Text ticks (const std::uint64_t* of) override { return "p.ticks (" + values.number (of) + ")"; }
+    Text self (const PlanNode& n) const override { return n.name + "_now"; }   // the peek of a node may be in another part of the code
+    Text indexOf (const plan::RunningSection&) override { return fresh ("i"); }
+    Text samples (const double* first) override { return "(&" + value (first) + ")"; }
+    Text list (const PlanNode&, const PortSheet&, const double* const* sources, int slots, const Text& fault) override;
+    std::pair<Text, Text> placeOf (const PlanNode&, const plan::DrivenNode::Drive&) override;
+    Text store (const PlanNode&, const plan::DrivenNode&, const plan::DrivenNode::Drive&) override;
+    void block (const Text& head, const Body&) override;
 
-    std::string read (const double*);
-    std::string value (const void* at) { return "p.value (" + values.number (at) + ")"; }
-    std::string size (const std::size_t* at) { return "p.as<std::size_t> (" + values.number (at) + ")"; }
-    std::string ticks (const std::uint64_t* at) { return "p.ticks (" + values.number (at) + ")"; }
-    std::string fresh (const char* stem) { return stem + std::to_string (++names); }
-    std::string nodeName (const Known& n) const { return "n" + std::to_string (n.instance); }
-    void title (const Known&);
-    void line (std::string_view text) { code.append (indent, ' ').append (text).append ("\n"); }
+    std::string whole() const;
+    std::pair<Text, Text> outputs (const PlanNode&);
+    void keep (const double* out, const char* stem, const Text& is);
+    Text value (const void* at) { return "p.value (" + values.number (at) + ")"; }
+    Text size (const std::size_t* at) { return "p.as<std::size_t> (" + values.number (at) + ")"; }
+    Text flag (const bool* at) { return "p.as<bool> (" + values.number (at) + ")"; }
+    Text fresh (const char* stem) { return stem + std::to_string (++names); }
 
-    std::string code;
-    std::size_t indent = 0, names = 0;
+    FusedValues values;
+    FusedNodes nodes;
+    std::size_t names = 0;
 };
 
 }   // namespace tactus::host

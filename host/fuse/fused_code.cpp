@@ -11,8 +11,7 @@ std::size_t countOf (std::span<const Record> records)
 {
     auto all = records.size();
     for (const auto& r : records)
-        if (r.step == &plan::RunningSection::every || r.step == &plan::RunningSection::times)
-            all += countOf (static_cast<plan::RunningSection*> (r.self)->records);
+        visitRecord (r, Cases { [] (const auto&) {}, [&all] (const SectionStep& s) { all += countOf (s.running.records); } });
     return all;
 }
 }   // namespace
@@ -20,13 +19,13 @@ std::size_t countOf (std::span<const Record> records)
 FusedCode FusedCode::of (const Plan& plan, const Classes& more)
 {
     if (countOf (plan.records()) > most_records) return {};
-    return CodeWriter { plan, more }.write();
+    return CodeWriter { plan, more }.fused();
 }
 
 FusedCode FusedCode::wiringOf (const Plan& plan)
 {
     if (countOf (plan.records()) > most_records) return {};
-    auto wiring = WiringWriter { plan }.write();
+    auto wiring = WiringWriter { plan }.fused();
     wiring.language = Language::llvm;
     return wiring;
 }

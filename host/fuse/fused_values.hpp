@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <host/generate/walk/plan_addresses.hpp>
 #include <tactus/plan/plan.hpp>
 #include <tactus/plan/steps/fused_tick.hpp>
-#include <tactus/plan/steps/lane_group.hpp>
-#include <tactus/plan/steps/ops.hpp>
-#include <tactus/plan/steps/running_section.hpp>
 
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -63,6 +60,7 @@ public:
 
     /// Notes that a value must be in memory, because something other than fused code reads it.
     void need (const double*);
+    void need (const Record&);   ///< the same for all that a record reads
 
     bool isNeeded (const double* value) const { return has_unknown || needed.contains (value); }
     bool isNeeded (std::size_t instance) const { return has_unknown || needed_nodes.contains (instance); }
@@ -87,25 +85,16 @@ private:
         std::unordered_map<std::size_t, std::string> outputs;
     };
 
-    struct Output
-    {
-        std::size_t instance;
-        const PortSheet* sheet;
-        int slot;
-    };
-
     void findChanging (std::span<const Record>);
-    bool isStranger (const Record&) const;
-    std::optional<Output> outputAt (const double*) const;
+    bool isNode (const Record&) const;
     bool isConstant (const double*) const;
     std::optional<Place> variableOf (const double*) const;
 
+    const PlanAddresses addresses;
     std::vector<Scope> scopes { 1 };
     std::vector<void*> all;
     std::unordered_map<const void*, std::size_t> by_object;
     std::unordered_map<const void*, std::size_t> by_node;   // the number of an instance, by its node
-    std::map<const std::byte*, std::size_t> by_outputs;     // the number of an instance, by the address of its outputs
-    std::map<const std::byte*, std::size_t> by_params;      // by the address of its params
     std::unordered_set<const double*> changing;             // what sums, hits, delays and rate converters write
     bool has_unknown = false;                               // the plan has records of an unknown kind, which may read and write anything
     std::set<const double*> needed;

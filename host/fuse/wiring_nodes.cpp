@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "wiring_writer.hpp"
 
-#include <algorithm>
-
 namespace tactus::host
 {
 
@@ -12,32 +10,26 @@ void WiringWriter::copy (const std::string& from, const std::string& to, std::si
 }
 
 /// Gives the outputs of a node a name, and copies them to where the plan has them if something else reads them there.
-void WiringWriter::takeOutputs (const Known& n, const std::string& outputs, bool is_inner)
+void WiringWriter::takeOutputs (const PlanNode& n, const std::string& outputs)
 {
-    const auto size = flatOf (n).type->outputs_size;
-    if (size > 0 && (is_inner || values.isNeeded (n.instance)))
-        copy (outputs, object (values.plan.instances()[n.instance].outputs), size);
+    const auto size = type (n).outputs_size;
+    if (size > 0 && (is_inner || values.isNeeded (n.instance))) copy (outputs, object (plan.instances()[n.instance].outputs), size);
     values.nameOutputs (n.instance, outputs);
 }
 
-/// Calls a function of a node's bitcode that takes these arguments and the outputs.
-void WiringWriter::tick (const Known& n, const std::string& function, const std::vector<std::string>& arguments, bool is_inner)
+/// The node, as an argument. The first call for a node must not be in a block that may be skipped.
+const std::string& WiringWriter::selfOf (const PlanNode& n)
 {
-    const auto outputs = bytes (std::max<std::size_t> (flatOf (n).type->outputs_size, 1));
-    auto all = arguments;
-    all.push_back ("i8* " + outputs);
-    runNode (n, function, all);
-    if (function == "peek" || ! flatOf (n).type->peek) takeOutputs (n, outputs, is_inner);
+    if (self.empty()) self = "i8* " + object (PlanWalk::object (n));
+    return self;
 }
 
-/// The addresses of what the node reads, as an array. `fault` is whether a wire into a parameter is at fault; empty if there is none.
-std::string WiringWriter::sources (const Known& n, const double* const* all, const std::string& fault)
+/// The addresses of what the node reads, as an array.
+WiringWriter::Texts WiringWriter::inputs (const PlanNode& n, const double* const* source, const Text& fault)
 {
-    const auto& flat = flatOf (n);
-    std::vector<std::string> pointers;
-    const double* const* source = all;
-    for (const auto& row : flat.type->inputs)
-        for (int k = 0; k < flat.slots (row); ++k, ++source)
+    Texts pointers;
+    for (const auto& row : type (n).inputs)
+        for (int k = 0; k < flat (n).slots (row); ++k, ++source)
         {
             if (fault.empty() && ! row.list)
             {
@@ -50,42 +42,54 @@ std::string WiringWriter::sources (const Known& n, const double* const* all, con
             store ("double", passed, copy);
             pointers.push_back (copy);
         }
-    const auto count = std::max<std::size_t> (pointers.size(), 1);
-    const Array array (*this, "double*", count);
-    for (std::size_t i = 0; i < pointers.size(); ++i)
-        store ("double*", pointers[i], array.entry (i));
-    return "double** " + array.entry (0);
+    return { "double** " + array ("double*", std::max<std::size_t> (pointers.size(), 1), pointers) };
 }
 
-void WiringWriter::peek (const Known& n, bool is_inner)
+void WiringWriter::peek (const PlanNode& n)
 {
-    tick (n, "peek", { "i8* " + object (values.plan.instances()[n.instance].node.get()) }, is_inner);
+    title (n);
+    const auto node = selfOf (n), outputs = outputsOf (n);
+    runNode (n, "peek", { node, "i8* " + outputs });
+    takeOutputs (n, outputs);
 }
 
-void WiringWriter::node (const Known& n, const Record& r, bool is_inner)
+void WiringWriter::tick (const PlanNode& n, const Texts& inputs, const Text& stored, const Text& reset)
 {
-    const auto all = sources (n, r.sources, {});
-    tick (n, "tick", { "i8* " + object (r.self), all }, is_inner);
+    const auto node = selfOf (n), outputs = outputsOf (n);
+    if (stored.empty())
+        runNode (n, "tick", { node, inputs.front(), "i8* " + outputs });
+    else
+        runNode (n, "tick_stored", { node, "i8* " + stored, inputs.front(), "i8* " + outputs });
+    if (type (n).peek) return;
+    if (! reset.empty()) when (reset, [&] { runNode (n, "initialise", { "i8* " + outputs }); });
+    takeOutputs (n, outputs);
 }
 
-/// Sets the parameters that wires and feeds drive. Returns whether a value was not finite.
-std::string WiringWriter::drive (const plan::DrivenNode& d)
+/// The flags of fused::Driven.
+WiringWriter::Text WiringWriter::drives (const PlanNode&)
 {
     const auto flags = bytes (sizeof (bool) * 2);
     store ("i8", "0", flags);
     store ("i8", "0", offset (flags, 1, "i8"));
-    for (const auto& one : d.drives)
-    {
-        const auto value = one.replace != nullptr ? read (one.replace) : load ("double", object (one.stored, "double"));
-        const auto added = one.add != nullptr ? read (one.add) : "0.0";
-        run ("tactus_fused_drive", { "i8* " + flags, "double* " + object (one.target, "double"), "double " + value, "double " + added,
-                                     "double " + exactly (one.hard.min), "double " + exactly (one.hard.max) });
-    }
     return flags;
 }
 
+void WiringWriter::drive (const PlanNode&, const Text& flags, const plan::DrivenNode::Drive& d)
+{
+    const auto value = d.replace != nullptr ? read (d.replace) : load ("double", object (d.stored, "double"));
+    const auto added = d.add != nullptr ? read (d.add) : "0.0";
+    run ("tactus_fused_drive", { "i8* " + flags, "double* " + object (d.target, "double"), "double " + value, "double " + added,
+                                 "double " + exactly (d.hard.min), "double " + exactly (d.hard.max) });
+}
+
+void WiringWriter::updateIfMoved (const PlanNode& n, const Text& flags)
+{
+    const auto node = selfOf (n);
+    when (isSet (flags), [&] { runNode (n, "update", { node }); });
+}
+
 /// A copy of the parameters of a node, with the values that they have without the wires.
-std::string WiringWriter::stored (const plan::DrivenNode& d)
+WiringWriter::Text WiringWriter::stored (const PlanNode&, const plan::DrivenNode& d)
 {
     const auto* own = static_cast<const std::byte*> (d.type->paramsOf (d.node));
     const auto params = bytes (d.params.size());
@@ -98,37 +102,65 @@ std::string WiringWriter::stored (const plan::DrivenNode& d)
     return params;
 }
 
-void WiringWriter::driven (const Known& n, const Record& r, bool is_inner)
+/// As in the C++ code, the values in a section are all in memory.
+void WiringWriter::convert (Action action, const plan::ConversionLink& link, const Text& part)
 {
-    const auto& d = *static_cast<plan::DrivenNode*> (r.self);
-    const auto flags = drive (d), self = "i8* " + object (d.node);
-    if (d.type->update)
+    const auto& [from, c] = link;
+    const auto number = [this] (const double* value) { return "double* " + object (value, "double"); };
+    if (action == Action::latch) store ("double", read (from), object (&c->out, "double"));
+    if (action == Action::silence) store ("double", "0.0", object (&c->out, "double"));
+    if (action == Action::deliver) run ("tactus_fused_deliver", { number (&c->out), number (&c->gathered) });
+    if (action == Action::head)
+        run ("tactus_fused_head", { "double " + read (from), number (&c->before), number (&c->newest), "i8* " + object (&c->begun) });
+    if (action == Action::gather)
     {
-        const auto moved = label(), then = label();
-        branch (result ("icmp ne i8 " + load ("i8", flags) + ", 0"), moved, then);
-        startBlock (moved);
-        runNode (n, "update", { self });
-        jump (then);
-        startBlock (then);
+        const auto value = read (from), to = object (&c->gathered, "double");
+        store ("double", result ("fadd double " + load ("double", to) + ", " + value), to);
     }
-    const auto fault = result ("icmp ne i8 " + load ("i8", offset (flags, 1, "i8")) + ", 0");
-    const auto all = sources (n, r.sources, fault);
-    const auto outputs = bytes (std::max<std::size_t> (d.type->outputs_size, 1));
-    if (d.params.empty())
-        runNode (n, "tick", { self, all, "i8* " + outputs });
-    else
-        runNode (n, "tick_stored", { self, "i8* " + stored (d), all, "i8* " + outputs });
-    if (d.type->peek) return;
-    if (d.faulted.empty())
-    {
-        const auto failed = label(), then = label();
-        branch (fault, failed, then);
-        startBlock (failed);
-        runNode (n, "initialise", { "i8* " + outputs });
-        jump (then);
-        startBlock (then);
-    }
-    takeOutputs (n, outputs, is_inner);
+    if (action != Action::follow) return;
+    const std::vector<std::string> arguments { "double " + read (from), number (&c->before), number (&c->newest), "i8* " + object (&c->begun),
+                                               "double " + part };
+    store ("double", valueOf ("double", "tactus_fused_follow", arguments), object (&c->out, "double"));
+}
+
+WiringWriter::Text WiringWriter::onPhase (const plan::RunningSection& s, const Body& first, const Body& others)
+{
+    const auto factor = std::to_string (s.factor), around = load ("i64", object (s.around, "i64"));
+    const auto phase = result ("urem i64 " + around + ", " + factor);
+    const auto advance = [&] {
+        store ("i64", result ("udiv i64 " + around + ", " + factor), object (&s.number, "i64"));
+        first();
+    };
+    when (result ("icmp eq i64 " + phase + ", 0"), advance, others);
+    return phase;
+}
+
+void WiringWriter::repeat (const plan::RunningSection& s, const std::function<void (const Turn&)>& body)
+{
+    const auto factor = std::to_string (s.factor), again = label(), end = label(), turns = room ("i64");
+    store ("i64", "0", turns);
+    jump (again);
+    startBlock (again);
+    values.openScope();
+    const auto i = load ("i64", turns), next = result ("add i64 " + i + ", 1");
+    store ("i64", next, turns);
+    const auto first = result ("mul i64 " + load ("i64", object (s.around, "i64")) + ", " + factor), number = result ("add i64 " + first + ", " + i);
+    store ("i64", number, object (&s.number, "i64"));
+    body ({ i, next, number });
+    values.closeScope();
+    line ("br i1 " + result ("icmp ult i64 " + next + ", " + factor) + ", label %" + again + ", label %" + end);
+    startBlock (end);
+}
+
+WiringWriter::Text WiringWriter::partOf (const Text& steps, std::uint64_t factor)
+{
+    return result ("fdiv double " + result ("uitofp i64 " + steps + " to double") + ", " + exactly (static_cast<double> (factor)));
+}
+
+void WiringWriter::sample (const Turn& turn, const plan::RunningSection::Samples& tap)
+{
+    const auto at = result ("urem i64 " + turn.number + ", " + std::to_string (tap.per_tick)), value = read (tap.from);
+    store ("double", value, result ("getelementptr inbounds double, double* " + object (tap.to, "double") + ", i64 " + at));
 }
 
 }   // namespace tactus::host

@@ -25,7 +25,16 @@ std::string WiringWriter::exactly (double v)
     return text.data();
 }
 
-bool WiringWriter::has (const std::string& header) const { return ! findBitcode (header).empty(); }
+WiringWriter::WiringWriter (const Plan& p)
+    : PlanWalk (p), values (p), nodes (p, {}, [] (const std::string& header) { return ! findBitcode (header).empty(); })
+{
+}
+
+FusedCode WiringWriter::fused()
+{
+    write();
+    return { FusedCode::Language::llvm, whole(), nodes.headers(), values.objects(), count - called, called };
+}
 
 void WiringWriter::begin()
 {
@@ -39,16 +48,18 @@ void WiringWriter::beginPart()
 {
     rooms.clear();
     code.clear();
+    values.openScope();
 }
 
 void WiringWriter::endPart()
 {
+    values.closeScope();
     // A function that is called once would be inlined, and all would be one large function again.
     functions += "define internal void @part" + std::to_string (parts) + " (i8** %objects) nounwind" + (isLarge() ? " noinline" : "") + "\n{\n"
                  + rooms + code + "  ret void\n}\n\n";
 }
 
-std::string WiringWriter::end (const std::vector<const Known*>&)
+std::string WiringWriter::whole() const
 {
     std::string text;
     for (const auto& c : constants)
@@ -68,12 +79,14 @@ std::string WiringWriter::room (const std::string& type)
     return name;
 }
 
-std::string WiringWriter::Array::entry (std::size_t i) const
+std::string WiringWriter::array (const std::string& element, std::size_t size, const Texts& entries)
 {
-    return writer.result ("getelementptr inbounds " + type + ", " + type + "* " + all + ", i64 0, i64 " + std::to_string (i));
+    const auto type = "[" + std::to_string (size) + " x " + element + "]", all = room (type);
+    const auto base = "getelementptr inbounds " + type + ", " + type + "* " + all + ", i64 0, i64 ";
+    for (std::size_t i = 0; i < entries.size(); ++i)
+        store (element, entries[i], result (base + std::to_string (i)));
+    return result (base + "0");
 }
-
-std::string WiringWriter::bytes (std::size_t size) { return Array (*this, "i8", size).entry (0); }
 
 std::string WiringWriter::object (const void* address, const std::string& type)
 {
@@ -102,7 +115,7 @@ std::string WiringWriter::result (const std::string& instruction)
     return name;
 }
 
-std::string WiringWriter::called (const std::string& type, const std::string& function, const std::vector<std::string>& arguments)
+std::string WiringWriter::valueOf (const std::string& type, const std::string& function, const std::vector<std::string>& arguments)
 {
     declare (type, function, arguments);
     return result ("call " + type + " @" + function + " (" + listed (arguments) + ")");
@@ -115,9 +128,9 @@ void WiringWriter::run (const std::string& function, const std::vector<std::stri
 }
 
 /// Calls a function of the bitcode of a node. It is inlined, however large it is, unless it would be repeated too often.
-void WiringWriter::runNode (const Known& n, const std::string& function, const std::vector<std::string>& arguments)
+void WiringWriter::runNode (const PlanNode& n, const std::string& function, const std::vector<std::string>& arguments)
 {
-    run (bitcodeName (function, n.header), arguments, isRare (n) ? " alwaysinline" : "");
+    run (bitcodeName (function, n.header), arguments, nodes.isRare (n) ? " alwaysinline" : "");
 }
 
 void WiringWriter::declare (const std::string& type, const std::string& function, const std::vector<std::string>& arguments)
@@ -128,53 +141,49 @@ void WiringWriter::declare (const std::string& type, const std::string& function
     declarations[function] = "declare " + type + " @" + function + " (" + listed (types) + ") nounwind\n";
 }
 
-void WiringWriter::branch (const std::string& condition, const std::string& yes, const std::string& no)
+/// Runs one of two blocks. The second one may be empty.
+void WiringWriter::when (const std::string& condition, const Body& yes, const Body& no)
 {
-    line ("br i1 " + condition + ", label %" + yes + ", label %" + no);
+    const auto first = label(), second = no ? label() : std::string {}, end = label();
+    line ("br i1 " + condition + ", label %" + first + ", label %" + (no ? second : end));
+    const auto block = [&] (const std::string& name, const Body& body) {
+        startBlock (name);
+        values.openScope();
+        body();
+        values.closeScope();
+        jump (end);
+    };
+    block (first, yes);
+    if (no) block (second, no);
+    startBlock (end);
 }
 
 std::string WiringWriter::read (const double* v)
 {
-    using Kind = FusedValues::Place::Kind;
     const auto place = values.find (v);
-    switch (place.kind)
-    {
-    case Kind::variable:
-        return place.name;
-    case Kind::constant:
-        return exactly (*v);
-    case Kind::member:
-        return load ("double", offset (place.name, place.sheet->offset + sizeof (double) * static_cast<std::size_t> (place.slot), "double"));
-    case Kind::memory:
-        break;
-    }
-    return load ("double", object (v, "double"));
+    if (place.kind == Kind::variable) return place.name;
+    return place.kind == Kind::constant ? exactly (*v) : load ("double", addressOf (v, place));
 }
 
 std::string WiringWriter::pointerTo (const double* v)
 {
-    using Kind = FusedValues::Place::Kind;
     const auto place = values.find (v);
-    switch (place.kind)
-    {
-    case Kind::constant:
-        return "@c" + *constants.insert (exactly (*v)).first;
-    case Kind::member:
-        return offset (place.name, place.sheet->offset + sizeof (double) * static_cast<std::size_t> (place.slot), "double");
-    case Kind::variable:
-    {
-        const auto copy = room ("double");
-        store ("double", place.name, copy);
-        return copy;
-    }
-    case Kind::memory:
-        break;
-    }
-    return object (v, "double");
+    if (place.kind == Kind::constant) return "@c" + *constants.insert (exactly (*v)).first;
+    if (place.kind != Kind::variable) return addressOf (v, place);
+    const auto copy = room ("double");
+    store ("double", place.name, copy);
+    return copy;
+}
+
+/// The address of a value that is not in a variable.
+std::string WiringWriter::addressOf (const double* v, const FusedValues::Place& place)
+{
+    if (place.kind == Kind::memory) return object (v, "double");
+    return offset (place.name, place.sheet->offset + sizeof (double) * static_cast<std::size_t> (place.slot), "double");
 }
 
 /// Gives a value a name, and puts it in memory if something else reads it there.
-void WiringWriter::keep (const double* at, const std::string& value, bool is_inner)
+void WiringWriter::keep (const double* at, const std::string& value)
 {
     if (is_inner || values.isNeeded (at)) store ("double", value, object (at, "double"));
     values.name (at, value);
@@ -182,39 +191,40 @@ void WiringWriter::keep (const double* at, const std::string& value, bool is_inn
 
 void WiringWriter::call (const Record& r)
 {
+    values.need (r);
     const auto first = values.numbers ({ reinterpret_cast<const void*> (r.step), r.self, r.sources, r.outputs });
     run ("tactus_fused_run", { "i8** %objects", "i64 " + first });
 }
 
-void WiringWriter::sum (const plan::Sum& s, bool is_inner)
+void WiringWriter::sum (const plan::Sum& s)
 {
-    std::vector<std::string> terms;
+    Texts terms;
     for (const auto& term : s.terms)
     {
         const auto value = read (term.from);
-        terms.push_back ("double " + (term.gain == 1.0 ? value : result ("fmul double " + exactly (term.gain) + ", " + value)));
+        terms.push_back (term.gain == 1.0 ? value : result ("fmul double " + exactly (term.gain) + ", " + value));
     }
-    if (! terms.empty() && terms.size() <= plan::most_in_network)
-        return keep (&s.out, called ("double", "tactus_fused_sum_" + std::to_string (terms.size()), terms), is_inner);
-    const Array all (*this, "double", terms.size());
-    for (std::size_t i = 0; i < terms.size(); ++i)
-        line ("store " + terms[i] + ", double* " + all.entry (i));
-    keep (&s.out, called ("double", "tactus_fused_sum", { "double* " + all.entry (0), "i32 " + std::to_string (terms.size()) }), is_inner);
+    const auto size = std::to_string (terms.size());
+    if (terms.empty() || terms.size() > plan::most_in_network)
+        return keep (&s.out, valueOf ("double", "tactus_fused_sum", { "double* " + array ("double", terms.size(), terms), "i32 " + size }));
+    for (auto& term : terms)
+        term = "double " + term;
+    keep (&s.out, valueOf ("double", "tactus_fused_sum_" + size, terms));
 }
 
-void WiringWriter::strike (const plan::Strike& s, bool is_inner)
+void WiringWriter::strike (const plan::Strike& s)
 {
-    keep (&s.out, called ("double", "tactus_fused_struck", { "double " + read (s.from), "double* " + object (&s.pulse->pending, "double") }), is_inner);
+    keep (&s.out, valueOf ("double", "tactus_fused_struck", { "double " + read (s.from), "double* " + object (&s.pulse->pending, "double") }));
 }
 
 void WiringWriter::readDelay (const plan::Line& wire)
 {
     const std::vector<std::string> arguments { "double* " + object (wire.samples.data(), "double"), "i64* " + object (&wire.now, "i64"),
                                                "double* " + object (&wire.out, "double") };
-    values.name (&wire.out, called ("double", "tactus_fused_delayed", arguments));
+    values.name (&wire.out, valueOf ("double", "tactus_fused_delayed", arguments));
 }
 
-void WiringWriter::writeDelay (const double* from, const plan::Line& wire)
+void WiringWriter::writeDelay (const plan::Line& wire, const double* from)
 {
     run ("tactus_fused_delay", { "double " + read (from), "double* " + object (wire.samples.data(), "double"), "i64* " + object (&wire.now, "i64"),
                                  "i64 " + std::to_string (wire.samples.size()) });

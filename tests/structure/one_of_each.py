@@ -4,7 +4,7 @@
 
 Usage: one_of_each.py [SOURCE_FOLDER]. Prints FILE:LINE for each problem. Exit status 1 if there are any.
 
-Each row of ONLY is a step of a live run, a pattern of the code that takes it, and the files of host/ where this may be. Each pattern must occur in
+Each row of ONLY is a step of a live run or of a walk over a plan, a pattern of the code that takes it, and the files of host/ where this may be. Each pattern must occur in
 the first file, so that a row cannot rot."""
 
 import pathlib
@@ -26,6 +26,10 @@ ONLY = [
     ("stopping an engine", r"engine\(\)\.emergencyStop\(\)", [SESSION]),
     ("watching the health of devices", r"= HealthWatch \{", [SESSION]),
     ("fusing what runs", r"fusing->poll \(", [SESSION]),
+    ("telling what a record of a plan does", r"[!=]= ?&plan::\w+::\w+|\{ ?&plan::\w+::step", ["host/generate/walk/visit_record.hpp"]),
+    ("ordering what the converters of a section do", r"each \(Action::", ["host/generate/walk/plan_walk.cpp"]),
+    ("ordering what a driven node does", r"\bupdateIfMoved \(n", ["host/generate/walk/plan_walk.cpp"]),
+    ("writing the inputs of a node in C++", r"inOrder \(std::move", ["host/generate/walk/cpp_walk.cpp"]),
 ]
 
 
@@ -39,7 +43,7 @@ def main():
         for name, lines in sorted(texts.items()):
             found += [f"{name}:{number}: {what} belongs in {allowed[0]}" for number, line in enumerate(lines, 1)
                       if name not in allowed and re.search(pattern, line) and not line.lstrip().startswith("///")]
-    print("\n".join(found) or f"{len(ONLY)} steps of a live run have one place each")
+    print("\n".join(found) or f"{len(ONLY)} steps have one place each")
     return 1 if found else 0
 
 

@@ -34,7 +34,7 @@ struct NodeFunctions
 
 }   // namespace tactus::host
 
-/// Defines the functions. PlanNames asks that they are inlined, because their arguments are known there.
+/// Defines the functions. Fused code asks that they are inlined, because their arguments are known there.
 #define TACTUS_NODE_FUNCTIONS(N, name)                                                                           \
     extern "C"                                                                                                   \
     {                                                                                                            \

@@ -375,7 +375,7 @@ std::string tick (const Exported& e, const std::string& body)
 ClassFiles classFiles (const Exported& e)
 {
     ClassFiles files;
-    const auto body = TickCode (e.wiring).write();   // first, because it finds out which outputs are read
+    const auto body = TickCode (e.wiring).statements();   // first, because it finds out which outputs are read
     const auto space = e.stem + "_data";
     SettingCode settings { space };
     const auto prepared = prepare (e, settings);

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "plan_names.hpp"
-#include <host/generate/sources/sources.hpp>
-#include <host/generate/walk/address_map.hpp>
 
 #include <tactus/plan/find_hit.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace tactus::host
 {
 
 PlanNames::PlanNames (const Plan& p, const std::vector<std::string>& feeds, std::set<std::string> taken, PluginClasses of_plugins)
-    : plan (p), members (std::move (taken)), plugin_classes (std::move (of_plugins))
+    : plan (p), addresses (p), members (std::move (taken)), plugin_classes (std::move (of_plugins))
 {
     nameNodes();
     nameOutside (feeds);
@@ -27,7 +26,6 @@ void PlanNames::nameNodes()
     {
         const auto& flat = plan.flat().nodes[i];
         const auto& instance = plan.instances()[i];
-        by_outputs.emplace (bytes (instance.outputs), i);
         for (std::size_t k = 0; instance.is_struck && k < instance.knobs->pulses.size(); ++k)
         {
             by_pulse.emplace (&instance.knobs->pulses[k], hits.size());
@@ -39,13 +37,12 @@ void PlanNames::nameNodes()
         if (const auto ours = plugin_classes.find (flat.type->info.id); known.name.empty())
             known = ours != plugin_classes.end() ? ours->second : classOf (flat.type->info.id);
         by_address.emplace (instance.node.get(), nodes.size());
-        by_params.emplace (bytes (flat.type->paramsOf (instance.node.get())), nodes.size());
         by_instance.emplace (i, nodes.size());
         std::vector<std::string> endings { "_out", "_driven", "_stored" };
         for (const auto& row : flat.type->inputs)
             for (const auto* ending : { "_values", "_list" })
                 if (row.list) endings.push_back ("_" + std::string (row.id) + ending);
-        nodes.push_back ({ .instance = i, .name = members.make (flat.path, endings), .type = known.name, .header = known.header });
+        nodes.push_back ({ { .instance = i, .name = members.make (flat.path, endings), .type = known.name, .header = known.header } });
     }
 }
 
@@ -91,19 +88,23 @@ void PlanNames::nameConsumers()
     }
 }
 
+/// What drives a parameter is named after the parameter.
 void PlanNames::nameDriven (const plan::DrivenNode& driven)
 {
     const auto& node = *nodeOf (driven.node);
     for (const auto& drive : driven.drives)
-        for (const auto& row : type (node).params)
+        if (const auto param = addresses.paramAt (drive.target))
         {
-            const auto begin = bytes (type (node).paramsOf (driven.node)) + row.offset;
-            const auto slot = (bytes (drive.target) - begin) / static_cast<std::ptrdiff_t> (sizeof (double));
-            if (bytes (drive.target) < begin || slot >= flat (node).slots (row) || ! row.choices.empty()) continue;
-            const auto name = node.name + "_" + nameOf (row, static_cast<int> (slot));
+            const auto name = node.name + "_" + nameOf (*param->sheet, param->slot);
             if (drive.replace) consumers.emplace (drive.replace, name);
             if (drive.add) consumers.emplace (drive.add, name + "_added");
         }
+}
+
+/// The output of a node as a name.
+std::string PlanNames::nameOf (const PlanAddresses::Found& output) const
+{
+    return plan.flat().nodes[output.instance].path + "_" + nameOf (*output.sheet, output.slot);
 }
 
 void PlanNames::nameValue (const double* value, const std::string& fallback, bool is_inner)
@@ -118,44 +119,40 @@ void PlanNames::nameValue (const double* value, const std::string& fallback, boo
 std::string PlanNames::nameObject (const void* object, const double* out, const double* from, const std::string& type)
 {
     const auto consumer = consumers.find (out);
-    const auto output = outputAt (from);
-    const auto source = output ? plan.flat().nodes[output->instance].path + "_" + nameOf (*output->sheet, output->slot) : "crossing";
+    const auto output = addresses.outputAt (from);
+    const auto source = output ? nameOf (*output) : "crossing";
     auto name = members.make (consumer != consumers.end() ? consumer->second + "_wire" : source + "_wire");
     kept.emplace_back (type, name);
     objects.emplace (object, "state." + name);
     return "state." + name;
 }
 
-void PlanNames::nameBypass (const plan::Bypass& bypass, bool is_inner)
-{
-    for (const auto& copy : bypass.copies)
-        if (const auto output = outputAt (copy.to))
-            nameValue (copy.to, plan.flat().nodes[output->instance].path + "_" + nameOf (*output->sheet, output->slot), is_inner);
-}
-
 /// The section of these records; their nodes know it.
 int PlanNames::sectionOf (std::span<const Record> records) const
 {
-    for (const auto& r : records)
-    {
-        const auto* self = r.step == &plan::DrivenNode::step ? static_cast<plan::DrivenNode*> (r.self)->node : r.self;
-        if (const auto node = by_address.find (self); node != by_address.end()) return flat (nodes[node->second]).section;
-        if (r.step == &plan::RunningSection::every || r.step == &plan::RunningSection::times)
-            return plan.flat().section (sectionOf (static_cast<plan::RunningSection*> (r.self)->records)).around;
-        if (r.step == &plan::Bypass::step)
-            for (const auto& copy : static_cast<plan::Bypass*> (r.self)->copies)
-                if (const auto output = outputAt (copy.to)) return plan.flat().nodes[output->instance].section;
-    }
-    return 0;
+    std::optional<int> found;
+    const auto ofNode = [&] (const void* self) {
+        if (const auto node = by_address.find (self); node != by_address.end()) found = flat (nodes[node->second]).section;
+    };
+    const Cases cases { [] (const auto&) {},
+                        [&] (const Record& r) { ofNode (r.self); },
+                        [&] (const plan::DrivenNode& d) { ofNode (d.node); },
+                        [&] (const SectionStep& s) { found = plan.flat().section (sectionOf (s.running.records)).around; },
+                        [&] (const plan::Bypass& b) {
+                            for (const auto& copy : b.copies)
+                                if (const auto output = addresses.outputAt (copy.to)) found = plan.flat().nodes[output->instance].section;
+                        } };
+    for (auto r = records.begin(); r != records.end() && ! found; ++r)
+        visitRecord (*r, cases);
+    return found.value_or (0);
 }
 
 void PlanNames::nameSection (const plan::RunningSection& running)
 {
     const int number = sectionOf (running.records);
     const auto name = members.make (number > 0 ? plan.flat().section (number).path : "section", { "_ticks", "_ticks_now" });
-    const auto ticks = name + "_ticks";
-    kept.emplace_back ("std::uint64_t", ticks);
-    sections.emplace (&running, ExportedSection { &running, name, "state." + ticks });
+    kept.emplace_back ("std::uint64_t", name + "_ticks");
+    sections.emplace (&running, name);
     const std::pair<const std::vector<plan::ConversionLink>*, const char*> kinds[] {
         { &running.latches, "Held" }, { &running.gathers, "Gathered" }, { &running.lines, "Line" }, { &running.pulses, "Held" }
     };
@@ -168,30 +165,30 @@ void PlanNames::nameSection (const plan::RunningSection& running)
 
 void PlanNames::nameRecords (std::span<const Record> records, bool is_inner)
 {
+    const auto strike = [this] (const plan::Strike& s) {
+        if (const auto consumer = consumers.find (&s.out); consumer != consumers.end()) consumers.emplace (s.from, consumer->second + "_wires");
+    };
     for (const auto& r : records)
-    {
-        if (r.step == &plan::DrivenNode::step) nameDriven (*static_cast<plan::DrivenNode*> (r.self));
-        if (r.step == &plan::Strike::step)
-        {
-            auto& strike = *static_cast<plan::Strike*> (r.self);
-            if (const auto consumer = consumers.find (&strike.out); consumer != consumers.end()) consumers.emplace (strike.from, consumer->second + "_wires");
-        }
-    }
+        visitRecord (r, Cases { [] (const auto&) {}, strike, [this] (const plan::DrivenNode& d) { nameDriven (d); } });
+
+    const auto node = [&] (const void* self) {
+        if (auto* n = nodeOf (self)) n->is_inner = is_inner;
+    };
+    const auto bypass = [&] (const plan::Bypass& b) {
+        for (const auto& copy : b.copies)
+            if (const auto output = addresses.outputAt (copy.to)) nameValue (copy.to, nameOf (*output), is_inner);
+    };
+    const auto delay = [&] (const DelayRead& d) {
+        nameObject (d.line, &d.line->out, d.from, "tactus::exported::DelayLine<" + std::to_string (d.line->samples.size()) + ">");
+        nameValue (&d.line->out, "delayed", is_inner);
+    };
     for (const auto& r : records)
-    {
-        const auto* self = r.step == &plan::DrivenNode::step ? static_cast<plan::DrivenNode*> (r.self)->node : r.self;
-        if (auto* node = nodeOf (self)) node->is_inner = is_inner;
-        plan::eachSum (r, [&] (const plan::Sum& sum) { nameValue (&sum.out, "sum", is_inner); });
-        if (r.step == &plan::Strike::step) nameValue (&static_cast<plan::Strike*> (r.self)->out, "hit", is_inner);
-        if (r.step == &plan::Bypass::step) nameBypass (*static_cast<plan::Bypass*> (r.self), is_inner);
-        if (r.step == &plan::DelayLine::read)
-        {
-            const auto& [from, line] = *static_cast<plan::DelayLine*> (r.self);
-            nameObject (line, &line->out, from, "tactus::exported::DelayLine<" + std::to_string (line->samples.size()) + ">");
-            nameValue (&line->out, "delayed", is_inner);
-        }
-        if (r.step == &plan::RunningSection::every || r.step == &plan::RunningSection::times) nameSection (*static_cast<plan::RunningSection*> (r.self));
-    }
+        visitRecord (r, Cases { [] (const auto&) {}, bypass, delay,
+                                [&] (const Record& n) { node (n.self); },
+                                [&] (const plan::DrivenNode& d) { node (d.node); },
+                                [&] (const plan::Sum& s) { nameValue (&s.out, "sum", is_inner); },
+                                [&] (const plan::Strike& s) { nameValue (&s.out, "hit", is_inner); },
+                                [&] (const SectionStep& s) { nameSection (s.running); } });
 }
 
 bool PlanNames::noteReads()
@@ -217,34 +214,10 @@ ExportedNode* PlanNames::nodeOf (const void* node)
     return found != by_address.end() ? &nodes[found->second] : nullptr;
 }
 
-std::optional<PlanNames::Output> PlanNames::outputAt (const double* value) const
+std::string PlanNames::ticksOf (const std::uint64_t* number) const
 {
-    const auto found = lastBefore (by_outputs, value);
-    if (found == by_outputs.end()) return std::nullopt;
-    const auto& node = plan.flat().nodes[found->second];
-    const auto offset = static_cast<std::size_t> (bytes (value) - found->first);
-    if (offset >= node.type->outputs_size) return std::nullopt;
-    for (const auto& row : node.type->outputs)
-    {
-        const auto size = sizeof (double) * at (row.list ? list_capacity * row.width : row.width);
-        if (offset < row.offset || offset >= row.offset + size) continue;
-        return Output { found->second, &row, static_cast<int> ((offset - row.offset) / sizeof (double)) };
-    }
-    return std::nullopt;
-}
-
-/// A parameter of a node that runs, as an expression; empty if the pointer leads elsewhere.
-std::string PlanNames::paramAt (const double* value)
-{
-    const auto found = lastBefore (by_params, value);
-    if (found == by_params.end()) return {};
-    const auto& node = nodes[found->second];
-    const auto offset = static_cast<std::size_t> (bytes (value) - found->first);
-    if (offset >= type (node).params_size) return {};
-    for (const auto& row : type (node).params)
-        if (row.choices.empty() && offset >= row.offset && offset < row.offset + sizeof (double) * at (row.list ? list_capacity : row.width))
-            return node.name + ".params." + memberOf (row, static_cast<int> ((offset - row.offset) / sizeof (double)));
-    return {};
+    const auto found = std::ranges::find (sections, number, [] (const auto& s) { return &s.first->number; });
+    return found != sections.end() ? "state." + found->second + "_ticks" : "ticks";
 }
 
 std::string PlanNames::valueAt (const double* value)
@@ -256,19 +229,21 @@ std::string PlanNames::valueAt (const double* value)
     }
     if (const auto* first = plan.feeds().data(); value >= first && value < first + plan.feeds().size())
         return "in." + feed_names[static_cast<std::size_t> (value - first)];
-    if (const auto output = outputAt (value))
+    if (const auto output = addresses.outputAt (value))
         if (const auto node = by_instance.find (output->instance); node != by_instance.end())
         {
             node_reads.insert (node->second);
             return outputsOf (nodes[node->second]) + "." + memberOf (*output->sheet, output->slot);
         }
-    if (auto param = paramAt (value); ! param.empty()) return param;
+    if (const auto param = addresses.paramAt (value))
+        if (const auto node = by_instance.find (param->instance); node != by_instance.end())
+            return nodes[node->second].name + ".params." + memberOf (*param->sheet, param->slot);
     return literal (*value);
 }
 
 std::string PlanNames::valueAt (const double* const* three, const std::string& type)
 {
-    const auto output = outputAt (three[0]);
+    const auto output = addresses.outputAt (three[0]);
     if (output && ! values.contains (three[0]) && output->sheet->width == 3 && output->slot == 0 && three[1] == three[0] + 1 && three[2] == three[0] + 2
         && by_instance.contains (output->instance))
     {

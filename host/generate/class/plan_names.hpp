@@ -3,10 +3,8 @@
 
 #include <host/generate/sources/code.hpp>
 #include <host/generate/sources/sources.hpp>
-
-#include <tactus/plan/plan.hpp>
-#include <tactus/plan/steps/ops.hpp>
-#include <tactus/plan/steps/running_section.hpp>
+#include <host/generate/walk/plan_addresses.hpp>
+#include <host/generate/walk/plan_walk.hpp>
 
 #include <cstddef>
 #include <map>
@@ -22,22 +20,11 @@ namespace tactus::host
 {
 
 /// A node of a plan as exported code names it.
-struct ExportedNode
+struct ExportedNode : PlanNode
 {
-    std::size_t instance = 0;     ///< number in Plan::instances
-    std::string name;             ///< the member: "grain_wave"
-    std::string type, header;     ///< "tactus::nodes::Grating", "tactus/nodes/texture/grating.hpp"
     bool is_inner = false;        ///< inside a part of the graph that runs at another rate
     bool is_read = true;          ///< something reads its outputs
     std::size_t parameters = 0;   ///< number of its first parameter
-};
-
-/// The records of a part of the plan that runs at another rate.
-struct ExportedSection
-{
-    const plan::RunningSection* running = nullptr;
-    std::string name;    ///< "heard"
-    std::string ticks;   ///< the number of its tick: "state.heard_ticks"
 };
 
 /// Names everything that the records of a plan point to. What one part of the tick passes to another within the same tick is a local
@@ -52,13 +39,13 @@ public:
     PlanNames (const Plan&, const std::vector<std::string>& feeds, std::set<std::string> taken, PluginClasses of_plugins = {});
 
     const Plan& plan;
-    std::vector<ExportedNode> nodes;                         ///< nodes that run, in the order of Plan::instances
-    std::map<const void*, ExportedSection> sections;         ///< by RunningSection
-    std::vector<std::pair<std::string, std::string>> kept;   ///< type and name of each member of `state`
-    std::vector<std::pair<std::size_t, std::size_t>> hits;   ///< by hit input: number in Plan::instances, and index in Knobs::pulses
-    std::vector<std::string> hit_names;                      ///< as in `tactus hit`: "ring.hit"
-    std::vector<std::string> role_names, role_ports;         ///< by role: the member of the class, and of Inputs and Outputs
-    std::vector<std::string> feed_names, tap_names;          ///< members of Inputs and of Outputs
+    std::vector<ExportedNode> nodes;                               ///< nodes that run, in the order of Plan::instances
+    std::map<const plan::RunningSection*, std::string> sections;   ///< names: "heard"
+    std::vector<std::pair<std::string, std::string>> kept;         ///< type and name of each member of `state`
+    std::vector<std::pair<std::size_t, std::size_t>> hits;         ///< by hit input: number in Plan::instances, and index in Knobs::pulses
+    std::vector<std::string> hit_names;                            ///< as in `tactus hit`: "ring.hit"
+    std::vector<std::string> role_names, role_ports;               ///< by role: the member of the class, and of Inputs and Outputs
+    std::vector<std::string> feed_names, tap_names;                ///< members of Inputs and of Outputs
 
     /// The value that a pointer of the plan leads to, as an expression. Notes that it is read: see noteReads().
     std::string valueAt (const double*);
@@ -86,6 +73,9 @@ public:
     /// The member that is the rate converter or delay line at this address.
     std::string object (const void* of) const { return objects.at (of); }
 
+    /// The number of the tick of a section, or of the graph: "state.heard_ticks".
+    std::string ticksOf (const std::uint64_t* number) const;
+
     std::size_t hitOf (const plan::Pulse* pulse) const { return by_pulse.at (pulse); }
 
     /// A component of a port as a member of its struct: "mu", "direction.x()", "gain[2]".
@@ -95,27 +85,18 @@ public:
     static std::string nameOf (const PortSheet&, int slot);
 
 private:
-    /// A component of an output of a node.
-    struct Output
-    {
-        std::size_t instance;
-        const PortSheet* sheet;
-        int slot;
-    };
-
     void nameNodes();
     void nameOutside (const std::vector<std::string>& feeds);
     void nameConsumers();
     void nameDriven (const plan::DrivenNode&);
     void nameRecords (std::span<const Record>, bool is_inner);
     void nameSection (const plan::RunningSection&);
-    void nameBypass (const plan::Bypass&, bool is_inner);
     void nameValue (const double* value, const std::string& fallback, bool is_inner);
+    std::string nameOf (const PlanAddresses::Found&) const;
     std::string nameObject (const void* object, const double* out, const double* from, const std::string& type);
     int sectionOf (std::span<const Record>) const;
-    std::optional<Output> outputAt (const double*) const;
-    std::string paramAt (const double*);
 
+    const PlanAddresses addresses;
     Names members;
     PluginClasses plugin_classes;
     std::set<const double*> reads, known_reads;   // values of records
@@ -125,8 +106,6 @@ private:
     std::unordered_map<const double*, std::string> values;      // how to read a value
     std::unordered_map<const void*, std::string> objects;
     std::unordered_map<const void*, std::size_t> by_address;    // the number in `nodes`, by the address of the node
-    std::map<const std::byte*, std::size_t> by_outputs;         // the number of an instance, by the address of its outputs
-    std::map<const std::byte*, std::size_t> by_params;          // the number in `nodes`, by the address of the params
     std::unordered_map<std::size_t, std::size_t> by_instance;   // the number in `nodes`, by the number of the instance
     std::map<const plan::Pulse*, std::size_t> by_pulse;
 };

@@ -113,12 +113,12 @@ std::vector<std::string> inOrder (std::vector<std::pair<std::size_t, std::string
 std::string wrapped (std::string_view indent, const std::string& head, const std::vector<std::string>& parts, std::string_view end)
 {
     constexpr std::size_t most_columns = 130;
-    const auto one = std::string (indent) + head + " " + listed (parts) + " " + std::string (end);
-    if (one.size() <= most_columns) return (parts.empty() ? std::string (indent) + head + std::string (end) : one) + "\n";
-    std::string all = std::string (indent) + head + "\n";
+    auto all = std::string (indent) + head;
+    if (const auto one = listed (parts); all.size() + one.size() + end.size() + 2 <= most_columns)
+        return all.append (parts.empty() ? "" : " " + one + " ").append (end) + "\n";
     for (std::size_t i = 0; i < parts.size(); ++i)
-        all += std::string (indent) + "    " + parts[i] + (i + 1 < parts.size() ? "," : "") + "\n";
-    return all + std::string (indent) + std::string (end) + "\n";
+        all.append (i > 0 ? ",\n" : "\n").append (indent).append ("    ").append (parts[i]);
+    return all.append ("\n").append (indent).append (end) + "\n";
 }
 
 std::string filled (std::string text, const std::vector<std::pair<std::string, std::string>>& marks)

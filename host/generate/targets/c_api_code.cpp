@@ -106,20 +106,11 @@ std::string limitsStruct (const Exported& e)
            + "    uint64_t dead_man_buttons;   /* bit i: button i must be held */\n} " + e.stem + "_limits;\n\n";
 }
 
-/// The names of the enumerators of a kind.
-std::vector<std::string> paramNames (const Exported& e)
+std::vector<std::string> enumerators (const auto& entries)
 {
     std::vector<std::string> all;
-    for (const auto& p : e.parameters)
-        all.push_back (p.enumerator);
-    return all;
-}
-
-std::vector<std::string> controlNames (const Exported& e)
-{
-    std::vector<std::string> all;
-    for (const auto& c : e.controls)
-        all.push_back (c.enumerator);
+    for (const auto& one : entries)
+        all.push_back (one.enumerator);
     return all;
 }
 
@@ -172,8 +163,8 @@ std::string cHeader (const Exported& e)
            + " as a C interface. All functions of a graph are for one thread. */\n#ifndef " + guard + "\n#define " + guard
            + "\n\n#include <stdbool.h>\n#include <stddef.h>\n#include <stdint.h>\n\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n#define " + capitals (e.stem)
            + "_RATE_HZ " + literal (e.wiring.plan.rateHz()) + "\n#define " + capitals (e.stem) + "_MAX_RATE_HZ " + literal (e.wiring.plan.rateHz())
-           + "\n\ntypedef struct " + e.stem + " " + e.stem + ";\n\n" + cStructs (e) + cEnumOf (e, "param", paramNames (e))
-           + cEnumOf (e, "control", controlNames (e))
+           + "\n\ntypedef struct " + e.stem + " " + e.stem + ";\n\n" + cStructs (e) + cEnumOf (e, "param", enumerators (e.parameters))
+           + cEnumOf (e, "control", enumerators (e.controls))
            + cEnumOf (e, "hit", e.hits) + cEnumOf (e, "role", e.wiring.role_ports) + limitsStruct (e) + cFunctions (e)
            + "#ifdef __cplusplus\n}\n#endif\n\n#endif\n";
 }
