@@ -20,7 +20,7 @@ if [ -z "$offline" ] && [ -n "${DISPLAY:-}" ]; then
     exec build/release/bin/tactus-host
 fi
 
-build release tactus evemu_to_trace switch_to_graph
+build release tactus
 bin=build/release/bin
 mkdir -p out
 made=()
@@ -60,7 +60,7 @@ if [ -d "$strokes" ]; then
     say "The same wood, with strokes recorded on a tablet"
     for recording in "$strokes"/*.events; do
         name=$(basename "${recording%.events}" | tr -c "A-Za-z0-9\n" _)
-        "$bin/evemu_to_trace" "$recording" --out "out/trace_$name.csv"
+        "$bin/tactus" convert "$recording" "out/trace_$name.csv"
         render "wood_$name" graphs/dry_wood.json --device "stylus=trace:out/trace_$name.csv" --record hand.position,drag.force,board.resistance
     done
 fi
@@ -70,7 +70,7 @@ if [ -d "$switches" ]; then
     say "Measured keys, pressed by a simulated finger"
     for curve in "$switches"/*.csv; do
         name=$(basename "${curve%.csv}" | tr -c "A-Za-z0-9\n" _)
-        "$bin/switch_to_graph" "$curve" --out "out/key_$name.json"
+        "$bin/tactus" fit switch "$curve" -o "out/key_$name.json"
         render "key_$name" "out/key_$name.json"
     done
 fi

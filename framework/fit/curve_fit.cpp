@@ -385,7 +385,7 @@ Result<CurveFit> fitCurve (const RecordedLoop& loop, int points, FitCourse* cour
         fit.report.lacking.push_back ("the curve flattens a fall of the recorded force by " + roundedText (fit.drop, 3) + " N, from "
                                       + roundedText (fit.falls_from, 3) + " N, as in a key that clicks or a sample that bursts");
     judge (fit.report,
-           fit.clicks() ? "For a key, record the way in and the way out, and use switch_to_graph: its graph keeps the click. For a sample that bursts, use "
+           fit.clicks() ? "For a key, record the way in and the way out, and use tactus fit switch: its graph keeps the click. For a sample that bursts, use "
                           "tactus fit blade."
                         : "Press slowly and along the normal, from the touch to the deepest point and back, and record at least 20 rows per point of the "
                           "curve.");

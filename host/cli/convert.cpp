@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "amount.hpp"
 #include "commands.hpp"
 #include "overwriting.hpp"
 #include "report.hpp"
@@ -7,6 +8,7 @@
 #include <host/fitting/surface_preset.hpp>
 #include <host/io/clip_io.hpp>
 #include <host/io/clip_samples.hpp>
+#include <host/io/evemu.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -26,6 +28,8 @@ struct ConvertOptions
     std::string in, out, calibration;
     double rate_hz = 0.0;
     bool split = false;
+    EvemuOptions pen {};
+    std::string pen_option {};   // one that was given
 };
 
 /// Prints a warning with its place and its remedy.
@@ -103,8 +107,32 @@ void writeSplit (const ConvertOptions& options, const Clip& clip)
     writeFile (second, taps, 0.0);
 }
 
+bool isPenRecording (const std::string& file) { return extensionOf (file) == ".events" || extensionOf (file) == ".evemu"; }
+
+void convertPen (const ConvertOptions& options)
+{
+    if (extensionOf (options.out) != ".csv") throw UsageError ("out", "a pen recording is converted to a trace, which is a .csv");
+    if (options.split) throw UsageError ("--split", "only clips are split");
+    if (! options.calibration.empty()) throw UsageError ("--calibration", "only clips have a calibration");
+    refuseOverwriting ({ options.out }, { options.in });
+
+    auto pen = options.pen;
+    if (options.rate_hz > 0.0) pen.rate_hz = options.rate_hz;
+    const auto read = readEvemu (bytesOf (options.in), pen);
+    if (! read) fail (Message::error (read.error().id, options.in + ", " + read.error().where, read.error().text, read.error().remedy));
+    const auto& trace = *read;
+    auto file = orFail (TableWriter::create (options.out, std::vector<std::string> { "t", "x", "y", "z", "pressure" }));
+    for (const auto& row : trace.rows)
+        orFail (file.row (std::vector { row.t, row.position.x(), row.position.y(), row.position.z(), row.pressure }));
+    orFail (file.commit());
+    std::cout << printableName (options.in) << ": " << trace.rows.size() << " rows, " << shortNumber (trace.duration()) << " s\n";
+    wrote (options.out);
+}
+
 void run (const ConvertOptions& options)
 {
+    if (isPenRecording (options.in)) return convertPen (options);
+    if (! options.pen_option.empty()) throw UsageError (options.pen_option, "only pen recordings, .events or .evemu, have this option");
     const auto extension = extensionOf (options.out);
     if (options.split && extension != ".ahap") throw UsageError ("--split", "only .ahap files are split");
     std::vector<fs::path> inputs { options.in };
@@ -129,21 +157,38 @@ void run (const ConvertOptions& options)
 void addConvert (const Command& app)
 {
     const auto options = std::make_shared<ConvertOptions>();
-    const auto command = app.add ("convert", "Convert a haptic clip: AHAP, .haptic, HJIF, WAV, CSV, and clips of Tactus");
-    command.addOption ("in", options->in, "The file to read: .haptic, .ahap, .hjif, .json, .wav or .csv").required();
+    const auto command = app.add ("convert", "Convert a haptic clip (AHAP, .haptic, HJIF, WAV, CSV, clips of Tactus), or a pen recording to a trace");
+    command.addOption ("in", options->in, "The file to read: .haptic, .ahap, .hjif, .json, .wav or .csv; or a pen recording, .events or .evemu")
+        .required();
     command.addOption ("out", options->out, "The file to write; its extension selects the format").required();
     command.addOption ("--calibration", options->calibration, "What 0 and 1 mean on the device: an actuator calibration file of Meta (.acf)");
     command
         .addOption ("--rate", options->rate_hz,
-                    "Samples per second of a .wav, by default 8000 or those of the recording; or of a .csv, instead of rows of the clip")
+                    "Samples per second of a .wav, by default 8000 or those of the recording; of a .csv, instead of rows of the clip; "
+                    "or of a trace, by default 1000")
         .check (finiteWithin (1.0, 1e6));
     command.addFlag ("--split", options->split, "Write continuous events and transients into two .ahap files, OUT and OUT_transients");
+    const auto addPenAmount = [&] (const std::string& option, const char* si_unit, const char* example, auto field, const char* about) {
+        command.addOption (
+            option,
+            [options, option, si_unit, example, field] (const std::string& text) {
+                options->pen.*field = readAmount (option, text, si_unit, example);
+                options->pen_option = option;
+            },
+            about);
+    };
+    addPenAmount ("--pitch", "m", "5 um", &EvemuOptions::pitch, "Pen: length of one unit of the tablet; default: as recorded, else 5 um");
+    addPenAmount ("--force", "N", "3 N", &EvemuOptions::full_force, "Pen: force at full pressure; default 3 N");
+    addPenAmount ("--depth", "m", "2 mm", &EvemuOptions::full_depth, "Pen: depth below the surface at full pressure; default 2 mm");
+    addPenAmount ("--lift", "m", "5 mm", &EvemuOptions::lift, "Pen: height above the surface while the pen is up; default 5 mm");
+    addPenAmount ("--full-pressure", "", "2047", &EvemuOptions::full_pressure, "Pen: units at full pressure; default: as recorded, else 2047");
     addLimits (command);
     command.footer ("What a format cannot carry is printed, with the rms difference of the rendered envelope. The page docs/clips.md says more.\n\n"
                     "Examples:\n"
                     "  tactus convert effect.haptic effect.ahap\n"
                     "  tactus convert effect.haptic effect.json --calibration MetaQuest.acf\n"
-                    "  tactus convert effect.ahap effect.wav --rate 48000");
+                    "  tactus convert effect.ahap effect.wav --rate 48000\n"
+                    "  tactus convert pen.events pen.csv --force \"2 N\"");
     command.callback ([options] { run (*options); });
 }
 

@@ -20,6 +20,7 @@ void addFit (const Command& app)
     addFitGrating (command);
     addFitBlade (command);
     addFitCurve (command);
+    addFitSwitch (command);
     addFitShock (command);
 }
 

@@ -46,6 +46,7 @@ void addFitTexture (const Command& fit);
 void addFitGrating (const Command& fit);
 void addFitBlade (const Command& fit);
 void addFitCurve (const Command& fit);
+void addFitSwitch (const Command& fit);
 void addFitShock (const Command& fit);
 
 }   // namespace tactus::host

@@ -4,8 +4,10 @@
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/kit/math/math.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace tactus::host
@@ -244,6 +246,37 @@ graph::Graph shockPreset (const ShockFit& fit, const std::string& source)
     blow.settings["damping"] = toJson (fit.damping);
     graph.controls = { { .id = "blow", .name = "Blow", .value = 0.5, .to = { { .path = "blow.gain", .low = 0, .high = 2 } } } };
     setSources (graph, { { "blow", source }, { "wall", "guess: what the simulated device can render" } });
+    return graph;
+}
+
+graph::Graph switchPreset (const SwitchLoop& loop, double stiffness, const std::string& source)
+{
+    const auto asJson = [] (const Curve& curve) { return Json { curve.x, curve.y }; };
+    const Json key = {
+        { "format", "tactus-graph" },
+        { "version", 2 },
+        { "about", "A measured key. A stroke down and up loses " + numberText (std::round (1e7 * lostEnergy (loop)) / 1e4) + " mJ." },
+        { "tags", { "key", "press", "measured" } },
+        { "rate_hz", 4000 },
+        { "devices",
+          { { "finger",
+              { { "driver", "sim" },
+                { "mass", "50 g" },
+                { "damping", "3 N*s/m" },
+                { "hand", { { "stiffness", "800 N/m" }, { "damping", "6 N*s/m" }, { "path", "press" }, { "scale", 1.3 } } },
+                { "guard", { { "max_force", "6 N" } } } } } } },
+        { "nodes",
+          { { "hand", { { "type", "device.position" }, { "role", "finger" } } },
+            { "key", { { "type", "deform.plane" }, { "settings", { { "law", { { "table", asJson (meanOf (loop)) } } } } } } },
+            { "bound", { { "type", "signal.map" }, { "settings", { { "curve", asJson (boundOf (loop)) } } } } },
+            { "rub", { { "type", "friction.elasto_plastic" }, { "params", { { "mu", 1 }, { "stiffness", stiffness } } } } },
+            { "motor", { { "type", "device.force" }, { "role", "finger" } } } } },
+        { "wires",
+          { "hand.position -> key.position", "key.depth -> bound.in", "key.depth -> rub.position.x", "bound.out -> rub.normal_force",
+            "key.force -> motor.force", { { "wire", "rub.force.x -> motor.force.z" }, { "gain", -1 } } } },
+    };
+    auto graph = readGraph (key.dump()).graph;
+    setSources (graph, { { "key.law", source }, { "bound.curve", source } });
     return graph;
 }
 

@@ -4,6 +4,7 @@
 #include "surface_preset.hpp"
 
 #include <tactus/fit/curve_fit.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -157,10 +158,23 @@ Result<FittedGraph> curve (const Columns& c, const std::string& file, const FitS
     if (fit->clicks())
         made.warnings.push_back (Message::warning (
             "fit/falls", file, "the recorded force falls by up to " + shortNumber (fit->drop) + " N as the depth grows; the curve is flat there",
-            "for a key that clicks, use switch_to_graph; for a sample that bursts, use tactus fit blade"));
+            "for a key that clicks, use tactus fit switch; for a sample that bursts, use tactus fit blade"));
     const auto curves = curvesOf (body);
     made.snippets.push_back ("for deform.plane    \"law\": " + toJson (fit->law).dump());
     made.snippets.push_back ("for deform.surface  \"curves\": " + curves.at ("curves").dump() + ", \"mu\": " + curves.at ("mu").dump());
+    made.report = std::move (fit->report);
+    return made;
+}
+
+Result<FittedGraph> keySwitch (const Columns& c, const std::string& file, const FitSettings& s, FitCourse* course)
+{
+    auto fit = fitSwitch ({ .depth = c.at ("depth"), .force = c.at ("force") }, s.tolerance, s.backlash, course);
+    if (! fit) return fit.error();
+    FittedGraph made { .kind = FitKind::key_switch,
+                       .preset = switchPreset (fit->loop, s.stiffness, sourceOf (FitKind::key_switch, file, fit->report)),
+                       .nodes = { "key", "bound", "rub" } };
+    made.details.push_back ("loop         " + std::to_string (fit->loop.travel.size()) + " points; the graph loses " + roundedText (1e3 * lostEnergy (fit->loop), 4)
+                            + " mJ per stroke");
     made.report = std::move (fit->report);
     return made;
 }
@@ -201,6 +215,8 @@ Result<FittedGraph> fitted (FitKind kind, const Columns& c, const std::string& f
         return blade (c, file, s, course);
     case FitKind::curve:
         return curve (c, file, s, course);
+    case FitKind::key_switch:
+        return keySwitch (c, file, s, course);
     case FitKind::shock:
         break;
     }

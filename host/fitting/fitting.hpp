@@ -22,6 +22,7 @@ enum class FitKind
     grating,
     blade,
     curve,
+    key_switch,
     shock
 };
 
@@ -56,6 +57,9 @@ struct FitSettings
     int most = 0;                           ///< modes, coefficients or harmonics
     int points = 20;                        ///< curve
     double mu = 0.3, ratio = 0.45;          ///< curve
+    double tolerance = 10e-3;               ///< N; switch: largest distance between the recording and the straight lines that replace it
+    double stiffness = 1e4;                 ///< N/m; switch: with which the force changes between both ways when the finger reverses
+    double backlash = 0.0;                  ///< m; switch: of the meter
 };
 
 /// A fit, and a graph in which it can be felt.

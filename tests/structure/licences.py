@@ -14,7 +14,7 @@ import re
 import sys
 
 MIT_ROOMS = ["audio", "check_plugin", "command_line", "device_plugins", "fitting", "fuse", "fuse_llvm", "generate", "guardian", "hid", "hid_link", "live",
-             "platform", "plugins", "profiles", "sessions", "tools"]
+             "platform", "plugins", "profiles", "sessions"]
 MIXED = ["assets", "io", "osc"]
 CARDS = "host/audio/juce_cards.cpp"
 ISC = ("juce_core", "juce_events", "juce_audio_basics", "juce_audio_devices")

@@ -44,6 +44,8 @@ std::optional<Amount> amountOf (FitKind kind)
         return Amount { NEEDS_TRANS ("Depth at the touch"), "m", "0 mm", [] (FitSettings& s, double v) { s.touch = v; }, false };
     case FitKind::modes:
         return Amount { NEEDS_TRANS ("Time of the blow"), "s", "", [] (FitSettings& s, double v) { s.blow = v; }, false, NEEDS_TRANS ("from the ring") };
+    case FitKind::key_switch:
+        break;
     }
     return {};
 }

@@ -172,7 +172,7 @@ TEST_CASE ("curve fit: a click that the curve flattens gets a poor verdict that 
     const auto clicks = key (0.19, 0.005);
     CHECK (clicks.drop == Approx (0.19).margin (0.01));
     CHECK_FALSE (clicks.report.is_good);
-    CHECK (says (clicks, "switch_to_graph"));
+    CHECK (says (clicks, "tactus fit switch"));
     CHECK (says (clicks, "flattens a fall"));
     CHECK (key (0.0, 0.005).report.is_good);
     CHECK (key (0.0, 0.05).drop == 0.0);

@@ -178,6 +178,11 @@ TEST_CASE ("convert: what is wrong is refused, and nothing is written", "[cli][c
     checkRefused ({ "convert", scratch.path ("none.ahap"), scratch.path ("o.ahap") }, 1, "none.ahap", scratch.path ("o.ahap"));
     checkRefused ({ "convert", haptic, scratch.path ("o.json"), "--split" }, 2, "--split", scratch.path ("o.json"));
     checkRefused ({ "convert", scratch.write ("c.csv", "a,b\n1,2\n"), scratch.path ("o.json") }, 1, "clip/columns", scratch.path ("o.json"));
+    checkRefused ({ "convert", haptic, scratch.path ("o.json"), "--lift", "3 mm" }, 2, "--lift", scratch.path ("o.json"));
+    const auto pen = scratch.write ("pen.events", "E: x\n");
+    checkRefused ({ "convert", pen, scratch.path ("o.csv") }, 1, "pen.events, line 1: error: not an event", scratch.path ("o.csv"));
+    checkRefused ({ "convert", pen, scratch.path ("o.wav") }, 2, "a .csv", scratch.path ("o.wav"));
+    checkRefused ({ "convert", pen, scratch.path ("o.csv"), "--split" }, 2, "--split", scratch.path ("o.csv"));
     const auto ran = runTactus ({ "convert", haptic, haptic });
     CHECK (ran.status == 1);
     CHECK (has (ran.err, "output/is_input"));

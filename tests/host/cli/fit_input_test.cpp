@@ -223,7 +223,7 @@ TEST_CASE ("fit: printed and saved tables have six digits, and a click is a reas
     const auto graph = fitted (scratch, "curve", key, {}, &printed);
     INFO (printed);
     CHECK (printed.find ("poor") != std::string::npos);
-    CHECK (printed.find ("switch_to_graph") != std::string::npos);
+    CHECK (printed.find ("tactus fit switch") != std::string::npos);
     CHECK (printed.find ("[fit/falls]") != std::string::npos);
     int longest = 0, digits = 0;
     for (const char c : printed + test::textOf (scratch.path ("preset.json")))

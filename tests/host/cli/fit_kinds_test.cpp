@@ -239,6 +239,7 @@ TEST_CASE ("fit: every kind can be cancelled, before it begins and while it runs
         { "grating", ridges() },
         { "blade", cut() },
         { "curve", press() },
+        { "switch", press() },
         { "shock", blow() },
     };
     for (const auto& info : host::fitKinds())

@@ -7,8 +7,8 @@
 #include "support/rig.hpp"
 #include "support/sketch.hpp"
 
+#include <host/fitting/fit_presets.hpp>
 #include <host/io/plot.hpp>
-#include <host/tools/switch_loop.hpp>
 #include <tactus/file/csv.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/run/engine.hpp>
@@ -22,7 +22,6 @@
 #include <memory>
 
 using namespace tactus;
-using host::SwitchLoop;
 
 namespace
 {
@@ -178,7 +177,7 @@ TEST_CASE ("three key switches, measured both ways, are felt as measured whereve
         INFO (name);
         const test::Scratch scratch;
         const auto curve = folder + "/" + name + ".csv", key = scratch.path ("key.json");
-        const auto made = test::runProgram (TACTUS_SWITCH_TO_GRAPH, { curve, "--out", key });
+        const auto made = test::runTactus ({ "fit", "switch", curve, "-o", key });
         INFO (made.err);
         REQUIRE (made.status == 0);
 
@@ -254,17 +253,15 @@ TEST_CASE ("a measured key releases no energy, whatever the finger does", "[data
     if (folder.empty()) return;
     for (const std::string name : { "Cherry-MX-Red", "Cherry-MX-Blue-RGB", "Cherry-MX-Hyperglide-Brown" })
     {
-        const auto table = readTable (std::filesystem::path (folder + "/" + name + ".csv"));
-        REQUIRE (table);
-        const auto measured = host::switchFrom (*table, name);
-        REQUIRE (measured);
         const auto recording = readMeasured (folder + "/" + name + ".csv");
-        CHECK (host::loss (*measured) == Approx (workAlong (recording.x, recording.force)).epsilon (0.005));   // the gauge has an offset of -2 mN
+        const auto fit = fitSwitch ({ .depth = recording.x, .force = recording.force }, 10 * mN);
+        REQUIRE (fit);
+        CHECK (lostEnergy (fit->recorded) == Approx (workAlong (recording.x, recording.force)).epsilon (0.005));   // the gauge has an offset of -2 mN
         const double stiffness = 1e4, step = 5 * um;
-        const auto key = host::keyFrom (host::simplified (host::withoutGain (*measured), 10 * mN), name, stiffness);
+        const auto key = host::switchPreset (fit->loop, stiffness, name);
         rc::prop (name, [&] {
             PressedKey pressed { key, step };
-            const auto strokes = randomStrokes (measured->travel.back(), step);
+            const auto strokes = randomStrokes (fit->recorded.travel.back(), step);
             pressed.follow (strokes);
             RC_ASSERT (pressed.work >= -missed (strokes.size(), stiffness, step));
             RC_ASSERT (pressed.least >= -slack);
@@ -275,9 +272,9 @@ TEST_CASE ("a measured key releases no energy, whatever the finger does", "[data
 TEST_CASE ("any two curves, if down is above up, make a key that follows both, releases no energy and never pulls", "[cli]")
 {
     rc::prop ("no closed path releases energy", [] {
-        const auto loop = host::simplified (randomLoop(), 1 * mN);
+        const auto loop = simplified (randomLoop(), 1 * mN);
         const double stiffness = *rc::gen::element (2e3, 1e4, 1e5), step = 1 * um;
-        PressedKey pressed { host::keyFrom (loop, "Random", stiffness), step };
+        PressedKey pressed { host::switchPreset (loop, stiffness, "random"), step };
         const auto strokes = randomStrokes (1.1 * loop.travel.back(), step);
         pressed.follow (strokes);
         RC_ASSERT (pressed.work >= -missed (strokes.size(), stiffness, step));
@@ -285,9 +282,9 @@ TEST_CASE ("any two curves, if down is above up, make a key that follows both, r
     });
 
     rc::prop ("a stroke follows both curves if the bristle is stiff enough for their difference", [] {
-        const auto loop = host::simplified (randomLoop(), 1 * mN);
+        const auto loop = simplified (randomLoop(), 1 * mN);
         const double stiffness = 1e5, step = 1 * um;
-        PressedKey pressed { host::keyFrom (loop, "Random", stiffness), step };
+        PressedKey pressed { host::switchPreset (loop, stiffness, "random"), step };
 
         for (std::size_t i = 1; i < loop.travel.size(); ++i)
         {
@@ -317,7 +314,7 @@ TEST_CASE ("a curve is simplified, and both directions stay within the tolerance
             fine.release.push_back (fine.press.back() * 0.01 * *rc::gen::inRange (80, 101));
         }
         const double tolerance = 1 * mN * *rc::gen::inRange (1, 50);
-        const auto few = host::simplified (fine, tolerance);
+        const auto few = simplified (fine, tolerance);
         RC_ASSERT (few.travel.size() <= fine.travel.size());
         for (std::size_t i = 0; i < fine.travel.size(); ++i)
         {
@@ -389,38 +386,44 @@ TEST_CASE ("the preset key clicks, returns with less force than was needed to pr
 TEST_CASE ("a key's curve may be in any unit, and errors in it are reported", "[cli]")
 {
     const test::Scratch scratch;
+    const auto preset = scratch.path ("key.json");
     const auto import = [&] (const std::string& text, const std::vector<std::string>& options = {}) {
-        std::vector<std::string> arguments { scratch.write ("curve.csv", text) };
+        std::vector<std::string> arguments { "fit", "switch", scratch.write ("curve.csv", text), "-o", preset };
         arguments.insert (arguments.end(), options.begin(), options.end());
-        return test::runProgram (TACTUS_SWITCH_TO_GRAPH, arguments);
+        return test::runTactus (arguments);
+    };
+    const auto nodesOf = [&] (const std::string& text, const std::vector<std::string>& options = {}) {
+        const auto made = import (text, options);
+        INFO (made.err);
+        REQUIRE (made.status == 0);
+        const auto read = loadGraph (preset);
+        CHECK (read.messages.empty());
+        CHECK (compile (read.graph, catalogue()).messages.empty());
+        std::filesystem::remove (preset);
+        return Json::parse (writeGraph (read.graph)).at ("nodes");
     };
 
-    const auto made = import ("x_um,force_mN\n0,0\n100,300\n4000,600\n3900,500\n100,200\n0,0\n");
-    INFO (made.err);
-    CHECK (made.status == 0);
-    const auto read = readGraph (made.out);
-    CHECK (read.messages.empty());
-    CHECK (compile (read.graph, catalogue()).messages.empty());
-    CHECK (import ("force_N,x_mm,actuated\n0,0,0\n0.3,0.1,0\n0.6,4,1\n0.5,3.9,1\n0.2,0.1,0\n0,0,0\n").out == made.out);
+    const auto made = nodesOf ("x_um,force_mN\n0,0\n100,300\n4000,600\n3900,500\n100,200\n0,0\n");
+    CHECK (nodesOf ("force_N,x_mm,actuated\n0,0,0\n0.3,0.1,0\n0.6,4,1\n0.5,3.9,1\n0.2,0.1,0\n0,0,0\n") == made);
 
     // With a meter that has 100 um of play, the positions of the release appear 100 um too high.
-    CHECK (import ("x_um,force_mN\n0,0\n100,300\n4000,600\n3900,600\n3800,500\n0,200\n-100,0\n", { "--backlash", "0.1 mm" }).out == made.out);
+    CHECK (nodesOf ("x_um,force_mN\n0,0\n100,300\n4000,600\n3900,600\n3800,500\n0,200\n-100,0\n", { "--backlash", "0.1 mm" }) == made);
 
     const auto refused = [&] (const std::string& text, const std::string& id) {
         const auto ran = import (text);
         INFO (text << ran.err);
         CHECK (ran.status == 1);
         CHECK (ran.err.find ("[" + id + "]") != std::string::npos);
-        CHECK (ran.out.empty());
+        CHECK_FALSE (std::filesystem::exists (preset));
     };
-    refused ("x_um,strength\n0,0\n", "switch/missing_column");
-    refused ("x_inch,force_N\n0,0\n", "switch/unknown_unit");
-    refused ("x_um,force_N\n0,0\n1,nan\n0,0\n", "switch/not_finite");
-    refused ("x_um,force_N\n0,0\n1,1\n2,2\n", "switch/one_way");
-    refused ("x_um,force_N\n", "switch/one_way");
-    refused ("x_um,force_N\n0,0\n1,1\n2,2\n1,1\n", "switch/not_released");
-    refused ("x_um,force_N\n0,0\n1,1\n2,2\n1,1.5\n0,0\n", "switch/no_loss");
+    refused ("x_um,strength\n0,0\n", "fit/column");
+    refused ("x_kg,force_N\n0,0\n", "fit/unit");
+    refused ("x_um,force_N\n0,0\n1,nan\n0,0\n", "fit/not_finite");
+    refused ("x_um,force_N\n0,0\n1,1\n2,2\n", "fit/one_way");
+    refused ("x_um,force_N\n", "fit/too_short");
+    refused ("x_um,force_N\n0,0\n1,1\n2,2\n1,1\n", "fit/not_released");
+    refused ("x_um,force_N\n0,0\n1,1\n2,2\n1,1.5\n0,0\n", "fit/gains_energy");
     refused ("x_um,force_N\n0,0\n1,soft\n", "csv/not_a_number");
     CHECK (import ("x_um,force_N\n0,0\n", { "--stiffness", "2 N" }).status == 2);
-    CHECK (test::runProgram (TACTUS_SWITCH_TO_GRAPH, { scratch.path ("none.csv") }).status == 1);
+    CHECK (test::runTactus ({ "fit", "switch", scratch.path ("none.csv"), "-o", preset }).status == 1);
 }

@@ -177,11 +177,11 @@ TEST_CASE ("what reads a file refuses a pipe before it opens it", "[cli][pipes]"
         INFO (command << ran.err);
         CHECK (ran.status == 1);
     }
-    const auto ran = runProgram (TACTUS_EVEMU_TO_TRACE, { pipe });
+    const auto ran = runTactus ({ "convert", fifo (scratch, "pen.events"), scratch.path ("pen.csv") });
     INFO (ran.err);
     CHECK (ran.status == 1);
     CHECK (ran.err.find ("a named pipe") != std::string::npos);
-    CHECK (runProgram (TACTUS_SWITCH_TO_GRAPH, { pipe }).status == 1);
+    CHECK (runTactus ({ "fit", "switch", pipe, "-o", scratch.path ("key.json") }).status == 1);
     const auto library = PluginLibrary::load (pipe);   // as check-plugin does
     REQUIRE_FALSE (library);
     CHECK (library.error().id == "plugin/cannot_load");

@@ -126,7 +126,7 @@ TEST_CASE ("strokes drawn on a tablet drive the wood preset with position and pr
         if (entry.path().extension() != ".events") continue;
         ++strokes;
         INFO (entry.path());
-        const auto converted = test::runProgram (TACTUS_EVEMU_TO_TRACE, { entry.path().string(), "--out", scratch.path ("trace.csv") });
+        const auto converted = test::runTactus ({ "convert", entry.path().string(), scratch.path ("trace.csv") });
         INFO (converted.err);
         REQUIRE (converted.status == 0);
 

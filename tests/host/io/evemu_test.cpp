@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <host/tools/evemu.hpp>
+#include <host/io/evemu.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -58,10 +58,9 @@ Pen leaving (Pen pen, double t)
 
 TraceData traceOf (const std::string& text, const EvemuOptions& options = {})
 {
-    auto [trace, messages] = readEvemu (text, options);
-    for (const auto& message : messages)
-        FAIL (message.where << ": " << message.text);
-    return std::move (trace);
+    auto trace = readEvemu (text, options);
+    if (! trace) FAIL (trace.error().where << ": " << trace.error().text);
+    return std::move (*trace);
 }
 
 struct Motion
@@ -203,9 +202,9 @@ TEST_CASE ("evemu: a bad line is reported by number", "[host][devices]")
 
     const auto result = readEvemu ("# a pen\n" + good + bad + "\n" + report);
     CAPTURE (bad);
-    REQUIRE (result.messages.size() == 1);
-    CHECK (result.messages[0].id == id);
-    CHECK (result.messages[0].where == "line 3");
+    REQUIRE_FALSE (result);
+    CHECK (result.error().id == id);
+    CHECK (result.error().where == "line 3");
 }
 
 TEST_CASE ("evemu: a recording without a pen, or one that lasts for years, is refused", "[host][devices]")
@@ -213,15 +212,15 @@ TEST_CASE ("evemu: a recording without a pen, or one that lasts for years, is re
     for (const char* text : { "", "# nothing\n", "E: 1.000000 0003 0000 5\nE: 1.000000 0000 0000 0\n" })
     {
         const auto result = readEvemu (text);
-        REQUIRE (result.messages.size() == 1);
-        CHECK (result.messages[0].id == "evemu/no_motion");
+        REQUIRE_FALSE (result);
+        CHECK (result.error().id == "evemu/no_motion");
     }
 
     const std::string at = " 0003 0000 5\n", and_at = " 0003 0001 5\n", report = " 0000 0000 0\n";
     const auto moment = [&] (const std::string& t) { return "E: " + t + at + "E: " + t + and_at + "E: " + t + report; };
     const auto result = readEvemu (moment ("0.000000") + moment ("1364787581.497486"));
-    REQUIRE (result.messages.size() == 1);
-    CHECK (result.messages[0].id == "evemu/too_long");
+    REQUIRE_FALSE (result);
+    CHECK (result.error().id == "evemu/too_long");
 }
 
 TEST_CASE ("evemu: any text is either converted or refused", "[host][devices]")
@@ -235,7 +234,7 @@ TEST_CASE ("evemu: any text is either converted or refused", "[host][devices]")
                   for (const auto& part : *rc::gen::container<std::vector<std::string>> (word))
                       text += part;
                   const auto result = readEvemu (text);
-                  RC_ASSERT (hasErrors (result.messages) == result.trace.rows.empty());
+                  RC_ASSERT ((! result || ! result->rows.empty()));
               });
 }
 

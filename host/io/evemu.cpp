@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "evemu.hpp"
-#include <tactus/text/message.hpp>
 
 #include <tactus/text/quote.hpp>
 
@@ -10,7 +9,6 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace tactus::host
@@ -52,26 +50,20 @@ struct Recording
     std::vector<Report> reports;
     double units_per_mm = 0.0;
     double most_pressure = 0.0;   // the maximum according to the header, in units
-    Messages messages;
 };
 
 /// Splits a line into words.
-class Words
+struct Words
 {
-public:
-    explicit Words (std::string_view text) : rest (text.substr (0, text.find ('#'))) {}
+    std::string_view rest;
 
     std::string_view next()
     {
-        const auto from = std::min (rest.find_first_not_of (" \t\r"), rest.size());
-        rest.remove_prefix (from);
+        rest.remove_prefix (std::min (rest.find_first_not_of (" \t\r"), rest.size()));
         const auto word = rest.substr (0, rest.find_first_of (" \t\r"));
         rest.remove_prefix (word.size());
         return word;
     }
-
-private:
-    std::string_view rest;
 };
 
 template <typename T>
@@ -88,8 +80,8 @@ std::optional<std::int64_t> microseconds (std::string_view word)
 
     const auto point = word.find ('.');
     std::int64_t s = 0, us = 0;
-    if (point == word.npos || word.size() != point + 7 || ! readWhole (word.substr (0, point), s) || ! readWhole (word.substr (point + 1), us)) return {};
-    if (s < 0 || s > longest || us < 0) return {};
+    if (point == word.npos || word.size() != point + 7) return {};
+    if (! readWhole (word.substr (0, point), s) || ! readWhole (word.substr (point + 1), us) || s < 0 || s > longest || us < 0) return {};
     return s * 1'000'000 + us;
 }
 
@@ -154,8 +146,7 @@ private:
     std::optional<unsigned> tools;   // one bit each: pen, rubber, …
 };
 
-// One loop over the lines of the file; each kind of line is short.
-Recording readRecording (std::string_view text)
+Result<Recording> readRecording (std::string_view text)
 {
     Recording recording;
     Tablet tablet;
@@ -167,38 +158,25 @@ Recording readRecording (std::string_view text)
         text.remove_prefix (std::min (line.size() + 1, text.size()));
 
         const auto refuse = [&] (const char* id, const std::string& what, const char* remedy) {
-            const auto place = "line " + std::to_string (line_number);
-            recording.messages.push_back (Message::error (id, place, what + ": " + quote (line), remedy));
+            return Message::error (id, "line " + std::to_string (line_number), what + ": " + quote (line), remedy);
         };
 
-        Words words (line);
+        Words words { line.substr (0, line.find ('#')) };
         const auto kind = words.next();
         if (kind.empty() || kind == "N:" || kind == "I:" || kind == "P:" || kind == "B:" || kind == "L:" || kind == "S:") continue;
 
         if (kind == "A:")
         {
             const auto axis = readAxis (words);
-            if (! axis)
-            {
-                refuse ("evemu/bad_line", "not an axis", "an axis is A: code minimum maximum fuzz flat resolution, the code in hex");
-                return recording;
-            }
+            if (! axis) return refuse ("evemu/bad_line", "not an axis", "an axis is A: code minimum maximum fuzz flat resolution, the code in hex");
             if (axis->code == abs_x) recording.units_per_mm = axis->resolution;
             if (axis->code == abs_pressure) recording.most_pressure = axis->maximum;
             continue;
         }
 
         const auto event = kind == "E:" ? readEvent (words) : std::nullopt;
-        if (! event)
-        {
-            refuse ("evemu/bad_line", "not an event", "an event is E: seconds.microseconds type code value, with type and code in hex");
-            return recording;
-        }
-        if (last && event->us < *last)
-        {
-            refuse ("evemu/time_order", "earlier than the previous line", "keep the events in the recorded order");
-            return recording;
-        }
+        if (! event) return refuse ("evemu/bad_line", "not an event", "an event is E: seconds.microseconds type code value, type and code in hex");
+        if (last && event->us < *last) return refuse ("evemu/time_order", "earlier than the previous line", "keep the events in the recorded order");
 
         last = event->us;
         tablet.take (*event);
@@ -214,10 +192,8 @@ Recording readRecording (std::string_view text)
             recording.reports.push_back (*report);
     }
 
-    if (recording.reports.empty())
-        recording.messages.push_back (
-            Message::error ("evemu/no_motion", "end", "the recording contains no pen position", "record a tablet that reports ABS_X and ABS_Y"));
-    return recording;
+    if (! recording.reports.empty()) return recording;
+    return Message::error ("evemu/no_motion", "end", "the recording contains no pen position", "record a tablet that reports ABS_X and ABS_Y");
 }
 
 /// While the pen is out of range, its position stays where it was last seen.
@@ -251,7 +227,6 @@ TraceData evenRows (const Recording& recording, const EvemuOptions& options)
 
     // Adds enough time after the last report to lift the pen.
     const auto count = static_cast<std::size_t> (std::floor ((reports.back().t + options.landing) * options.rate_hz + 1e-6)) + 1;
-
     TraceData trace;
     trace.rows.resize (count);
     std::size_t i = 0;
@@ -266,9 +241,9 @@ TraceData evenRows (const Recording& recording, const EvemuOptions& options)
         const double way = b.t > a.t ? (t - a.t) / (b.t - a.t) : 0.0;
         const double u = a.seen ? way : leastJerk (way);
 
-        auto& row = trace.rows[k];
         const double next_pressure = b.touches ? b.pressure : a.pressure;
         const double share = a.touches ? std::min (1.0, std::lerp (a.pressure, next_pressure, way) / full) : 0.0;
+        auto& row = trace.rows[k];
         row.t = t;
         row.position = { pitch * (std::lerp (a.x, b.x, u) - x_middle), -pitch * (std::lerp (a.y, b.y, u) - y_middle),
                          a.touches ? -options.full_depth * share : options.lift };
@@ -304,23 +279,20 @@ void smoothLandings (TraceData& trace, const EvemuOptions& options)
 }
 }   // namespace
 
-TraceResult readEvemu (std::string_view text, const EvemuOptions& options)
+Result<TraceData> readEvemu (std::string_view text, const EvemuOptions& options)
 {
     constexpr double most_rows = 1e7;   // a few hours at 1 kHz; if the clock was changed, a recording can seem to last for years
-
     auto recording = readRecording (text);
-    if (hasErrors (recording.messages)) return { .trace = {}, .messages = recording.messages };
+    if (! recording) return recording.error();
+    const double lasts = recording->reports.back().t;
+    if (lasts * options.rate_hz > most_rows)
+        return Message::error ("evemu/too_long", "end", "the recording is too long: it lasts " + std::to_string (std::llround (lasts)) + " s",
+                               "cut out the part you need, or use a lower rate");
 
-    if (recording.reports.back().t * options.rate_hz > most_rows)
-        return { .trace = {},
-                 .messages = { Message::error ("evemu/too_long", "end",
-                                               "the recording is too long: it lasts " + std::to_string (std::llround (recording.reports.back().t)) + " s",
-                                               "cut out the part you need, or use a lower rate") } };
-
-    holdUnseen (recording.reports);
-    auto trace = evenRows (recording, options);
+    holdUnseen (recording->reports);
+    auto trace = evenRows (*recording, options);
     smoothLandings (trace, options);
-    return { .trace = std::move (trace), .messages = {} };
+    return trace;
 }
 
 }   // namespace tactus::host

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tactus/run/device/trace.hpp>
+#include <tactus/text/result.hpp>
 
 #include <string_view>
 
@@ -21,7 +22,7 @@ struct EvemuOptions
 };
 
 /// Converts a recording of a pen tablet (`evemu-record`, or any text with lines `E: sec.usec type code value`, type and
-/// code in hex) to a trace with evenly spaced rows. Messages give the line number.
+/// code in hex) to a trace with evenly spaced rows. Errors give the line number.
 ///
 ///     x, y       straight from report to report, centred on the middle of the drawing, y away from the user (tablets
 ///                count towards the user). A pen that leaves the tablet reports 0, 0; this is not treated as motion.
@@ -34,6 +35,6 @@ struct EvemuOptions
 ///     pressure   full_force pressure/full_pressure while the tip touches, else 0
 ///
 /// Ids: evemu/bad_line, evemu/time_order, evemu/no_motion, evemu/too_long.
-TraceResult readEvemu (std::string_view text, const EvemuOptions& = {});
+Result<TraceData> readEvemu (std::string_view text, const EvemuOptions& = {});
 
 }   // namespace tactus::host
