@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contacts.hpp"
+// A wall with friction and a grating for each of 64 contacts, as instances of one subgraph with different params: in lanes, and one by one.
+#include "bench.hpp"
 
 #include <tactus/file/graph_file.hpp>
-#include <tactus/plan/compile.hpp>
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -52,6 +53,7 @@ graph::Graph graphOfContacts()
     return g;
 }
 
+/// Each contact has its own position, which follows the input. `lanes` as in CompileOptions.
 class ManyContacts final : public Variant
 {
 public:
@@ -93,6 +95,17 @@ private:
 };
 }   // namespace
 
-std::unique_ptr<Variant> manyContacts (std::size_t lanes) { return std::make_unique<ManyContacts> (lanes); }
+std::vector<Contest> contactContests()
+{
+    constexpr std::size_t lanes = 4;   // of AVX2
+    if (widestLanes() < lanes)
+    {
+        std::fprintf (stderr, "note: this processor has no AVX2, so simd64/scalar64 is skipped\n");
+        return {};
+    }
+    const auto in = [] (std::size_t count) { return [count] { return std::make_unique<ManyContacts> (count); }; };
+    const auto* about = "plane, friction and grating for 64 contacts";
+    return { { "simd64/scalar64", "lanes", "one by one", about, in (lanes), in (1), strokeOver (reference()) } };
+}
 
 }   // namespace tactus::bench

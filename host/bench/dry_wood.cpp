@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dry_wood.hpp"
+#include "bench.hpp"
 #include "kernels.hpp"
 
+#include <tactus/file/graph_file.hpp>
 #include <tactus/nodes/deform/plane.hpp>
+
+#include <string_view>
 
 namespace tactus::bench
 {
 
+std::string_view dryWoodText() noexcept;   // graphs/dry_wood.json, written by embed.cmake
+
 namespace
 {
+/// The preset as one would write it without a framework.
 class DryWoodByHand final : public Variant
 {
 public:
@@ -53,6 +59,10 @@ private:
 };
 }   // namespace
 
-std::unique_ptr<Variant> dryWoodByHand() { return std::make_unique<DryWoodByHand>(); }
+std::vector<Contest> dryWoodContests()
+{
+    const auto g = readGraph (dryWoodText()).graph;
+    return { { "dry_wood_plan/hand", "plan", "hand-written", "dry wood", planOf (g), make<DryWoodByHand>, strokeOver (g), 1e-12 } };
+}
 
 }   // namespace tactus::bench

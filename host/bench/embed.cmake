@@ -3,7 +3,7 @@
 file (READ ${input} bytes HEX)
 string (REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
 file (WRITE ${output}
-"#include <host/bench/embedded.hpp>
+"#include <string_view>
 namespace tactus::bench
 {
 static constexpr unsigned char bytes[] { ${bytes} };

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fused.hpp"
-#include "planned.hpp"
+#include "bench.hpp"
 
 #include <host/fuse/fusion_compiler.hpp>
 #include <host/fuse/load_fused.hpp>
 
+#include <algorithm>
 #include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <map>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -92,8 +92,11 @@ Contest fused (Contest contest, const std::string& key, bool quick)
 }
 }   // namespace
 
-std::vector<Contest> withFused (std::vector<Contest> all, bool quick)
+std::vector<Contest> contests (bool quick)
 {
+    std::vector<Contest> all;
+    for (const auto& some : { handContests, lightContests, dryWoodContests, juceContests, faustContests, contactContests })
+        std::ranges::move (some(), std::back_inserter (all));
     const auto planned = all.size();
     try
     {

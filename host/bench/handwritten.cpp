@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "handwritten.hpp"
+// The reference graph as one would write it without a framework: the kernels are called one after another, values are passed in local
+// variables, and sums and products are computed where they are needed. Alone in its file, because the compiler inlines less of it if there is other
+// code: 7746 instructions instead of 7656.
+#include "bench.hpp"
 #include "kernels.hpp"
-#include "reference.hpp"
 
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/guard.hpp>
@@ -29,6 +31,7 @@ protected:
     Kernels k;
 };
 
+/// The same, followed by the guard of the preset's device, which exported code contains.
 class Guarded final : public Handwritten
 {
 public:

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "instructions.hpp"
-#include "contest.hpp"
-#include "fused.hpp"
+#include "bench.hpp"
 
 #include <host/platform/private_folder.hpp>
 
@@ -53,7 +51,7 @@ std::optional<double> totalOf (const juce::File& dump)
 
 void runToBeCounted()
 {
-    for (const auto& contest : withFused (contests()))
+    for (const auto& contest : contests())
         for (const auto& make : { contest.make_first, contest.make_second })
         {
             tactus_bench_counted (*make(), contest.inputs);
@@ -74,7 +72,7 @@ std::variant<std::map<std::string, Counted>, std::string> countInstructions()
 
     std::map<std::string, Counted> all;
     int dump = 0;
-    for (const auto& contest : withFused (contests()))
+    for (const auto& contest : contests())
     {
         const auto first = totalOf (folder.path.getChildFile ("out." + juce::String (++dump)));
         const auto second = totalOf (folder.path.getChildFile ("out." + juce::String (++dump)));

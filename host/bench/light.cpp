@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "light.hpp"
+// The wiring of the reference graph, with kernels of a few instructions. They are in a header, because fused code includes them.
+#include "bench.hpp"
 #include "light_nodes.hpp"
-#include "reference.hpp"
 
 #include <tactus/nodes/device/force.hpp>
 #include <tactus/nodes/device/position.hpp>
-
-#include <map>
 
 namespace tactus::bench
 {
@@ -82,7 +80,6 @@ const std::map<std::string, std::string, std::less<>> light_types {
     { "safety.passivity", "light.passivity" },
     { "hold.predictive", "light.limit" },
 };
-}   // namespace
 
 graph::Graph lightGraph()
 {
@@ -103,7 +100,13 @@ Catalogue lightTypes()
     return catalogue().with ({ describe<Speed>(), describe<Floor>(), describe<Drag>(), describe<Ridges>(), describe<Noise>(), describe<Window>(),
                                describe<Landing>(), describe<Shock>(), describe<Ring>(), describe<Passivity>(), describe<Limit>() });
 }
+}   // namespace
 
-std::unique_ptr<Variant> lightByHand() { return std::make_unique<LightByHand>(); }
+std::vector<Contest> lightContests()
+{
+    const auto plan = [] { return std::make_unique<Planned> (lightGraph(), CompileOptions {}, lightTypes()); };
+    const auto* about = "reference graph with light kernels";
+    return { { "light_plan/hand", "plan", "hand-written", about, plan, make<LightByHand>, strokeOver (reference()) } };
+}
 
 }   // namespace tactus::bench

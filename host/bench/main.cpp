@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // tactus-bench, the program that `tactus bench` starts.
 #include "bench.hpp"
-#include "instructions.hpp"
 
 #include <host/command_line/command.hpp>
 #include <tactus/text/json.hpp>
 
 #include <juce_events/juce_events.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -20,6 +20,61 @@ namespace
 using Counts = std::map<std::string, Counted>;
 
 constexpr int fine = 0, failed = 1, wrong_usage = 2;   // as in host/cli/report.hpp
+
+constexpr int block = 200;   // ticks per round: about 100 us, which is shorter than a time slice
+
+std::function<void (int)> blocksOf (const Contest& contest, const Contest::Make& make)
+{
+    return [&inputs = contest.inputs, variant = std::shared_ptr<Variant> (make())] (int round) {
+        auto at = static_cast<std::size_t> (round) * block % inputs.size();
+        for (int k = 0; k < block; ++k)
+        {
+            variant->tick (inputs[at].data());
+            if (++at == inputs.size()) at = 0;
+        }
+    };
+}
+
+struct Results
+{
+    struct Agreed
+    {
+        Contest contest;
+        Agreement found;
+    };
+
+    std::vector<Agreed> agreements {};
+    std::vector<std::unique_ptr<Pair>> pairs {};
+    Memory memory {};
+
+    bool agree() const
+    {
+        return std::ranges::all_of (agreements, [] (const Agreed& a) { return a.found.agree; });
+    }
+};
+
+/// Compares the outputs of all variants. Runs before anything is timed.
+void agree (Results& results, bool quick)
+{
+    for (auto& contest : contests (quick))
+    {
+        const auto found = compare (contest);
+        results.agreements.push_back ({ std::move (contest), found });
+    }
+}
+
+/// Times the variants (docs/bench.md). `quick` runs only a few rounds, enough to see that it works.
+void time (Results& results, bool quick, bool quiet)
+{
+    const auto add = [&] (Pair pair) { results.pairs.push_back (std::make_unique<Pair> (std::move (pair))); };
+    for (const auto& [contest, found] : results.agreements)
+        add ({ contest.key, blocksOf (contest, contest.make_first), blocksOf (contest, contest.make_second), block, block, quick ? 40 : 4000 });
+    add (juceRebuild (quick));
+    for (auto& pair : largeGraphs (quick))
+        add (std::move (pair));
+    measure (results.pairs, quiet);
+    results.memory = memoryPerNode();
+}
 
 struct Options
 {

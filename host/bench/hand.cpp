@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "bench.hpp"
 #include "kernels.hpp"
 
 #include <algorithm>
@@ -82,6 +83,15 @@ Kernels::Kernels (const DeviceState& device)
 
     start (motion), start (foam), start (drag), start (ribs), start (warp), start (weft), start (hiss), start (landing);
     start (thud), start (wood), start (calm), start (limit);
+}
+
+std::vector<Contest> handContests()
+{
+    const auto stroke = strokeOver (reference());
+    return {
+        { "plan/hand", "plan", "hand-written", "reference graph", planOf (reference()), handwritten, stroke },
+        { "export/hand", "export", "hand-written", "reference graph and guard", exportedReference, handwrittenWithGuard, stroke },
+    };
 }
 
 }   // namespace tactus::bench
