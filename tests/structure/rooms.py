@@ -7,7 +7,8 @@ Usage: rooms.py [SOURCE_FOLDER]. Prints FILE:LINE for each problem. Exit status 
 - host includes nodes and framework, and nodes includes framework, never the other way round.
 - Within framework/, includes point downwards only, in the order of LAYERS.
 - Folders do not form a ring. A layer of framework/ counts as one folder, together with its subfolders. Elsewhere each folder
-  counts on its own, such as host/cli and host/app/canvas."""
+  counts on its own, such as host/cli and host/app/canvas.
+- The folders of MODELS include no header of a component."""
 
 import pathlib
 import re
@@ -15,6 +16,7 @@ import sys
 
 LAYERS = ["text", "kit", "fit", "node", "plugin", "examine", "graph", "plan", "file", "run", "check", "capi", "python"]   # lowest first
 PARTS = ["framework", "nodes", "host"]                             # the same for the parts of the project
+MODELS = {pathlib.PurePath("host/app", name) for name in ("model", "run", "storage", "text")}   # what runs without a component
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 
@@ -97,6 +99,8 @@ def main():
         for line, target in includes(root, file):
             if reason := points_upwards(file, target):
                 problems.append(f"{file}:{line}: <{target}>: {reason}")
+            if room(file) in MODELS and "public juce::Component" in (root / target).read_text(encoding="utf-8"):
+                problems.append(f"{file}:{line}: <{target}>: {room(file)} must not include a component")
             if room(file) != room(target):
                 edges.setdefault(room(file), {}).setdefault(room(target), f"{file}:{line}: <{target}>")
 

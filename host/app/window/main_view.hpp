@@ -18,18 +18,17 @@
 #include <host/app/presets/browser.hpp>
 #include <host/app/problems/missing_ends.hpp>
 #include <host/app/problems/problem_list.hpp>
-#include <host/app/run/direct_stop.hpp>
-#include <host/app/run/hand_panel.hpp>
 #include <host/app/run/limit_watch.hpp>
-#include <host/app/run/live_feed.hpp>
 #include <host/app/run/live_nodes.hpp>
 #include <host/app/run/osc_server.hpp>
-#include <host/app/run/safety_strip.hpp>
+#include <host/app/run/views/direct_stop.hpp>
+#include <host/app/run/views/hand_panel.hpp>
+#include <host/app/run/views/live_feed.hpp>
+#include <host/app/run/views/safety_strip.hpp>
 #include <host/app/scopes/scope_panel.hpp>
 #include <host/app/take/take_panel.hpp>
 #include <host/app/welcome/help_panel.hpp>
 #include <host/app/welcome/welcome_page.hpp>
-
 #include <tactus/kit/signal/clip.hpp>
 
 #include <array>

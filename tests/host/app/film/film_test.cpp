@@ -3,7 +3,7 @@
 #include "host/io/played_png.hpp"
 
 #include <host/app/film/film_job.hpp>
-#include <host/app/run/hand_panel.hpp>
+#include <host/app/run/views/hand_panel.hpp>
 #include <host/audio/listening.hpp>
 #include <host/io/wav.hpp>
 #include <support/temporary_folder.hpp>

@@ -5,7 +5,7 @@
 #include <host/app/problems/fixes.hpp>
 #include <host/app/run/device_setup.hpp>
 #include <host/app/run/limit_watch.hpp>
-#include <host/app/run/live_feed.hpp>
+#include <host/app/run/views/live_feed.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -3,8 +3,8 @@
 
 #include "support/sketch.hpp"
 
-#include <host/app/run/live_feed.hpp>
 #include <host/app/run/port_feed.hpp>
+#include <host/app/run/views/live_feed.hpp>
 
 #include <catch2/catch.hpp>
 

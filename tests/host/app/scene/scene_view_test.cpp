@@ -2,7 +2,7 @@
 #include "host/app/support/hand.hpp"
 #include "preset_bodies.hpp"
 
-#include <host/app/run/hand_panel.hpp>
+#include <host/app/run/views/hand_panel.hpp>
 
 #include <catch2/catch.hpp>
 

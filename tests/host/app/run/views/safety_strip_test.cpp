@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/canvas_rig.hpp"
 
-#include <host/app/run/safety_strip.hpp>
-
+#include <host/app/run/views/safety_strip.hpp>
 #include <tactus/file/graph_file.hpp>
 
 #include <catch2/catch.hpp>

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "limit_watch.hpp"
-#include "live_run.hpp"
-
 #include <host/app/canvas/canvas.hpp>
+#include <host/app/run/limit_watch.hpp>
+#include <host/app/run/live_run.hpp>
 
 namespace tactus::host
 {

@@ -2,7 +2,7 @@
 // The window does nothing that could make a tick of the run late.
 #include "host/app/scene/preset_bodies.hpp"
 
-#include <host/app/run/hand_panel.hpp>
+#include <host/app/run/views/hand_panel.hpp>
 #include <host/app/scopes/scope_panel.hpp>
 #include <support/no_allocation.hpp>
 #include <tactus/run/device/gesture_device.hpp>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "playback.hpp"
-
 #include <host/app/look/look.hpp>
+#include <host/app/run/playback.hpp>
 
 #include <deque>
 

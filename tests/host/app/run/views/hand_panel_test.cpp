@@ -2,7 +2,7 @@
 #include "host/app/support/canvas_rig.hpp"
 #include "host/app/support/seen_text.hpp"
 
-#include <host/app/run/hand_panel.hpp>
+#include <host/app/run/views/hand_panel.hpp>
 #include <tactus/run/device/gestures.hpp>
 
 using namespace tactus;

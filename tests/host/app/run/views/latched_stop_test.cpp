@@ -3,8 +3,8 @@
 
 #include "support/temporary_folder.hpp"
 
-#include <host/app/run/hand_panel.hpp>
-#include <host/app/run/hand_view.hpp>
+#include <host/app/run/views/hand_panel.hpp>
+#include <host/app/run/views/hand_view.hpp>
 #include <host/app/take/take.hpp>
 
 #include <catch2/catch.hpp>

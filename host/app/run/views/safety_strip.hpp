@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "playback.hpp"
-
 #include <host/app/limits/limit_light.hpp>
 #include <host/app/look/look.hpp>
+#include <host/app/run/playback.hpp>
 
 namespace tactus::host
 {

@@ -6,8 +6,8 @@
 
 #include "host/app/support/canvas_rig.hpp"
 
-#include <host/app/run/direct_stop.hpp>
-#include <host/app/run/safety_strip.hpp>
+#include <host/app/run/views/direct_stop.hpp>
+#include <host/app/run/views/safety_strip.hpp>
 
 #include <catch2/catch.hpp>
 
