@@ -257,4 +257,17 @@ graph::Command toggleExposed (const graph::Graph& g, const std::string& subgraph
     return graph::Batch { NEEDS_TRANS ("expose port"), { graph::ChangeExpose { subgraph, std::move (to) } } };
 }
 
+juce::Point<float> freePlace (const Scene& scene, juce::Point<float> at)
+{
+    const juce::Point<float> usual_size { 160.0f, 96.0f };
+    const auto isTaken = [&] {
+        const juce::Rectangle<float> box { at, at + usual_size };
+        return std::ranges::any_of (scene.nodes(), [&] (const SceneNode& n) { return n.bounds().intersects (box); })
+               || std::ranges::any_of (scene.notes(), [&] (const Note& n) { return ! n.isRegion() && n.area.intersects (box); });
+    };
+    while (isTaken())
+        at.y += 2 * Box::grid;
+    return at;
+}
+
 }   // namespace tactus::host

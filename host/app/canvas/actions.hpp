@@ -18,6 +18,9 @@ using Selection = std::set<graph::Id>;   ///< ids of nodes, wires and notes
 /// Stores the positions of nodes in the graph.
 graph::Command placeNodes (const graph::Graph&, const std::string& patch, const std::vector<std::pair<graph::Id, juce::Point<float>>>&);
 
+/// This point, or the next one below where a node does not cover another one.
+juce::Point<float> freePlace (const Scene&, juce::Point<float>);
+
 /// Deletes the selection. If a deleted node had exactly one incoming wire, that wire is reconnected to each of the node's
 /// destinations that it fits ("healed").
 graph::Command removeSelected (const graph::Graph&, const std::string& patch, const Scene&, const Selection&);

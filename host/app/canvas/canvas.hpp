@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "actions.hpp"
-#include "align.hpp"
+#include "commands.hpp"
 #include "minimap.hpp"
 #include "paint_scene.hpp"
 
-#include <host/app/model/document.hpp>
 #include <host/app/palette/search.hpp>
 
 #include <filesystem>
@@ -26,14 +24,6 @@ public:
     virtual void paint (juce::Graphics&) const {}   ///< paints over the scene, in pixels
 };
 
-/// A request to add a node that the user has yet to choose: where it goes and what it will be connected to.
-struct NodeRequest
-{
-    juce::Point<float> at;
-    std::optional<PortId> start {};   ///< the port to connect the new node to
-    graph::Id wire = 0;               ///< the wire to insert the new node into; 0 for none
-};
-
 /// The patch editor: shows the nodes, wires and notes of one patch and edits them with mouse and keyboard.
 ///
 /// Dragging on empty canvas selects. The middle or right button pans; a right-click opens the menu. The wheel zooms at the
@@ -49,15 +39,14 @@ public:
     ~Canvas() override;
 
     Document& edited() noexcept { return document; }
+    CanvasCommands& commands() noexcept { return edits; }
+    const CanvasCommands& commands() const noexcept { return edits; }
     const Scene& scene() const noexcept { return *shown; }
     View& view() noexcept { return window; }
     const View& view() const noexcept { return window; }
     Highlights& highlighted() noexcept { return highlights; }
     const Selection& selection() const noexcept { return highlights.selected; }
-    std::vector<const SceneNode*> selectedNodes() const;
     void select (Selection);
-    void selectAll();
-    void selectNext (juce::Point<float> direction);   ///< selects the nearest node in that direction
 
     /// The subgraphs entered, from the outside in: the name of each node and of its subgraph.
     using Breadcrumbs = std::vector<std::pair<std::string, std::string>>;
@@ -68,9 +57,6 @@ public:
 
     /// Goes to a patch, then selects a node or wire in it and scrolls to it. No effect if the patch cannot be reached from the root.
     void show (const std::string& patch, graph::Id);
-
-    /// As show(), for the node of the latest edit: undoing the edit brings back the view from before.
-    void showEdited (const std::string& patch, graph::Id);
 
     /// The full path of a port in the current patch: "grain/wave.value"; with the numbers of the chosen instances: "finger[2]/drag.force".
     std::string address (const std::string& port) const;
@@ -85,53 +71,15 @@ public:
     std::optional<Instance> instance() const;   ///< empty if the subgraph has no `count`
     void chooseInstance (int number);
 
-    std::function<void()> onEditParams;   ///< called to give the keyboard focus to the parameters of the selected node
-    void editParams()
-    {
-        if (onEditParams) onEditParams();
-    }
-
     void frameAll();
     void frameStart();   ///< as frameAll(), but labels stay readable: of a large patch, it shows the part around the hand, or around the first node
-    void frameSelection();
-    void zoomBy (float factor);
     void toggleMap();
-    juce::Point<float> pointerOrCentre() const;   ///< the position of the pointer if it is over the canvas, else the centre of the view
 
-    // Commands. Each is one undo step.
-    void removeSelection();
-    void duplicateSelection();
-    void copySelection() const;
-    void pasteText();
-    void bypassSelection();
-    void groupSelection();
-    void expandSelection();
-    void enterSelection();
-    void alignSelection (Alignment);
-    void arrangeAll();
-    void nudgeSelection (juce::Point<float> by);
-    void delaySelection (int ticks);
-    void toggleWires();
-    void addNote();
-    void recolourNotes();
-    void probeSelection();
-    void wireFromSelection();
-    void saveClipOfSelection();
-    void exposeFromSelection();
+    /// The view as it is now belongs to the latest edit: undoing the edit brings back the view from before.
+    void endEdit();
 
-    /// Adds a node and connects it as requested.
-    void addNodeAt (const std::string& type, const NodeRequest&);
-
-    /// Connects two ports. If only one of them is a vector, asks which component to use.
-    void join (const ScenePort& from, const ScenePort& to);
-
-    void editNote (std::size_t);
-    void editParam (const SceneNode&, const Socket&);
-    void setParam (const SceneNode&, const FacePort&, const std::optional<Json>&, graph::Step = graph::Step::own);
-
-    /// Performs an edit and stores the positions of automatically arranged nodes with it. Returns false if the edit is refused.
-    bool perform (graph::Command, graph::Step = graph::Step::own);
-    graph::Graph placedGraph() const;   ///< the graph with the positions of all nodes of the patch stored
+    /// Opens a text editor over part of the canvas.
+    void openEditor (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<void (const juce::String&)> done);
 
     void showLive (Live);   ///< call many times a second; repaints only what has changed
 
@@ -142,14 +90,11 @@ public:
     juce::String tooltipAt (juce::Point<float> pixel) const;   ///< the text of the limit light at this pixel of the canvas; empty if there is none
 
     std::function<void()> onSelection, onBreadcrumbs;
+    std::function<void()> onEditParams;                 ///< the parameters of the selected node get the keyboard focus
     std::function<void (const juce::String&)> onHint;   ///< receives a description of what is under the pointer, or ""
 
     /// The user wants to add a node: by double-click, by key, or by dropping a wire on empty canvas.
     std::function<void (NodeRequest)> onNodeRequested;
-    void requestNode (NodeRequest request)
-    {
-        if (onNodeRequested) onNodeRequested (std::move (request));
-    }
 
     /// Asks the user to choose one of several entries; `chosen` receives the type of that entry.
     std::function<void (const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string&)> chosen)> onChoose;
@@ -166,7 +111,6 @@ public:
     {
         if (onNotice) onNotice (text);
     }
-    void showMenu();
 
     void paint (juce::Graphics&) override;
     void resized() override;
@@ -202,11 +146,11 @@ private:
     };
     Sight sight() const { return { patch(), window, framed, framed_around }; }
     void beginEdit();   ///< call before the view follows an edit
-    void endEdit();     ///< call after the view has followed an edit
     void followStep (const Scene& before);
     void rebuild();
     void frameAround (juce::Rectangle<float> focus);
     std::optional<Instance> instanceOf (const graph::Node&, const std::string& names) const;
+    void updateBreadcrumbs();
     void breadcrumbsChanged();
     /// What is under the pointer: its id, a description, and the cursor to show.
     struct Hover
@@ -220,17 +164,13 @@ private:
     void point (PointedPort);
     void repaintChanged (const Live& before);
     std::unique_ptr<Drag> dragFor (const juce::MouseEvent&);
-    const graph::Patch& patchShown() const;
-    std::optional<graph::Command> storePositions() const;      ///< stores those of automatically arranged nodes; empty if all are stored
-    juce::Point<float> freePlace (juce::Point<float>) const;   ///< this point, or the next free one below
     void dropClip (const std::filesystem::path&, juce::Point<float> at);
     void paintFileOver (juce::Graphics&) const;
-
-    /// Opens a text editor over part of the canvas.
-    void openEditor (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<void (const juce::String&)> done);
+    void showMenu();
     void closeEditor (bool keep);
 
     Document& document;
+    CanvasCommands edits { *this, document };
     const Catalogue& catalogue;
     NodeCurves curves;
     std::unique_ptr<Scene> shown;

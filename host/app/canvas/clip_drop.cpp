@@ -66,13 +66,13 @@ void Canvas::dropClip (const fs::path& file, juce::Point<float> pixel)
     if (node != nullptr)
     {
         const auto name = node->name;
-        perform (graph::SetSetting { patch(), name, "clip", Json (written) });
+        edits.perform (graph::SetSetting { patch(), name, "clip", Json (written) });
         return;
     }
     graph::Id made = 0;
-    auto add = addNode (document.graph(), patch(), clip_type, freePlace (at), made);
+    auto add = addNode (document.graph(), patch(), clip_type, freePlace (*shown, at), made);
     if (auto* one = std::get_if<graph::AddNode> (&add.edit)) playClip (one->node, written);
-    if (! perform (std::move (add))) return;
+    if (! edits.perform (std::move (add))) return;
     select ({ made });
     notice (filled (TRANS ("Added a node that plays %1 over and over. Wire its value to a motor to feel it."), printableName (file.filename().string())));
 }
@@ -86,18 +86,6 @@ void Canvas::paintFileOver (juce::Graphics& g) const
         g.drawRect (getLocalBounds(), 2);
     else if (node->type == clip_type)
         g.drawRoundedRectangle (node->bounds().transformedBy (window.transform()).expanded (3.0f), 6.0f, 2.0f);
-}
-
-void Canvas::saveClipOfSelection()
-{
-    const auto nodes = selectedNodes();
-    if (nodes.size() != 1 || ! onSaveClip) return;
-    const auto* node = patchShown().find (nodes[0]->name);
-    if (node == nullptr) return;
-    const auto written = node->settings.find ("clip");
-    if (written == node->settings.end() || ! written->is_string() || written->asString().empty())
-        return notice (filled (TRANS ("%1 has no clip yet. Drop a clip file on it first."), node->name));
-    onSaveClip (fs::path (resolved (written->asString(), document.graph().folder)));
 }
 
 }   // namespace tactus::host

@@ -3,9 +3,12 @@
 #include "canvas.hpp"
 
 #include <host/app/model/clip_graph.hpp>
+#include <host/app/model/file_path.hpp>
 #include <host/app/text/filled.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 
 #include <algorithm>
+#include <limits>
 
 namespace tactus::host
 {
@@ -15,15 +18,15 @@ namespace
 bool always (const Canvas&) noexcept { return true; }
 
 bool hasSelection (const Canvas& c) noexcept { return ! c.selection().empty(); }
-bool hasNode (const Canvas& c) noexcept { return ! c.selectedNodes().empty(); }
-bool hasOneNode (const Canvas& c) noexcept { return c.selectedNodes().size() == 1; }
-bool hasClip (const Canvas& c) noexcept { return hasOneNode (c) && c.selectedNodes()[0]->type == clip_type; }
-bool hasTwoNodes (const Canvas& c) noexcept { return c.selectedNodes().size() > 1; }
+bool hasNode (const Canvas& c) noexcept { return ! c.commands().selectedNodes().empty(); }
+bool hasOneNode (const Canvas& c) noexcept { return c.commands().selectedNodes().size() == 1; }
+bool hasClip (const Canvas& c) noexcept { return hasOneNode (c) && c.commands().selectedNodes()[0]->type == clip_type; }
+bool hasTwoNodes (const Canvas& c) noexcept { return c.commands().selectedNodes().size() > 1; }
 bool hasNote (const Canvas& c) noexcept { return std::ranges::any_of (c.selection(), isNote); }
 bool hasSomeNodes (const Canvas& c) noexcept { return ! c.scene().nodes().empty(); }
 bool isInside (const Canvas& c) noexcept { return ! c.breadcrumbs().empty(); }
 bool isInsideWithNode (const Canvas& c) noexcept { return isInside (c) && hasOneNode (c); }
-bool hasSubgraph (const Canvas& c) noexcept { return hasOneNode (c) && c.selectedNodes()[0]->face->kind == Face::Kind::subgraph; }
+bool hasSubgraph (const Canvas& c) noexcept { return hasOneNode (c) && c.commands().selectedNodes()[0]->face->kind == Face::Kind::subgraph; }
 
 bool hasWire (const Canvas& c) noexcept
 {
@@ -33,29 +36,35 @@ bool hasWire (const Canvas& c) noexcept
 template <Alignment how>
 void align (Canvas& c)
 {
-    c.alignSelection (how);
+    c.commands().alignSelection (how);
 }
 
 template <int x, int y>
 void nudge (Canvas& c)
 {
-    c.nudgeSelection ({ x * Box::grid, y * Box::grid });
+    c.commands().nudgeSelection ({ x * Box::grid, y * Box::grid });
 }
 
 template <int x, int y>
 void step (Canvas& c)
 {
-    c.selectNext ({ static_cast<float> (x), static_cast<float> (y) });
+    c.commands().selectNext ({ static_cast<float> (x), static_cast<float> (y) });
 }
 
 template <int by>
 void delay (Canvas& c)
 {
-    c.delaySelection (by);
+    c.commands().delaySelection (by);
+}
+
+template <void (CanvasCommands::*command)()>
+void call (Canvas& c)
+{
+    (c.commands().*command)();
 }
 
 template <void (Canvas::*command)()>
-void call (Canvas& c)
+void view (Canvas& c)
 {
     (c.*command)();
 }
@@ -63,52 +72,52 @@ void call (Canvas& c)
 template <int percent>
 void zoom (Canvas& c)
 {
-    c.zoomBy (static_cast<float> (percent) / 100.0f);
+    c.commands().zoomBy (static_cast<float> (percent) / 100.0f);
 }
 
-void addNode (Canvas& c) { c.requestNode ({ c.pointerOrCentre(), {}, 0 }); }
+void addNode (Canvas& c) { c.commands().requestNode ({ c.commands().pointerOrCentre(), {}, 0 }); }
 void undo (Canvas& c) { c.edited().undo(); }
 void redo (Canvas& c) { c.edited().redo(); }
-void copy (Canvas& c) { c.copySelection(); }
+void copy (Canvas& c) { c.commands().copySelection(); }
 void leave (Canvas& c) { c.leaveTo (c.breadcrumbs().size() - 1); }
-void resetZoom (Canvas& c) { c.zoomBy (1.0f / c.view().zoom); }
+void resetZoom (Canvas& c) { c.commands().zoomBy (1.0f / c.view().zoom); }
 
 void cut (Canvas& c)
 {
-    c.copySelection();
-    c.removeSelection();
+    c.commands().copySelection();
+    c.commands().removeSelection();
 }
 
 constexpr CanvasCommand commands[] {
     { NEEDS_TRANS ("Add node"), "spacebar|tab", always, addNode },
-    { NEEDS_TRANS ("Add note, or region around selection"), "n", always, call<&Canvas::addNote> },
-    { NEEDS_TRANS ("Next region colour"), "k", hasNote, call<&Canvas::recolourNotes> },
-    { NEEDS_TRANS ("Connect to..."), "w", hasOneNode, call<&Canvas::wireFromSelection> },
-    { NEEDS_TRANS ("Save clip as..."), "", hasClip, call<&Canvas::saveClipOfSelection> },
-    { NEEDS_TRANS ("Probe signal"), "p", hasSelection, call<&Canvas::probeSelection>, true },
+    { NEEDS_TRANS ("Add note, or region around selection"), "n", always, call<&CanvasCommands::addNote> },
+    { NEEDS_TRANS ("Next region colour"), "k", hasNote, call<&CanvasCommands::recolourNotes> },
+    { NEEDS_TRANS ("Connect to..."), "w", hasOneNode, call<&CanvasCommands::wireFromSelection> },
+    { NEEDS_TRANS ("Save clip as..."), "", hasClip, call<&CanvasCommands::saveClipOfSelection> },
+    { NEEDS_TRANS ("Probe signal"), "p", hasSelection, call<&CanvasCommands::probeSelection>, true },
 
     { NEEDS_TRANS ("Undo"), "ctrl + z", always, undo },
     { NEEDS_TRANS ("Redo"), "ctrl + y|ctrl + shift + z", always, redo },
     { NEEDS_TRANS ("Cut"), "ctrl + x", hasSelection, cut },
     { NEEDS_TRANS ("Copy"), "ctrl + c", hasSelection, copy },
-    { NEEDS_TRANS ("Paste"), "ctrl + v", always, call<&Canvas::pasteText> },
-    { NEEDS_TRANS ("Duplicate with incoming wires"), "ctrl + d", hasNode, call<&Canvas::duplicateSelection> },
-    { NEEDS_TRANS ("Delete and reconnect"), "delete|backspace", hasSelection, call<&Canvas::removeSelection> },
-    { NEEDS_TRANS ("Select all"), "ctrl + a", hasSomeNodes, call<&Canvas::selectAll>, true },
+    { NEEDS_TRANS ("Paste"), "ctrl + v", always, call<&CanvasCommands::pasteText> },
+    { NEEDS_TRANS ("Duplicate with incoming wires"), "ctrl + d", hasNode, call<&CanvasCommands::duplicateSelection> },
+    { NEEDS_TRANS ("Delete and reconnect"), "delete|backspace", hasSelection, call<&CanvasCommands::removeSelection> },
+    { NEEDS_TRANS ("Select all"), "ctrl + a", hasSomeNodes, call<&CanvasCommands::selectAll>, true },
 
-    { NEEDS_TRANS ("Bypass"), "b", hasNode, call<&Canvas::bypassSelection> },
-    { NEEDS_TRANS ("Group into subgraph"), "g", hasNode, call<&Canvas::groupSelection> },
-    { NEEDS_TRANS ("Ungroup subgraph"), "shift + g", hasSubgraph, call<&Canvas::expandSelection> },
-    { NEEDS_TRANS ("Enter subgraph"), "return", hasSubgraph, call<&Canvas::enterSelection> },
-    { NEEDS_TRANS ("Edit parameters"), "return|shift + return", hasSelection, call<&Canvas::editParams> },
+    { NEEDS_TRANS ("Bypass"), "b", hasNode, call<&CanvasCommands::bypassSelection> },
+    { NEEDS_TRANS ("Group into subgraph"), "g", hasNode, call<&CanvasCommands::groupSelection> },
+    { NEEDS_TRANS ("Ungroup subgraph"), "shift + g", hasSubgraph, call<&CanvasCommands::expandSelection> },
+    { NEEDS_TRANS ("Enter subgraph"), "return", hasSubgraph, call<&CanvasCommands::enterSelection> },
+    { NEEDS_TRANS ("Edit parameters"), "return|shift + return", hasSelection, call<&CanvasCommands::editParams> },
     { NEEDS_TRANS ("Leave subgraph"), "u", isInside, leave },
-    { NEEDS_TRANS ("Expose or hide port..."), "o", isInsideWithNode, call<&Canvas::exposeFromSelection>, true },
+    { NEEDS_TRANS ("Expose or hide port..."), "o", isInsideWithNode, call<&CanvasCommands::exposeFromSelection>, true },
 
     { NEEDS_TRANS ("Increase wire delay"), "]", hasWire, delay<1> },
     { NEEDS_TRANS ("Decrease wire delay"), "[", hasWire, delay<-1> },
-    { NEEDS_TRANS ("Toggle wire"), "e", hasWire, call<&Canvas::toggleWires>, true },
+    { NEEDS_TRANS ("Toggle wire"), "e", hasWire, call<&CanvasCommands::toggleWires>, true },
 
-    { NEEDS_TRANS ("Arrange all"), "l", hasSomeNodes, call<&Canvas::arrangeAll> },
+    { NEEDS_TRANS ("Arrange all"), "l", hasSomeNodes, call<&CanvasCommands::arrangeAll> },
     { NEEDS_TRANS ("Align left"), "alt + cursor left", hasTwoNodes, align<Alignment::left> },
     { NEEDS_TRANS ("Align right"), "alt + cursor right", hasTwoNodes, align<Alignment::right> },
     { NEEDS_TRANS ("Align top"), "alt + cursor up", hasTwoNodes, align<Alignment::top> },
@@ -125,15 +134,107 @@ constexpr CanvasCommand commands[] {
     { NEEDS_TRANS ("Select next node above"), "ctrl + cursor up", hasSomeNodes, step<0, -1>, false, false },
     { NEEDS_TRANS ("Select next node below"), "ctrl + cursor down", hasSomeNodes, step<0, 1>, true, false },
 
-    { NEEDS_TRANS ("Frame selection"), "f", hasSomeNodes, call<&Canvas::frameSelection> },
-    { NEEDS_TRANS ("Frame all"), "home", hasSomeNodes, call<&Canvas::frameAll> },
+    { NEEDS_TRANS ("Frame selection"), "f", hasSomeNodes, call<&CanvasCommands::frameSelection> },
+    { NEEDS_TRANS ("Frame all"), "home", hasSomeNodes, view<&Canvas::frameAll> },
     { NEEDS_TRANS ("Zoom in"), "+|=", always, zoom<125>, false, false },
     { NEEDS_TRANS ("Zoom out"), "-", always, zoom<80>, false, false },
     { NEEDS_TRANS ("Actual size"), "0", always, resetZoom, false, false },
-    { NEEDS_TRANS ("Show or hide minimap"), "m", always, call<&Canvas::toggleMap> },
+    { NEEDS_TRANS ("Show or hide minimap"), "m", always, view<&Canvas::toggleMap> },
 };
 }   // namespace
 
 std::span<const CanvasCommand> canvasCommands() noexcept { return commands; }
+
+void CanvasCommands::selectAll()
+{
+    Selection all;
+    for (const auto& n : canvas.scene().nodes())
+        all.insert (n.id);
+    for (std::size_t i = 0; i < canvas.scene().notes().size(); ++i)
+        all.insert (noteId (i));
+    canvas.select (std::move (all));
+}
+
+void CanvasCommands::selectNext (juce::Point<float> direction)
+{
+    const SceneNode *from = nullptr, *next = nullptr;
+    for (const auto& n : canvas.scene().nodes())
+        if (canvas.selection().contains (n.id)) from = &n;
+    float least = std::numeric_limits<float>::max();
+    for (const auto& n : canvas.scene().nodes())
+    {
+        if (&n == from) continue;
+        const auto d = n.bounds().getCentre() - (from == nullptr ? canvas.scene().bounds().getTopLeft() : from->bounds().getCentre());
+        const float along = d.getDotProduct (direction), beside = std::abs (d.x * direction.y - d.y * direction.x);
+        if (from != nullptr && along <= beside * 0.5f) continue;
+        if (const float distance = along + 2.0f * beside; distance < least)
+        {
+            least = distance;
+            next = &n;
+        }
+    }
+    if (next != nullptr) canvas.select ({ next->id });
+}
+
+void CanvasCommands::enterSelection()
+{
+    if (const auto nodes = selectedNodes(); ! nodes.empty()) canvas.enter (*nodes[0]);
+}
+
+void CanvasCommands::frameSelection()
+{
+    juce::Rectangle<float> area;
+    const auto include = [&] (juce::Rectangle<float> r) { area = area.isEmpty() ? r : area.getUnion (r); };
+    for (const auto* n : selectedNodes())
+        include (n->bounds());
+    for (std::size_t i = 0; i < canvas.scene().notes().size(); ++i)
+        if (canvas.selection().contains (noteId (i))) include (canvas.scene().notes()[i].area);
+    canvas.view().frame (area.isEmpty() ? canvas.scene().bounds() : area, canvas.getLocalBounds().toFloat());
+    canvas.repaint();
+}
+
+void CanvasCommands::zoomBy (float factor)
+{
+    canvas.view().zoomAt (canvas.getLocalBounds().getCentre().toFloat(), factor);
+    canvas.repaint();
+}
+
+juce::Point<float> CanvasCommands::pointerOrCentre() const
+{
+    const auto pointer = canvas.getMouseXYRelative();
+    return canvas.view().toCanvas ((canvas.getLocalBounds().contains (pointer) ? pointer : canvas.getLocalBounds().getCentre()).toFloat());
+}
+
+void CanvasCommands::probeSelection()
+{
+    std::vector<std::string> ports;
+    for (const auto& w : patchShown().wires)
+        if (canvas.selection().contains (w.id)) ports.push_back (canvas.address (graph::toText (w.from)));
+    for (const auto* n : selectedNodes())
+        if (! n->face->outputs.empty()) ports.push_back (canvas.address (n->name + '.' + n->face->outputs.front().id));
+    if (! ports.empty() && canvas.onProbe) canvas.onProbe (std::move (ports));
+}
+
+void CanvasCommands::saveClipOfSelection()
+{
+    const auto nodes = selectedNodes();
+    if (nodes.size() != 1 || ! canvas.onSaveClip) return;
+    const auto* node = patchShown().find (nodes[0]->name);
+    if (node == nullptr) return;
+    const auto written = node->settings.find ("clip");
+    if (written == node->settings.end() || ! written->is_string() || written->asString().empty())
+        return canvas.notice (filled (TRANS ("%1 has no clip yet. Drop a clip file on it first."), node->name));
+    canvas.onSaveClip (std::filesystem::path (resolved (written->asString(), document.graph().folder)));
+}
+
+void CanvasCommands::requestNode (NodeRequest request)
+{
+    if (canvas.onNodeRequested) canvas.onNodeRequested (std::move (request));
+}
+
+void CanvasCommands::editParams()
+{
+    if (canvas.onEditParams) canvas.onEditParams();
+}
 
 }   // namespace tactus::host

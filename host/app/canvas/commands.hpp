@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "actions.hpp"
+#include "align.hpp"
+
+#include <host/app/model/document.hpp>
+
 #include <span>
 
 namespace tactus::host
@@ -20,5 +25,69 @@ struct CanvasCommand
 };
 
 std::span<const CanvasCommand> canvasCommands() noexcept;
+
+/// A request to add a node that the user has yet to choose: where it goes and what it will be connected to.
+struct NodeRequest
+{
+    juce::Point<float> at;
+    std::optional<PortId> start {};   ///< the port to connect the new node to
+    graph::Id wire = 0;               ///< the wire to insert the new node into; 0 for none
+};
+
+/// What the user can do to the selection of a canvas and to its patch. Each edit is one undo step.
+class CanvasCommands
+{
+public:
+    CanvasCommands (Canvas& c, Document& d) noexcept : canvas (c), document (d) {}
+
+    /// Performs an edit and stores the positions of automatically arranged nodes with it. Returns false if the edit is refused.
+    bool perform (graph::Command, graph::Step = graph::Step::own);
+
+    std::vector<const SceneNode*> selectedNodes() const;
+    void selectAll();
+    void selectNext (juce::Point<float> direction);   ///< selects the nearest node in that direction
+    void frameSelection();
+    void zoomBy (float factor);
+    juce::Point<float> pointerOrCentre() const;   ///< the position of the pointer if it is over the canvas, else the centre of the view
+
+    void removeSelection();
+    void duplicateSelection();
+    void copySelection() const;
+    void pasteText();
+    void bypassSelection();
+    void groupSelection();
+    void expandSelection();
+    void enterSelection();
+    void alignSelection (Alignment);
+    void arrangeAll();
+    void nudgeSelection (juce::Point<float> by);
+    void delaySelection (int ticks);
+    void toggleWires();
+    void addNote();
+    void recolourNotes();
+    void editNote (std::size_t);
+    void probeSelection();
+    void saveClipOfSelection();
+    void wireFromSelection();
+    void exposeFromSelection();
+
+    void requestNode (NodeRequest);                                 ///< asks the user for a node to add
+    void addNodeAt (const std::string& type, const NodeRequest&);   ///< adds a node and connects it as requested
+
+    /// Connects two ports. If only one of them is a vector, asks which component to use.
+    void join (const ScenePort& from, const ScenePort& to);
+
+    void editParams();   ///< gives the keyboard focus to the parameters of the selected node
+    void editParam (const SceneNode&, const Socket&);
+    void setParam (const SceneNode&, const FacePort&, const std::optional<Json>&, graph::Step = graph::Step::own);
+
+private:
+    const graph::Patch& patchShown() const;
+    std::optional<graph::Command> storePositions() const;   ///< stores those of automatically arranged nodes; empty if all are stored
+    graph::Graph placedGraph() const;                       ///< the graph with the positions of all nodes of the patch stored
+
+    Canvas& canvas;
+    Document& document;
+};
 
 }   // namespace tactus::host

@@ -107,7 +107,7 @@ public:
                 with_notes = true;
             }
         if (with_notes) all.commands.push_back (setNotes (document.graph(), canvas.patch(), now, NEEDS_TRANS ("move")));
-        canvas.perform (std::move (all), begun ? graph::Step::joined : graph::Step::own);
+        canvas.commands().perform (std::move (all), begun ? graph::Step::joined : graph::Step::own);
         begun = true;
     }
 
@@ -123,7 +123,7 @@ public:
         for (const auto* wire : scene.wiresAt (node->bounds().getCentre(), node->bounds().getHeight() / 2))
             if (auto command = insertInto (canvas.edited().graph(), canvas.patch(), scene, wire->id, node->id))
             {
-                canvas.perform (std::move (*command), graph::Step::joined);
+                canvas.commands().perform (std::move (*command), graph::Step::joined);
                 return;
             }
     }
@@ -151,7 +151,7 @@ public:
         auto now = notes;
         now[note].area.setSize (std::max (least, notes[note].area.getWidth() + by.x), std::max (least, notes[note].area.getHeight() + by.y));
         const auto step = begun ? graph::Step::joined : graph::Step::own;
-        canvas.perform (setNotes (canvas.edited().graph(), canvas.patch(), now, NEEDS_TRANS ("resize note")), step);
+        canvas.commands().perform (setNotes (canvas.edited().graph(), canvas.patch(), now, NEEDS_TRANS ("resize note")), step);
         begun = true;
     }
 
@@ -201,7 +201,7 @@ public:
         const auto param = canvas.scene().findPort (id);
         if (to.number == now.number || ! param || ! sheet.limits.hard.contains (to.si())) return;
         now = to;
-        canvas.setParam (*param.node, *param.port, to.toJson(), begun ? graph::Step::joined : graph::Step::own);
+        canvas.commands().setParam (*param.node, *param.port, to.toJson(), begun ? graph::Step::joined : graph::Step::own);
         begun = true;
     }
 
@@ -261,14 +261,14 @@ public:
         {
             if (e.getDistanceFromDragStart() <= least_drag_px || canvas.scene().nodeAt (at) != nullptr) return;
             if (wire_id != 0) return unplug (NEEDS_TRANS ("disconnect"));
-            canvas.requestNode ({ at, start });
+            canvas.commands().requestNode ({ at, start });
             return;
         }
         if (! check (*over.node, *over.socket->port)) return;
         const PortId other { over.node->id, over.socket->port->role, over.socket->port->id };
         if (wire_id != 0) unplug (NEEDS_TRANS ("re-plug wire"));   // rebuilds the scene
         const auto a = canvas.scene().findPort (start), b = canvas.scene().findPort (other);
-        if (a && b) start.role == Role::output ? canvas.join (a, b) : canvas.join (b, a);
+        if (a && b) start.role == Role::output ? canvas.commands().join (a, b) : canvas.commands().join (b, a);
     }
 
     void paint (juce::Graphics& g) const override
@@ -335,7 +335,7 @@ private:
         g.drawText (problem, box, juce::Justification::centred, false);
     }
 
-    void unplug (const char* step) { canvas.perform (graph::Batch { step, { graph::RemoveWire { canvas.patch(), wire_id } } }); }
+    void unplug (const char* step) { canvas.commands().perform (graph::Batch { step, { graph::RemoveWire { canvas.patch(), wire_id } } }); }
 
     static constexpr int least_drag_px = 8;
 

@@ -64,12 +64,6 @@ void Canvas::endEdit()
     if (! document.isStepping() && seen_position > 0 && seen_position <= sights.size()) sights[seen_position - 1].after = sight();
 }
 
-void Canvas::showEdited (const std::string& patch_name, graph::Id id)
-{
-    show (patch_name, id);
-    endEdit();
-}
-
 /// If an edit moved the view and the user has not moved it since, undoing the edit moves it back. Otherwise, the view stays where something that has
 /// changed is in view, and else goes to what has changed.
 void Canvas::followStep (const Scene& before)

@@ -72,7 +72,10 @@ void MainView::connectCanvas()
     patching.onSaveClip = [this] (const std::filesystem::path& file) { saveClipAs (file); };
     inspector.messagesNow = [this] { return run().messages(); };
     layers.onSelect = [this] (const std::string& patch, graph::Id node) { patching.show (patch, node); };
-    layers.onAdded = [this] (const std::string& patch, graph::Id node) { patching.showEdited (patch, node); };
+    layers.onAdded = [this] (const std::string& patch, graph::Id node) {
+        patching.show (patch, node);
+        patching.endEdit();   // undoing the edit brings back the view from before
+    };
     live.limits = &limits;
     devices.onTry = [this] (const std::string& role) { return playback.tryDevice (role); };
     strip.onProblems = [this] { bottom.show (problems); };
@@ -110,7 +113,7 @@ void MainView::connectFitPanel()
     fitting.onOpenGraph = [this] (const FittedGraph& made) { files.openGraph (made.preset, filled (TRANS ("fit %1"), made.preset.name).toStdString()); };
     fitting.onInsert = [this] (const FittedGraph& made) {
         auto source = made.preset;
-        auto place = (patching.pointerOrCentre() / Box::grid).roundToInt() * static_cast<int> (Box::grid);
+        auto place = (patching.commands().pointerOrCentre() / Box::grid).roundToInt() * static_cast<int> (Box::grid);
         std::set<graph::Id> ids;
         for (auto& node : source.root.nodes)
         {
@@ -122,7 +125,7 @@ void MainView::connectFitPanel()
         Selection added;
         auto command = paste (edited.graph(), patching.patch(), copyText (source, {}, ids), {}, added);
         if (! command) return status.notify (fromUtf8 (command.error().text));
-        if (! patching.perform (*std::move (command))) return;
+        if (! patching.commands().perform (*std::move (command))) return;
         patching.select (added);
         status.notify (TRANS ("Added the fitted node. Wire it to feel it."));
     };

@@ -40,7 +40,7 @@ void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalog
         return searchPalette (query, canvas.edited().graph(), catalogue, endsOf (request, canvas.scene()), recent);
     };
     palette.open (at, search, purpose, [&canvas, request, onAdded = std::move (onAdded)] (const std::string& type) {
-        canvas.addNodeAt (type, request);
+        canvas.commands().addNodeAt (type, request);
         onAdded (type);
         takeFocus (canvas);
     });

@@ -96,7 +96,7 @@ TEST_CASE ("dropping a wire on empty canvas requests a node, which is then conne
     REQUIRE (rig.request);
     REQUIRE (rig.request->start);
     CHECK (rig.request->start->port == "position");
-    rig.canvas->addNodeAt ("texture.grating", *rig.request);
+    rig.canvas->commands().addNodeAt ("texture.grating", *rig.request);
     CHECK (rig.hasWire ("hand.position -> grating.position"));
     CHECK (rig.document.history().names().size() == 1);   // one step
 }
@@ -109,11 +109,11 @@ TEST_CASE ("a node can be inserted into a wire", "[app][canvas]")
         rig.hand().doubleClick (rig.middleOf ("touch.gain -> grain_felt.gain"));
         REQUIRE (rig.request);
         REQUIRE (rig.request->wire != 0);
-        rig.canvas->addNodeAt ("signal.slew", *rig.request);
+        rig.canvas->commands().addNodeAt ("signal.slew", *rig.request);
     }
     SECTION ("by dropping a node on the wire")
     {
-        rig.canvas->addNodeAt ("signal.slew", { rig.canvas->view().toCanvas (rig.nowhere()) });
+        rig.canvas->commands().addNodeAt ("signal.slew", { rig.canvas->view().toCanvas (rig.nowhere()) });
         rig.hand().drag (rig.title ("slew"), rig.middleOf ("touch.gain -> grain_felt.gain"));
     }
     const auto& slew = rig.node ("slew");

@@ -92,7 +92,7 @@ TEST_CASE ("the menu of a clip node saves its clip", "[app][canvas][clips]")
     fs::path saved;
     rig.canvas->onSaveClip = [&] (const fs::path& file) { saved = file; };
     rig.canvas->select ({ rig.node ("beat").id });
-    rig.canvas->saveClipOfSelection();
+    rig.canvas->commands().saveClipOfSelection();
     CHECK (fs::equivalent (saved, heart));
 }
 

@@ -50,7 +50,7 @@ TEST_CASE ("painting, panning and editing times with 200 and 1000 nodes", "[app]
         const auto paint = [&] { rig.canvas->createComponentSnapshot (rig.canvas->getLocalBounds()); };
         paint();   // creates the glyphs
         const double all = milliseconds (paint);
-        rig.canvas->zoomBy (1.0f / rig.canvas->view().zoom);
+        rig.canvas->commands().zoomBy (1.0f / rig.canvas->view().zoom);
         const double near = milliseconds ([&] {
             rig.canvas->view().origin.x += 7.0f;
             paint();

@@ -77,7 +77,7 @@ TEST_CASE ("a node that appears out of view comes into view without making the l
     rig.canvas->setSize (424, 240);
     rig.canvas->frameStart();
     const auto right = rig.canvas->scene().bounds().getTopRight();
-    rig.canvas->addNodeAt ("signal.lfo", { .at = right + juce::Point<float> (300.0f, 200.0f) });
+    rig.canvas->commands().addNodeAt ("signal.lfo", { .at = right + juce::Point<float> (300.0f, 200.0f) });
     const auto& added = rig.canvas->scene().nodes().back();
     REQUIRE (added.type == "signal.lfo");
     CHECK (rig.canvas->getLocalBounds().toFloat().contains (rig.canvas->view().toPixels (added.bounds().getCentre())));
@@ -108,7 +108,7 @@ TEST_CASE ("undoing an edit that moved the view moves it back, and redoing it mo
     rig.canvas->setSize (424, 200);
     rig.canvas->frameStart();
     const auto before = rig.canvas->view();
-    rig.canvas->addNodeAt ("signal.lfo", { .at = rig.canvas->scene().bounds().getTopRight() + juce::Point<float> (300.0f, 200.0f) });
+    rig.canvas->commands().addNodeAt ("signal.lfo", { .at = rig.canvas->scene().bounds().getTopRight() + juce::Point<float> (300.0f, 200.0f) });
     const auto after = rig.canvas->view();
     REQUIRE_FALSE (after == before);
     rig.document.undo();
@@ -144,7 +144,7 @@ TEST_CASE ("after the user has moved the view, an undo moves it only if nothing 
 TEST_CASE ("a mixer is placed left of what it feeds and right of what it mixes, with room around it", "[app][canvas][layers]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
-    REQUIRE (rig.canvas->perform (placeNodes (rig.graph(), {}, { { rig.node ("motor").id, rig.node ("motor").at } })));   // stores all positions
+    REQUIRE (rig.canvas->commands().perform (placeNodes (rig.graph(), {}, { { rig.node ("motor").id, rig.node ("motor").at } })));   // stores all positions
     const auto text = rig.text();
     auto mixer = addMixer (rig.graph(), catalogue());
     REQUIRE (mixer);

@@ -154,7 +154,7 @@ std::string Monkey::addDirectly()
     NodeRequest request { { part() * 800.0f - 400.0f, part() * 600.0f - 300.0f } };
     const auto& wires = view->canvas().scene().wires();
     if (! wires.empty() && upTo (3) == 0) request.wire = oneOf (wires).id;
-    view->canvas().addNodeAt (type, request);
+    view->canvas().commands().addNodeAt (type, request);
     return "add " + type + (request.wire != 0 ? " into a wire" : "");
 }
 

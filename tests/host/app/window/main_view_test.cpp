@@ -371,7 +371,7 @@ TEST_CASE ("saving a clip in another format says what it lost")
     const auto& scene = o.view->canvas().scene();
     for (const auto& n : scene.nodes())
         if (n.name == "beat") o.view->canvas().select ({ n.id });
-    o.view->canvas().saveClipOfSelection();
+    o.view->canvas().commands().saveClipOfSelection();
     CHECK (fs::exists (o.mine / "heart.ahap"));
     CHECK (o.view->asked().isOpen());
     CHECK (o.view->asked().title() == "Saved heart.ahap");

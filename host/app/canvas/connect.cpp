@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The canvas commands that add nodes and connect ports.
+#include "canvas.hpp"
+
+#include <host/app/model/wire_rules.hpp>
+#include <host/app/text/filled.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace tactus::host
+{
+
+void CanvasCommands::wireFromSelection()
+{
+    const auto nodes = selectedNodes();
+    if (nodes.empty() || ! canvas.onChoose) return;
+    const auto& from = *nodes.back();
+    std::vector<std::pair<PortId, PortId>> wires;
+    std::vector<PaletteEntry> entries;
+    for (const auto& out : from.face->outputs)
+        for (const auto& n : canvas.scene().nodes())
+            for (const auto* ports : { &n.face->inputs, &n.face->params })
+                for (const auto& in : *ports)
+                {
+                    if (n.id == from.id || ! checkWire ({ &out, from.quantityOf (out) }, { &in, n.quantityOf (in) })) continue;
+                    entries.push_back ({ from.name + '.' + out.id + " -> " + n.name + '.' + in.id, {}, in.about });
+                    wires.push_back ({ { from.id, Role::output, out.id }, { n.id, in.role, in.id } });
+                }
+    canvas.onChoose (filled (TRANS ("Connect %1 to..."), from.name), entries, [this, wires, entries] (const std::string& chosen) {
+        const auto entry = std::ranges::find (entries, chosen, &PaletteEntry::type);
+        if (entry == entries.end()) return;
+        const auto& [out, in] = wires[static_cast<std::size_t> (entry - entries.begin())];
+        const auto a = canvas.scene().findPort (out), b = canvas.scene().findPort (in);
+        if (a && b) join (a, b);
+    });
+}
+
+void CanvasCommands::exposeFromSelection()
+{
+    const auto nodes = selectedNodes();
+    if (nodes.empty() || canvas.breadcrumbs().empty() || ! canvas.onChoose) return;
+    const auto& node = *nodes.back();
+    std::vector<PaletteEntry> entries;
+    std::vector<PortId> ports;
+    for (const auto role : { Role::input, Role::param, Role::output })
+        for (const auto& p : node.face->of (role))
+        {
+            entries.push_back ({ node.name + '.' + p.id, {}, p.about });
+            ports.push_back ({ node.id, role, p.id });
+        }
+    canvas.onChoose (TRANS ("Expose or hide port"), entries, [this, entries, ports] (const std::string& chosen) {
+        const auto entry = std::ranges::find (entries, chosen, &PaletteEntry::type);
+        if (entry == entries.end() || canvas.breadcrumbs().empty()) return;
+        const auto found = canvas.scene().findPort (ports[static_cast<std::size_t> (entry - entries.begin())]);
+        if (found) perform (toggleExposed (document.graph(), canvas.patch(), found.node->name, *found.port));
+    });
+}
+
+void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& request)
+{
+    graph::Id made = 0;
+    const auto at = request.wire != 0 ? request.at : freePlace (canvas.scene(), request.at);
+    if (! perform (addNode (document.graph(), canvas.patch(), type, at, made))) return;
+    canvas.select ({ made });
+    if (request.wire != 0)
+    {
+        if (auto command = insertInto (document.graph(), canvas.patch(), canvas.scene(), request.wire, made)) perform (std::move (*command), graph::Step::joined);
+        return;
+    }
+    const auto* node = canvas.scene().find (made);
+    const auto other = request.start ? canvas.scene().findPort (*request.start) : ScenePort {};
+    if (! other || node == nullptr) return;
+
+    const bool is_output = other.port->role == Role::output;
+    for (const auto& p : is_output ? node->face->inputs : node->face->outputs)
+    {
+        const ScenePort own { node, &p };
+        const auto &from = is_output ? other : own, &to = is_output ? own : other;
+        if (! checkWire (from.end(), to.end())) continue;
+        perform (connect (document.graph(), canvas.patch(), { *from.node, *from.port }, { *to.node, *to.port }), graph::Step::joined);
+        return;
+    }
+}
+
+void CanvasCommands::join (const ScenePort& from, const ScenePort& to)
+{
+    if (from.port->width == to.port->width)
+    {
+        perform (connect (document.graph(), canvas.patch(), { *from.node, *from.port }, { *to.node, *to.port }));
+        return;
+    }
+    if (! canvas.onChoose) return;
+    const bool of_output = from.port->width == 3;
+    const auto& vector = of_output ? from : to;
+    constexpr std::array axes { ".x", ".y", ".z" };
+    std::vector<PaletteEntry> entries;
+    for (const auto* axis : axes)
+        entries.push_back ({ vector.node->name + '.' + vector.port->id + axis,
+                             {},
+                             (of_output ? TRANS ("Send this component") : TRANS ("Feed this component")).toStdString() });
+    const PortId out { from.node->id, Role::output, from.port->id }, in { to.node->id, to.port->role, to.port->id };
+    canvas.onChoose (TRANS ("Which component?"), entries, [this, out, in, entries, of_output] (const std::string& chosen) {
+        const auto component = static_cast<int> (std::ranges::find (entries, chosen, &PaletteEntry::type) - entries.begin());
+        const auto a = canvas.scene().findPort (out), b = canvas.scene().findPort (in);
+        if (component >= 3 || ! a || ! b) return;
+        perform (connect (document.graph(), canvas.patch(), { *a.node, *a.port, of_output ? component : -1 }, { *b.node, *b.port, of_output ? -1 : component }));
+    });
+}
+
+}   // namespace tactus::host

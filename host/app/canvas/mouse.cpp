@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the mouse and the keys do on the canvas, and the text editor over it.
+#include "canvas.hpp"
+#include "drags.hpp"
+
+#include <host/app/look/fitted_text.hpp>
+#include <host/app/look/focus.hpp>
+#include <host/app/look/key_text.hpp>
+#include <host/app/text/filled.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tactus::host
+{
+
+std::unique_ptr<Drag> Canvas::dragFor (const juce::MouseEvent& e)
+{
+    if (e.mods.isMiddleButtonDown() || e.mods.isRightButtonDown()) return panBy (*this, e);
+    const Minimap map { *shown, window, getLocalBounds() };
+    if (with_map && map.isShown() && map.bounds().contains (e.position)) return panByMap (*this, e);
+    const auto at = window.toCanvas (e.position);
+    if (const auto over = shown->socketAt (at, socket_reach / window.zoom); over && ! over.socket->port->isChoice())
+    {
+        if (e.mods.isShiftDown() && over.socket->port->role != Role::output)
+            if (auto replug = replugWire (*this, *over.node, *over.socket->port)) return replug;
+        return drawWire (*this, { over.node->id, over.socket->port->role, over.socket->port->id });
+    }
+
+    const bool add = e.mods.isShiftDown() || e.mods.isCommandDown();
+    const auto grab = [&] (graph::Id id) {
+        auto chosen = highlights.selected;
+        if (add)
+        {
+            if (! chosen.insert (id).second) chosen.erase (id);
+        }
+        else if (! chosen.contains (id))
+            chosen = { id };
+        if (chosen != highlights.selected) select (std::move (chosen));
+    };
+    if (const auto* node = shown->nodeAt (at))
+    {
+        if (const auto* socket = node->paramAt (at); socket != nullptr && ! e.mods.isCommandDown())
+        {
+            if (! highlights.selected.contains (node->id)) select ({ node->id });
+            if (e.mods.isAltDown())
+            {
+                edits.setParam (*shown->find (node->id), *socket->port, std::nullopt);
+                return nullptr;
+            }
+            if (auto dragged = dragParam (*this, *node, *socket)) return dragged;
+        }
+        grab (node->id);
+        if (e.mods.isAltDown()) edits.duplicateSelection();
+        return moveSelection (*this, e);
+    }
+    if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom))
+    {
+        auto chosen = add ? highlights.selected : Selection {};
+        chosen.insert (wire->id);
+        select (std::move (chosen));
+        return nullptr;
+    }
+    if (const auto note = shown->noteAt (at))
+    {
+        grab (noteId (*note));
+        return shown->isCorner (*note, at) ? resizeNote (*this, e, *note) : moveSelection (*this, e);
+    }
+    return lasso (*this, e);
+}
+
+void Canvas::mouseDown (const juce::MouseEvent& e)
+{
+    closeEditor (true);
+    takeFocus (*this);
+    point ({});
+    drag = dragFor (e);
+}
+
+void Canvas::mouseDrag (const juce::MouseEvent& e)
+{
+    if (drag) drag->move (e);
+}
+
+void Canvas::mouseUp (const juce::MouseEvent& e)
+{
+    if (const auto ended = std::exchange (drag, nullptr)) ended->end (e);
+    if (e.mods.isRightButtonDown() && ! e.mouseWasDraggedSinceMouseDown())
+    {
+        const auto at = window.toCanvas (e.position);
+        const auto* node = shown->nodeAt (at);
+        const auto* wire = shown->wireAt (at, wire_reach / window.zoom);
+        graph::Id id = wire != nullptr ? wire->id : 0;
+        if (node != nullptr) id = node->id;
+        if (id != 0 && ! highlights.selected.contains (id)) select ({ id });
+        showMenu();
+    }
+    repaint();
+}
+
+void Canvas::showMenu()
+{
+    juce::PopupMenu menu;
+    for (const auto& c : canvasCommands())
+    {
+        if (! c.in_menu || ! c.can (*this)) continue;
+        juce::PopupMenu::Item item (juce::translate (c.name));
+        const auto keys = juce::StringArray::fromTokens (c.keys, "|", {});
+        if (! keys.isEmpty()) item.shortcutKeyDescription = keyText (keys[0]);
+        item.action = [safe = SafePointer (this), &c] {
+            if (safe != nullptr && c.can (*safe)) c.run (*safe);
+        };
+        menu.addItem (std::move (item));
+        if (c.ends_group) menu.addSeparator();
+    }
+    menu.showMenuAsync (juce::PopupMenu::Options().withMousePosition().withParentComponent (getTopLevelComponent()));
+}
+
+void Canvas::mouseDoubleClick (const juce::MouseEvent& e)
+{
+    const auto at = window.toCanvas (e.position);
+    if (const auto* node = shown->nodeAt (at))
+    {
+        const auto* socket = node->paramAt (at);
+        socket == nullptr ? enter (*node) : edits.editParam (*node, *socket);
+    }
+    else if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom))
+        edits.requestNode ({ at, {}, wire->id });
+    else if (const auto note = shown->noteAt (at))
+        edits.editNote (*note);
+    else
+        edits.requestNode ({ at });
+}
+
+void Canvas::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel)
+{
+    if (wheel.isSmooth && ! e.mods.isCommandDown())
+        window.origin += juce::Point<float> (wheel.deltaX, wheel.deltaY) * 256.0f;
+    else
+        window.zoomAt (e.position, std::exp2 (wheel.deltaY));
+    repaint();
+}
+
+void Canvas::mouseMagnify (const juce::MouseEvent& e, float factor)
+{
+    window.zoomAt (e.position, factor);
+    repaint();
+}
+
+bool Canvas::keyPressed (const juce::KeyPress& key)
+{
+    bool is_known = false;
+    for (const auto& c : canvasCommands())
+        for (const auto& keys : juce::StringArray::fromTokens (c.keys, "|", {}))
+            if (key == juce::KeyPress::createFromDescription (keys))
+            {
+                is_known = true;
+                if (! c.can (*this)) continue;   // another command may have the same key
+                c.run (*this);
+                return true;
+            }
+    return is_known;
+}
+
+void Canvas::openEditor (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<void (const juce::String&)> done)
+{
+    closeEditor (true);
+    on_edited = std::move (done);
+    editor = std::make_unique<juce::TextEditor>();
+    editor->setMultiLine (several_lines);
+    editor->setReturnKeyStartsNewLine (false);
+    editor->setFont (lookOf (*this).font (13.0f));
+    editor->setText (text, false);
+    const auto box = juce::Rectangle<float> (window.toPixels (area.getTopLeft()), window.toPixels (area.getBottomRight())).toNearestInt();
+    editor->setBounds (box.withWidth (std::max (120, box.getWidth())).withHeight (std::max (24, box.getHeight())));
+    editor->onReturnKey = editor->onFocusLost = [this] { closeEditor (true); };
+    editor->onEscapeKey = [this] { closeEditor (false); };
+    addAndMakeVisible (*editor);
+    takeFocus (*editor);
+    editor->selectAll();
+}
+
+void Canvas::closeEditor (bool keep)
+{
+    const std::shared_ptr<juce::TextEditor> ended = std::move (editor);
+    if (! ended) return;
+    ended->onFocusLost = nullptr;
+    removeChildComponent (ended.get());
+    juce::MessageManager::callAsync ([ended] {});   // deletes the editor after the current event, which may come from the editor itself
+    const auto done = std::exchange (on_edited, nullptr);
+    if (keep) done (ended->getText());
+}
+
+}   // namespace tactus::host
