@@ -40,12 +40,7 @@ MainView::MainView (const Catalogue& c)
     setWantsKeyboardFocus (true);
     chooseFile = [this] (bool saves, const std::filesystem::path& begin,
                          std::function<void (const std::filesystem::path&)> chosen) { askForFile (saves, begin, std::move (chosen)); };
-    connectPresets();
-    connectCanvas();
-    connectTakes();
-    connectTopBar();
-    connectWelcome();
-    connectFitPanel();
+    connect();
     addPanels();
     edited.add (*this);   // added after the canvas, which must be up to date when this view is notified
     documentChanged();
@@ -65,23 +60,8 @@ void MainView::addPanels()
 {
     for (auto* c : std::initializer_list<juce::Component*> { &strip, &hand, &left, &bottom, &top, &patching, &inspector, &status })
         addAndMakeVisible (c);
-    hand.onSceneToggled = [this] {
-        settings.scene = hand.showsScene();
-        saveSettingsSoon();
-    };
-    hand.film().onLength = [this] {
-        settings.film_s = hand.film().length();
-        saveSettingsSoon();
-    };
-    hand.onEnlarge = [this] { resized(); };
     for (auto* edge : { &left_edge, &right_edge, &bottom_edge })
-    {
-        edge->onMove = [this] {
-            rememberPanels();
-            resized();
-        };
         addAndMakeVisible (*edge);
-    }
     for (auto* over : std::initializer_list<juce::Component*> { &palette, &welcome, &help, &fitting, &question, &shade })
         addChildComponent (over);
     resized();
@@ -137,6 +117,12 @@ void MainView::rememberPanels()
     saveSettingsSoon();
 }
 
+void MainView::edgeMoved()
+{
+    rememberPanels();
+    resized();
+}
+
 /// Leaves the window to the canvas, or brings back the panels that were open before.
 void MainView::foldPanels()
 {
@@ -145,8 +131,7 @@ void MainView::foldPanels()
     if (is_any_open) folded_before = { left_edge.isFolded(), right_edge.isFolded(), bottom_edge.isFolded() };
     for (std::size_t i = 0; const auto& [name, edge] : edges())
         edge->fold (is_any_open || folded_before[i++]);
-    rememberPanels();
-    resized();
+    edgeMoved();
 }
 
 void MainView::applySettings()

@@ -113,13 +113,26 @@ private:
     bool keyPressed (const juce::KeyPress&, juce::Component*) override;
 
     Files::Callbacks fileCallbacks();
-    void connectPresets();
+    void connect();   ///< which panel calls what: main_view_wiring.cpp
     void connectCanvas();
-    void connectTakes();
-    void connectTopBar();
-    void connectWelcome();
-    void connectFitPanel();
+    void connectSides();
+    void connectRun();
+    void connectPages();
     void addPanels();
+
+    void startOpened (bool by_pointer);   ///< runs the graph that has just been opened
+    void openPreset (const Preset&, bool is_own);
+    void chooseNode (const NodeRequest&);
+    void choose (const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string&)> chosen);
+    void probe (const std::vector<std::string>& ports);
+    void showAdded (const std::string& patch, graph::Id node);
+    void feel (const std::filesystem::path& preset);
+    void openFitted (const FittedGraph&);
+    void insertFitted (const FittedGraph&);
+    void rememberScene();
+    void rememberFilmLength();
+    void edgeMoved();
+    void tell (const juce::String& title, const juce::String& text);
     void openOscPort (const OscListen&);
     void attendLiveNodes();
     void showProblems();

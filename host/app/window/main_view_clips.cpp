@@ -64,8 +64,7 @@ void MainView::saveClipAs (const fs::path& file)
 {
     const auto read = loadClip (file);
     if (! read)
-        return question.ask (filled (TRANS ("Cannot read %1"), printableName (file.filename().string())), messageText (read.error()) + ".",
-                             { { TRANS ("Close"), {} } });
+        return tell (filled (TRANS ("Cannot read %1"), printableName (file.filename().string())), messageText (read.error()) + ".");
     const auto other = extensionOf (file) == ".haptic" ? ".ahap" : ".haptic";
     chooseOwnFile (file.stem().string() + other, [this, clip = read->clip] (const fs::path& to) { writeClip (clip, {}, to); });
 }
@@ -84,15 +83,11 @@ void MainView::writeClip (const Clip& clip, Messages notes, const fs::path& to)
     if (! file.has_extension()) file += ".haptic";
     const auto name = juce::String (printableName (file.filename().string()));
     const auto saved = saveClip (clip, file);
-    if (! saved) return question.ask (TRANS ("The clip was not saved"), messageText (saved.error()) + ".", { { TRANS ("Close"), {} } });
-    question.ask (filled (TRANS ("Saved %1"), name), lossText (*saved, notes), { { TRANS ("Close"), {} } });
+    if (! saved) return tell (TRANS ("The clip was not saved"), messageText (saved.error()) + ".");
+    tell (filled (TRANS ("Saved %1"), name), lossText (*saved, notes));
 }
 
-void MainView::connectTakes()
-{
-    takes.onChoose = [this] (const std::string& name, std::function<void (const fs::path&)> chosen) { chooseOwnFile (name, std::move (chosen)); };
-    takes.onClip = [this] (const Clip& clip, Messages notes, const fs::path& to) { writeClip (clip, std::move (notes), to); };
-    takes.onSaid = [this] (const juce::String& title, const juce::String& text) { question.ask (title, text, { { TRANS ("Close"), {} } }); };
-}
+/// A message that the user closes.
+void MainView::tell (const juce::String& title, const juce::String& text) { question.ask (title, text, { { TRANS ("Close"), {} } }); }
 
 }   // namespace tactus::host

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which panel of the window calls what. All connections between panels are here.
+#include "main_view.hpp"
+
+namespace tactus::host
+{
+
+Files::Callbacks MainView::fileCallbacks()
+{
+    return {
+        .notify = [this] (const juce::String& text) { status.notify (text); },
+        .stop = [this] { run().stop(); },
+        .run = [this] (bool by_pointer) { startOpened (by_pointer); },
+        .isRunning = [this] { return playback.current().isRunning(); },
+        .onSettings = [this] {
+            saveSettingsSoon();
+            presets.reload(); },
+        .choose = [this] (bool saves, const std::filesystem::path& begin,
+                          std::function<void (const std::filesystem::path&)> chosen) { chooseFile (saves, begin, std::move (chosen)); }
+    };
+}
+
+void MainView::connect()
+{
+    connectCanvas();
+    connectSides();
+    connectRun();
+    connectPages();
+}
+
+void MainView::connectCanvas()
+{
+    patching.onHint = [this] (const juce::String& text) { status.hint (text); };
+    patching.onNotice = [this] (const juce::String& text) { status.notify (text); };
+    patching.onBreadcrumbs = [this] { documentChanged(); };
+    patching.onSelection = [this] { inspector.inspect (patching.patch(), patching.selection()); };
+    patching.onEditParams = [this] { inspector.focusFirst(); };
+    patching.onNodeRequested = [this] (const NodeRequest& request) { chooseNode (request); };
+    patching.onChoose = [this] (const auto& purpose, auto entries, auto chosen) { choose (purpose, std::move (entries), std::move (chosen)); };
+    patching.onProbe = [this] (const auto& ports) { probe (ports); };
+    patching.onFileDropped = [this] (const std::filesystem::path& file) { files.open (file); };
+    patching.onSaveClip = [this] (const std::filesystem::path& file) { saveClipAs (file); };
+}
+
+void MainView::connectSides()
+{
+    inspector.onHint = patching.onHint;
+    inspector.messagesNow = [this] { return run().messages(); };
+
+    presets.onOpen = [this] (const Preset& p, bool is_own) { openPreset (p, is_own); };
+    presets.onSettings = [this] { saveSettingsSoon(); };
+    presets.onPreview = [this] (const std::filesystem::path& file) { preview (file); };
+    presets.onPreviewEnd = [this] { endPreview(); };
+
+    top.onLeave = [this] (std::size_t depth) { patching.leaveTo (depth); };
+    top.onInstance = [this] (int number) { patching.chooseInstance (number); };
+    top.onRecall = [this] (int number) { recall (number); };
+    top.onStore = [this] (int number) { store (number); };
+    top.onHelp = [this] { helpOnSelection(); };
+    top.onMenu = [this] (juce::Component& at) { openMenu (at); };
+
+    left_edge.onMove = right_edge.onMove = bottom_edge.onMove = [this] { edgeMoved(); };
+}
+
+void MainView::connectRun()
+{
+    strip.onProblems = [this] { bottom.show (problems); };
+    strip.limitLight().onClick = [this] { bottom.show (problems); };
+    problems.onShow = [this] (const Culprit& c) { patching.show (c.patch, c.id); };
+    live.limits = &limits;
+
+    hand.onHint = patching.onHint;
+    hand.onEnlarge = [this] { resized(); };
+    hand.onSceneToggled = [this] { rememberScene(); };
+    hand.film().onLength = [this] { rememberFilmLength(); };
+
+    scopes.onHint = patching.onHint;
+
+    layers.onHint = patching.onHint;
+    layers.onSelect = [this] (const std::string& patch, graph::Id node) { patching.show (patch, node); };
+    layers.onAdded = [this] (const std::string& patch, graph::Id node) { showAdded (patch, node); };
+
+    devices.onHint = patching.onHint;
+    devices.onTry = [this] (const std::string& role) { return playback.tryDevice (role); };
+
+    takes.onHint = patching.onHint;
+    takes.onChoose = [this] (const std::string& name, auto chosen) { chooseOwnFile (name, std::move (chosen)); };
+    takes.onClip = [this] (const Clip& clip, Messages notes, const std::filesystem::path& to) { writeClip (clip, std::move (notes), to); };
+    takes.onSaid = [this] (const juce::String& title, const juce::String& text) { tell (title, text); };
+}
+
+void MainView::connectPages()
+{
+    welcome.onFeel = [this] (const std::filesystem::path& preset) { feel (preset); };
+    welcome.onOpenFile = [this] (const std::filesystem::path& file) { files.open (file); };
+    welcome.onNew = [this] { files.create(); };
+    welcome.onOpen = [this] { files.open(); };
+
+    help.onExample = [this] (const std::string& type) { openExample (type); };
+
+    fitting.onOpenGraph = [this] (const FittedGraph& made) { openFitted (made); };
+    fitting.onInsert = [this] (const FittedGraph& made) { insertFitted (made); };
+}
+
+}   // namespace tactus::host
