@@ -47,10 +47,10 @@ bool compare (RTCPointQueryFunctionArguments* found)
     return true;
 }
 
-class ByEmbree final : public NearestTriangle
+class EmbreeTriangles final : public NearestTriangle
 {
 public:
-    explicit ByEmbree (std::shared_ptr<const Mesh> m) : mesh (std::move (m)), device (rtcNewDevice ("threads=1"), rtcReleaseDevice)
+    explicit EmbreeTriangles (std::shared_ptr<const Mesh> m) : mesh (std::move (m)), device (rtcNewDevice ("threads=1"), rtcReleaseDevice)
     {
         if (! device) throw std::runtime_error ("cannot start Embree");
         scene.reset (rtcNewScene (device.get()));
@@ -114,6 +114,6 @@ private:
 };
 }   // namespace
 
-std::unique_ptr<NearestTriangle> nearestByEmbree (std::shared_ptr<const Mesh> mesh) { return std::make_unique<ByEmbree> (std::move (mesh)); }
+std::unique_ptr<NearestTriangle> nearestByEmbree (std::shared_ptr<const Mesh> mesh) { return std::make_unique<EmbreeTriangles> (std::move (mesh)); }
 
 }   // namespace tactus::host

@@ -68,7 +68,7 @@ public:
 
     /// Opens a card with at least this many channels, after calling the user's `begin`. Ids: audio/no_card, audio/rate,
     /// audio/block, audio/channel, audio/cannot_open. [main thread]
-    virtual Result<std::unique_ptr<OpenCard>> open (const CardWanted&, int outputs, int inputs, CardUser&) = 0;
+    virtual Result<std::unique_ptr<OpenCard>> open (const CardRequest&, int outputs, int inputs, CardUser&) = 0;
 
     /// The wall clock, by which what a card plays is limited. Tests have their own. [any thread]
     virtual std::chrono::steady_clock::time_point now() const noexcept { return std::chrono::steady_clock::now(); }

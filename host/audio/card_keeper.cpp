@@ -7,7 +7,7 @@
 namespace tactus::host::audio
 {
 
-Result<> CardKeeper::open (const CardWanted& what, int outs, int ins)
+Result<> CardKeeper::open (const CardRequest& what, int outs, int ins)
 {
     close();
     wanted = what;

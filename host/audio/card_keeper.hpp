@@ -28,7 +28,7 @@ public:
     ~CardKeeper() override { close(); }
 
     /// Opens a card. If it fails, poll() retries until close(). [main thread]
-    Result<> open (const CardWanted&, int outputs, int inputs);
+    Result<> open (const CardRequest&, int outputs, int inputs);
     void close();
 
     /// Must be called many times a second. [main thread]
@@ -48,7 +48,7 @@ private:
 
     CardSystem& system;
     CardUser& user;
-    CardWanted wanted;
+    CardRequest wanted;
     int outputs = 0, inputs = 0;
     bool is_wanted = false;
     OpenedFormat opened;

@@ -119,7 +119,7 @@ public:
         return all;
     }
 
-    Result<std::unique_ptr<OpenCard>> open (const CardWanted&, int outputs, int inputs, CardUser&) override;
+    Result<std::unique_ptr<OpenCard>> open (const CardRequest&, int outputs, int inputs, CardUser&) override;
 
 private:
     static ListedCard look (Type& type, const juce::String& output, const juce::String& input)
@@ -170,7 +170,7 @@ std::string cardsThere (const std::vector<std::unique_ptr<Type>>& types)
 }
 
 /// A card that matches a request. `type` is null if there is none.
-struct Chosen
+struct CardChoice
 {
     std::unique_ptr<Type> type;
     juce::String output, input;
@@ -178,7 +178,7 @@ struct Chosen
     std::string name() const { return textOf (output.isNotEmpty() ? output : input); }
 };
 
-Chosen choose (std::vector<std::unique_ptr<Type>>& types, const CardWanted& wanted, int outputs, int inputs)
+CardChoice choose (std::vector<std::unique_ptr<Type>>& types, const CardRequest& wanted, int outputs, int inputs)
 {
     for (auto& type : types)
     {
@@ -193,7 +193,7 @@ Chosen choose (std::vector<std::unique_ptr<Type>>& types, const CardWanted& want
     return {};
 }
 
-Result<std::unique_ptr<OpenCard>> JuceCards::open (const CardWanted& wanted, int outputs, int inputs, CardUser& user)
+Result<std::unique_ptr<OpenCard>> JuceCards::open (const CardRequest& wanted, int outputs, int inputs, CardUser& user)
 {
     const juce::ScopedJuceInitialiser_GUI juce_runs;
     hushJack();

@@ -42,7 +42,7 @@ public:
     static int samplesOf (const Plan&, const Route&);
 
 private:
-    struct Sent
+    struct RoutedPort
     {
         Route route;
         int per_tick;
@@ -53,7 +53,7 @@ private:
 
     void find (const Plan&) noexcept;
 
-    std::vector<Sent> all;
+    std::vector<RoutedPort> all;
     const double shuts, opens;   // change of the gate's gain per tick, while it shuts and while it opens
     std::atomic<std::uint64_t> broken = 0;
 

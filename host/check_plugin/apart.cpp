@@ -31,26 +31,26 @@ constexpr int most_idle_seconds = 60, looks_per_second = 5;
 constexpr rlim_t most_memory = rlim_t { 8 } << 30;   // bytes of address space: beyond it, allocations fail
 
 /// What a child tells its parent, in memory that they share: the parent can read it however the child ends.
-struct Slate
+struct ChildReport
 {
     examine::Stage::Place stage;
     std::atomic<int> length;   // of the answer; -1: there is no answer yet
     char answer[1 << 20];
 };
 
-class SharedSlate
+class SharedReport
 {
 public:
-    SharedSlate() : memory (::mmap (nullptr, sizeof (Slate), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))
+    SharedReport() : memory (::mmap (nullptr, sizeof (ChildReport), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))
     {
         if (memory == MAP_FAILED) throw std::bad_alloc();
-        slate().length = -1;
+        report().length = -1;
     }
-    ~SharedSlate() { ::munmap (memory, sizeof (Slate)); }
-    SharedSlate (const SharedSlate&) = delete;
-    SharedSlate& operator= (const SharedSlate&) = delete;
+    ~SharedReport() { ::munmap (memory, sizeof (ChildReport)); }
+    SharedReport (const SharedReport&) = delete;
+    SharedReport& operator= (const SharedReport&) = delete;
 
-    Slate& slate() const noexcept { return *static_cast<Slate*> (memory); }
+    ChildReport& report() const noexcept { return *static_cast<ChildReport*> (memory); }
 
 private:
     void* memory;
@@ -108,7 +108,7 @@ private:
     unsigned long long begun = 0;
 };
 
-[[noreturn]] void workInChild (int cpu_seconds, const std::function<std::string()>& work, Slate& slate)
+[[noreturn]] void workInChild (int cpu_seconds, const std::function<std::string()>& work, ChildReport& report)
 {
     ::prctl (PR_SET_PDEATHSIG, SIGKILL);
     ::setpgid (0, 0);
@@ -117,7 +117,7 @@ private:
     ::setrlimit (RLIMIT_CORE, &none);
     ::setrlimit (RLIMIT_AS, &memory);
     ::dup2 (STDERR_FILENO, STDOUT_FILENO);
-    examine::Stage::keepIn (&slate.stage);
+    examine::Stage::keepIn (&report.stage);
     std::string answer;
     try
     {
@@ -128,13 +128,13 @@ private:
         std::fprintf (stderr, "%s\n", e.what());
         std::abort();
     }
-    const auto length = std::min (answer.size(), sizeof slate.answer);
-    std::memcpy (slate.answer, answer.data(), length);
-    slate.length = static_cast<int> (length);
+    const auto length = std::min (answer.size(), sizeof report.answer);
+    std::memcpy (report.answer, answer.data(), length);
+    report.length = static_cast<int> (length);
     ::_exit (0);
 }
 
-enum class Fate
+enum class Outcome
 {
     ended,
     looped,   ///< one call used up its CPU time
@@ -142,7 +142,7 @@ enum class Fate
 };
 
 /// Waits until the child has ended; then the pipe closes. If a call of the child loops or the child waits forever, kills it.
-Fate waitFor (pid_t child, int pipe, const Budget& budget, const examine::Stage::Place& stage)
+Outcome waitFor (pid_t child, int pipe, const Budget& budget, const examine::Stage::Place& stage)
 {
     pollfd closing { pipe, POLLIN, 0 };
     CallWatch call { stage };
@@ -155,9 +155,9 @@ Fate waitFor (pid_t child, int pipe, const Budget& budget, const examine::Stage:
         const bool loops = call.secondsOf (now) >= budget.call_seconds;
         if (! loops && idle < most_idle_seconds * looks_per_second) continue;
         ::kill (-child, SIGKILL);
-        return loops ? Fate::looped : Fate::waited;
+        return loops ? Outcome::looped : Outcome::waited;
     }
-    return Fate::ended;
+    return Outcome::ended;
 }
 
 std::string endOf (int status)
@@ -169,28 +169,28 @@ std::string endOf (int status)
 
 std::string seconds (int n) { return std::to_string (n) + " s of CPU time"; }
 
-Ending endingOf (const Slate& slate, int status, const rusage& used, Fate fate, const Budget& budget)
+ProcessResult resultOf (const ChildReport& report, int status, const rusage& used, Outcome outcome, const Budget& budget)
 {
-    if (const int length = slate.length; WIFEXITED (status) && WEXITSTATUS (status) == 0 && length >= 0)
-        return { .done = true, .answer = std::string (slate.answer, static_cast<std::size_t> (length)) };
+    if (const int length = report.length; WIFEXITED (status) && WEXITSTATUS (status) == 0 && length >= 0)
+        return { .done = true, .answer = std::string (report.answer, static_cast<std::size_t> (length)) };
     const bool spent = WIFSIGNALED (status) && used.ru_utime.tv_sec + used.ru_stime.tv_sec + 1 >= budget.cpu_seconds
                        && (WTERMSIG (status) == SIGXCPU || WTERMSIG (status) == SIGKILL);
     std::string why = endOf (status);
-    if (fate == Fate::waited)
+    if (outcome == Outcome::waited)
         why = "never stops waiting";
-    else if (fate == Fate::looped)
+    else if (outcome == Outcome::looped)
         why = "did not return within " + seconds (budget.call_seconds);
     else if (spent)
         why = "returns, but everything together did not finish within " + seconds (budget.cpu_seconds);
-    const char* hook = slate.stage.hook;
+    const char* hook = report.stage.hook;
     const auto place = hook != nullptr ? "`" + std::string (hook) + "`" + (budget.of.empty() ? "" : " of " + budget.of) + ": " : std::string();
-    return { .why = place + why, .endless = fate != Fate::ended || spent };
+    return { .why = place + why, .endless = outcome != Outcome::ended || spent };
 }
 }   // namespace
 
-Ending runApart (const Budget& budget, const std::function<std::string()>& work)
+ProcessResult runApart (const Budget& budget, const std::function<std::string()>& work)
 {
-    const SharedSlate shared;
+    const SharedReport shared;
     int ends[2];
     if (::pipe (ends) != 0) return { .why = "a pipe could not be created" };
     std::fflush (nullptr);   // otherwise buffered output would be written twice
@@ -198,7 +198,7 @@ Ending runApart (const Budget& budget, const std::function<std::string()>& work)
     if (child == 0)
     {
         ::close (ends[0]);
-        workInChild (budget.cpu_seconds, work, shared.slate());
+        workInChild (budget.cpu_seconds, work, shared.report());
     }
     ::close (ends[1]);
     if (child < 0)
@@ -206,13 +206,13 @@ Ending runApart (const Budget& budget, const std::function<std::string()>& work)
         ::close (ends[0]);
         return { .why = "a process could not be started" };
     }
-    const auto fate = waitFor (child, ends[0], budget, shared.slate().stage);
+    const auto outcome = waitFor (child, ends[0], budget, shared.report().stage);
     int status = 0;
     rusage used {};
     ::wait4 (child, &status, 0, &used);
     ::close (ends[0]);
     ::kill (-child, SIGKILL);   // processes that the child may have started
-    return endingOf (shared.slate(), status, used, fate, budget);
+    return resultOf (shared.report(), status, used, outcome, budget);
 }
 
 }   // namespace tactus::check_plugin

@@ -8,7 +8,7 @@ namespace tactus::check_plugin
 {
 
 /// How work in a separate process ended.
-struct Ending
+struct ProcessResult
 {
     bool done = false;       ///< the work returned
     std::string answer {};   ///< what the work returned, if done
@@ -27,6 +27,6 @@ struct Budget
 /// Runs `work` in a separate process, and waits until that process has ended. Its standard output goes to standard error. The process
 /// is killed once it has used its CPU time, however long that takes in real time, or once all its threads have been waiting for a
 /// minute. So a busy machine does not change the result. [main thread, no other threads]
-Ending runApart (const Budget&, const std::function<std::string()>& work);
+ProcessResult runApart (const Budget&, const std::function<std::string()>& work);
 
 }   // namespace tactus::check_plugin

@@ -191,12 +191,12 @@ std::string checkAgain (const Device& device, int times)
 
 /// A struct of the interface, with bytes behind it that belong to others.
 template <typename T>
-struct Walled
+struct GuardedStruct
 {
     T value {};
     std::array<unsigned char, 256> wall;
 
-    Walled() { wall.fill (0xa5); }
+    GuardedStruct() { wall.fill (0xa5); }
     bool isWhole() const
     {
         return std::ranges::all_of (wall, [] (unsigned char c) { return c == 0xa5; });
@@ -205,7 +205,7 @@ struct Walled
 
 std::string checkBounds (const Device& device)
 {
-    Walled<tactus_device_about> about;
+    GuardedStruct<tactus_device_about> about;
     about.value.size = sizeof about.value;
     auto description = device.description;
     for (const auto* key : { "driver", "guard", "about", "ui", "workspace" })   // Tactus reads these itself, and no driver gets them
@@ -222,8 +222,8 @@ std::string checkBounds (const Device& device)
     if (functions.rest != nullptr) timeOf ("rest", [&] { functions.rest (handle, why.to()); });
     for (int i = 0; i < 20 && fault.empty(); ++i)
     {
-        Walled<tactus_reading> reading;
-        Walled<tactus_device_stamp> stamp;
+        GuardedStruct<tactus_reading> reading;
+        GuardedStruct<tactus_device_stamp> stamp;
         reading.value.size = sizeof reading.value;
         stamp.value.size = sizeof stamp.value;
         timeOf ("read", [&] { functions.read (handle, 50, &reading.value, &stamp.value, why.to()); });

@@ -151,7 +151,7 @@ CheckedNode checkNode (const Options& options, const std::string& id)
 }
 }   // namespace
 
-Finding finding (std::string id, std::string promise, const Ending& ending)
+Finding finding (std::string id, std::string promise, const ProcessResult& ending)
 {
     Finding f { .id = std::move (id), .promise = std::move (promise) };
     if (! ending.done)

@@ -13,6 +13,6 @@ namespace tactus::check_plugin
 inline constexpr const char* skip_mark = "\1";
 
 /// What an examination has found that has run in a separate process: its answer is why it failed, or empty.
-Finding finding (std::string id, std::string promise, const Ending&);
+Finding finding (std::string id, std::string promise, const ProcessResult&);
 
 }   // namespace tactus::check_plugin

@@ -47,9 +47,9 @@ Json keysOf (const Json& description)
 }
 
 /// A description as the driver gets it. It refers to this object.
-struct Asked
+struct DescriptionText
 {
-    explicit Asked (const Json& description)
+    explicit DescriptionText (const Json& description)
     {
         const auto own = keysOf (description);
         if (const auto at = own.find ("port"); at != own.end() && at->is_string()) port = at->get<std::string>();
@@ -152,9 +152,9 @@ Messages DeviceDriver::check (const Json& description) const
     in.finish();
     if (hasErrors (messages) || entry.check == nullptr) return messages;
 
-    const Turn turn (*this);
+    const CallLock turn (*this);
     if (! turn) return { busy (called) };
-    const Asked asked (description);
+    const DescriptionText asked (description);
     const auto given = asked.given();
     DriverReport why;
     if (entry.check (&given, why.to()) != TACTUS_DEVICE_OK)
@@ -175,13 +175,13 @@ std::unique_ptr<OpenedDevice> DeviceDriver::open (const Json& description, Messa
                                             "check that it is connected, that you may open it, and that no other program uses it"));
         return nullptr;
     };
-    Turn turn (*this);
+    CallLock turn (*this);
     if (! turn)
     {
         messages.push_back (busy (called));
         return nullptr;
     }
-    const Asked asked (description);
+    const DescriptionText asked (description);
     const auto given = asked.given();
     tactus_device_about about {};
     about.size = sizeof about;
@@ -203,14 +203,14 @@ std::unique_ptr<OpenedDevice> DeviceDriver::open (const Json& description, Messa
 }
 
 //==============================================================================
-DeviceDriver::Turn::Turn (const DeviceDriver& d) : of (d)
+DeviceDriver::CallLock::CallLock (const DeviceDriver& d) : of (d)
 {
     std::unique_lock lock (of.turning);
     is_mine = of.free.wait_for (lock, patience, [this] { return ! of.is_taken; });
     if (is_mine) of.is_taken = true;
 }
 
-void DeviceDriver::Turn::end() noexcept
+void DeviceDriver::CallLock::end() noexcept
 {
     if (! std::exchange (is_mine, false)) return;
     {
@@ -223,7 +223,7 @@ void DeviceDriver::Turn::end() noexcept
 //==============================================================================
 OpenedDevice::~OpenedDevice()
 {
-    if (const DeviceDriver::Turn turn (*of); turn)
+    if (const DeviceDriver::CallLock turn (*of); turn)
     {
         of->entry.close (handle);
         return;

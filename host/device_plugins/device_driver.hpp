@@ -72,13 +72,13 @@ private:
     std::vector<std::string> known_keys;
 
     /// Held during check, open and close. (Not a std::timed_mutex, which thread sanitizers do not understand.)
-    class Turn
+    class CallLock
     {
     public:
-        explicit Turn (const DeviceDriver&);
-        ~Turn() { end(); }
-        Turn (const Turn&) = delete;
-        Turn& operator= (const Turn&) = delete;
+        explicit CallLock (const DeviceDriver&);
+        ~CallLock() { end(); }
+        CallLock (const CallLock&) = delete;
+        CallLock& operator= (const CallLock&) = delete;
 
         explicit operator bool() const noexcept { return is_mine; }   ///< false if another call did not return in time
         void end() noexcept;

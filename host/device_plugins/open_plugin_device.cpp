@@ -32,7 +32,7 @@ Result<std::shared_ptr<const DeviceDriver>> loadDriver (const std::string& name)
                                "install " + name + DeviceDriver::suffix + " in a folder of plugins, or give its folder with --plugins");
     const Quarantine quarantine { pluginMarks() };
     if (quarantine.holds (*file)) return quarantine.refusal (*file);
-    const Quarantine::Loading loading { quarantine, *file };
+    const Quarantine::LoadingMark loading { quarantine, *file };
     return DeviceDriver::load (*file);
 }
 

@@ -321,7 +321,7 @@ void PluginDevice::Link::lookAgain()
 
 void PluginDevice::Link::offer (const Effort& e, std::uint64_t number, std::uint64_t of_episode) noexcept
 {
-    Offer to { .effort = {}, .number = number, .episode = of_episode };
+    PendingEffort to { .effort = {}, .number = number, .episode = of_episode };
     std::copy_n (e.force.data(), 3, to.effort.force);
     std::copy_n (e.torque.data(), 3, to.effort.torque);
     to.effort.axis_count = static_cast<std::uint32_t> (e.axes.size());
@@ -396,7 +396,7 @@ void PluginDevice::Link::poll (Clock::time_point now)
     limiter.tighten (slews[0], slews[1], slews[2]);
     const auto passed = driven ? std::min (now - written, longest_silence) : Clock::duration {};
     const auto& effort = limiter (wanted, secondsOf (passed));
-    Unrendered without;
+    RemovedEffort without;
     Vec3::Map (without.force.data()) = Vec3 { latest.effort.force } - effort.force;
     Vec3::Map (without.torque.data()) = Vec3 { latest.effort.torque } - effort.torque;
     removed.store (without);

@@ -28,7 +28,7 @@ public:
     // [tick thread]
 
     /// The newest reading, and what is known about it.
-    struct Taken
+    struct LatestReading
     {
         tactus_reading reading {};
         std::uint64_t number = 0;     // 0: there has been none
@@ -39,13 +39,13 @@ public:
     };
 
     /// The part of an effort that the last limit has removed.
-    struct Unrendered
+    struct RemovedEffort
     {
         std::array<double, 3> force {}, torque {};
     };
 
-    Taken taken() const noexcept { return newest.load(); }
-    Unrendered unrendered() const noexcept { return removed.load(); }
+    LatestReading taken() const noexcept { return newest.load(); }
+    RemovedEffort unrendered() const noexcept { return removed.load(); }
     void offer (const Effort&, std::uint64_t number, std::uint64_t of_episode) noexcept;
     std::uint64_t episode() const noexcept { return current_episode.load (std::memory_order_acquire); }
     bool isConnected() const noexcept { return ! is_lost.load (std::memory_order_acquire); }
@@ -81,7 +81,7 @@ public:
     const std::string& name() const noexcept { return called; }
 
 private:
-    struct Offer
+    struct PendingEffort
     {
         tactus_effort effort {};
         std::uint64_t number = 0, episode = 0;
@@ -124,17 +124,17 @@ private:
     const Json description;
     const DriverAbout about;
 
-    Snapshot<Taken> newest;
-    Snapshot<Offer> offered;
-    Snapshot<Unrendered> removed;
+    Snapshot<LatestReading> newest;
+    Snapshot<PendingEffort> offered;
+    Snapshot<RemovedEffort> removed;
     Doorbell something;   // wakes the writing thread
     std::atomic<std::uint64_t> current_episode = 1;
     std::atomic<bool> is_lost = false, stopping = false, driven = false;
     std::atomic<std::int64_t> last_arrival = 0, read_since = 0, write_since = 0;
     std::array<std::atomic<double>, 3> slews;   // of the role's guard
 
-    Taken draft;        // [reading thread]
-    StampWatch watch;   // [reading thread]
+    LatestReading draft;   // [reading thread]
+    StampWatch watch;      // [reading thread]
 
     mutable std::mutex calling;             // held while the driver writes or rests, and while the device is replaced; never taken on the tick thread
     std::unique_ptr<OpenedDevice> device;   // null while it is gone. Only the reading thread replaces it, so it reads without the lock

@@ -22,9 +22,9 @@ double StampWatch::lagOf (double time_s, double now_s) noexcept
     return difference - offset;
 }
 
-StampWatch::Verdict StampWatch::operator() (const tactus_device_stamp& stamp, double now_s) noexcept
+StampWatch::Assessment StampWatch::operator() (const tactus_device_stamp& stamp, double now_s) noexcept
 {
-    Verdict v;
+    Assessment v;
     const bool has_number = stamp.number != 0, has_time = stamp.time_s != 0.0;
     if (! isFinite (stamp.time_s)) return { .fault = ReadingFault::malformed };
     if (has_one && has_number && stamp.number == number) return { .is_new = false, .fault = ReadingFault::repeated };

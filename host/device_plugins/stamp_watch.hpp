@@ -25,7 +25,7 @@ class StampWatch
 public:
     explicit StampWatch (double rate_hz) noexcept : rate (rate_hz) {}
 
-    struct Verdict
+    struct Assessment
     {
         bool is_new = true;           ///< false: the last reading is still the newest
         ReadingFault fault {};        ///< why a new reading must not be used, or why this one is not new
@@ -35,7 +35,7 @@ public:
     };
 
     /// A reading came at this time of the wall clock.
-    Verdict operator() (const tactus_device_stamp&, double now_s) noexcept;
+    Assessment operator() (const tactus_device_stamp&, double now_s) noexcept;
 
 private:
     double lagOf (double time_s, double now_s) noexcept;

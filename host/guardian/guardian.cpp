@@ -17,21 +17,21 @@
 
 using namespace tactus::host;
 using guardian::FinalReports;
-using guardian::Shared;
+using guardian::SharedState;
 
 namespace
 {
 constexpr int look_apart_ms = 10, looks_until_taken = static_cast<int> (Failsafe::patience.count()) / look_apart_ms;
 constexpr int most_tries = 10'000 / look_apart_ms;   // a device that has not taken its reports after 10 s never will
 
-struct Held
+struct ArmedDevice
 {
     int file = -1;   // `reports` is valid only while this is an open file
     FinalReports reports {};
     std::uint32_t due = 0;   // the reports that are still to be written
     int tries = 0;
 };
-std::array<Held, Failsafe::most_devices> held;
+std::array<ArmedDevice, Failsafe::most_devices> armed;
 
 /// Receives a message and, if it arms a failsafe, the device file. False once the other end is closed.
 bool receive (int from, FinalReports& reports, int& file) noexcept
@@ -57,23 +57,23 @@ bool receive (int from, FinalReports& reports, int& file) noexcept
 
 /// Takes each device whose beats have stopped while an effort was on it. If a beat comes at the last moment, the exchange fails.
 /// Later beats see that the device is taken, so the program and the guardian never both drive it.
-void lookAtBeats (Shared& shared) noexcept
+void lookAtBeats (SharedState& shared) noexcept
 {
-    struct Seen
+    struct LastBeat
     {
-        std::int64_t beat = Shared::at_rest;
+        std::int64_t beat = SharedState::at_rest;
         int times = 0;
     };
-    static std::array<Seen, Failsafe::most_devices> all;
+    static std::array<LastBeat, Failsafe::most_devices> all;
 
-    for (std::size_t i = 0; i < held.size(); ++i)
+    for (std::size_t i = 0; i < armed.size(); ++i)
     {
         auto beat = shared.beats[i].load();
-        const bool stands_still = beat > Shared::at_rest && beat == all[i].beat;
+        const bool stands_still = beat > SharedState::at_rest && beat == all[i].beat;
         all[i] = { beat, stands_still ? all[i].times + 1 : 0 };
-        if (held[i].file < 0 || all[i].times < looks_until_taken || ! shared.beats[i].compare_exchange_strong (beat, Shared::taken)) continue;
-        shared.raiseAlarm (Shared::Cause::frozen, beat);
-        held[i].due = guardian::all_reports;
+        if (armed[i].file < 0 || all[i].times < looks_until_taken || ! shared.beats[i].compare_exchange_strong (beat, SharedState::taken)) continue;
+        shared.raiseAlarm (SharedState::Cause::frozen, beat);
+        armed[i].due = guardian::all_reports;
     }
 }
 
@@ -81,7 +81,7 @@ void lookAtBeats (Shared& shared) noexcept
 bool writeDue() noexcept
 {
     bool again = false;
-    for (auto& [file, reports, due, tries] : held)
+    for (auto& [file, reports, due, tries] : armed)
     {
         if (file < 0 || due == 0) continue;
         due = guardian::write (file, reports, due);
@@ -93,21 +93,21 @@ bool writeDue() noexcept
 
 void takeOver (const FinalReports& reports, int file) noexcept
 {
-    if (reports.slot >= held.size()) return;
-    auto& slot = held[reports.slot];
+    if (reports.slot >= armed.size()) return;
+    auto& slot = armed[reports.slot];
     if (slot.file >= 0) ::close (slot.file);
     slot = { reports.count > 0 ? file : -1, reports, 0, 0 };
 }
 
 /// The memory that is shared with the program; null if it is not there.
-Shared* sharedMemory() noexcept
+SharedState* sharedMemory() noexcept
 {
     struct stat about
     {
     };
-    if (::fstat (guardian::memory_file, &about) != 0 || about.st_size < static_cast<off_t> (sizeof (Shared))) return nullptr;
-    void* const memory = ::mmap (nullptr, sizeof (Shared), PROT_READ | PROT_WRITE, MAP_SHARED, guardian::memory_file, 0);
-    return memory != MAP_FAILED ? static_cast<Shared*> (memory) : nullptr;
+    if (::fstat (guardian::memory_file, &about) != 0 || about.st_size < static_cast<off_t> (sizeof (SharedState))) return nullptr;
+    void* const memory = ::mmap (nullptr, sizeof (SharedState), PROT_READ | PROT_WRITE, MAP_SHARED, guardian::memory_file, 0);
+    return memory != MAP_FAILED ? static_cast<SharedState*> (memory) : nullptr;
 }
 
 /// Ctrl-C, Ctrl-Z and every signal to the process group, even SIGSTOP, are meant for the program: an own session keeps them away.
@@ -148,7 +148,7 @@ int main()
         else if (ready > 0 || errno != EINTR)
             break;
     }
-    for (auto& each : held)
+    for (auto& each : armed)
     {
         each.due = guardian::all_reports;
         each.tries = 0;

@@ -94,7 +94,7 @@ double MotorLimiter::stepShare (const EffortValues& values, double passed_s) con
     return share;
 }
 
-MotorLimiter::Shares MotorLimiter::operator() (EffortValues& values, double passed_s) noexcept
+MotorLimiter::ScaleFactors MotorLimiter::operator() (EffortValues& values, double passed_s) noexcept
 {
     const double size = shrink (values), share = stepShare (values, passed_s);
     for (const auto& motor : motors)

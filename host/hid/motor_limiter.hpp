@@ -34,7 +34,7 @@ public:
     void tighten (double force, double torque, double axis) noexcept;
 
     /// The factors k and s.
-    struct Shares
+    struct ScaleFactors
     {
         double size = 1.0, step = 1.0;
     };
@@ -43,7 +43,7 @@ public:
     double shrink (EffortValues&) const noexcept;
 
     /// Applies both limits. `passed_s`: the time since the last call, in s. [tick thread]
-    Shares operator() (EffortValues&, double passed_s) noexcept;
+    ScaleFactors operator() (EffortValues&, double passed_s) noexcept;
 
     /// The neutral reports are sent instead of efforts. [tick thread]
     void forget() noexcept { last = at_rest; }

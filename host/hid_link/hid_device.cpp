@@ -165,7 +165,7 @@ ReadingFault HidDevice::fault (bool is_connected) const noexcept
 
 /// By the clock or in ticks, whichever is longer, so that neither a run that ticks too slowly nor one that ticks too fast makes an old report
 /// seem new.
-double HidDevice::Heard::age (bool comes, Nanoseconds arrival, double dt_s, Nanoseconds now) noexcept
+double HidDevice::ReportArrival::age (bool comes, Nanoseconds arrival, double dt_s, Nanoseconds now) noexcept
 {
     ticks_without = comes ? 0 : ticks_without + 1;
     if (comes) at = arrival;

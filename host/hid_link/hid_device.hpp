@@ -97,7 +97,7 @@ private:
     void vibrate (const Channels& signals, HidEffort&) noexcept;
 
     /// When a report came last.
-    struct Heard
+    struct ReportArrival
     {
         double age (bool comes, Nanoseconds arrival, double dt_s, Nanoseconds now) noexcept;   // in s; call once per tick
 
@@ -107,7 +107,7 @@ private:
     };
 
     /// An output report that carries samples.
-    struct Streamed
+    struct SampleOutput
     {
         std::size_t report;
         StreamFeed feed;
@@ -130,14 +130,14 @@ private:
     // [tick thread]
     ReadingCounts tally;
     std::uint64_t episode = 0, connection = 0, overflown = 0;
-    std::vector<Heard> heard;    // of the reports that say where the tool is, if they have ids; else one entry for all reports
-    std::bitset<256> came_now;   // ids of the reports decoded on this tick
-    std::uint64_t owed = 0;      // reports that did not fit and have not shown up as a gap in the sequence numbers yet
-    Nanoseconds latest = 0;      // arrival of the report that this tick answers; 0: none
-    Nanoseconds written = 0;     // time of the last write(); 0: none
-    bool has_one = false;        // true once a report has been decoded since the device was connected
-    bool refused = false;        // true if the newest report was refused
-    bool has_to_rest = true;     // true until the guard has been at zero once
+    std::vector<ReportArrival> heard;   // of the reports that say where the tool is, if they have ids; else one entry for all reports
+    std::bitset<256> came_now;          // ids of the reports decoded on this tick
+    std::uint64_t owed = 0;             // reports that did not fit and have not shown up as a gap in the sequence numbers yet
+    Nanoseconds latest = 0;             // arrival of the report that this tick answers; 0: none
+    Nanoseconds written = 0;            // time of the last write(); 0: none
+    bool has_one = false;               // true once a report has been decoded since the device was connected
+    bool refused = false;               // true if the newest report was refused
+    bool has_to_rest = true;            // true until the guard has been at zero once
 
     ReportRecord record;
     bool restarted = false;         // a report's number or time went backwards; true until enough new reports have arrived to trust the record again
@@ -148,7 +148,7 @@ private:
     // The part of the last effort that the limits of the motors removed, in N and N m.
     Vec3 unrendered_force = Vec3::Zero(), unrendered_torque = Vec3::Zero();
 
-    std::vector<Streamed> streams;
+    std::vector<SampleOutput> streams;
     std::vector<VibrationMotor> motors;
     std::atomic<double> asked_max_signal = GuardLimits::none;   // of each amplitude   [main thread writes, tick thread reads]
     FallingLimit max_signal;

@@ -261,7 +261,7 @@ void HidPort::offer (std::size_t report, std::span<const std::uint8_t> bytes, st
     o.rests = rests ? 1 : 0;
     std::ranges::copy (bytes, o.bytes.begin());
     constexpr std::size_t word = sizeof (std::uint64_t);
-    outputs[report]->offered.store (o, offsetof (Offer, bytes) + (bytes.size() + word - 1) / word * word);
+    outputs[report]->offered.store (o, offsetof (PendingReport, bytes) + (bytes.size() + word - 1) / word * word);
 }
 
 //==============================================================================

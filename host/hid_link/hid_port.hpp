@@ -151,16 +151,16 @@ public:
     bool mayLackNewest() const noexcept { return may_lack_newest; }
 
     //==========================================================================
-    bool isReadByTick() const noexcept { return reads.load (std::memory_order_acquire) == Reads::tick; }   ///< [any thread]
-    bool isConnected() const noexcept { return connected.load (std::memory_order_acquire); }               ///< [any thread]
-    PortCounts counts() const noexcept;                                                                    ///< [any thread]
-    std::string trouble() const;                                                                           ///< the latest failure; empty: none [any thread]
+    bool isReadByTick() const noexcept { return reads.load (std::memory_order_acquire) == Reader::tick; }   ///< [any thread]
+    bool isConnected() const noexcept { return connected.load (std::memory_order_acquire); }                ///< [any thread]
+    PortCounts counts() const noexcept;                                                                     ///< [any thread]
+    std::string trouble() const;                                                                            ///< the latest failure; empty: none [any thread]
 
 private:
     HidPort (HidSystem&, ConnectedDevice, std::shared_ptr<const Profile>, Options);
 
     /// Outgoing content, shared by the tick thread and the writing thread.
-    struct Offer
+    struct PendingReport
     {
         std::uint64_t number = 0, episode = 0, size = 0;
         Nanoseconds answers = 0;
@@ -174,8 +174,8 @@ private:
 
     struct Output
     {
-        Snapshot<Offer> offered;
-        Offer draft;   // [tick thread]
+        Snapshot<PendingReport> offered;
+        PendingReport draft;   // [tick thread]
 
         // [writing thread]
         std::uint64_t seen = 0;             // number of the last offer handled
@@ -235,13 +235,13 @@ private:
     Doorbell arrived, something;   // `arrived`: the reading thread wakes the tick thread; `something`: any thread wakes the writing thread
 
     /// The thread that reads the device. The tick thread asks for it, the reading thread lends it, the tick thread gives it back.
-    enum class Reads : std::uint8_t
+    enum class Reader : std::uint8_t
     {
         reading_thread,
         reading_thread_but_asked,
         tick
     };
-    std::atomic<Reads> reads = Reads::reading_thread;
+    std::atomic<Reader> reads = Reader::reading_thread;
     Doorbell given_back;                              // wakes the reading thread
     Transport* lent = nullptr;                        // valid while Reads::tick: the reading thread keeps it open
     std::vector<std::uint8_t> buffer;                 // [tick thread]

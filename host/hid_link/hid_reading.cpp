@@ -13,7 +13,7 @@ namespace
 {
 using namespace std::chrono_literals;
 using Clock = HidPort::Clock;
-using What = ReportFile::Outcome::What;
+using Kind = ReportFile::Outcome::Kind;
 
 constexpr auto longest_read = 20ms;            // short, so that a stop request is noticed promptly
 constexpr std::size_t most_at_once = 256;      // a device that sends faster than it can be read must not keep the run from ticking
@@ -51,13 +51,13 @@ void HidPort::arrive (std::span<const std::uint8_t> report) noexcept
 
 void HidPort::readHere() noexcept
 {
-    auto not_yet = Reads::reading_thread;
-    reads.compare_exchange_strong (not_yet, Reads::reading_thread_but_asked, std::memory_order_acq_rel);
+    auto not_yet = Reader::reading_thread;
+    reads.compare_exchange_strong (not_yet, Reader::reading_thread_but_asked, std::memory_order_acq_rel);
 }
 
 void HidPort::readElsewhere() noexcept
 {
-    if (reads.exchange (Reads::reading_thread, std::memory_order_acq_rel) == Reads::tick) given_back.ring();
+    if (reads.exchange (Reader::reading_thread, std::memory_order_acq_rel) == Reader::tick) given_back.ring();
 }
 
 bool HidPort::waitForReport (Clock::time_point until) noexcept
@@ -68,7 +68,7 @@ bool HidPort::waitForReport (Clock::time_point until) noexcept
         if (isReadByTick())
         {
             if (readUntil (until)) return isNews();
-            reads.store (Reads::reading_thread_but_asked, std::memory_order_release);
+            reads.store (Reader::reading_thread_but_asked, std::memory_order_release);
             given_back.ring();
             if (isNews()) return true;
         }
@@ -96,8 +96,8 @@ bool HidPort::readUntil (Clock::time_point until) noexcept
     if (works && ! was_late && known == before)
     {
         const auto got = lent->readUntil (buffer, until);
-        if (got.what == What::report) take (got.size);
-        works = got.what == What::report ? takeWaiting() : got.what == What::nothing;   // the newest counts
+        if (got.what == Kind::report) take (got.size);
+        works = got.what == Kind::report ? takeWaiting() : got.what == Kind::nothing;   // the newest counts
     }
     was_late = was_late || taken() > 1;   // woken too late
     may_lack_newest = taken() >= kept_by_system;
@@ -110,7 +110,7 @@ bool HidPort::takeWaiting() noexcept
     for (std::size_t n = 0; n < most_at_once; ++n)
     {
         const auto got = lent->readUntil (buffer, without_waiting);
-        if (got.what != What::report) return got.what == What::nothing;
+        if (got.what != Kind::report) return got.what == Kind::nothing;
         take (got.size);
     }
     return true;
@@ -203,10 +203,10 @@ bool HidPort::ask (Transport& t, const InputReport& wanted_report)
 void HidPort::lend (Transport& t)
 {
     if (! options.lend || ! t.canReadUntil()) return;
-    if (reads.load (std::memory_order_acquire) != Reads::reading_thread_but_asked) return;
+    if (reads.load (std::memory_order_acquire) != Reader::reading_thread_but_asked) return;
     lent = &t;
-    auto asked = Reads::reading_thread_but_asked;
-    if (! reads.compare_exchange_strong (asked, Reads::tick, std::memory_order_acq_rel)) return;
+    auto asked = Reader::reading_thread_but_asked;
+    if (! reads.compare_exchange_strong (asked, Reader::tick, std::memory_order_acq_rel)) return;
     arrived.ring();
     while (isReadByTick())
         given_back.wait (Clock::now() + 1s);

@@ -85,7 +85,7 @@ public:
         if (file)
         {
             const auto got = file->read (into, ReportFile::Clock::now() + timeout);
-            if (got.what == ReportFile::Outcome::What::failure) return transferError (std::generic_category().message (got.error));
+            if (got.what == ReportFile::Outcome::Kind::failure) return transferError (std::generic_category().message (got.error));
             return got.size;
         }
         const int got = hid_read_timeout (reading.get(), into.data(), into.size(), static_cast<int> (timeout.count()));
@@ -99,7 +99,7 @@ public:
         if (file)
         {
             const auto got = file->ask (report);
-            if (got.what != ReportFile::Outcome::What::report) return transferError (std::generic_category().message (got.error));
+            if (got.what != ReportFile::Outcome::Kind::report) return transferError (std::generic_category().message (got.error));
             size = got.size;
         }
         else

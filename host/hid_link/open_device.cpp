@@ -20,7 +20,7 @@ namespace
 {
 constexpr double default_ramp = 0.2;   // in s, for a profile that takes efforts but gives no ramp
 
-struct Wanted
+struct DeviceRequest
 {
     std::string profile, serial;   // "" matches any
     std::optional<PidCalibration> calibration {};
@@ -29,12 +29,12 @@ struct Wanted
     bool mayMeanPid() const { return profile.empty() || meansPid(); }
 };
 
-Wanted readWanted (const Json& description, Messages& messages)
+DeviceRequest readRequest (const Json& description, Messages& messages)
 {
     ObjectReader in (description, "", messages);
     for (const auto* key : { "driver", "about", "ui" })
         in.ignore (key);
-    Wanted wanted;
+    DeviceRequest wanted;
     wanted.profile = in.text ("profile");
     wanted.serial = in.text ("serial");
     in.ignore ("guard");   // checked once the device is known, because its buttons are not known earlier
@@ -123,7 +123,7 @@ std::vector<ConnectedDevice> eachOnce (const std::vector<ConnectedDevice>& liste
 FoundDevice findDevice (const Json& description, HidSystem& system, const LoadedProfiles& all)
 {
     FoundDevice found;
-    const auto wanted = readWanted (description, found.messages);
+    const auto wanted = readRequest (description, found.messages);
     const auto named = wanted.mayMeanPid() ? nullptr : findProfile (wanted.profile, all, found.messages);
     if (hasErrors (found.messages)) return found;
 
@@ -218,7 +218,7 @@ Messages checkDevice (const Json& description, const std::filesystem::path& fold
 {
     if (! isHid (description)) return makeDevice (description, folder).messages;
     Messages messages;
-    const auto wanted = readWanted (description, messages);
+    const auto wanted = readRequest (description, messages);
     const auto profile = wanted.mayMeanPid() ? nullptr : findProfile (wanted.profile, all, messages);
     readGuard (description, profile ? layoutOf (HidModel (profile)) : DeviceLayout {}, messages);
     if (! profile)   // any device, with any buttons, may be connected later

@@ -48,7 +48,7 @@ public:
     /// if it has passed. After a failure, read() says why.
     virtual ReportFile::Outcome readUntil (std::span<std::uint8_t>, ReportFile::Clock::time_point) noexcept
     {
-        return { .what = ReportFile::Outcome::What::failure };
+        return { .what = ReportFile::Outcome::Kind::failure };
     }
 
     /// Blocks for as long as the device needs.

@@ -53,7 +53,7 @@ struct Recording
 };
 
 /// Splits a line into words.
-struct Words
+struct Tokenizer
 {
     std::string_view rest;
 
@@ -85,7 +85,7 @@ std::optional<std::int64_t> microseconds (std::string_view word)
     return s * 1'000'000 + us;
 }
 
-std::optional<Event> readEvent (Words words)
+std::optional<Event> readEvent (Tokenizer words)
 {
     Event event;
     const auto us = microseconds (words.next());
@@ -97,7 +97,7 @@ std::optional<Event> readEvent (Words words)
 }
 
 /// Parses "18 0 2047 0 0 0": code, minimum, maximum, fuzz, flat and, in newer versions, the resolution.
-std::optional<Axis> readAxis (Words words)
+std::optional<Axis> readAxis (Tokenizer words)
 {
     Axis axis;
     std::int64_t minimum = 0, maximum = 0, fuzz = 0, flat = 0, resolution = 0;
@@ -161,7 +161,7 @@ Result<Recording> readRecording (std::string_view text)
             return Message::error (id, "line " + std::to_string (line_number), what + ": " + quote (line), remedy);
         };
 
-        Words words { line.substr (0, line.find ('#')) };
+        Tokenizer words { line.substr (0, line.find ('#')) };
         const auto kind = words.next();
         if (kind.empty() || kind == "N:" || kind == "I:" || kind == "P:" || kind == "B:" || kind == "L:" || kind == "S:") continue;
 

@@ -26,11 +26,11 @@ void FileWatch::watch (std::vector<fs::path> files)
     folders.watch (files);   // before they are read, so that no edit is missed
     is_unsettled = true;
     quiet = 0;
-    std::vector<Watched> next;
+    std::vector<WatchedFile> next;
     for (auto& file : files)
     {
-        if (std::ranges::find (next, file, &Watched::file) != next.end()) continue;
-        const auto old = std::ranges::find (all, file, &Watched::file);
+        if (std::ranges::find (next, file, &WatchedFile::file) != next.end()) continue;
+        const auto old = std::ranges::find (all, file, &WatchedFile::file);
         if (old != all.end())
             next.push_back (std::move (*old));
         else
@@ -43,7 +43,7 @@ void FileWatch::watch (std::vector<fs::path> files)
 }
 
 /// Two writes within one tick of the file system's clock have the same time, so a file with a recent time is read on every look.
-bool FileWatch::readAgain (Watched& w)
+bool FileWatch::readAgain (WatchedFile& w)
 {
     constexpr auto young = std::chrono::seconds (2);
     std::error_code failure;

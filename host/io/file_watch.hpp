@@ -36,7 +36,7 @@ public:
     static constexpr int most_quiet = 20;
 
 private:
-    struct Watched
+    struct WatchedFile
     {
         std::filesystem::path file;
         std::filesystem::file_time_type written {};
@@ -45,11 +45,11 @@ private:
         std::optional<std::string> known, pending;   ///< known: last reported; pending: seen once but not reported yet
     };
 
-    static bool readAgain (Watched&);
+    static bool readAgain (WatchedFile&);
     bool compare (bool is_writing);
     void watchFolders();
 
-    std::vector<Watched> all;
+    std::vector<WatchedFile> all;
     FolderWatch folders;
     bool is_unsettled = false;   // a change was seen, but not reported
     int quiet = 0;               // looks since the last event, or since the files were last compared

@@ -43,7 +43,7 @@ public:
             return;
 
         std::array kept { first, low, high, last };
-        std::ranges::sort (kept, {}, &Numbered::number);
+        std::ranges::sort (kept, {}, &NumberedPoint::number);
         for (std::size_t i = 0; i < kept.size(); ++i)
             if (i == 0 || kept[i].number != kept[i - 1].number)
                 line.push_back (kept[i].point);
@@ -53,12 +53,12 @@ public:
     bool holds (float x) const { return count > 0 && std::floor (x) == std::floor (first.point.x); }
 
 private:
-    struct Numbered
+    struct NumberedPoint
     {
         PixelPoint point;
         std::size_t number = 0;
     };
-    Numbered first, low, high, last;
+    NumberedPoint first, low, high, last;
     std::size_t count = 0;
 };
 

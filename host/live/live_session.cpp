@@ -207,7 +207,7 @@ LiveSession::Events LiveSession::poll()
     return news;
 }
 
-LiveSession::Edited LiveSession::edit (const graph::Graph& next, Accepts accepts, const std::function<bool (const Plan&)>& agrees)
+LiveSession::EditResult LiveSession::edit (const graph::Graph& next, Accepts accepts, const std::function<bool (const Plan&)>& agrees)
 {
     const bool placeholders_run = has_placeholders;
     auto edit = running->edit (next);
@@ -222,7 +222,7 @@ LiveSession::Edited LiveSession::edit (const graph::Graph& next, Accepts accepts
     if (isRefused()) return { false, std::move (messages) };
 
     edit.commit();
-    Edited edited { true, std::move (messages) };
+    EditResult edited { true, std::move (messages) };
     std::ranges::move (missingParts (engine().newest()), std::back_inserter (edited.messages));
     std::ranges::move (devices.notTakenOver (playing, next), std::back_inserter (edited.messages));
     playing = next;
@@ -238,9 +238,9 @@ void LiveSession::fuse (std::optional<Fuser::Options> how)
 }
 
 //==============================================================================
-LiveSession::Ended LiveSession::end()
+LiveSession::FinalResults LiveSession::end()
 {
-    Ended ended;
+    FinalResults ended;
     if (running) ended.log = running->finish();   // waits until the forces are zero
     if (hardware.sound() != nullptr) ended.sound = hardware.sound()->end();
     return ended;

@@ -109,7 +109,7 @@ public:
     bool isLatched() const;
 
     /// An edit of the graph, and what became of it.
-    struct Edited
+    struct EditResult
     {
         bool is_taken_over = false;   ///< false: the previous graph keeps running
         Messages messages {};
@@ -123,7 +123,7 @@ public:
     };
 
     /// Plays an edited graph from the next tick on. Roles keep their devices, and a new role gets one.
-    Edited edit (const graph::Graph&, Accepts, const std::function<bool (const Plan&)>& agrees = {});
+    EditResult edit (const graph::Graph&, Accepts, const std::function<bool (const Plan&)>& agrees = {});
 
     /// The user's session has changed: roles that come later get their devices from the new one.
     void rebind (LoadedSession s) { devices.rebind (std::move (s)); }
@@ -135,14 +135,14 @@ public:
     //==========================================================================
     // After the last tick.
 
-    struct Ended
+    struct FinalResults
     {
         Result<> log {}, sound {};   ///< why the log or the capture is incomplete
     };
 
     /// Stops, waits until the forces are zero, and completes the log and the sound. The devices stay open until the destructor. May be called
     /// again.
-    Ended end();
+    FinalResults end();
 
     //==========================================================================
     // What it is.
@@ -185,7 +185,7 @@ private:
     bool has_placeholders = false;
     StopSwitch own_stops;   // if the caller has none
     StopSwitch& stops;
-    StopSwitch::Presses obeyed;                          // by the tick thread
+    StopSwitch::PressCounts obeyed;                      // by the tick thread
     std::uint32_t alarms_told = 0, alarms_stopped = 0;   // alarms of the failsafe; the second is for the tick thread
     HealthWatch watch;
     std::chrono::steady_clock::time_point looked_at {};   // at the devices

@@ -19,11 +19,11 @@ class StopSwitch
 {
 public:
     /// How often each kind of stop was pressed.
-    struct Presses
+    struct PressCounts
     {
         std::uint32_t stops = 0, emergencies = 0;
 
-        bool operator== (const Presses&) const = default;
+        bool operator== (const PressCounts&) const = default;
     };
 
     /// The shortest time from an emergency stop, or from a rearm, to the next rearm. So a double click or two keys pressed in a hurry do not
@@ -37,7 +37,7 @@ public:
         note();   // before the press itself: mayRearm() compares this time
         emergencies.fetch_add (1);
     }
-    Presses presses() const noexcept { return { stops.load(), emergencies.load() }; }
+    PressCounts presses() const noexcept { return { stops.load(), emergencies.load() }; }
 
     /// Notes an emergency stop that needs no press, because its caller stops the run.
     void note() noexcept { pressed_at.exchange (now()); }   ///< [any thread, even in a signal handler]
@@ -53,11 +53,11 @@ public:
 
     /// The presses that the main thread knew of at its last notice(). A new run counts these as obeyed. So it also obeys a press that comes
     /// between notice() and its first tick. [main thread]
-    const Presses& noticed() const noexcept { return known; }
+    const PressCounts& noticed() const noexcept { return known; }
     bool isAhead() const noexcept { return presses() != known; }   ///< true if there is a press to notice   [main thread]
 
     /// Marks all presses as noticed, and returns what noticed() returned before. [main thread]
-    Presses notice() noexcept { return std::exchange (known, presses()); }
+    PressCounts notice() noexcept { return std::exchange (known, presses()); }
 
 private:
     using Time = std::chrono::steady_clock::rep;
@@ -69,7 +69,7 @@ private:
 
     std::atomic<std::uint32_t> stops { 0 }, emergencies { 0 };
     std::atomic<Time> pressed_at { never }, rearmed_at { never };
-    Presses known;
+    PressCounts known;
 };
 
 }   // namespace tactus::host

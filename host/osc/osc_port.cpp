@@ -56,7 +56,7 @@ void OscPort::onArrival (std::function<void (const juce::OSCMessage&)> see)
     first_look = std::move (see);
 }
 
-std::optional<OscPort::Received> OscPort::receive (std::chrono::milliseconds patience)
+std::optional<OscPort::ReceivedMessage> OscPort::receive (std::chrono::milliseconds patience)
 {
     std::unique_lock lock (guard);
     if (patience.count() > 0) arrived.wait_for (lock, patience, [this] { return ! waiting.empty(); });

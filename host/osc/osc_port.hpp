@@ -43,7 +43,7 @@ class OscPort
 public:
     static constexpr int usual = 7770;   ///< the default port of `tactus play`
 
-    struct Received
+    struct ReceivedMessage
     {
         juce::OSCMessage message;
         std::string host;                           ///< where to send answers; "": the sender gets none
@@ -62,7 +62,7 @@ public:
     void onArrival (std::function<void (const juce::OSCMessage&)> see);
 
     /// The oldest waiting message, or the first one that arrives within `patience`.
-    std::optional<Received> receive (std::chrono::milliseconds patience = {});
+    std::optional<ReceivedMessage> receive (std::chrono::milliseconds patience = {});
     std::optional<juce::OSCMessage> next (std::chrono::milliseconds patience = {});
 
     /// Sends to a port on this machine, or sends an answer.
@@ -93,7 +93,7 @@ private:
     std::function<void (const juce::OSCMessage&)> first_look;
     mutable std::mutex guard;   // protects the members below
     std::condition_variable arrived;
-    std::deque<Received> waiting;
+    std::deque<ReceivedMessage> waiting;
     std::size_t lost = 0;
     std::jthread listening;   // declared last: it uses the other members
 };

@@ -43,17 +43,17 @@ Result<> AtomicFolder::commit() { return {}; }
 namespace
 {
 /// An open file or folder.
-class Opened
+class FileDescriptor
 {
 public:
-    explicit Opened (int f = -1) noexcept : file (f) {}
-    Opened (Opened&& other) noexcept : file (std::exchange (other.file, -1)) {}
-    Opened& operator= (Opened&& other) noexcept
+    explicit FileDescriptor (int f = -1) noexcept : file (f) {}
+    FileDescriptor (FileDescriptor&& other) noexcept : file (std::exchange (other.file, -1)) {}
+    FileDescriptor& operator= (FileDescriptor&& other) noexcept
     {
         std::swap (file, other.file);
         return *this;
     }
-    ~Opened() { close(); }
+    ~FileDescriptor() { close(); }
 
     explicit operator bool() const noexcept { return file >= 0; }
     int number() const noexcept { return file; }
@@ -65,9 +65,9 @@ private:
     int file;
 };
 
-Opened openFolder (int in, const std::string& name) noexcept
+FileDescriptor openFolder (int in, const std::string& name) noexcept
 {
-    return Opened { ::openat (in, name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC) };
+    return FileDescriptor { ::openat (in, name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC) };
 }
 
 struct stat lookAt (int in, const std::string& name) noexcept
@@ -131,14 +131,14 @@ bool writeAll (int file, std::string_view text) noexcept
 /// Copies a file. False, with errno, if that failed.
 bool copyFile (int from, int to, const std::string& name)
 {
-    Opened in { ::openat (from, name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC) };
+    FileDescriptor in { ::openat (from, name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC) };
     struct stat s
     {
     };
     if (! in || ::fstat (in.number(), &s) != 0) return false;
     errno = ENOTSUP;
     if (! S_ISREG (s.st_mode)) return false;
-    Opened out { ::openat (to, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, s.st_mode & 0777) };
+    FileDescriptor out { ::openat (to, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, s.st_mode & 0777) };
     if (! out) return false;
     std::vector<char> block (1u << 16u);
     for (;;)
@@ -213,7 +213,7 @@ public:
 private:
     static constexpr auto fresh_name = "new", old_name = "old";
 
-    enum class Kept
+    enum class Remainder
     {
         nothing,   // of what was in the folder
         something
@@ -225,14 +225,15 @@ private:
     }
     Message unwritable() const { return unwritable (target.string(), systemReason()); }
     Result<> readList();
-    Result<Kept> keep (int from, int to, const std::string& place);
+    Result<Remainder> keep (int from, int to, const std::string& place);
     bool exchange();
 
     const fs::path target;
     const std::string list;
-    Opened parent, old, closed, fresh;   // the folder above; the earlier folder, if it is not empty; the one that only this user enters; the new one in it
-    std::string name, hidden;            // of the target, and of `closed`; empty if there is nothing to remove
-    std::set<std::string> listed;        // paths in the old folder that this one replaces
+    // The folder above; the earlier folder, if it is not empty; the one that only this user enters; the new one in it.
+    FileDescriptor parent, old, closed, fresh;
+    std::string name, hidden;       // of the target, and of `closed`; empty if there is nothing to remove
+    std::set<std::string> listed;   // paths in the old folder that this one replaces
 };
 
 /// Opens the folder above and the old one.
@@ -240,7 +241,7 @@ Result<> AtomicFolder::Work::check()
 {
     name = target.filename().string();
     if (name.empty()) return exists (target, "it has no folder above it");
-    parent = Opened { ::open (target.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC) };
+    parent = FileDescriptor { ::open (target.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC) };
     if (! parent) return errno == ENOENT ? Result<> {} : unwritable();
     const auto found = lookAt (parent.number(), name);
     if (found.st_mode == 0) return {};
@@ -289,7 +290,7 @@ Result<> AtomicFolder::Work::readList()
 {
     if (! old) return {};
     listed.insert (list);
-    const Opened file { ::openat (old.number(), list.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC) };
+    const FileDescriptor file { ::openat (old.number(), list.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC) };
     std::string text;
     std::vector<char> block (1u << 16u);
     for (;;)
@@ -314,7 +315,7 @@ Result<> AtomicFolder::Work::readList()
 Result<> AtomicFolder::Work::write (const std::string& path, std::string_view text)
 {
     const auto where = (target / path).string();
-    Opened folder { ::openat (fresh.number(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC) };
+    FileDescriptor folder { ::openat (fresh.number(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC) };
     for (const auto& part : fs::path (path).parent_path())
     {
         if (::mkdirat (folder.number(), part.c_str(), 0777) != 0 && errno != EEXIST) return unwritable (where, systemReason());
@@ -322,7 +323,7 @@ Result<> AtomicFolder::Work::write (const std::string& path, std::string_view te
         if (! folder) return unwritable (where, systemReason());
     }
     const auto file_name = fs::path (path).filename().string();
-    Opened file { ::openat (folder.number(), file_name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666) };
+    FileDescriptor file { ::openat (folder.number(), file_name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666) };
     if (! file || ! writeAll (file.number(), text) || ! file.close()) return unwritable (where, systemReason());
     return {};
 }
@@ -335,11 +336,11 @@ Result<> AtomicFolder::Work::keepOthers()
 }
 
 /// Keeps what is in one folder in another one. `place` is the path of both, with a slash at its end.
-Result<AtomicFolder::Work::Kept> AtomicFolder::Work::keep (int from, int to, const std::string& place)
+Result<AtomicFolder::Work::Remainder> AtomicFolder::Work::keep (int from, int to, const std::string& place)
 {
     const auto names = namesIn (from);
     if (! names) return unwritable ((target / place).string(), systemReason());
-    auto kept = names->empty() ? Kept::something : Kept::nothing;   // an empty folder is the user's
+    auto kept = names->empty() ? Remainder::something : Remainder::nothing;   // an empty folder is the user's
     for (const auto& entry : *names)
     {
         const auto path = place + entry, where = (target / path).string();
@@ -351,7 +352,7 @@ Result<AtomicFolder::Work::Kept> AtomicFolder::Work::keep (int from, int to, con
         {
             if (listed.contains (path)) continue;
             if (! keepFile (from, to, entry)) return errno == EEXIST ? taken() : unwritable (where, systemReason());
-            kept = Kept::something;
+            kept = Remainder::something;
             continue;
         }
         if (found.st_dev != lookAt (old.number(), ".").st_dev)
@@ -363,11 +364,11 @@ Result<AtomicFolder::Work::Kept> AtomicFolder::Work::keep (int from, int to, con
         if (! inner_from || ! inner_to) return unwritable (where, systemReason());
         const auto inner = keep (inner_from.number(), inner_to.number(), path + "/");
         if (! inner) return inner;
-        if (is_new && *inner == Kept::nothing)
+        if (is_new && *inner == Remainder::nothing)
             ::unlinkat (to, entry.c_str(), AT_REMOVEDIR);
         else if (is_new && ::fchmod (inner_to.number(), found.st_mode & 07777) != 0)
             return unwritable (where, systemReason());
-        if (*inner == Kept::something) kept = Kept::something;
+        if (*inner == Remainder::something) kept = Remainder::something;
     }
     return kept;
 }

@@ -37,7 +37,7 @@ namespace tactus::host
 
 using guardian::faults;
 using guardian::FinalReports;
-using guardian::Shared;
+using guardian::SharedState;
 
 namespace
 {
@@ -55,7 +55,7 @@ constexpr int look_apart_ms = 100, looks_until_frozen = 20;   // at the guardian
 constexpr std::int64_t longest_pause = 1'000'000'000;         // ns between two beats; longer than `patience`: the guardian must have been frozen too
 
 std::mutex changing;
-std::atomic<Shared*> shared { nullptr };   // from the first guardian on
+std::atomic<SharedState*> shared { nullptr };   // from the first guardian on
 int to_guardian = -1, memory_file = -1;
 pid_t guardian_process = -1;
 std::atomic<bool> is_child { false };   // of a process that used devices before it forked
@@ -79,11 +79,11 @@ std::int64_t hasSleptFor() noexcept
     return with_sleep - nanoseconds (CLOCK_MONOTONIC);
 }
 
-void noticeSleep (Shared& with) noexcept
+void noticeSleep (SharedState& with) noexcept
 {
     const auto now = hasSleptFor();
     auto before = with.asleep.load();
-    if (now - before > shortest_sleep && with.asleep.compare_exchange_strong (before, now)) with.raiseAlarm (Shared::Cause::slept, now - before);
+    if (now - before > shortest_sleep && with.asleep.compare_exchange_strong (before, now)) with.raiseAlarm (SharedState::Cause::slept, now - before);
 }
 
 void writeAll() noexcept
@@ -207,7 +207,7 @@ void watchGuardian()
             const auto began = std::chrono::steady_clock::now();
             lock.unlock();
             waitForEndOf (child, socket);
-            shared.load()->raiseAlarm (Shared::Cause::unguarded, 0);
+            shared.load()->raiseAlarm (SharedState::Cause::unguarded, 0);
             ::waitpid (child, nullptr, 0);
             if (std::chrono::steady_clock::now() - began < pause) std::this_thread::sleep_for (pause);   // it ends as soon as it starts
             lock.lock();
@@ -216,7 +216,7 @@ void watchGuardian()
         while (to_guardian < 0)
             if (! startGuardian())
             {
-                shared.load()->raiseAlarm (Shared::Cause::unguarded, 1);
+                shared.load()->raiseAlarm (SharedState::Cause::unguarded, 1);
                 lock.unlock();
                 std::this_thread::sleep_for (pause);
                 lock.lock();
@@ -239,10 +239,10 @@ void forgetInChild() noexcept
 int shareMemory()
 {
     memory_file = ::memfd_create ("tactus", MFD_CLOEXEC);
-    if (memory_file < 0 || ::ftruncate (memory_file, sizeof (Shared)) != 0) return errno;
-    void* const memory = ::mmap (nullptr, sizeof (Shared), PROT_READ | PROT_WRITE, MAP_SHARED, memory_file, 0);
+    if (memory_file < 0 || ::ftruncate (memory_file, sizeof (SharedState)) != 0) return errno;
+    void* const memory = ::mmap (nullptr, sizeof (SharedState), PROT_READ | PROT_WRITE, MAP_SHARED, memory_file, 0);
     if (memory == MAP_FAILED) return errno;
-    auto* const fresh = new (memory) Shared;
+    auto* const fresh = new (memory) SharedState;
     fresh->asleep = hasSleptFor();
     shared = fresh;
     return 0;
@@ -265,7 +265,7 @@ std::string needGuardian()
     const auto watched = caught ("the watch over the guardian", [] {
         std::thread ([] {
             for (;;)
-                if (! caught ("the watch over the guardian", watchGuardian)) shared.load()->raiseAlarm (Shared::Cause::unguarded, 1);
+                if (! caught ("the watch over the guardian", watchGuardian)) shared.load()->raiseAlarm (SharedState::Cause::unguarded, 1);
         }).detach();
     });
     is_watched = watched.has_value();
@@ -335,7 +335,7 @@ Result<Failsafe> Failsafe::arm (const std::string& device_file, const std::vecto
     if (why.empty())
     {
         noticeSleep (*shared.load());
-        shared.load()->beats[slot] = Shared::at_rest;
+        shared.load()->beats[slot] = SharedState::at_rest;
         // If the guardian has just died, the next one gets everything that is armed.
         if (! guardian::send (to_guardian, final, file) && errno != EPIPE && errno != EBADF) why = reason (errno);
     }
@@ -354,7 +354,7 @@ Failsafe::~Failsafe()
     if (slot == none || is_child) return;
     const std::lock_guard lock (changing);
     auto& entry = armed[static_cast<std::size_t> (slot)];
-    shared.load()->beats[static_cast<std::size_t> (slot)] = Shared::at_rest;
+    shared.load()->beats[static_cast<std::size_t> (slot)] = SharedState::at_rest;
     if (const int file = entry.file.exchange (-1); file >= 0) ::close (file);
     guardian::send (to_guardian, { .slot = static_cast<std::uint32_t> (slot), .count = 0 }, -1);
     if (! isAnythingArmed()) handleFaults (false);
@@ -369,9 +369,9 @@ bool Failsafe::beat (bool driven) noexcept
     const auto now = nanoseconds (CLOCK_MONOTONIC);
     auto& latest = with.beats[static_cast<std::size_t> (slot)];
     auto before = latest.load();
-    if (before > Shared::at_rest && now - before > longest_pause && latest.compare_exchange_strong (before, Shared::taken))
-        with.raiseAlarm (Shared::Cause::frozen, before);
-    const bool is_ours = before != Shared::taken && latest.compare_exchange_strong (before, driven ? now : Shared::at_rest);
+    if (before > SharedState::at_rest && now - before > longest_pause && latest.compare_exchange_strong (before, SharedState::taken))
+        with.raiseAlarm (SharedState::Cause::frozen, before);
+    const bool is_ours = before != SharedState::taken && latest.compare_exchange_strong (before, driven ? now : SharedState::at_rest);
     return is_ours && with.asleep == asleep;
 }
 
@@ -390,19 +390,19 @@ Message Failsafe::alarm()
     const auto inMs = [] (std::int64_t ns) { return std::to_string (ns / 1'000'000) + " ms"; };
     switch (with->cause.load())
     {
-    case Shared::Cause::frozen:
+    case SharedState::Cause::frozen:
         return Message::warning ("run/frozen", {},
                                  "this program did not serve a device for " + inMs (nanoseconds (CLOCK_MONOTONIC) - detail)
                                      + ", because it was suspended or the computer or the device was too busy, so the device was brought to rest; all"
                                        " forces are held at zero",
                                  remedy);
-    case Shared::Cause::unguarded:
+    case SharedState::Cause::unguarded:
         return Message::warning ("run/unguarded", {},
                                  "the guardian process, which brings the devices to rest if this program dies, has been killed or frozen; "
                                      + (detail == 0 ? "another one takes its place" : "another one cannot be started: " + whyUnguarded())
                                      + "; all forces are held at zero",
                                  remedy);
-    case Shared::Cause::slept:
+    case SharedState::Cause::slept:
         return Message::warning ("run/slept", {}, "the computer was suspended for " + inMs (detail) + "; all forces are held at zero", remedy);
     }
     return {};

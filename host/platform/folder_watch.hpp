@@ -37,7 +37,7 @@ public:
 
 private:
     /// What other programs do with a file. A program may set the time of a file, which looks like writing, without opening it.
-    struct Use
+    struct FileUse
     {
         bool is_open = false, is_written = false;
     };
@@ -47,7 +47,7 @@ private:
 
     int queue = -1;   // descriptor of the system's queue of events
     bool is_told = false;
-    std::map<std::filesystem::path, Use> names;   // of the files, without their folders
+    std::map<std::filesystem::path, FileUse> names;   // of the files, without their folders
 };
 
 }   // namespace tactus::host

@@ -25,7 +25,7 @@ struct FinalReports
 };
 
 /// Memory that this process and the guardian share. Beats and alarms go through it because they must cost no system call.
-struct Shared
+struct SharedState
 {
     enum class Cause
     {
@@ -54,7 +54,7 @@ struct Shared
         ++alarms;   // last, because readers look at this first
     }
 };
-static_assert (std::atomic<std::int64_t>::is_always_lock_free && std::atomic<Shared::Cause>::is_always_lock_free, "two processes share them");
+static_assert (std::atomic<std::int64_t>::is_always_lock_free && std::atomic<SharedState::Cause>::is_always_lock_free, "two processes share them");
 
 /// The program of the guardian. Its name does not contain that of Tactus, so that `pkill -STOP tactus` or `pkill -KILL tactus` does not reach
 /// both.

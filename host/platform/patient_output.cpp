@@ -153,7 +153,7 @@ bool isFile (int file) noexcept
 void replaceErrors()
 {
     static Outlet errors (STDERR_FILENO, false);
-    class Unbuffered final : public std::streambuf
+    class DirectBuffer final : public std::streambuf
     {
         std::streamsize xsputn (const char* bytes, std::streamsize size) override { return errors.write (bytes, static_cast<std::size_t> (size)) ? size : 0; }
         int_type overflow (int_type c) override
@@ -162,7 +162,7 @@ void replaceErrors()
             return errors.write (&one, 1) ? traits_type::not_eof (c) : traits_type::eof();
         }
     };
-    static Unbuffered buffer;
+    static DirectBuffer buffer;
     std::cerr.rdbuf (&buffer);
     std::clog.rdbuf (&buffer);
 #if defined(__GLIBC__)

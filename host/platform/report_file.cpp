@@ -21,7 +21,7 @@ namespace
 {
 using Outcome = ReportFile::Outcome;
 
-Outcome failure (int error) noexcept { return { .what = Outcome::What::failure, .error = error }; }
+Outcome failure (int error) noexcept { return { .what = Outcome::Kind::failure, .error = error }; }
 
 /// Waits until the file has something to read. 0: it has; ETIMEDOUT: it has not; any other number: the failure.
 int waitFor (int file, ReportFile::Clock::time_point until) noexcept
@@ -61,7 +61,7 @@ Outcome ReportFile::read (std::span<std::uint8_t> into, Clock::time_point until)
     for (;;)
     {
         const auto got = ::read (file, into.data(), into.size());
-        if (got > 0) return { .what = Outcome::What::report, .size = static_cast<std::size_t> (got) };
+        if (got > 0) return { .what = Outcome::Kind::report, .size = static_cast<std::size_t> (got) };
         if (got == 0) return failure (EIO);   // the end of the file: the system does not pass on empty reports
         if (errno == EINTR) continue;
         if (errno != EAGAIN) return failure (errno);
@@ -75,7 +75,7 @@ Outcome ReportFile::ask (std::span<std::uint8_t> report) noexcept
 {
     const int got = ::ioctl (file, HIDIOCGINPUT (report.size()), report.data());
     if (got < 0) return failure (errno);
-    return { .what = Outcome::What::report, .size = static_cast<std::size_t> (got) };
+    return { .what = Outcome::Kind::report, .size = static_cast<std::size_t> (got) };
 }
 
 #else
@@ -86,8 +86,8 @@ std::optional<ReportFile> ReportFile::open (const std::string&) noexcept
 }
 ReportFile::ReportFile (int) noexcept {}
 ReportFile::~ReportFile() = default;
-ReportFile::Outcome ReportFile::read (std::span<std::uint8_t>, Clock::time_point) noexcept { return { .what = Outcome::What::failure }; }
-ReportFile::Outcome ReportFile::ask (std::span<std::uint8_t>) noexcept { return { .what = Outcome::What::failure }; }
+ReportFile::Outcome ReportFile::read (std::span<std::uint8_t>, Clock::time_point) noexcept { return { .what = Outcome::Kind::failure }; }
+ReportFile::Outcome ReportFile::ask (std::span<std::uint8_t>) noexcept { return { .what = Outcome::Kind::failure }; }
 
 #endif
 

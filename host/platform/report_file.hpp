@@ -22,14 +22,14 @@ public:
 
     struct Outcome
     {
-        enum class What
+        enum class Kind
         {
             report,
             nothing,   ///< none arrived in time
             failure    ///< the device is gone
         };
 
-        What what = What::nothing;
+        Kind what = Kind::nothing;
         std::size_t size = 0;   ///< of the report, in bytes
         int error = 0;          ///< the system's number of the failure
     };

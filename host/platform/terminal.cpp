@@ -35,7 +35,7 @@ int stderrColumns() noexcept
 }
 
 #if defined(_WIN32)
-struct Keys::Before
+struct Keys::SavedMode
 {
 };
 Keys::Keys() = default;
@@ -43,7 +43,7 @@ Keys::~Keys() = default;
 void Keys::restore() const noexcept {}
 char Keys::next (std::chrono::milliseconds) noexcept { return 0; }
 #else
-struct Keys::Before
+struct Keys::SavedMode
 {
     termios mode;
 };
@@ -52,7 +52,7 @@ Keys::Keys()
 {
     termios mode;
     if (isatty (STDIN_FILENO) == 0 || tcgetpgrp (STDIN_FILENO) != getpgrp() || tcgetattr (STDIN_FILENO, &mode) != 0) return;
-    auto found = std::make_unique<Before> (Before { mode });
+    auto found = std::make_unique<SavedMode> (SavedMode { mode });
     mode.c_lflag &= ~static_cast<tcflag_t> (ICANON | ECHO);
     mode.c_cc[VMIN] = 1;   // a single key is enough; another program may have left a larger number here
     mode.c_cc[VTIME] = 0;

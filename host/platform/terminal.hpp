@@ -32,8 +32,8 @@ public:
     char next (std::chrono::milliseconds patience = {}) noexcept;
 
 private:
-    struct Before;
-    std::unique_ptr<Before> before;
+    struct SavedMode;
+    std::unique_ptr<SavedMode> before;
 };
 
 }   // namespace tactus::host

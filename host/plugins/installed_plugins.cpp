@@ -81,7 +81,7 @@ LoadedPlugins loadFolders (const std::vector<fs::path>& folders, const fs::path&
                 all.messages.push_back (quarantine.refusal (file));
                 continue;
             }
-            const Quarantine::Loading loading { quarantine, file };
+            const Quarantine::LoadingMark loading { quarantine, file };
             auto loaded = loadPlugins ({ file }, catalogue().with (all.types));
             std::ranges::move (loaded.types, std::back_inserter (all.types));
             std::ranges::move (loaded.messages, std::back_inserter (all.messages));

@@ -69,7 +69,7 @@ std::optional<LivePlugins::RebuiltPlugin> LivePlugins::poll()
 
 std::optional<LivePlugins::RebuiltPlugin> LivePlugins::startNext()
 {
-    const auto next = std::ranges::find (all, true, &Watched::waits);
+    const auto next = std::ranges::find (all, true, &WatchedSource::waits);
     if (next == all.end()) return std::nullopt;
     next->waits = false;
     started = FileClock::now();
@@ -118,7 +118,7 @@ std::vector<LivePlugins::RebuiltPlugin> LivePlugins::buildHeaders (const std::fu
             watched.saved = FileClock::now();
         }
     std::vector<RebuiltPlugin> made;
-    while (compiled || std::ranges::find (all, true, &Watched::waits) != all.end())
+    while (compiled || std::ranges::find (all, true, &WatchedSource::waits) != all.end())
     {
         if (stop_wanted && stop_wanted()) return made;
         if (auto news = poll()) made.push_back (std::move (*news));

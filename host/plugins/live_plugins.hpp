@@ -48,9 +48,9 @@ public:
     std::size_t count() const noexcept { return all.size(); }
 
 private:
-    struct Watched
+    struct WatchedSource
     {
-        explicit Watched (LiveSource s) : source (std::move (s)), files (source.watched()) {}
+        explicit WatchedSource (LiveSource s) : source (std::move (s)), files (source.watched()) {}
 
         LiveSource source;
         FileWatch files;
@@ -61,7 +61,7 @@ private:
     std::optional<RebuiltPlugin> startNext();
     std::optional<RebuiltPlugin> load (LiveCompiler::Output);
 
-    std::vector<Watched> all;
+    std::vector<WatchedSource> all;
     LiveCompiler compiler;
     std::optional<std::size_t> compiled;   // index of the source that the compiler works on
     std::filesystem::file_time_type started {};

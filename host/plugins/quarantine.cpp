@@ -47,14 +47,14 @@ Message Quarantine::refusal (const fs::path& file) const
                            "build or install it again, or remove " + quote (markOf (file).string()));
 }
 
-Quarantine::Loading::Loading (const Quarantine& quarantine, const fs::path& file) : mark (quarantine.markOf (file))
+Quarantine::LoadingMark::LoadingMark (const Quarantine& quarantine, const fs::path& file) : mark (quarantine.markOf (file))
 {
     if (mark.empty()) return;
     if (needOwnFolder (mark.parent_path())) lock = FileLock::take (mark);
     if (lock) std::ofstream (mark) << stampOf (file);
 }
 
-Quarantine::Loading::~Loading()
+Quarantine::LoadingMark::~LoadingMark()
 {
     if (! lock) return;   // another program is loading the same plugin, and will remove the mark
     std::error_code unseen;

@@ -30,13 +30,13 @@ public:
     Message refusal (const std::filesystem::path& file) const;
 
     /// Marks a file until this object is destroyed.
-    class Loading
+    class LoadingMark
     {
     public:
-        Loading (const Quarantine&, const std::filesystem::path& file);
-        Loading (const Loading&) = delete;
-        Loading& operator= (const Loading&) = delete;
-        ~Loading();
+        LoadingMark (const Quarantine&, const std::filesystem::path& file);
+        LoadingMark (const LoadingMark&) = delete;
+        LoadingMark& operator= (const LoadingMark&) = delete;
+        ~LoadingMark();
 
     private:
         std::filesystem::path mark;

@@ -190,9 +190,9 @@ Result<Route> parseRoute (std::string_view text)
     return route;
 }
 
-CardWanted parseCard (std::string_view text, const std::vector<std::string>& types)
+CardRequest parseCard (std::string_view text, const std::vector<std::string>& types)
 {
-    CardWanted wanted;
+    CardRequest wanted;
     const auto typeNamed = [&] (std::string_view name) {
         const auto it = std::ranges::find_if (types, [&] (const std::string& t) { return isSame (t, name); });
         return it == types.end() ? std::string() : *it;

@@ -44,21 +44,21 @@ struct Route : ChannelUse
 };
 
 /// Selects a card. Empty strings and zeros match any card.
-struct CardWanted
+struct CardRequest
 {
     std::string type;            ///< "JACK", "ALSA", …
     std::string output, input;   ///< names of cards, or parts of the names
     double rate_hz = 0.0;
     int block = 0;   ///< frames per block
 
-    bool operator== (const CardWanted&) const = default;
+    bool operator== (const CardRequest&) const = default;
 };
 
 struct AudioSettings
 {
     static constexpr double usual_reserve_s = 0.01;
 
-    CardWanted card;
+    CardRequest card;
     double reserve_s = usual_reserve_s;   ///< how late a tick or a block may be without causing a gap; adds to the latency
     std::vector<Route> routes;
 };
@@ -95,7 +95,7 @@ AudioRole readAudioRole (const Json& description, Messages&);
 Result<Route> parseRoute (std::string_view);
 
 /// Parses TYPE:NAME, NAME or TYPE. `types` are the known types.
-CardWanted parseCard (std::string_view, const std::vector<std::string>& types);
+CardRequest parseCard (std::string_view, const std::vector<std::string>& types);
 
 /// Why a port with this unit ("N"; "" if unknown) cannot be played on a channel with this calibration; "" if it can.
 std::string unitProblem (const FullScale&, std::string_view unit);

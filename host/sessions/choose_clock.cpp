@@ -43,7 +43,7 @@ void addRoles (const graph::Graph& g, std::set<std::string>& names, std::set<con
         if (seen.insert (file.get()).second) addRoles (*file, names, seen);
 }
 
-ClockChoice byOption (const ClockWish& wish, const std::vector<Described>& devices, const TickRate& rateOf)
+ClockChoice byOption (const ClockRequest& wish, const std::vector<Described>& devices, const TickRate& rateOf)
 {
     ClockChoice choice;
     const auto device = std::ranges::find (devices, wish.option, &Described::first);
@@ -67,7 +67,7 @@ ClockChoice byOption (const ClockWish& wish, const std::vector<Described>& devic
     return choice;
 }
 
-ClockChoice automatic (const ClockWish& wish, const std::vector<Described>& devices, const TickRate& rateOf)
+ClockChoice automatic (const ClockRequest& wish, const std::vector<Described>& devices, const TickRate& rateOf)
 {
     if (wish.rate_hz) return {};
     for (const auto& device : devices)
@@ -75,7 +75,7 @@ ClockChoice automatic (const ClockWish& wish, const std::vector<Described>& devi
     return {};
 }
 
-ClockChoice bySession (const ClockWish& wish, const std::vector<Described>& devices, const TickRate& rateOf)
+ClockChoice bySession (const ClockRequest& wish, const std::vector<Described>& devices, const TickRate& rateOf)
 {
     const auto device = std::ranges::find (devices, wish.session, &Described::first);
     if (device == devices.end())
@@ -124,7 +124,7 @@ std::optional<double> tickRateOf (const Json& description, hid::HidSystem& syste
     return ticks ? std::optional (profile->rate) : std::nullopt;
 }
 
-ClockChoice chooseClock (const ClockWish& wish, const std::vector<Described>& devices, const TickRate& rateOf)
+ClockChoice chooseClock (const ClockRequest& wish, const std::vector<Described>& devices, const TickRate& rateOf)
 {
     const auto& said = wish.option.empty() ? wish.session : wish.option;
     if (said == timer || said == sound_card) return { .by_sound_card = said == sound_card };

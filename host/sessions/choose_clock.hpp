@@ -22,7 +22,7 @@ using Described = std::pair<std::string, Json>;
 std::vector<std::string> rolesNamed (const graph::Graph&);
 
 /// The requested clock of a run, by source.
-struct ClockWish
+struct ClockRequest
 {
     std::string option;                 ///< from the command line: a role, "timer" or "audio"; "": none
     std::string session;                ///< from the session: the same kinds of names
@@ -48,6 +48,6 @@ std::optional<double> tickRateOf (const Json& description, hid::HidSystem&, cons
 
 /// The option takes precedence over the session. If neither names a clock, the first device that can tick the run does, unless
 /// there is a fixed rate. [main thread]
-ClockChoice chooseClock (const ClockWish&, const std::vector<Described>&, const TickRate&);
+ClockChoice chooseClock (const ClockRequest&, const std::vector<Described>&, const TickRate&);
 
 }   // namespace tactus::host

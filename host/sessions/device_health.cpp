@@ -16,20 +16,20 @@ bool hasClock (const hid::Profile& p) { return p.rate > 0.0 && ! hid::sendsOnlyC
 
 /// The time of the latest report, and the number of reports. The two are stored one after the other, so about one look in a
 /// thousand sees an inconsistent pair, which is off by one report.
-struct Latest
+struct LatestReport
 {
     double at_s = 0.0;
     std::uint64_t reports = 0;
 };
 
-std::optional<Latest> latestOf (const hid::HidDevice& d)
+std::optional<LatestReport> latestOf (const hid::HidDevice& d)
 {
     const auto& port = d.port();
     for (int tries = 0; tries < 8; ++tries)
     {
         const auto before = port.lastArrival();
         const auto reports = port.counts().reports;
-        if (before != 0 && before == port.lastArrival()) return Latest { 1e-9 * static_cast<double> (before), reports };
+        if (before != 0 && before == port.lastArrival()) return LatestReport { 1e-9 * static_cast<double> (before), reports };
     }
     return std::nullopt;
 }

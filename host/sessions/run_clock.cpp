@@ -5,10 +5,10 @@ namespace tactus::host
 {
 
 /// Ticks by a timer until the device is available.
-class RunClock::Waiting final : public Ticked
+class RunClock::TimerUntilDevice final : public Ticked
 {
 public:
-    Waiting (RunClock& c, Ticked& t) : clock (c), ticked (t) {}
+    TimerUntilDevice (RunClock& c, Ticked& t) : clock (c), ticked (t) {}
 
     bool tick (double late_s) noexcept override
     {
@@ -31,7 +31,7 @@ void RunClock::drive (Ticked& ticked) noexcept
 {
     if (! by_reports)
     {
-        Waiting waiting { *this, ticked };
+        TimerUntilDevice waiting { *this, ticked };
         AbsoluteTimer { 1.0 / rate }.drive (waiting);
         if (! waiting.goes_on) return;
         by_reports.emplace (awaited->device()->port(), rate);

@@ -26,7 +26,7 @@ public:
     std::uint64_t ticksByTimer() const noexcept;   ///< [any thread]
 
 private:
-    class Waiting;
+    class TimerUntilDevice;
 
     const double rate;
     const AwaitedDevice* awaited = nullptr;

@@ -137,14 +137,14 @@ private:
         curves.clear();
     }
     /// The view, and whether it is fitted to the patch.
-    struct Sight
+    struct ViewState
     {
         std::string patch;
         View window;
         std::optional<View> framed;
         juce::Rectangle<float> framed_around;
     };
-    Sight sight() const { return { patch(), window, framed, framed_around }; }
+    ViewState viewState() const { return { patch(), window, framed, framed_around }; }
     void beginEdit();   ///< call before the view follows an edit
     void followStep (const Scene& before);
     void rebuild();
@@ -188,9 +188,9 @@ private:
     /// The view before and after each step of the history that was made with this canvas.
     struct ViewPair
     {
-        Sight before, after;
+        ViewState before, after;
     };
-    std::vector<ViewPair> sights;
+    std::vector<ViewPair> views;
     std::size_t seen_position;         // of the history
     juce::Rectangle<float> laid_out;   // of the last layout; the view stays fitted until the user moves it, then keeps its centre
     bool with_map = true;

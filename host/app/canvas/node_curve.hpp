@@ -27,7 +27,7 @@ public:
     void clear() { known.clear(); }   ///< the node types have changed
 
 private:
-    struct Known
+    struct CacheEntry
     {
         std::string key;
         std::shared_ptr<const PlotData> curve;
@@ -35,7 +35,7 @@ private:
 
     static std::string keyOf (const graph::Graph&, const std::string& patch, const graph::Node&, const Face&);
 
-    std::map<graph::Id, Known> known;
+    std::map<graph::Id, CacheEntry> known;
 };
 
 /// Draws a curve without axes, in the colour of its quantity, over the line where it is 0.

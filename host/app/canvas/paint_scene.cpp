@@ -220,7 +220,7 @@ void paintDelay (juce::Graphics& g, const SceneWire& w, const Look& look)
 }
 
 /// Paints an exposed port: its outer name, on the side where wires connect.
-void paintExposed (juce::Graphics& g, const Scene::Exposed& e, const Look& look)
+void paintExposed (juce::Graphics& g, const Scene::ExposedPort& e, const Look& look)
 {
     const auto& box = e.label;
     const auto edge = e.at.withX (e.role == Role::output ? box.getX() : box.getRight());

@@ -91,7 +91,7 @@ public:
     const std::vector<SceneNode>& nodes() const noexcept { return all_nodes; }
     const std::vector<SceneWire>& wires() const noexcept { return all_wires; }
     /// A port that the subgraph exposes, and its outer name.
-    struct Exposed
+    struct ExposedPort
     {
         juce::Point<float> at;
         Role role = Role::input;
@@ -99,7 +99,7 @@ public:
         Quantity quantity = Quantity::any;
         juce::Rectangle<float> label {};   ///< the place of the name, beside the port
     };
-    const std::vector<Exposed>& exposed() const noexcept { return all_exposed; }
+    const std::vector<ExposedPort>& exposed() const noexcept { return all_exposed; }
 
     const std::vector<Note>& notes() const noexcept { return all_notes; }
     juce::Rectangle<float> bounds() const noexcept;
@@ -134,7 +134,7 @@ private:
     std::vector<SceneNode> all_nodes;
     std::vector<SceneWire> all_wires;
     std::vector<Note> all_notes;
-    std::vector<Exposed> all_exposed;
+    std::vector<ExposedPort> all_exposed;
     std::map<std::string, int, std::less<>> indices;   // of the nodes, by name
 };
 

@@ -59,7 +59,7 @@ void setParam (const NodeType& type, void* node, const PortSheet& sheet, const J
 TrialNode::TrialNode (const NodeType& t)
     : type (&t), node (t.make()),
       outputs (static_cast<std::byte*> (::operator new (std::max<std::size_t> (1, t.outputs_size), std::align_val_t (t.outputs_align))),
-               Freed { std::align_val_t (t.outputs_align) })
+               AlignedDelete { std::align_val_t (t.outputs_align) })
 {
     for (const auto& p : t.inputs)
         inputs.insert (inputs.end(), p.initial, p.initial + p.width);

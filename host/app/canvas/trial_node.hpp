@@ -30,7 +30,7 @@ public:
 private:
     explicit TrialNode (const NodeType&);
 
-    struct Freed
+    struct AlignedDelete
     {
         std::align_val_t align;
         void operator() (std::byte* p) const noexcept { ::operator delete (p, align); }
@@ -40,7 +40,7 @@ private:
     std::shared_ptr<void> node;
     std::vector<double> inputs;   // all components, in the order of the datasheet
     std::vector<const double*> sources;
-    std::unique_ptr<std::byte, Freed> outputs;
+    std::unique_ptr<std::byte, AlignedDelete> outputs;
 };
 
 }   // namespace tactus::host

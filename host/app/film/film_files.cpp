@@ -101,7 +101,7 @@ Result<> writeSound (const fs::path& path, const Film& film, Messages& notes)
 }
 
 /// The pictures and the sound as a video, by a program that may not be installed.
-void writeVideo (const fs::path& named, const std::string& ffmpeg, const std::function<bool (double)>& progress, WrittenFilm& written)
+void writeVideo (const fs::path& named, const std::string& ffmpeg, const std::function<bool (double)>& progress, FilmFiles& written)
 {
     const auto with = [&named] (const char* extension) { return filmFile (named, extension); };
     const auto folder = privateFolder ("tactus-film-");   // next to the film, ffmpeg would follow the links of others
@@ -146,8 +146,8 @@ std::optional<fs::path> fileInTheWay (const fs::path& named)
     return {};
 }
 
-Result<WrittenFilm> writeFilm (const Film& film, FilmPicture& picture, const fs::path& named, const std::function<bool (double)>& progress,
-                               const std::string& ffmpeg)
+Result<FilmFiles> writeFilm (const Film& film, FilmPicture& picture, const fs::path& named, const std::function<bool (double)>& progress,
+                             const std::string& ffmpeg)
 {
     if (film.ticks.empty() || film.states.empty())
         return Message::error ("film/empty", named.string(), TRANS ("there is nothing to save yet").toStdString(),
@@ -155,7 +155,7 @@ Result<WrittenFilm> writeFilm (const Film& film, FilmPicture& picture, const fs:
     const auto with = [&named] (const char* extension) { return filmFile (named, extension); };
     const auto pictures = picturesOf (film, picture, progress);
     if (! pictures) return pictures.error();
-    WrittenFilm written;
+    FilmFiles written;
     if (auto done = writeBytes (with (".png"), *pictures); ! done) return done.error();
     if (auto done = writeSound (with (".wav"), film, written.notes); ! done) return done.error();
     if (auto done = writeForces (with (".csv"), film); ! done) return done.error();

@@ -14,7 +14,7 @@
 namespace tactus::host
 {
 
-struct WrittenFilm
+struct FilmFiles
 {
     std::vector<std::filesystem::path> files {};
     Messages notes {};   ///< for example, that no video was written because ffmpeg is not installed
@@ -26,8 +26,8 @@ struct WrittenFilm
 /// returns false while the pictures are drawn, no file is written; later, only the video is left out. Files of these names are replaced.
 ///
 /// Error ids: film/empty, film/stopped, film/picture, output/unwritable. [any thread; no other thread may use the picture during the call]
-Result<WrittenFilm> writeFilm (const Film&, FilmPicture&, const std::filesystem::path& named, const std::function<bool (double)>& progress,
-                               const std::string& ffmpeg = "ffmpeg");
+Result<FilmFiles> writeFilm (const Film&, FilmPicture&, const std::filesystem::path& named, const std::function<bool (double)>& progress,
+                             const std::string& ffmpeg = "ffmpeg");
 
 /// The file of a film with this extension: what is after a dot in the name stays, unless it is an extension of a film's files.
 std::filesystem::path filmFile (const std::filesystem::path& named, const std::string& extension);

@@ -26,9 +26,9 @@ FilmJob::~FilmJob()
     if (worker.joinable()) worker.join();
 }
 
-const std::optional<Result<WrittenFilm>>& FilmJob::result()
+const std::optional<Result<FilmFiles>>& FilmJob::result()
 {
-    static const std::optional<Result<WrittenFilm>> none;
+    static const std::optional<Result<FilmFiles>> none;
     if (! is_over.load (std::memory_order_acquire)) return none;
     if (worker.joinable()) worker.join();
     return outcome;

@@ -21,7 +21,7 @@ public:
     void stop() noexcept { is_stopped.store (true, std::memory_order_relaxed); }
 
     /// The result, once the work is done.
-    const std::optional<Result<WrittenFilm>>& result();
+    const std::optional<Result<FilmFiles>>& result();
 
 private:
     Film film;
@@ -29,7 +29,7 @@ private:
     std::filesystem::path named;
     std::atomic<double> done = 0.0;
     std::atomic<bool> is_stopped = false, is_over = false;
-    std::optional<Result<WrittenFilm>> outcome;
+    std::optional<Result<FilmFiles>> outcome;
     std::thread worker;
 };
 

@@ -38,7 +38,7 @@ void FilmTape::collect()
         states.pop_front();
 }
 
-void FilmTape::add (const scene::Scene& stage, std::uint64_t version, const scene::Now& now, const scene::Camera& camera)
+void FilmTape::add (const scene::Scene& stage, std::uint64_t version, const scene::SceneState& now, const scene::Camera& camera)
 {
     if (ticks.empty()) return;
     if (const auto apart = static_cast<std::uint64_t> (rate_hz / states_per_second); ! states.empty() && end() < states.back().tick + apart) return;

@@ -25,7 +25,7 @@ struct FilmState
 {
     std::uint64_t tick = 0;
     std::shared_ptr<const scene::Scene> stage;
-    scene::Now now;
+    scene::SceneState now;
     scene::Camera camera;
 };
 
@@ -56,7 +56,7 @@ public:
     void collect();   ///< call many times a second
 
     /// Adds a state of the scene, as of the latest tick. `version` changes with the stage.
-    void add (const scene::Scene& stage, std::uint64_t version, const scene::Now&, const scene::Camera&);
+    void add (const scene::Scene& stage, std::uint64_t version, const scene::SceneState&, const scene::Camera&);
 
     std::uint64_t end() const noexcept { return ticks.empty() ? 0 : ticks.back().tick + 1; }   ///< one after the latest tick
     double rate() const noexcept { return rate_hz; }

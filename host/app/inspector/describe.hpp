@@ -11,7 +11,7 @@ namespace tactus::host
 {
 
 /// What the blocks of an inspector need.
-struct Inspected
+struct InspectorContext
 {
     Document& document;
     const Catalogue& catalogue;
@@ -37,12 +37,12 @@ struct Remark
 };
 std::unique_ptr<Block> remark (std::function<Remark()>);
 
-void describeGraph (const Inspected&, Column&);
-void describeNode (const Inspected&, const graph::Node&, bool help, const std::function<void()>& toggleHelp, Column&);
-void describeWire (const Inspected&, graph::Id, Column&);
-void describeDevice (const Inspected&, const graph::Node&, Column&);
+void describeGraph (const InspectorContext&, Column&);
+void describeNode (const InspectorContext&, const graph::Node&, bool help, const std::function<void()>& toggleHelp, Column&);
+void describeWire (const InspectorContext&, graph::Id, Column&);
+void describeDevice (const InspectorContext&, const graph::Node&, Column&);
 
 /// A text that changes whenever the inspector has to show different blocks for the node.
-std::string shapeOf (const Inspected&, const graph::Node&);
+std::string shapeOf (const InspectorContext&, const graph::Node&);
 
 }   // namespace tactus::host

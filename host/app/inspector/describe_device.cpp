@@ -78,7 +78,7 @@ void addValue (Document& document, const std::string& role, const std::string& p
 }
 }   // namespace
 
-void describeDevice (const Inspected& at, const graph::Node& node, Column& column)
+void describeDevice (const InspectorContext& at, const graph::Node& node, Column& column)
 {
     auto& document = at.document;
     const auto role = node.role;

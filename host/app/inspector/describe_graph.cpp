@@ -42,7 +42,7 @@ private:
     Remark shown;
 };
 
-void describeSubgraph (const Inspected& at, Column& column)
+void describeSubgraph (const InspectorContext& at, Column& column)
 {
     column.add (fromUtf8 (at.patch), TextBlock::Kind::title);
     column.add (TRANS ("A subgraph. Its exposed ports can be wired and set from outside."), TextBlock::Kind::text);
@@ -62,7 +62,7 @@ void describeSubgraph (const Inspected& at, Column& column)
 
 std::unique_ptr<Block> remark (std::function<Remark()> get) { return std::make_unique<RemarkBlock> (std::move (get)); }
 
-void describeGraph (const Inspected& at, Column& column)
+void describeGraph (const InspectorContext& at, Column& column)
 {
     if (! at.patch.empty()) return describeSubgraph (at, column);
     auto& document = at.document;

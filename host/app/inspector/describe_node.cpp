@@ -19,7 +19,7 @@ namespace
 {
 /// Binds a setting or another key of a node; Edit is SetSetting or SetNodeKey.
 template <typename Edit, typename Values>
-Binding bindingOf (const Inspected& at, const std::string& name, const std::string& key, Values graph::Node::*values)
+Binding bindingOf (const InspectorContext& at, const std::string& name, const std::string& key, Values graph::Node::*values)
 {
     const auto get = [at, name, key, values] {
         const auto* n = at.node (name);
@@ -33,7 +33,7 @@ Binding bindingOf (const Inspected& at, const std::string& name, const std::stri
 }
 
 /// The messages about a node.
-Remark problemsOf (const Inspected& at, const std::string& name)
+Remark problemsOf (const InspectorContext& at, const std::string& name)
 {
     Remark r;
     if (! at.messages || ! at.patch.empty()) return r;
@@ -60,7 +60,7 @@ void listPorts (const std::vector<FacePort>& ports, const juce::String& title, C
     }
 }
 
-void describeSubgraphNode (const Inspected& at, const graph::Node& node, Column& column)
+void describeSubgraphNode (const InspectorContext& at, const graph::Node& node, Column& column)
 {
     column.add (TRANS ("Instances and rate"), TextBlock::Kind::heading);
     const auto addInteger = [&] (const char* key, const juce::String& about) {
@@ -93,7 +93,7 @@ void describeSubgraphNode (const Inspected& at, const graph::Node& node, Column&
 }
 }   // namespace
 
-std::string shapeOf (const Inspected& at, const graph::Node& node)
+std::string shapeOf (const InspectorContext& at, const graph::Node& node)
 {
     std::string shape = node.name + '|' + node.type + '|' + node.role;
     if (const auto inputs = node.settings.find ("inputs"); inputs != node.settings.end()) shape += inputs->dump();
@@ -114,7 +114,7 @@ std::string shapeOf (const Inspected& at, const graph::Node& node)
     return shape;
 }
 
-void describeNode (const Inspected& at, const graph::Node& node, bool help, const std::function<void()>& toggleHelp, Column& column)
+void describeNode (const InspectorContext& at, const graph::Node& node, bool help, const std::function<void()>& toggleHelp, Column& column)
 {
     const auto face = faceOf (at.document.graph(), *at.in(), node, at.catalogue);
     column.add (nodeHeader (at, node, help, toggleHelp));

@@ -15,7 +15,7 @@ namespace tactus::host
 
 namespace
 {
-const graph::Wire* find (const Inspected& at, graph::Id id)
+const graph::Wire* find (const InspectorContext& at, graph::Id id)
 {
     const auto* in = at.in();
     if (in == nullptr) return nullptr;
@@ -23,7 +23,7 @@ const graph::Wire* find (const Inspected& at, graph::Id id)
     return w == in->wires.end() ? nullptr : &*w;
 }
 
-void change (const Inspected& at, graph::Id id, const std::function<void (graph::Wire&)>& f, bool continues = false)
+void change (const InspectorContext& at, graph::Id id, const std::function<void (graph::Wire&)>& f, bool continues = false)
 {
     const auto* now = find (at, id);
     if (now == nullptr) return;
@@ -36,7 +36,7 @@ void change (const Inspected& at, graph::Id id, const std::function<void (graph:
 std::string anyUnit() { return TRANS ("any unit").toStdString(); }
 
 /// The unit at one end of a wire, such as "N, vector". Empty if unknown.
-std::string unitAt (const Inspected& at, const graph::Endpoint& e, bool start)
+std::string unitAt (const InspectorContext& at, const graph::Endpoint& e, bool start)
 {
     const auto* in = at.in();
     const auto* node = in->find (graph::firstNameOf (e.node));
@@ -48,7 +48,8 @@ std::string unitAt (const Inspected& at, const graph::Endpoint& e, bool start)
     return unit + (port->width == 3 && e.component < 0 ? ", " + TRANS ("vector").toStdString() : "");
 }
 
-void addEnd (const Inspected& at, graph::Id id, const juce::String& label, graph::Endpoint graph::Wire::*which, const juce::String& help, Column& column)
+void addEnd (const InspectorContext& at, graph::Id id, const juce::String& label, graph::Endpoint graph::Wire::*which, const juce::String& help,
+             Column& column)
 {
     const auto get = [at, id, which] {
         const auto* w = find (at, id);
@@ -62,7 +63,7 @@ void addEnd (const Inspected& at, graph::Id id, const juce::String& label, graph
     column.add (textRow (label, get, set, help));
 }
 
-void addDelay (const Inspected& at, graph::Id id, Column& column)
+void addDelay (const InspectorContext& at, graph::Id id, Column& column)
 {
     const Binding delay { [at, id] {
                              const auto* w = find (at, id);
@@ -80,7 +81,7 @@ void addDelay (const Inspected& at, graph::Id id, Column& column)
 }
 }   // namespace
 
-void describeWire (const Inspected& at, graph::Id id, Column& column)
+void describeWire (const InspectorContext& at, graph::Id id, Column& column)
 {
     column.add (TRANS ("Wire"), TextBlock::Kind::title);
     addEnd (at, id, TRANS ("from"), &graph::Wire::from, TRANS ("Source: node.output"), column);

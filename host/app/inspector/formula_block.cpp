@@ -105,7 +105,7 @@ std::vector<std::pair<std::size_t, float>> FormulaBlock::columnsFor (float width
     return columns;
 }
 
-const std::vector<FormulaBlock::Placed>& FormulaBlock::place (float width)
+const std::vector<FormulaBlock::PlacedRun>& FormulaBlock::place (float width)
 {
     if (width == placed_for) return placed;
     placed_for = width;
@@ -144,7 +144,7 @@ const std::vector<FormulaBlock::Placed>& FormulaBlock::place (float width)
 }
 
 /// Places the words of a part where the pen is. Returns where it is afterwards.
-FormulaBlock::Pen FormulaBlock::put (const Part& part, Pen pen, std::vector<Placed>& all) const
+FormulaBlock::Pen FormulaBlock::put (const Part& part, Pen pen, std::vector<PlacedRun>& all) const
 {
     const float space = fontOf (FormulaRun::Level::base).getStringWidthFloat (" ");
     bool is_first = true;

@@ -38,7 +38,7 @@ private:
         std::vector<Word> words {};
     };
 
-    struct Placed
+    struct PlacedRun
     {
         const FormulaRun* run;
         juce::Point<float> at;   ///< left end of the base line
@@ -54,8 +54,8 @@ private:
     float widthOf (const Word&) const;
     float widthOf (const Part&) const;
     std::vector<std::pair<std::size_t, float>> columnsFor (float width) const;
-    const std::vector<Placed>& place (float width);
-    Pen put (const Part&, Pen, std::vector<Placed>&) const;
+    const std::vector<PlacedRun>& place (float width);
+    Pen put (const Part&, Pen, std::vector<PlacedRun>&) const;
     juce::Font fontOf (FormulaRun::Level) const;
 
     std::vector<std::vector<Part>> lines;
@@ -63,7 +63,7 @@ private:
 
     // The latest layout, kept because measuring text is slow.
     float placed_for = -1.0f, placed_height = 0.0f;
-    std::vector<Placed> placed;
+    std::vector<PlacedRun> placed;
 };
 
 }   // namespace tactus::host

@@ -13,7 +13,7 @@ namespace
 class NodeHeader final : public Block
 {
 public:
-    NodeHeader (const Inspected& at, const graph::Node& node, bool help_shown, std::function<void()> toggleHelp) : type (node.type)
+    NodeHeader (const InspectorContext& at, const graph::Node& node, bool help_shown, std::function<void()> toggleHelp) : type (node.type)
     {
         auto& document = at.document;
         name.setFont (lookOf (*this).font (15.0f, true));
@@ -74,7 +74,7 @@ private:
 };
 }   // namespace
 
-std::unique_ptr<Block> nodeHeader (const Inspected& at, const graph::Node& node, bool help, std::function<void()> toggleHelp)
+std::unique_ptr<Block> nodeHeader (const InspectorContext& at, const graph::Node& node, bool help, std::function<void()> toggleHelp)
 {
     return std::make_unique<NodeHeader> (at, node, help, std::move (toggleHelp));
 }

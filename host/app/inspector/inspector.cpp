@@ -38,7 +38,7 @@ void Inspector::setHelp (bool on)
     rebuild();
 }
 
-Inspected Inspector::inspected()
+InspectorContext Inspector::inspected()
 {
     const auto refused = [this] (const juce::String& why) {
         if (onHint) onHint (why);
@@ -48,9 +48,9 @@ Inspected Inspector::inspected()
     return { document, catalogue, patch, refused, EditorContext { files, folder, refused }, messages };
 }
 
-Inspector::Selected Inspector::selected (const Inspected& at) const
+Inspector::SelectedItems Inspector::selected (const InspectorContext& at) const
 {
-    Selected s;
+    SelectedItems s;
     if (const auto* in = at.in())
     {
         for (const auto& n : in->nodes)
@@ -68,7 +68,7 @@ Inspector::Selected Inspector::selected (const Inspected& at) const
     return s;
 }
 
-std::unique_ptr<Column> Inspector::makeColumn (const Inspected& at, const Selected& s)
+std::unique_ptr<Column> Inspector::makeColumn (const InspectorContext& at, const SelectedItems& s)
 {
     auto made = std::make_unique<Column>();
     const auto toggleHelp = [this] { setHelp (! help); };

@@ -40,9 +40,9 @@ private:
     void documentChanged() override { rebuild(); }
     void typesChanged() override;
     void rebuild();
-    Inspected inspected();
+    InspectorContext inspected();
 
-    struct Selected
+    struct SelectedItems
     {
         std::vector<const graph::Node*> nodes;
         std::vector<graph::Id> wires;
@@ -51,8 +51,8 @@ private:
         bool isEmpty() const noexcept { return nodes.empty() && wires.empty(); }
         bool isOneWire() const noexcept { return nodes.empty() && wires.size() == 1; }
     };
-    Selected selected (const Inspected&) const;
-    std::unique_ptr<Column> makeColumn (const Inspected&, const Selected&);
+    SelectedItems selected (const InspectorContext&) const;
+    std::unique_ptr<Column> makeColumn (const InspectorContext&, const SelectedItems&);
 
     Document& document;
     const Catalogue& catalogue;

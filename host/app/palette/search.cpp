@@ -38,13 +38,13 @@ bool containsAll (const std::string& text, const std::vector<std::string>& words
 }
 
 /// What can be searched in an entry, in lower case.
-struct Searched
+struct SearchFields
 {
     std::vector<std::string> names;   ///< the parts of its id and the words of its name
     std::vector<std::string> keywords;
     std::string text;   ///< summary, ports, units, quantities
 
-    Searched (const PaletteEntry& e, std::string_view all_keywords, const std::string& all_text)
+    SearchFields (const PaletteEntry& e, std::string_view all_keywords, const std::string& all_text)
         : keywords (wordsOf (std::string (all_keywords))), text (lower (all_text))
     {
         auto id = e.type;
@@ -70,7 +70,7 @@ bool abbreviates (const std::string& word, const std::string& text)
 constexpr int first_guess = 4, no_match = 6;
 
 /// How well a word of a query matches an entry: 0 is best. From first_guess on, the word may be mistyped or shortened.
-int rankOf (const std::string& word, const Searched& s)
+int rankOf (const std::string& word, const SearchFields& s)
 {
     const auto starts = [&] (const std::string& w) { return w.starts_with (word); };
     const auto contains = [&] (const std::string& w) { return w.find (word) != std::string::npos; };
@@ -139,7 +139,7 @@ std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::
         for (const auto* ports : { &face.inputs, &face.params, &face.outputs })
             for (const auto& p : *ports)
                 text += ' ' + p.id + ' ' + std::string (p.unit.unit.symbol) + ' ' + std::string (name (p.quantity()));
-        const Searched searched { entry, keywords, text };
+        const SearchFields searched { entry, keywords, text };
         int worst = 0, sum = 0;
         for (const auto& word : words)
         {

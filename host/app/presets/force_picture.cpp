@@ -28,7 +28,7 @@ std::string firstError (const Messages& messages)
 constexpr std::size_t most_parts = 64;   // components that the picture of the material reads
 
 /// The tools and the recorded values at the tick of the largest force.
-class Pressed
+class PeakForce
 {
 public:
     void note (Engine& engine, const std::vector<std::string>& roles)
@@ -46,7 +46,7 @@ public:
             values.emplace (tap.name, *tap.value);
     }
 
-    scene::Now now (const std::vector<scene::Body>& bodies) const
+    scene::SceneState now (const std::vector<scene::Body>& bodies) const
     {
         const auto valueOf = [this] (const std::string& component) {
             const auto found = values.find (component);
@@ -97,7 +97,7 @@ ForcePicture pictureOf (const std::filesystem::path& file, const Catalogue& cata
     picture.seconds = std::min (picture.seconds, ForcePicture::longest_s);
 
     Engine engine (std::move (compiled.plan));
-    Pressed pressed;
+    PeakForce pressed;
     for (std::size_t i = 0; i < roles.size(); ++i)
         engine.attach (roles[i], *devices[i].device, devices[i].limits);
     std::vector<float> forces (ForcePicture::columns), torques (ForcePicture::columns);

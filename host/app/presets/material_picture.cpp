@@ -12,7 +12,7 @@ constexpr double seen_around_tool = 0.009;   // m
 constexpr int fineness = 2;                  // samples per pixel in each direction
 
 /// What the picture shows.
-scene::Bounds boundsFor (const scene::Scene& stage, const scene::Now& now)
+scene::Bounds boundsFor (const scene::Scene& stage, const scene::SceneState& now)
 {
     if (stage.hasSolid() || now.tools.empty()) return stage.bounds();
     const Vec3& tool = now.tools.front().position;
@@ -23,7 +23,7 @@ scene::Bounds boundsFor (const scene::Scene& stage, const scene::Now& now)
 }
 }   // namespace
 
-MaterialPicture materialOf (std::vector<scene::Body> bodies, const scene::Now& now)
+MaterialPicture materialOf (std::vector<scene::Body> bodies, const scene::SceneState& now)
 {
     MaterialPicture picture;
     scene::Scene stage;

@@ -20,6 +20,6 @@ struct MaterialPicture
 };
 
 /// A mesh is shown as a whole, and a plane near the first tool. [any thread]
-MaterialPicture materialOf (std::vector<scene::Body>, const scene::Now&);
+MaterialPicture materialOf (std::vector<scene::Body>, const scene::SceneState&);
 
 }   // namespace tactus::host

@@ -36,7 +36,7 @@ std::vector<std::string> partsOf (const std::string& pointer)
     return parts;
 }
 
-const graph::Wire* wireOf (const graph::Graph& g, const Culprit& c)
+const graph::Wire* wireOf (const graph::Graph& g, const ProblemLocation& c)
 {
     const auto* patch = findPatch (g, c.patch);
     if (patch == nullptr) return nullptr;
@@ -74,45 +74,45 @@ Fix add (const graph::Graph& g, const std::string& type, const juce::String& lab
 }
 }   // namespace
 
-Culprit culpritOf (const graph::Graph& g, const Message& m)
+ProblemLocation locationOf (const graph::Graph& g, const Message& m)
 {
-    Culprit culprit;
+    ProblemLocation location;
     auto parts = partsOf (m.where);
     if (parts.size() > 2 && parts[0] == "graphs")
     {
-        culprit.patch = parts[1];
+        location.patch = parts[1];
         parts.erase (parts.begin(), parts.begin() + 2);
     }
-    const auto* patch = findPatch (g, culprit.patch);
-    if (patch == nullptr || ! m.file.empty() || parts.size() < 2) return culprit;
-    if (parts[0] == "devices") culprit.role = parts[1];
+    const auto* patch = findPatch (g, location.patch);
+    if (patch == nullptr || ! m.file.empty() || parts.size() < 2) return location;
+    if (parts[0] == "devices") location.role = parts[1];
     if (parts[0] == "nodes")
         if (const auto* node = patch->find (parts[1]))
         {
-            culprit.id = node->id;
-            culprit.node = node->name;
-            if (parts.size() > 3 && parts[2] == "params") culprit.param = parts[3];
+            location.id = node->id;
+            location.node = node->name;
+            if (parts.size() > 3 && parts[2] == "params") location.param = parts[3];
         }
     if (parts[0] == "wires" && ! parts[1].empty() && std::ranges::all_of (parts[1], [] (char c) { return c >= '0' && c <= '9'; }))
-        if (const auto i = std::strtoull (parts[1].c_str(), nullptr, 10); i < patch->wires.size()) culprit.id = patch->wires[i].id;
-    return culprit;
+        if (const auto i = std::strtoull (parts[1].c_str(), nullptr, 10); i < patch->wires.size()) location.id = patch->wires[i].id;
+    return location;
 }
 
 std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
 {
-    const auto culprit = culpritOf (g, m);
-    const auto* wire = wireOf (g, culprit);
+    const auto location = locationOf (g, m);
+    const auto* wire = wireOf (g, location);
     if (m.id == "graph/loop" && wire != nullptr)
     {
         auto delayed = *wire;
         delayed.delay = std::max (1, wire->delay);
         return Fix { TRANS ("Delay wire by a tick").toStdString(),
-                     graph::Batch { NEEDS_TRANS ("break loop"), { graph::ChangeWire { culprit.patch, culprit.id, std::move (delayed) } } } };
+                     graph::Batch { NEEDS_TRANS ("break loop"), { graph::ChangeWire { location.patch, location.id, std::move (delayed) } } } };
     }
     if (m.id == "graph/no_hand") return add (g, "device.position", TRANS ("Add a hand"), true);
     if (m.id == "graph/no_motor") return add (g, "device.force", TRANS ("Add a motor"), false);
     if (m.severity != Message::Severity::error) return std::nullopt;
-    const auto& [patch, id, node, param, role] = culprit;
+    const auto& [patch, id, node, param, role] = location;
     if (wire != nullptr)
         return Fix { TRANS ("Remove the wire").toStdString(), graph::Batch { NEEDS_TRANS ("remove wire"), { graph::RemoveWire { patch, id } } } };
     if (! param.empty())

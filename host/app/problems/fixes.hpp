@@ -11,7 +11,7 @@ namespace tactus::host
 {
 
 /// What a message is about.
-struct Culprit
+struct ProblemLocation
 {
     std::string patch;         ///< "" is the graph itself
     graph::Id id = 0;          ///< id of the node or wire; 0 if the message is about neither
@@ -19,7 +19,7 @@ struct Culprit
     std::string param, role;   ///< name of the param or device role, if the message is about one
 };
 
-Culprit culpritOf (const graph::Graph&, const Message&);
+ProblemLocation locationOf (const graph::Graph&, const Message&);
 
 /// A one-click fix for a problem, with a short button label.
 struct Fix

@@ -67,7 +67,7 @@ public:
 
     void mouseUp (const juce::MouseEvent& e) override
     {
-        if (! e.mouseWasDraggedSinceMouseDown() && list.onShow) list.onShow (culpritOf (list.document.graph(), message));
+        if (! e.mouseWasDraggedSinceMouseDown() && list.onShow) list.onShow (locationOf (list.document.graph(), message));
     }
 
 private:

@@ -24,7 +24,7 @@ public:
     void show (const Messages&);
     const Messages& messages() const noexcept { return shown; }
 
-    std::function<void (const Culprit&)> onShow;
+    std::function<void (const ProblemLocation&)> onShow;
 
     void paint (juce::Graphics&) override;
     void resized() override;

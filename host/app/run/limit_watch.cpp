@@ -65,7 +65,7 @@ void LimitWatch::poll()
 /// Shows the result of a check, unless another graph has been opened since it began.
 void LimitWatch::take()
 {
-    std::optional<Done> finished;
+    std::optional<CheckResult> finished;
     {
         const std::scoped_lock guard (lock);
         finished.swap (done);
@@ -84,7 +84,7 @@ void LimitWatch::begin()
     is_busy = true;
     {
         const std::scoped_lock guard (lock);
-        ordered = Order { document.identity(), { document.graph(), rate_hz, roles }, catalogue };
+        ordered = CheckRequest { document.identity(), { document.graph(), rate_hz, roles }, catalogue };
     }
     if (! isThreadRunning()) startThread (Priority::low);
     notify();
@@ -101,7 +101,7 @@ void LimitWatch::run()
     FileAssets assets;   // its own, because the assets of the run belong to other threads
     while (! threadShouldExit())
     {
-        std::optional<Order> order;
+        std::optional<CheckRequest> order;
         {
             const std::scoped_lock guard (lock);
             order.swap (ordered);
@@ -111,7 +111,7 @@ void LimitWatch::run()
             wait (-1);
             continue;
         }
-        Done result { order->document, {}, {} };
+        CheckResult result { order->document, {}, {} };
         auto list = caught ({}, [&] { return limitsOf (order->job, order->types, assets); });
         if (list)
             result.list = std::move (*list);

@@ -39,13 +39,13 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    struct Order
+    struct CheckRequest
     {
         const void* document = nullptr;   // identity of the document
         LimitJob job;
         Catalogue types;   // a copy, because live C++ may replace types meanwhile
     };
-    struct Done
+    struct CheckResult
     {
         const void* document = nullptr;
         LimitList list;
@@ -75,8 +75,8 @@ private:
     int attended = 0;
 
     std::mutex lock;   // guards the members below
-    std::optional<Order> ordered;
-    std::optional<Done> done;
+    std::optional<CheckRequest> ordered;
+    std::optional<CheckResult> done;
 };
 
 }   // namespace tactus::host

@@ -84,7 +84,7 @@ void SceneFeed::after (const Plan& plan, std::uint64_t tick, bool) noexcept
     tools.store (t);
 }
 
-scene::Now SceneFeed::now()
+scene::SceneState SceneFeed::now()
 {
     wantPorts();
     ring.drain ([this] (const ProbeRing::Frame& frame) {
@@ -92,7 +92,7 @@ scene::Now SceneFeed::now()
         for (std::size_t i = 0; i < frame.size; ++i)
             values[names[i]] = frame.values[i];
     });
-    scene::Now now;
+    scene::SceneState now;
     const auto t = tools.load();
     const auto of_plan = roles.find (t.plan);
     if (of_plan == roles.end()) return now;

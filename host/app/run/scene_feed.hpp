@@ -32,7 +32,7 @@ public:
     const std::vector<scene::Body>& bodies() const noexcept { return all; }
 
     /// The tools and values of the latest tick; without tools if nothing has run since clear().
-    scene::Now now();
+    scene::SceneState now();
 
     /// Nothing runs any more: forgets the values.
     void clear();

@@ -28,7 +28,7 @@ Vec3 Camera::up() const noexcept { return right().cross (view()); }
 
 Vec3 Camera::view() const noexcept { return { -std::sin (yaw) * std::cos (pitch), std::cos (yaw) * std::cos (pitch), -std::sin (pitch) }; }
 
-Camera::Seen Camera::see (const Vec3& p) const noexcept
+Camera::ImagePoint Camera::see (const Vec3& p) const noexcept
 {
     const Vec3 from_eye = p - eye();
     const double depth = from_eye.dot (view());

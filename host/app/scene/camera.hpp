@@ -44,12 +44,12 @@ public:
 
     /// A point in the picture. `depth` is the distance from the camera along the line of sight, in m; what is not in front of the camera
     /// has a depth of at most near().
-    struct Seen
+    struct ImagePoint
     {
         float x = 0.0f, y = 0.0f;
         double depth = 0.0;
     };
-    Seen see (const Vec3&) const noexcept;
+    ImagePoint see (const Vec3&) const noexcept;
     juce::Point<float> pixel (const Vec3& p) const noexcept
     {
         const auto s = see (p);

@@ -128,7 +128,7 @@ void Overlay::drawPlumb (const Tool& tool, const Scene& scene, const std::vector
     graphics.drawEllipse (juce::Rectangle<float> (7.0f, 4.0f).withCentre (line->getEnd()), 1.2f);
 }
 
-void Overlay::drawMarks (const Scene& scene, const Now& now)
+void Overlay::drawMarks (const Scene& scene, const SceneState& now)
 {
     const auto& theme = look.theme();
     const auto touches = scene.touches (now);
@@ -168,7 +168,7 @@ void Overlay::drawMarks (const Scene& scene, const Now& now)
     }
 }
 
-void Overlay::drawScale (const Scene& scene, const Now& now)
+void Overlay::drawScale (const Scene& scene, const SceneState& now)
 {
     const auto& theme = look.theme();
     const double step = Scene::gridFor (camera);

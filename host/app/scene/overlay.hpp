@@ -15,8 +15,8 @@ public:
     Overlay (juce::Graphics& g, const Look& l, const Camera& c, juce::Rectangle<float> a) : graphics (g), look (l), camera (c), area (a) {}
 
     void drawGround (const Scene&);   ///< lines below everything, for a scene without a plane; call it before the surfaces are drawn
-    void drawMarks (const Scene&, const Now&);
-    void drawScale (const Scene&, const Now&);
+    void drawMarks (const Scene&, const SceneState&);
+    void drawScale (const Scene&, const SceneState&);
     void drawAxes();
 
     /// The axis of the gizmo at this place: 0, 1 or 2 for x, y or z; empty: none.

@@ -48,7 +48,7 @@ void rod (Raster& raster, const Camera& camera, const Paint& paint, const Vec3& 
 }
 }   // namespace
 
-Vec3 bladeDirection (const Body& b, std::size_t number, const Now& now, const Vec3& normal)
+Vec3 bladeDirection (const Body& b, std::size_t number, const SceneState& now, const Vec3& normal)
 {
     const Vec3 edge = rotationMatrix (now.of (number, &Appearance::rotation).value_or (b.vector (&Appearance::rotation, Vec3::Zero()))) * Vec3::UnitX();
     const Vec3 along = edge - edge.dot (normal) * normal;
@@ -69,7 +69,7 @@ void Scene::drawTool (Raster& raster, const Camera& camera, const Paint& paint, 
     });
 }
 
-void Scene::drawBlade (Raster& raster, const Camera& camera, const Paint& paint, const Body& b, std::size_t number, const Now& now) const
+void Scene::drawBlade (Raster& raster, const Camera& camera, const Paint& paint, const Body& b, std::size_t number, const SceneState& now) const
 {
     const auto* tool = now.tool (b.role);
     if (tool == nullptr) return;
@@ -91,7 +91,7 @@ void Scene::drawBlade (Raster& raster, const Camera& camera, const Paint& paint,
     }
 }
 
-void Scene::drawScissors (Raster& raster, const Camera& camera, const Paint& paint, const Body& b, std::size_t number, const Now& now) const
+void Scene::drawScissors (Raster& raster, const Camera& camera, const Paint& paint, const Body& b, std::size_t number, const SceneState& now) const
 {
     constexpr double length = 0.065, half_plate = 0.025, broad = 6e-3;
     const double angle = std::clamp (now.of (number, &Appearance::angle).value_or (Vec3 (0.5, 0.0, 0.0)).x(), 0.0, 1.5);

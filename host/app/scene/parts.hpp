@@ -7,6 +7,6 @@ namespace tactus::host::scene
 {
 
 /// The direction of a blade's edge, within a surface with this normal.
-Vec3 bladeDirection (const Body&, std::size_t number, const Now&, const Vec3& normal);
+Vec3 bladeDirection (const Body&, std::size_t number, const SceneState&, const Vec3& normal);
 
 }   // namespace tactus::host::scene

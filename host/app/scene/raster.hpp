@@ -58,7 +58,7 @@ public:
 
     /// Draws a point of the scene into this picture.
     template <std::size_t N>
-    Corner<N> corner (const Camera::Seen& s, double near, std::array<float, N> values) const noexcept
+    Corner<N> corner (const Camera::ImagePoint& s, double near, std::array<float, N> values) const noexcept
     {
         const auto f = static_cast<float> (samples);
         const float nearness = s.depth > near ? static_cast<float> (1.0 / s.depth) : 0.0f;

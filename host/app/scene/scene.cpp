@@ -44,7 +44,7 @@ void addOnce (std::vector<T>& all, const T& one)
 bool isSame (const Sheet3D& a, const Sheet3D& b) noexcept { return (a.normal - b.normal).norm() < 1e-6 && std::abs (a.offset - b.offset) < 1e-6; }
 }   // namespace
 
-const Tool* Now::tool (const std::string& role) const noexcept
+const Tool* SceneState::tool (const std::string& role) const noexcept
 {
     const auto found = std::ranges::find (tools, role, &Tool::role);
     return found == tools.end() ? nullptr : &*found;
@@ -97,7 +97,7 @@ double Scene::gridFor (const Camera& camera) noexcept
 }
 
 /// Where the origin of a texture's coordinates is: a node before it may have moved the position.
-Vec3 Scene::originOf (std::size_t body, const Now& now) const
+Vec3 Scene::originOf (std::size_t body, const SceneState& now) const
 {
     const auto* tool = now.tool (all[body].role);
     const auto there = now.of (body, &Appearance::tool);
@@ -106,7 +106,7 @@ Vec3 Scene::originOf (std::size_t body, const Now& now) const
     return from.norm() < 1e-4 ? Vec3 (Vec3::Zero()) : from;   // the two are not from the same tick
 }
 
-std::vector<Sheet3D> Scene::sheetsOf (const Now& now) const
+std::vector<Sheet3D> Scene::sheetsOf (const SceneState& now) const
 {
     std::vector<Sheet3D> sheets;
     bool has_texture = false;
@@ -140,7 +140,7 @@ std::vector<Sheet3D> Scene::sheetsOf (const Now& now) const
     return sheets;
 }
 
-std::vector<Touch> Scene::touches (const Now& now) const
+std::vector<Touch> Scene::touches (const SceneState& now) const
 {
     std::vector<Touch> found;
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -173,7 +173,7 @@ std::vector<Touch> Scene::touches (const Now& now) const
     return found;
 }
 
-std::vector<Crack> Scene::cracks (const Now& now) const
+std::vector<Crack> Scene::cracks (const SceneState& now) const
 {
     std::vector<Crack> found;
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -191,7 +191,7 @@ std::vector<Crack> Scene::cracks (const Now& now) const
     return found;
 }
 
-void Scene::draw (Raster& raster, const Camera& camera, const Paint& paint, const Now& now) const
+void Scene::draw (Raster& raster, const Camera& camera, const Paint& paint, const SceneState& now) const
 {
     auto sheets = sheetsOf (now);
     constexpr double most_cells = 8192.0;   // in all sheets together

@@ -15,7 +15,7 @@ struct Tool
 };
 
 /// What changes from picture to picture.
-struct Now
+struct SceneState
 {
     std::vector<Tool> tools {};
     std::vector<PartValues> live {};   ///< by body: values of its ports; empty where nothing runs
@@ -57,10 +57,10 @@ public:
     Bounds bounds() const noexcept;
 
     /// Draws everything that has a surface: planes, meshes, blades, plates and tools.
-    void draw (Raster&, const Camera&, const Paint&, const Now&) const;
+    void draw (Raster&, const Camera&, const Paint&, const SceneState&) const;
 
-    std::vector<Touch> touches (const Now&) const;
-    std::vector<Crack> cracks (const Now&) const;
+    std::vector<Touch> touches (const SceneState&) const;
+    std::vector<Crack> cracks (const SceneState&) const;
 
     /// Distance of the lines of the ground grid, for a camera: 1, 10 or 100 mm.
     static double gridFor (const Camera&) noexcept;
@@ -69,10 +69,10 @@ public:
     bool hasSolid() const noexcept { return ! solids.empty(); }
 
 private:
-    std::vector<Sheet3D> sheetsOf (const Now&) const;
-    Vec3 originOf (std::size_t body, const Now&) const;
-    void drawBlade (Raster&, const Camera&, const Paint&, const Body&, std::size_t number, const Now&) const;
-    void drawScissors (Raster&, const Camera&, const Paint&, const Body&, std::size_t number, const Now&) const;
+    std::vector<Sheet3D> sheetsOf (const SceneState&) const;
+    Vec3 originOf (std::size_t body, const SceneState&) const;
+    void drawBlade (Raster&, const Camera&, const Paint&, const Body&, std::size_t number, const SceneState&) const;
+    void drawScissors (Raster&, const Camera&, const Paint&, const Body&, std::size_t number, const SceneState&) const;
     void drawTool (Raster&, const Camera&, const Paint&, const Tool&) const;
 
     std::vector<Body> all;

@@ -29,7 +29,7 @@ ScopePanel::ScopePanel (Document& d, Traces& t, const Catalogue& c) : document (
     more.setTooltip (TRANS ("Adds a scope"));
     more.onClick = [this] { openAdders(); };
     addChildComponent (more);
-    scroll.setViewedComponent (&shelf, false);
+    scroll.setViewedComponent (&scope_row, false);
     scroll.setScrollBarsShown (true, true);
     scroll.setScrollBarThickness (8);
     scroll.setWantsKeyboardFocus (false);
@@ -117,7 +117,7 @@ void ScopePanel::showView (ScopeSpec& s)
     v.onFreeze = [this] { freeze_button.setToggleState (isFrozen(), juce::dontSendNotification); };
     v.onSave = [this, &v] (juce::Component& below) { save (v, below); };
     v.addMouseListener (this, true);
-    shelf.addAndMakeVisible (v);
+    scope_row.addAndMakeVisible (v);
 }
 
 /// Scrolls as far as it takes to show all of this scope.
@@ -222,7 +222,7 @@ void ScopePanel::report (const Result<>& written, const juce::File& file)
 
 juce::Rectangle<int> ScopePanel::emptyArea() const { return getLocalBounds().withTrimmedTop (row_height); }
 
-void ScopePanel::Shelf::paint (juce::Graphics& g)
+void ScopePanel::ScopeRow::paint (juce::Graphics& g)
 {
     g.setColour (themeOf (*this).hairline);
     for (const auto* view : getChildren())
@@ -292,8 +292,8 @@ void ScopePanel::layOutScopes()
 {
     const int count = static_cast<int> (views.size()), bar = scroll.getScrollBarThickness();
     const auto size = sizeInView (scroll.getLocalBounds(), { count * least_scope_width, least_scope_height }, bar);
-    shelf.setSize (size.width, size.height);
-    auto area = shelf.getLocalBounds();
+    scope_row.setSize (size.width, size.height);
+    auto area = scope_row.getLocalBounds();
     for (int i = 0; i < count; ++i)
         views[static_cast<std::size_t> (i)]->setBounds (area.removeFromLeft (area.getWidth() / (count - i)).withTrimmedLeft (i == 0 ? 0 : 1));
 }

@@ -48,7 +48,7 @@ private:
     static constexpr std::size_t most_scopes = 8;
 
     /// The row of scopes, which may be wider than the panel.
-    struct Shelf final : juce::Component
+    struct ScopeRow final : juce::Component
     {
         void paint (juce::Graphics&) override;
     };
@@ -72,7 +72,7 @@ private:
     Traces::Client client;
     ScopeContext context;
     ScopeModel model;
-    Shelf shelf;
+    ScopeRow scope_row;
     juce::Viewport scroll;
     std::vector<std::unique_ptr<ScopeView>> views;   // in the order of the model
     std::vector<std::unique_ptr<FlatButton>> adders;

@@ -11,7 +11,7 @@ namespace
 {
 constexpr int deepest = 16;
 
-struct Walk
+struct PortCollector
 {
     const Catalogue& catalogue;
     std::vector<ScopePort> all;
@@ -52,7 +52,7 @@ bool isWired (const graph::Patch& patch, const std::string& node, const std::str
 
 std::vector<ScopePort> scopePorts (const graph::Graph& g, const Catalogue& c)
 {
-    Walk walk { c, {} };
+    PortCollector walk { c, {} };
     walk.patch (g, g.root, {}, 0);
     return std::move (walk.all);
 }

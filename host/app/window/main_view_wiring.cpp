@@ -66,7 +66,7 @@ void MainView::connectRun()
 {
     strip.onProblems = [this] { bottom.show (problems); };
     strip.limitLight().onClick = [this] { bottom.show (problems); };
-    problems.onShow = [this] (const Culprit& c) { patching.show (c.patch, c.id); };
+    problems.onShow = [this] (const ProblemLocation& c) { patching.show (c.patch, c.id); };
     live.limits = &limits;
 
     hand.onHint = patching.onHint;

@@ -37,7 +37,7 @@ public:
     bool keyPressed (const juce::KeyPress&) override;
 
 private:
-    struct Waiting
+    struct PendingQuestion
     {
         juce::String title, text;
         std::vector<Choice> choices;
@@ -51,7 +51,7 @@ private:
     std::vector<Choice> choices;
     std::vector<std::unique_ptr<PlainButton>> buttons;
     std::size_t marked = 0;
-    std::deque<Waiting> waiting;
+    std::deque<PendingQuestion> waiting;
     juce::Rectangle<int> box;
 };
 

@@ -24,7 +24,7 @@ public:
     std::vector<std::string> types() override { return { "JACK", "ALSA" }; }
     std::vector<host::audio::ListedCard> list() override { return {}; }
 
-    Result<std::unique_ptr<host::audio::OpenCard>> open (const host::audio::CardWanted& w, int outs, int ins, host::audio::CardUser& u) override
+    Result<std::unique_ptr<host::audio::OpenCard>> open (const host::audio::CardRequest& w, int outs, int ins, host::audio::CardUser& u) override
     {
         const auto refused = [] (const char* id) {
             Message m;
@@ -71,7 +71,7 @@ public:
         return std::chrono::steady_clock::time_point (std::chrono::nanoseconds (static_cast<std::int64_t> (1e9 * s)));
     }
 
-    host::audio::CardWanted wanted;
+    host::audio::CardRequest wanted;
 
 private:
     struct Card final : host::audio::OpenCard

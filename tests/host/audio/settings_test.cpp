@@ -29,7 +29,7 @@ TEST_CASE ("the audio settings of a session are read", "[audio]")
     const auto s = readAudioSettings (whole, "/audio", messages);
     INFO (test::text (messages));
     CHECK (messages.empty());
-    CHECK (s.card == CardWanted { "JACK", "system", "system", 48000.0, 64 });
+    CHECK (s.card == CardRequest { "JACK", "system", "system", 48000.0, 64 });
     CHECK (s.reserve_s == 0.02);
     REQUIRE (s.routes.size() == 2);
     CHECK (s.routes[0].port == "mix.out");
@@ -110,10 +110,10 @@ TEST_CASE ("a route on the command line is a port, a channel and optionally a fu
     rc::prop ("any text", [] (const std::string& text) { static_cast<void> (parseRoute (text)); });
 
     const std::vector<std::string> types { "JACK", "ALSA" };
-    CHECK (parseCard ("jack", types) == CardWanted { .type = "JACK", .output = "", .input = "" });
-    CHECK (parseCard ("ALSA:DualSense, USB", types) == CardWanted { .type = "ALSA", .output = "DualSense, USB", .input = "" });
-    CHECK (parseCard ("DualSense", types) == CardWanted { .type = "", .output = "DualSense", .input = "" });
-    CHECK (parseCard ("hw:2", types) == CardWanted { .type = "", .output = "hw:2", .input = "" });
+    CHECK (parseCard ("jack", types) == CardRequest { .type = "JACK", .output = "", .input = "" });
+    CHECK (parseCard ("ALSA:DualSense, USB", types) == CardRequest { .type = "ALSA", .output = "DualSense, USB", .input = "" });
+    CHECK (parseCard ("DualSense", types) == CardRequest { .type = "", .output = "DualSense", .input = "" });
+    CHECK (parseCard ("hw:2", types) == CardRequest { .type = "", .output = "hw:2", .input = "" });
 }
 
 TEST_CASE ("a role uses the channels in its description, or else the channels of its nodes", "[audio]")

@@ -16,7 +16,7 @@ struct Device
     std::uint64_t number = 0;
     double wall = 100.0, clock = 7.0;
 
-    StampWatch::Verdict next (double passed = 1e-3, double on_its_clock = 1e-3)
+    StampWatch::Assessment next (double passed = 1e-3, double on_its_clock = 1e-3)
     {
         wall += passed;
         clock += on_its_clock;
@@ -95,7 +95,7 @@ TEST_CASE ("when more than half of the readings are missing, none is trusted", "
     SECTION ("by the rate, if there are no numbers")
     {
         StampWatch watch { 1000.0 };
-        StampWatch::Verdict v;
+        StampWatch::Assessment v;
         for (int k = 0; k < 40; ++k)
             v = watch ({ sizeof (tactus_device_stamp), 0, 0, 0.0 }, 4e-3 * k);
         CHECK (v.fault == ReadingFault::lost);

@@ -227,7 +227,7 @@ private:
         Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override
         {
             const auto got = take (into, std::chrono::steady_clock::now() + timeout);
-            if (got.what == host::ReportFile::Outcome::What::failure) return host::hid::transferError ("Input/output error");
+            if (got.what == host::ReportFile::Outcome::Kind::failure) return host::hid::transferError ("Input/output error");
             return got.size;
         }
 
@@ -262,17 +262,17 @@ private:
 
         host::ReportFile::Outcome take (std::span<std::uint8_t> into, std::chrono::steady_clock::time_point until)
         {
-            using What = host::ReportFile::Outcome::What;
+            using Kind = host::ReportFile::Outcome::Kind;
             std::unique_lock lock (board.mutex);
             board.changed.wait_until (lock, until, [&] { return gone() || ! board.waiting.empty(); });
-            if (gone()) return { .what = What::failure };
+            if (gone()) return { .what = Kind::failure };
             if (board.waiting.empty()) return {};
             const auto report = std::move (board.waiting.front());
             board.waiting.pop_front();
             board.who_read.push_back (std::this_thread::get_id());
             const auto size = std::min (report.size(), into.size());
             std::copy_n (report.begin(), size, into.begin());
-            return { .what = What::report, .size = size };
+            return { .what = Kind::report, .size = size };
         }
 
         Result<> tell (std::span<const std::uint8_t> report, Told::How how)

@@ -57,7 +57,7 @@ private:
         {
             board.reading_thread = static_cast<int> (::syscall (SYS_gettid));
             const auto got = file.read (into, host::ReportFile::Clock::now() + timeout);
-            if (got.what == host::ReportFile::Outcome::What::failure) return host::hid::transferError ("unplugged");
+            if (got.what == host::ReportFile::Outcome::Kind::failure) return host::hid::transferError ("unplugged");
             return got.size;
         }
 

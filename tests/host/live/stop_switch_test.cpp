@@ -35,8 +35,8 @@ TEST_CASE ("a press is ahead until it is noticed, and both kinds are counted", "
     stops.stop();
     stops.emergencyStop();
     CHECK (stops.isAhead());
-    CHECK (stops.presses() == StopSwitch::Presses { 1, 1 });
-    CHECK (stops.notice() == StopSwitch::Presses {});
+    CHECK (stops.presses() == StopSwitch::PressCounts { 1, 1 });
+    CHECK (stops.notice() == StopSwitch::PressCounts {});
     CHECK_FALSE (stops.isAhead());
     stops.note();   // a stop that needs no press
     CHECK_FALSE (stops.isAhead());

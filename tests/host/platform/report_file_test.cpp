@@ -20,7 +20,7 @@
 
 using namespace tactus::host;
 using namespace std::chrono_literals;
-using What = ReportFile::Outcome::What;
+using Kind = ReportFile::Outcome::Kind;
 using Clock = ReportFile::Clock;
 
 namespace
@@ -58,14 +58,14 @@ TEST_CASE ("each read of a report file takes one report, and truncates a long on
     std::array<std::uint8_t, 8> large {};
     std::array<std::uint8_t, 2> small {};
     auto got = link.file.read (large, {});
-    CHECK (got.what == What::report);
+    CHECK (got.what == Kind::report);
     CHECK (got.size == 4);
     CHECK (large[3] == 4);
     got = link.file.read (small, {});
-    CHECK (got.what == What::report);
+    CHECK (got.what == Kind::report);
     CHECK (got.size == 2);
     CHECK (small[1] == 6);
-    CHECK (link.file.read (large, {}).what == What::nothing);
+    CHECK (link.file.read (large, {}).what == Kind::nothing);
 }
 
 TEST_CASE ("a report file waits until the given time, or until a report arrives, and allocates nothing", "[hid][platform]")
@@ -76,7 +76,7 @@ TEST_CASE ("a report file waits until the given time, or until a report arrives,
     const NoAllocation watched;
     const auto in_vain = link.file.read (into, until);
     const int allocations = watched.allocations(), locks = watched.locks();
-    CHECK (in_vain.what == What::nothing);
+    CHECK (in_vain.what == Kind::nothing);
     CHECK (Clock::now() >= until);
     CHECK (allocations == 0);
     CHECK (locks == 0);
@@ -89,7 +89,7 @@ TEST_CASE ("a report file waits until the given time, or until a report arrives,
     const auto got = link.file.read (into, Clock::now() + 60s);
     sender.join();
     CHECK (sent);
-    CHECK (got.what == What::report);
+    CHECK (got.what == Kind::report);
 }
 
 TEST_CASE ("a report file says when its device is gone", "[hid][platform]")
@@ -102,12 +102,12 @@ TEST_CASE ("a report file says when its device is gone", "[hid][platform]")
     } };
     const auto waited = link.file.read (into, Clock::now() + 60s);
     puller.join();
-    CHECK (waited.what == What::failure);
+    CHECK (waited.what == Kind::failure);
     CHECK (waited.error != 0);
-    CHECK (link.file.read (into, {}).what == What::failure);
+    CHECK (link.file.read (into, {}).what == Kind::failure);
 
     ReportFile closed { -1 };
-    CHECK (closed.read (into, {}).what == What::failure);
+    CHECK (closed.read (into, {}).what == Kind::failure);
     CHECK_FALSE (ReportFile::open ("/dev/there/is/no/such/device"));
     CHECK (ReportFile::open ("/dev/null"));
 }

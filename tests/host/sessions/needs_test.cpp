@@ -199,7 +199,7 @@ TEST_CASE ("the clock option takes precedence over the session, which takes prec
     CHECK (chooseClock ({}, devices, nothing).role.empty());
 
     const std::vector<Described> of_plugin { { "stylus", { { "driver", "serial_arm" } } } };
-    for (const auto& wish : { ClockWish { "stylus", "", {} }, ClockWish { "", "stylus", {} } })
+    for (const auto& wish : { ClockRequest { "stylus", "", {} }, ClockRequest { "", "stylus", {} } })
     {
         const auto choice = chooseClock (wish, of_plugin, nothing);
         CHECK (choice.role.empty());

@@ -178,8 +178,8 @@ void LiveFeed::showProblems (Live& live) const
     for (const auto& m : live_run.messages())
     {
         if (m.severity != Message::Severity::error) continue;
-        const auto culprit = culpritOf (canvas.edited().graph(), m);
-        if (culprit.id != 0 && culprit.patch == canvas.patch()) live.problems[culprit.id] = messageText (m);
+        const auto location = locationOf (canvas.edited().graph(), m);
+        if (location.id != 0 && location.patch == canvas.patch()) live.problems[location.id] = messageText (m);
     }
 }
 

@@ -140,10 +140,10 @@ void SafetyStrip::refresh()
     repaint();
 }
 
-SafetyStrip::Shown SafetyStrip::stateOf (LiveRun& run)
+SafetyStrip::Status SafetyStrip::stateOf (LiveRun& run)
 {
     const bool has_errors = hasErrors (run.messages());
-    Shown now;
+    Status now;
     now.running = run.isRunning();
     now.stopped_for_good = run.isStoppedForGood();
     const auto status = run.status();
@@ -171,7 +171,7 @@ SafetyStrip::Shown SafetyStrip::stateOf (LiveRun& run)
     return now;
 }
 
-void SafetyStrip::showGuards (const LiveRun& run, const RunStatus& status, Shown& now)
+void SafetyStrip::showGuards (const LiveRun& run, const RunStatus& status, Status& now)
 {
     if (now.running) now.guard = TRANS ("guard ready");
     if (const auto most = run.mostForce(); most && status.peak >= *most * (1.0 - 1e-9))

@@ -37,21 +37,21 @@ public:
     void mouseUp (const juce::MouseEvent&) override;
 
 private:
-    struct Shown
+    struct Status
     {
         juce::String state, guard, force, misses, delay, walls;
         bool running = false, alarmed = false, warned = false, stopped_for_good = false, has_errors = false;
 
-        bool operator== (const Shown&) const = default;
+        bool operator== (const Status&) const = default;
     };
 
     class StopButton;
 
-    static Shown stateOf (LiveRun&);
-    static void showGuards (const LiveRun&, const RunStatus&, Shown&);
+    static Status stateOf (LiveRun&);
+    static void showGuards (const LiveRun&, const RunStatus&, Status&);
 
     Playback& playback;
-    Shown shown;
+    Status shown;
     juce::Rectangle<int> state_place;   // where the state is painted
     std::unique_ptr<StopButton> button, rearm;
     LimitLight limits;

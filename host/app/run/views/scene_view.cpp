@@ -16,7 +16,7 @@ constexpr double radians_per_pixel = 0.008;
 constexpr float key_step = 24.0f;   // pixels that an arrow key turns or moves
 constexpr int rest_after = 6;       // calls to refresh() until a picture is at rest
 
-bool isSame (const scene::Now& a, const scene::Now& b)
+bool isSame (const scene::SceneState& a, const scene::SceneState& b)
 {
     const auto same = [] (const scene::Tool& s, const scene::Tool& t) { return s.role == t.role && s.position == t.position && s.force == t.force; };
     return std::ranges::equal (a.tools, b.tools, same) && a.live == b.live;

@@ -60,7 +60,7 @@ private:
     Playback& playback;
     scene::Camera seen_by;
     scene::Scene stage;
-    scene::Now now;
+    scene::SceneState now;
     scene::Raster raster;
     juce::Image surfaces;
     LabelButton follow_button { TRANS ("Follow"), TRANS ("Keeps the tool in the middle (T)") },

@@ -55,7 +55,7 @@ Film strokeFilm (double seconds)
         const Vec3 position (0.02 * std::sin (4.0 * t), 0.0, -1e-3), force (0.3 * std::sin (2.0 * std::numbers::pi * 200.0 * t), 0.0, 1.0);
         film.ticks.push_back ({ 1000 + i, position, force });
         if (i % 60 != 0) continue;
-        scene::Now now;
+        scene::SceneState now;
         now.tools.push_back ({ "stylus", position, force });
         film.states.push_back ({ 1000 + i, shared, now, camera });
     }

@@ -92,7 +92,7 @@ TEST_CASE ("a limit names its node, also inside a subgraph, and its message lead
     REQUIRE (told != messages.end());
     CHECK (told->severity == Message::Severity::error);
     CHECK (told->where == "/graphs/wood/nodes/drag");
-    CHECK (culpritOf (read.graph, *told).node == "drag");
+    CHECK (locationOf (read.graph, *told).node == "drag");
     CHECK_FALSE (fixOf (read.graph, *told));
 }
 

@@ -62,8 +62,8 @@ TEST_CASE ("a problem inside a subgraph is found and fixed there", "[app][proble
         "graphs":{"inner":{"nodes":{"a":{"type":"signal.slew"},"b":{"type":"signal.slew"}},"wires":["a.out -> b.in","b.out -> a.in"]}})");
     const auto errors = errorsOf (g);
     REQUIRE_FALSE (errors.empty());
-    CHECK (culpritOf (g, errors[0]).patch == "inner");
-    CHECK (culpritOf (g, errors[0]).id != 0);
+    CHECK (locationOf (g, errors[0]).patch == "inner");
+    CHECK (locationOf (g, errors[0]).id != 0);
     CHECK (fixAll (g).empty());
 }
 

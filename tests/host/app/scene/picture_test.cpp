@@ -14,8 +14,8 @@ using namespace tactus;
 using namespace tactus::host;
 using host::test::bodiesIn;
 using scene::Body;
-using scene::Now;
 using scene::PartValues;
+using scene::SceneState;
 using Kind = Appearance::Kind;
 
 namespace
@@ -38,7 +38,7 @@ struct Studio
         camera.frame (scene.bounds());
     }
 
-    void draw (const Now& now = {}, int fineness = 1)
+    void draw (const SceneState& now = {}, int fineness = 1)
     {
         const auto begin = std::chrono::steady_clock::now();
         raster.begin (width, height, fineness);
@@ -147,7 +147,7 @@ TEST_CASE ("a coarse cube stays when the camera comes close to one of its faces"
 TEST_CASE ("the liver at 800 x 600, with the time that a picture takes", "[app][scene]")
 {
     Studio studio (bodiesIn ("liver"));
-    Now now { .tools = { { "finger", { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 } } }, .live = { {} } };
+    SceneState now { .tools = { { "finger", { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 } } }, .live = { {} } };
     set (now.live[0], &Appearance::touch, { 0.0, 0.0, 0.004 });
     set (now.live[0], &Appearance::depth, { 0.004, 0.0, 0.0 });
     for (const int fineness : { 1, 2 })
@@ -172,7 +172,7 @@ TEST_CASE ("a mesh sinks and turns blue where the tool presses it", "[app][scene
     const Vec3 top (0.0, 0.0, 0.04), side = 0.04 * Vec3 (0.8, 0.0, 0.6);
     studio.draw();
     const int before = blueness (studio.at (top)), far_before = blueness (studio.at (side));
-    Now now { .tools = { { "tool", Vec3 (0.0, 0.0, 0.035), Vec3::Zero() } }, .live = { {} } };
+    SceneState now { .tools = { { "tool", Vec3 (0.0, 0.0, 0.035), Vec3::Zero() } }, .live = { {} } };
     set (now.live[0], &Appearance::touch, top);
     set (now.live[0], &Appearance::depth, { 0.005, 0.0, 0.0 });
     now.tools[0].role = "other";
@@ -187,7 +187,7 @@ TEST_CASE ("a mesh sinks and turns blue where the tool presses it", "[app][scene
 TEST_CASE ("a plane is dented by a tool below it, and not by one above it", "[app][scene]")
 {
     Studio studio ({ plane() });
-    Now now { .tools = { { "tool", Vec3 (0.0, 0.0, -0.002), Vec3::Zero() } } };
+    SceneState now { .tools = { { "tool", Vec3 (0.0, 0.0, -0.002), Vec3::Zero() } } };
     const auto touches = studio.scene.touches (now);
     REQUIRE (touches.size() == 1);
     CHECK (touches[0].at.isApprox (Vec3::Zero()));
@@ -200,7 +200,7 @@ TEST_CASE ("friction drags the dent along: the tool is ahead of the point that i
 {
     Body drag { .kind = Kind::contact, .path = "drag", .role = "tool", .is_placed = true };
     Studio studio ({ plane(), drag });
-    Now now { .tools = { { "tool", Vec3 (0.01, 0.0, -0.001), Vec3::Zero() } }, .live = { {}, {} } };
+    SceneState now { .tools = { { "tool", Vec3 (0.01, 0.0, -0.001), Vec3::Zero() } }, .live = { {}, {} } };
     set (now.live[1], &Appearance::stretch, { 0.0005, 0.0, 0.0 });
     const auto touches = studio.scene.touches (now);
     REQUIRE (touches.size() == 1);
@@ -236,7 +236,7 @@ TEST_CASE ("a crack hangs under the blade, as long as the node says, along its e
     Body blade { .kind = Kind::blade, .path = "knife", .role = "tool" };
     set (blade.fixed, &Appearance::width, { 0.02, 0.0, 0.0 });
     Studio studio ({ blade });
-    Now now { .tools = { { "tool", Vec3 (0.005, 0.0, -0.004), Vec3::Zero() } }, .live = { {} } };
+    SceneState now { .tools = { { "tool", Vec3 (0.005, 0.0, -0.004), Vec3::Zero() } }, .live = { {} } };
     CHECK (studio.scene.cracks (now).empty());
     set (now.live[0], &Appearance::crack, { 0.003, 0.0, 0.0 });
     set (now.live[0], &Appearance::rotation, { 0.0, 0.0, std::numbers::pi / 2.0 });
@@ -256,7 +256,7 @@ TEST_CASE ("planes at one place are one sheet, with the dents of all tools", "[a
     auto second = plane();
     second.role = "index";
     Studio two ({ plane(), second });
-    Now now { .tools = { { "tool", Vec3 (-0.01, 0.0, -0.001), Vec3::Zero() }, { "index", Vec3 (0.01, 0.0, -0.001), Vec3::Zero() } } };
+    SceneState now { .tools = { { "tool", Vec3 (-0.01, 0.0, -0.001), Vec3::Zero() }, { "index", Vec3 (0.01, 0.0, -0.001), Vec3::Zero() } } };
     two.draw();
     CHECK (two.raster.count().all() == one.raster.count().all());
     CHECK (two.scene.touches (now).size() == 2);
