@@ -210,7 +210,7 @@ bool CommandRun::reload()
     graph::reconcile (next.graph, graph());
 
     auto probed = port_probes.clear();   // drops ports of the previous graph
-    const auto edited = playing->edit (next.graph, LiveSession::Accepts::no_errors);
+    const auto edited = playing->edit (next.graph, LiveSession::EditPolicy::no_errors);
     report (edited.messages, next, options.graph);
     if (! edited.is_taken_over)
     {

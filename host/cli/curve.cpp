@@ -73,9 +73,9 @@ void compute (const Shape& shape, const CurveOptions& options)
     if (const double deepest = law (depth); ! (deepest > 0.0 && std::isfinite (deepest)))
         fail ("curve/out_of_range", "the force at a depth of " + shortNumber (depth) + " m would be " + shortNumber (deepest) + " N",
               "correct the sizes and their units");
-    const EvenBody even { .along = options.points > 0 ? tableOf (law, depth, options.points) : law,
-                          .mu = options.mu,
-                          .ratio = body.ratio (options.mu > 0.0 ? options.mu : 1.0) };
+    const UniformBody even { .along = options.points > 0 ? tableOf (law, depth, options.points) : law,
+                             .mu = options.mu,
+                             .ratio = body.ratio (options.mu > 0.0 ? options.mu : 1.0) };
 
     const auto curves = curvesOf (even);
     std::cout << shape.formula << ", E* = " << shortNumber (body.modulus(), 6) << " Pa: " << shortNumber (law (depth), 6) << " N at "

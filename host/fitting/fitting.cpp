@@ -146,7 +146,7 @@ Result<FittedGraph> curve (const Columns& c, const std::string& file, const FitS
 {
     auto fit = fitCurve ({ .depth = fromTouch (c.at ("depth"), s.touch), .force = c.at ("force") }, s.points, course);
     if (! fit) return fit.error();
-    const EvenBody body { .along = fit->law, .mu = s.mu, .ratio = s.ratio };
+    const UniformBody body { .along = fit->law, .mu = s.mu, .ratio = s.ratio };
     std::string about = "A uniform body with the curve of a recorded indentation.";
     if (! fit->out.empty()) about += " The recording lost " + shortNumber (1e3 * fit->area) + " mJ per push; this body loses energy only by friction.";
     FittedGraph made { .kind = FitKind::curve, .preset = surfacePreset (body, {}, about, sourceOf (FitKind::curve, file, fit->report)), .nodes = { "body" } };

@@ -66,7 +66,7 @@ Json toJson (const Law& law)
     return nullptr;
 }
 
-Json curvesOf (const EvenBody& body)
+Json curvesOf (const UniformBody& body)
 {
     // Without friction, the sideways curve is not felt, but the contact point needs one to follow the tool.
     const double drag = body.mu > 0.0 ? body.mu : 1.0;
@@ -76,7 +76,7 @@ Json curvesOf (const EvenBody& body)
     return { { "curves", curves }, { "mu", body.mu > 0.0 ? tidy (body.ratio) : 0.0 } };
 }
 
-graph::Graph surfacePreset (const EvenBody& body, const std::string& name, const std::string& about, const std::string& source)
+graph::Graph surfacePreset (const UniformBody& body, const std::string& name, const std::string& about, const std::string& source)
 {
     auto graph = readGraph (pressed_preset).graph;
     graph.name = name;

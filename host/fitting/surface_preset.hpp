@@ -11,7 +11,7 @@ namespace tactus::host
 {
 
 /// A uniform body: its curve along the normal is the same everywhere.
-struct EvenBody
+struct UniformBody
 {
     Law along;             ///< force against depth
     double mu = 0.3;       ///< drag over push while the tool slides; 0: no friction
@@ -22,10 +22,10 @@ struct EvenBody
 Json toJson (const Law&);
 
 /// The members "curves" and "mu" of a setting of kind `surface`.
-Json curvesOf (const EvenBody&);
+Json curvesOf (const UniformBody&);
 
 /// A graph in which a finger presses and strokes a square pad of this body. `source` says where its curve comes from. [main thread]
-graph::Graph surfacePreset (const EvenBody&, const std::string& name, const std::string& about, const std::string& source);
+graph::Graph surfacePreset (const UniformBody&, const std::string& name, const std::string& about, const std::string& source);
 
 /// The number with this many significant digits.
 std::string shortNumber (double value, int digits = 3);

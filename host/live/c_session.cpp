@@ -334,7 +334,7 @@ tactus_result tactus_session_edit (tactus_session* s, const tactus_graph* g, tac
     return with (s, messages, [&] (LiveSession& live) {
         std::optional<tactus::graph::Graph> copy;
         s->probes.drain();   // the samples of the plan before
-        auto edited = live.edit (continuing (*g, live.graph(), copy), LiveSession::Accepts::no_errors);
+        auto edited = live.edit (continuing (*g, live.graph(), copy), LiveSession::EditPolicy::no_errors);
         if (edited.is_taken_over) s->probes.follow (live.engine().newest());
         add (messages, std::move (edited.messages));
         return edited.is_taken_over ? TACTUS_OK : TACTUS_FAILED;

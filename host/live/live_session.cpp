@@ -207,14 +207,14 @@ LiveSession::Events LiveSession::poll()
     return news;
 }
 
-LiveSession::EditResult LiveSession::edit (const graph::Graph& next, Accepts accepts, const std::function<bool (const Plan&)>& agrees)
+LiveSession::EditResult LiveSession::edit (const graph::Graph& next, EditPolicy accepts, const std::function<bool (const Plan&)>& agrees)
 {
     const bool placeholders_run = has_placeholders;
     auto edit = running->edit (next);
     auto& messages = edit.messages();
     const bool placeholders = edit.plan() != nullptr && hasErrors (messages);
-    const auto isRefused = [&] { return accepts == Accepts::no_errors && hasErrors (messages); };
-    if (placeholders && placeholders_run && accepts == Accepts::no_errors)
+    const auto isRefused = [&] { return accepts == EditPolicy::no_errors && hasErrors (messages); };
+    if (placeholders && placeholders_run && accepts == EditPolicy::no_errors)
         for (auto& m : messages)
             m.severity = Message::Severity::warning;
     if (edit.plan() == nullptr || isRefused() || (agrees && ! agrees (*edit.plan()))) return { false, std::move (messages) };

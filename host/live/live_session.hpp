@@ -116,14 +116,14 @@ public:
     };
 
     /// What an edit must satisfy, besides having a plan.
-    enum class Accepts
+    enum class EditPolicy
     {
         errors,      ///< nothing else: the window shows the errors, and placeholders run in place of unknown nodes
         no_errors,   ///< an edit with errors is refused, except for placeholders if the graph of before had some
     };
 
     /// Plays an edited graph from the next tick on. Roles keep their devices, and a new role gets one.
-    EditResult edit (const graph::Graph&, Accepts, const std::function<bool (const Plan&)>& agrees = {});
+    EditResult edit (const graph::Graph&, EditPolicy, const std::function<bool (const Plan&)>& agrees = {});
 
     /// The user's session has changed: roles that come later get their devices from the new one.
     void rebind (LoadedSession s) { devices.rebind (std::move (s)); }

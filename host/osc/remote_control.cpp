@@ -83,9 +83,9 @@ constexpr const char* from_elsewhere = "other machines can send this message too
 Message badArguments (const std::string& remedy) { return Message::error ("osc/arguments", {}, "this OSC address needs different arguments", remedy); }
 }   // namespace
 
-std::vector<Controlled::Role> rolesOf (const RunStatus& status)
+std::vector<RemoteTarget::Role> rolesOf (const RunStatus& status)
 {
-    std::vector<Controlled::Role> roles;
+    std::vector<RemoteTarget::Role> roles;
     for (const auto& r : status.shown())
         roles.push_back ({ .name = std::string (r.name),
                            .withholds = r.stop != Guard::Stop::none,
@@ -104,7 +104,7 @@ std::string randomToken()
     return token;
 }
 
-RemoteControl::RemoteControl (OscPort& p, Controlled& c, std::string t) : port (p), controlled (c), token (std::move (t))
+RemoteControl::RemoteControl (OscPort& p, RemoteTarget& c, std::string t) : port (p), controlled (c), token (std::move (t))
 {
     port.onArrival ([&c] (const OSCMessage& m) { if (m.getAddressPattern().toString() == "/tactus/emergency") c.emergencyNow(); });
 }

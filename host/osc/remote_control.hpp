@@ -20,7 +20,7 @@ namespace tactus::host
 {
 
 /// A run that OSC clients may watch and control. [main thread]
-class Controlled
+class RemoteTarget
 {
 public:
     struct Status
@@ -47,7 +47,7 @@ public:
         std::optional<double> speed {};   ///< 1: as fast as the recording
     };
 
-    virtual ~Controlled() = default;
+    virtual ~RemoteTarget() = default;
 
     virtual Result<> setParam (const std::string& name, const Json& value) = 0;
     virtual Result<> turnControl (const std::string& id, double value) = 0;
@@ -86,7 +86,7 @@ public:
 };
 
 /// The roles in the status of a run.
-std::vector<Controlled::Role> rolesOf (const RunStatus&);
+std::vector<RemoteTarget::Role> rolesOf (const RunStatus&);
 
 /// Six random digits and letters.
 std::string randomToken();
@@ -98,7 +98,7 @@ public:
     using Clock = std::chrono::steady_clock;
 
     /// A rearm needs the token, which only a person at the device can read. If the token is empty, OSC cannot rearm.
-    RemoteControl (OscPort&, Controlled&, std::string token = {});
+    RemoteControl (OscPort&, RemoteTarget&, std::string token = {});
     ~RemoteControl();
     RemoteControl (const RemoteControl&) = delete;
     RemoteControl& operator= (const RemoteControl&) = delete;
@@ -106,7 +106,7 @@ public:
     /// Handles the waiting messages and ends expired probes. Call this many times a second.
     void poll (Clock::time_point now = Clock::now());
 
-    /// Passes on values of the probed components, in the order in which Controlled::probe returned their names.
+    /// Passes on values of the probed components, in the order in which RemoteTarget::probe returned their names.
     void values (std::uint64_t tick, std::span<const double>);
 
     /// Call this after the graph has changed: probes continue if their ports still exist.
@@ -153,7 +153,7 @@ private:
     void answer (const OscReturn& to, const std::string& address, const std::string& subject, const Result<>&);
 
     OscPort& port;
-    Controlled& controlled;
+    RemoteTarget& controlled;
     const std::string token;
     std::chrono::steady_clock::time_point arrived_at {};          // of the message that is handled
     std::chrono::steady_clock::time_point wrong_token_until {};   // until then, no token is accepted

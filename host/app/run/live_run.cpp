@@ -287,7 +287,7 @@ void LiveRun::showScene()
 void LiveRun::takeOver()
 {
     bool has_first_hand = false;   // and the run had none
-    auto edited = session->edit (document.graph(), LiveSession::Accepts::errors, [&] (const Plan& plan) {
+    auto edited = session->edit (document.graph(), LiveSession::EditPolicy::errors, [&] (const Plan& plan) {
         has_first_hand = hand_role.empty() && ! handRoleOf (needsOf (plan)).empty();
         return ! has_first_hand;
     });

@@ -14,7 +14,7 @@ namespace tactus::host
 /// Lets other programs control and watch the run of a window over OSC, see docs/osc.md. A value that they set is felt immediately,
 /// and also becomes an edit of the document that can be undone; edits that follow each other within a second are one undo step.
 /// [main thread]
-class OscServer final : private Controlled
+class OscServer final : private RemoteTarget
 {
 public:
     /// The playback and the document must outlive the server. While `is_asking`, the window waits for an answer, and nothing starts.

@@ -11,7 +11,7 @@ namespace tactus::host
 {
 
 /// A run that OSC controls. [main thread]
-class Remote final : public Controlled
+class Remote final : public RemoteTarget
 {
 public:
     Remote (CommandRun& r, StopSwitch& s) : command (r), stops (s) {}

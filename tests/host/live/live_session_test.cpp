@@ -48,11 +48,11 @@ TEST_CASE ("an edit with errors is refused or shown, as the caller wishes, and t
     static_cast<void> (o.session.openDevices());
     auto broken = graph;
     broken.root.nodes.push_back (Sketch::makeNode ("what", "no.such_node"));
-    const auto refused = o.session.edit (broken, LiveSession::Accepts::no_errors);
+    const auto refused = o.session.edit (broken, LiveSession::EditPolicy::no_errors);
     CHECK_FALSE (refused.is_taken_over);
     CHECK (hasErrors (refused.messages));
     CHECK (o.session.graph().root.nodes.size() == graph.root.nodes.size());
-    CHECK (o.session.edit (broken, LiveSession::Accepts::errors).is_taken_over);
+    CHECK (o.session.edit (broken, LiveSession::EditPolicy::errors).is_taken_over);
     CHECK (o.session.hasPlaceholders());
 }
 

@@ -17,7 +17,7 @@ using juce::String;
 namespace
 {
 /// Records the calls it gets.
-struct Puppet : Controlled
+struct Puppet : RemoteTarget
 {
     Result<> setParam (const std::string& name, const Json& value) override
     {
