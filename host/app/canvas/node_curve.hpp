@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/app/inspector/plot_box.hpp>
+#include <host/app/inspector/blocks/plot_box.hpp>
 #include <host/app/model/face.hpp>
 
 #include <map>

@@ -2,7 +2,7 @@
 #include "devices_panel.hpp"
 #include "sound_text.hpp"
 
-#include <host/app/inspector/fields.hpp>
+#include <host/app/inspector/blocks/fields.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/app/inspector/fields.hpp>
+#include <host/app/inspector/blocks/fields.hpp>
 #include <host/fitting/fitting.hpp>
 
 #include <functional>

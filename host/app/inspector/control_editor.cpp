@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rows.hpp"
-#include "setting_editor.hpp"
-#include "table_row.hpp"
-#include "tool_button.hpp"
+
+#include <host/app/inspector/blocks/table_row.hpp>
+#include <host/app/inspector/settings/setting_editor.hpp>
+#include <host/app/look/tool_button.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/text/filled.hpp>
-
 #include <tactus/graph/endpoint_text.hpp>
 
 #include <algorithm>

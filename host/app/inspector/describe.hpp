@@ -2,8 +2,8 @@
 #pragma once
 
 #include "rows.hpp"
-#include "setting_editor.hpp"
 
+#include <host/app/inspector/settings/setting_editor.hpp>
 #include <host/app/model/patch.hpp>
 #include <tactus/text/message.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "describe.hpp"
-#include "formula_block.hpp"
 #include "header.hpp"
 
+#include <host/app/inspector/blocks/formula_block.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/model/node_doc.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "header.hpp"
-#include "tool_button.hpp"
 
 #include <host/app/look/glyph.hpp>
+#include <host/app/look/tool_button.hpp>
 #include <host/app/text/filled.hpp>
 
 namespace tactus::host

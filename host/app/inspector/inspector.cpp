@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "inspector.hpp"
-#include "number_field.hpp"
 
+#include <host/app/inspector/blocks/number_field.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/text/filled.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rows.hpp"
-#include "fields.hpp"
 
+#include <host/app/inspector/blocks/fields.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/param_now.hpp>

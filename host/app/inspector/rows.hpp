@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "block.hpp"
-
+#include <host/app/inspector/blocks/block.hpp>
 #include <host/app/model/document.hpp>
 #include <host/app/model/face.hpp>
 

@@ -7,8 +7,8 @@
 #include "mixer.hpp"
 #include "sends.hpp"
 
-#include <host/app/inspector/number_field.hpp>
-#include <host/app/inspector/tool_button.hpp>
+#include <host/app/inspector/blocks/number_field.hpp>
+#include <host/app/look/tool_button.hpp>
 #include <host/app/model/document.hpp>
 #include <host/app/text/filled.hpp>
 

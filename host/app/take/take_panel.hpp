@@ -4,8 +4,8 @@
 #include "take.hpp"
 #include "take_plot.hpp"
 
-#include <host/app/inspector/fields.hpp>
-#include <host/app/inspector/tool_button.hpp>
+#include <host/app/inspector/blocks/fields.hpp>
+#include <host/app/look/tool_button.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/kit/signal/clip.hpp>
 

@@ -2,7 +2,7 @@
 #include "help_panel.hpp"
 
 #include <host/app/canvas/commands.hpp>
-#include <host/app/inspector/formula_block.hpp>
+#include <host/app/inspector/blocks/formula_block.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/look/key_text.hpp>
@@ -10,7 +10,6 @@
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
-
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>

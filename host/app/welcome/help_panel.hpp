@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/app/inspector/block.hpp>
+#include <host/app/inspector/blocks/block.hpp>
 #include <host/app/look/plain_button.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/node/catalogue.hpp>

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/app/inspector/tool_button.hpp>
 #include <host/app/look/plain_button.hpp>
+#include <host/app/look/tool_button.hpp>
 #include <host/app/model/document.hpp>
-
 #include <host/app/storage/snapshots.hpp>
 #include <host/app/text/filled.hpp>
 

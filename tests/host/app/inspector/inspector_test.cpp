@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "rig.hpp"
 
-#include <host/app/inspector/plot_block.hpp>
-#include <host/app/inspector/table_row.hpp>
+#include <host/app/inspector/blocks/plot_block.hpp>
+#include <host/app/inspector/blocks/table_row.hpp>
 #include <host/app/model/controlled_param.hpp>
-
 #include <tactus/graph/endpoint_text.hpp>
 #include <tactus/plan/compile.hpp>
 

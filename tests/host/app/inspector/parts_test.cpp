@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <host/app/inspector/file_text.hpp>
-#include <host/app/inspector/law_shape.hpp>
+#include <host/app/inspector/settings/file_text.hpp>
+#include <host/app/inspector/settings/law_shape.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/model/param_value.hpp>
 #include <host/assets/file_assets.hpp>
-
 #include <tactus/graph/history.hpp>
 
 #include <catch2/catch.hpp>

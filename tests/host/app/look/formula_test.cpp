@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <host/app/inspector/blocks/formula_block.hpp>
 #include <host/app/look/formula.hpp>
-
-#include <host/app/inspector/formula_block.hpp>
 #include <host/app/model/node_doc.hpp>
 #include <tactus/node/catalogue.hpp>
 

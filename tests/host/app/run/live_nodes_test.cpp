@@ -4,7 +4,7 @@
 
 #include "support/temporary_folder.hpp"
 
-#include <host/app/inspector/set_row.hpp>
+#include <host/app/inspector/blocks/set_row.hpp>
 #include <tactus/file/text_file.hpp>
 
 #include <catch2/catch.hpp>

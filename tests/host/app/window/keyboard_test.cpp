@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/app/support/window_rig.hpp"
 
-#include <host/app/inspector/number_field.hpp>
+#include <host/app/inspector/blocks/number_field.hpp>
 
 using namespace tactus;
 using namespace tactus::host;

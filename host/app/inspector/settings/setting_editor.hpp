@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fields.hpp"
-
+#include <host/app/inspector/blocks/fields.hpp>
 #include <tactus/node/setting.hpp>
 
 namespace tactus::host

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "fields.hpp"
-#include "tool_button.hpp"
 
+#include <host/app/look/tool_button.hpp>
 #include <host/app/text/filled.hpp>
 
 namespace tactus::host

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "setting_editor.hpp"
-#include "tool_button.hpp"
 
 #include <host/app/look/fitted_text.hpp>
+#include <host/app/look/tool_button.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
-
 #include <tactus/plan/settings.hpp>
 
 #include <array>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "law_shape.hpp"
-#include "plot_block.hpp"
 #include "setting_editor.hpp"
-#include "table_row.hpp"
 
+#include <host/app/inspector/blocks/plot_block.hpp>
+#include <host/app/inspector/blocks/table_row.hpp>
 #include <host/app/text/filled.hpp>
-
 #include <tactus/plan/settings.hpp>
 
 namespace tactus::host

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plot_block.hpp"
 #include "setting_editor.hpp"
-#include "table_row.hpp"
 
+#include <host/app/inspector/blocks/plot_block.hpp>
+#include <host/app/inspector/blocks/table_row.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
 

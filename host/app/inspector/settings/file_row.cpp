@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "file_text.hpp"
 #include "setting_editor.hpp"
-#include "tool_button.hpp"
 
 #include <host/app/look/fitted_text.hpp>
+#include <host/app/look/tool_button.hpp>
 #include <host/app/text/filled.hpp>
 
 namespace tactus::host
