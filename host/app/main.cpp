@@ -21,7 +21,7 @@ namespace
 class Window final : public juce::DocumentWindow
 {
 public:
-    Window (Look& look, const MainView::Start& how) : DocumentWindow ("Tactus", look.theme().panel, allButtons)
+    Window (Look& look, const MainView::StartOptions& how) : DocumentWindow ("Tactus", look.theme().panel, allButtons)
     {
         auto view = std::make_unique<MainView> (catalogue());
         view->onTitle = [this] (const juce::String& title) { setName (title + " - Tactus"); };
@@ -84,7 +84,7 @@ private:
     {
         look = std::make_unique<Look>();
         juce::LookAndFeel::setDefaultLookAndFeel (look.get());
-        MainView::Start how { .home = homeFolder(), .stops_directly = true, .program = "tactus " TACTUS_VERSION };
+        MainView::StartOptions how { .home = homeFolder(), .stops_directly = true, .program = "tactus " TACTUS_VERSION };
         if (! readArguments (how)) return quit();
         std::fputs (textOf (usePlugins (plugin_folders)).c_str(), stderr);
         how.live = liveBuilds (catalogue());
@@ -103,7 +103,7 @@ private:
     }
 
     /// Returns false if no window should open: after --help or --version, or if the arguments are wrong.
-    bool readArguments (MainView::Start& how)
+    bool readArguments (MainView::StartOptions& how)
     {
         const Command options { "Edits and runs graphs of haptic effects, and shows the forces on the hand.", "tactus-host" };
         std::vector<std::string> files;

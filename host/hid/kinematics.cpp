@@ -46,7 +46,7 @@ std::span<const Drive> drivesOf (const KinematicsModel& model) noexcept
 
 // The pose of each mechanism.
 
-Pose poseOf (const Direct&, const Vec3& q) noexcept
+Pose poseOf (const DirectKinematics&, const Vec3& q) noexcept
 {
     Pose pose;
     pose.position = q;

@@ -44,7 +44,7 @@ MotorLimiter::MotorLimiter (const Profile& profile, const std::vector<std::strin
             torque.efforts.push_back (i);
         else if (! renders_force)
             groups.push_back ({ { i }, profile.limits.guard.max_axis_slew });
-        else if (std::holds_alternative<Direct> (profile.kinematics))
+        else if (std::holds_alternative<DirectKinematics> (profile.kinematics))
             force.efforts.push_back (i);
     }
     groups.push_back (std::move (force));

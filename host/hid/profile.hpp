@@ -230,9 +230,9 @@ struct OutputReport
 };
 
 /// A device whose position and force need no conversion.
-struct Direct
+struct DirectKinematics
 {
-    bool operator== (const Direct&) const = default;
+    bool operator== (const DirectKinematics&) const = default;
 };
 
 /// A signal output for a motor that takes an amplitude, and perhaps a frequency, instead of samples. Each member names an effort.
@@ -288,7 +288,7 @@ struct FiveBar
     bool operator== (const FiveBar&) const = default;
 };
 
-using KinematicsModel = std::variant<Direct, LinearMap, SerialArm, FiveBar>;
+using KinematicsModel = std::variant<DirectKinematics, LinearMap, SerialArm, FiveBar>;
 
 /// A field by which the device says that something is wrong.
 struct Alarm

@@ -69,7 +69,7 @@ public:
         count ("inputs", "buttons", buttons, 32);
         count ("outputs", "efforts", efforts, most_efforts);
 
-        const bool direct = std::holds_alternative<Direct> (p.kinematics);
+        const bool direct = std::holds_alternative<DirectKinematics> (p.kinematics);
         three ("position", p.position, axes, direct ? "m" : "");
         three ("rotation", p.rotation, axes, "rad");
         three ("force", p.force, efforts, direct ? "N" : "");

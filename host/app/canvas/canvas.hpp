@@ -81,7 +81,7 @@ public:
     /// Opens a text editor over part of the canvas.
     void openEditor (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<void (const juce::String&)> done);
 
-    void showLive (Live);   ///< call many times a second; repaints only what has changed
+    void showLive (LiveState);   ///< call many times a second; repaints only what has changed
 
     /// The port or wire that the pointer is on; none during a drag.
     const PointedPort& pointed() const noexcept { return pointed_at; }
@@ -162,7 +162,7 @@ private:
     Hover hoverAt (juce::Point<float>) const;
     PointedPort portAt (juce::Point<float>) const;
     void point (PointedPort);
-    void repaintChanged (const Live& before);
+    void repaintChanged (const LiveState& before);
     std::unique_ptr<Drag> dragFor (const juce::MouseEvent&);
     void dropClip (const std::filesystem::path&, juce::Point<float> at);
     void paintFileOver (juce::Graphics&) const;

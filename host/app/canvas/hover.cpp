@@ -93,7 +93,7 @@ void Canvas::point (PointedPort now)
     pointed_at = std::move (now);
 }
 
-void Canvas::showLive (Live live)
+void Canvas::showLive (LiveState live)
 {
     if (live == highlights.live) return;
     const auto before = std::exchange (highlights.live, std::move (live));
@@ -101,7 +101,7 @@ void Canvas::showLive (Live live)
 }
 
 /// Wires and the card change many times a second while a graph runs, so only they are painted again if nothing else has changed.
-void Canvas::repaintChanged (const Live& before)
+void Canvas::repaintChanged (const LiveState& before)
 {
     const auto& now = highlights.live;
     if (now.states != before.states || now.costs != before.costs || now.problems != before.problems || now.limits != before.limits) return repaint();

@@ -291,7 +291,7 @@ void paintWire (juce::Graphics& g, const SceneWire& w, const Theme& theme, bool 
     const float thickness = w.width == 3 ? 3.0f : 1.5f;
     if (level > 0)   // a glow, so that the wire itself keeps its contrast at rest
     {
-        const float strength = static_cast<float> (level) / static_cast<float> (Live::most_level);
+        const float strength = static_cast<float> (level) / static_cast<float> (LiveState::most_level);
         g.setColour (theme.of (w.quantity).withAlpha (0.08f + 0.16f * strength));
         g.strokePath (path, juce::PathStrokeType (thickness + 3.0f + 2.0f * strength));
     }

@@ -13,7 +13,7 @@ namespace tactus::host
 {
 
 /// Live state of the running graph, shown on the canvas.
-struct Live
+struct LiveState
 {
     static constexpr int most_level = 4;
 
@@ -34,7 +34,7 @@ struct Live
     };
     std::map<graph::Id, Limit> limits;
 
-    bool operator== (const Live&) const = default;
+    bool operator== (const LiveState&) const = default;
 };
 
 /// Everything on the canvas that is not part of the graph.
@@ -44,7 +44,7 @@ struct Highlights
     graph::Id hovered = 0;
     /// While a wire is being drawn: true for the sockets it may connect to. The others are dimmed.
     std::function<bool (const SceneNode&, const FacePort&)> fits {};
-    Live live {};
+    LiveState live {};
 };
 
 void paintGrid (juce::Graphics&, const View&, juce::Rectangle<int> area, const Theme&);
@@ -55,7 +55,7 @@ void paintScene (juce::Graphics&, const Scene&, const View&, const Look&, const 
 /// The bounds of the limit light of a node, in canvas units: at its top right corner, and never too small to see.
 juce::Rectangle<float> limitLightOf (const SceneNode&, float zoom);
 
-/// Paints one wire. `level` is how much it carries, as in Live.
+/// Paints one wire. `level` is how much it carries, as in LiveState.
 void paintWire (juce::Graphics&, const SceneWire&, const Theme&, bool selected, bool hovered, int level = 0);
 
 /// An area, in canvas units, that contains a wire with its bends and whatever is painted on it.

@@ -67,7 +67,7 @@ void MainView::addPanels()
     resized();
 }
 
-void MainView::begin (const Start& how)
+void MainView::begin (const StartOptions& how)
 {
     home = how.home;
     takes.take().program = how.program;

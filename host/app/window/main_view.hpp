@@ -50,7 +50,7 @@ public:
     ~MainView() override;
 
     /// How the program was started.
-    struct Start
+    struct StartOptions
     {
         std::filesystem::path home;   ///< the folder of the settings and autosaves
         bool safe = false;            ///< safe mode: nothing runs until START
@@ -63,7 +63,7 @@ public:
     };
 
     /// Reads the settings, offers to recover crashed sessions, and opens the files or the welcome page.
-    void begin (const Start&);
+    void begin (const StartOptions&);
 
     /// Opens a graph file. Problems appear in the status line.
     void open (const std::filesystem::path&);

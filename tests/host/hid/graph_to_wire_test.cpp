@@ -204,7 +204,7 @@ TEST_CASE ("no report on the wire exceeds a limit or a slew of its device, whate
                 RC_ASSERT (std::abs (device.sent[at] - last[at]) <= limits.guard.max_axis_slew * dt + 2.0 * count);
             }
             driven += motors.isZero (0.0) ? 0 : 1;
-            if (std::holds_alternative<Direct> (profile->kinematics))
+            if (std::holds_alternative<DirectKinematics> (profile->kinematics))
             {
                 Vec3 torque, step, force_step;
                 for (std::size_t i = 0; i < 3; ++i)
@@ -233,7 +233,7 @@ TEST_CASE ("device.force.applied shows the force that the motors render, decoded
     int limited = 0, whole = 0;
     rc::prop ("any graph", [&] {
         auto changed = *anyProfile();
-        changed.kinematics = Direct {};
+        changed.kinematics = DirectKinematics {};
         changed.axes = Mat3::Identity();
         const auto profile = std::make_shared<const Profile> (changed);
         Wired device (profile);

@@ -49,7 +49,7 @@ std::vector<Mechanism> mechanisms()
     LinearMap skewed;
     skewed.matrix << 1e-3, 2e-4, 0, 0, 5e-4, -1e-4, 3e-4, 0, 2e-3;
     skewed.origin = { 0.01, 0.02, 0.03 };
-    return { { "direct", Direct {}, { -1, -1, -1 }, { 1, 1, 1 } },
+    return { { "direct", DirectKinematics {}, { -1, -1, -1 }, { 1, 1, 1 } },
              { "linear", skewed, { -100, -100, -100 }, { 100, 100, 100 } },
              { "serial", woody(), { -1.2, -0.5, 0.9 }, { 1.2, 0.7, 2.2 } },
              { "five bars", pantograph(), { 0.3, 1.9, 0.0 }, { 1.2, 2.8, 1e-9 } } };
@@ -67,7 +67,7 @@ Vec3 anyVector (double size) { return { *between (-size, size), *between (-size,
 
 // The inverse of each pose: the joint angles for a tool position. Empty if the position is out of reach.
 
-std::optional<Vec3> inverse (const Direct&, const Vec3& p) { return p; }
+std::optional<Vec3> inverse (const DirectKinematics&, const Vec3& p) { return p; }
 
 std::optional<Vec3> inverse (const LinearMap& map, const Vec3& p)
 {

@@ -44,7 +44,7 @@ std::vector<std::string> LiveFeed::portsNow() const
 
 void LiveFeed::refresh()
 {
-    Live live;
+    LiveState live;
     live_run.portFeed().refresh();
     showStates (live);
     showActivity (live);
@@ -55,7 +55,7 @@ void LiveFeed::refresh()
     canvas.showLive (std::move (live));
 }
 
-void LiveFeed::showStates (Live& live)
+void LiveFeed::showStates (LiveState& live)
 {
     std::vector<std::string> ports;
     const auto watch = [&] (const std::string& port) {
@@ -85,14 +85,14 @@ void LiveFeed::showStates (Live& live)
 }
 
 /// A level changes once the activity is clearly in another step, so that no wire flickers between two of them.
-void LiveFeed::showActivity (Live& live)
+void LiveFeed::showActivity (LiveState& live)
 {
     std::map<graph::Id, int> now;
     if (live_run.isRunning())
         for (const auto& w : canvas.scene().wires())
         {
             if (! w.enabled || w.source.empty()) continue;
-            const double exact = Live::most_level * live_run.portFeed().level (canvas.address (w.source));
+            const double exact = LiveState::most_level * live_run.portFeed().level (canvas.address (w.source));
             const auto before = shown_levels.find (w.id);
             const int was = before == shown_levels.end() ? 0 : before->second;
             constexpr double clear = 0.65;
@@ -118,7 +118,7 @@ std::vector<std::string> valueTexts (const PortFeed::Reading& reading)
 }
 }   // namespace
 
-void LiveFeed::showCard (Live& live)
+void LiveFeed::showCard (LiveState& live)
 {
     auto& feed = live_run.portFeed();
     const auto& now = canvas.pointed();
@@ -161,7 +161,7 @@ const SceneNode* LiveFeed::nodeOf (const std::string& path) const
     return nullptr;
 }
 
-void LiveFeed::showCosts (Live& live)
+void LiveFeed::showCosts (LiveState& live)
 {
     if (++since_costs >= refreshes_per_cost)
     {
@@ -173,7 +173,7 @@ void LiveFeed::showCosts (Live& live)
     live.costs = latest_costs;
 }
 
-void LiveFeed::showProblems (Live& live) const
+void LiveFeed::showProblems (LiveState& live) const
 {
     for (const auto& m : live_run.messages())
     {
@@ -184,7 +184,7 @@ void LiveFeed::showProblems (Live& live) const
 }
 
 /// Broken limits come first in the list, so they also come first in the text of a light.
-void LiveFeed::showLimits (Live& live) const
+void LiveFeed::showLimits (LiveState& live) const
 {
     for (const auto& l : limits->list().limits)
         for (const auto& path : l.nodes)

@@ -26,13 +26,13 @@ public:
     const LimitWatch* limits = nullptr;   ///< whose list to show; null for none
 
 private:
-    void showStates (Live&);
-    void showActivity (Live&);
-    void showCard (Live&);
+    void showStates (LiveState&);
+    void showActivity (LiveState&);
+    void showCard (LiveState&);
     std::vector<std::string> portsNow() const;
-    void showCosts (Live&);
-    void showProblems (Live&) const;
-    void showLimits (Live&) const;
+    void showCosts (LiveState&);
+    void showProblems (LiveState&) const;
+    void showLimits (LiveState&) const;
     const SceneNode* nodeOf (const std::string& path) const;
 
     static constexpr std::size_t most_ports = 12;   ///< how many ports this probes at most; the rest of the probe capacity is left for the scopes

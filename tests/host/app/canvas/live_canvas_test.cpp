@@ -48,12 +48,12 @@ TEST_CASE ("a wire glows by how much it carries, and only that wire", "[app][can
     const auto wire = std::ranges::find (wires, "touch.gain -> grain_felt.gain", &SceneWire::text);
     REQUIRE (wire != wires.end());
     const auto changedAt = [&] (int level) {
-        Live live;
+        LiveState live;
         live.levels[wire->id] = level;
         rig.canvas->showLive (live);
         return picture();
     };
-    const auto low = changedAt (1), high = changedAt (Live::most_level);
+    const auto low = changedAt (1), high = changedAt (LiveState::most_level);
     const auto along = wire->path().getBounds().expanded (6.0f).transformedBy (rig.canvas->view().transform()).getSmallestIntegerContainer();
     CHECK (differing (still, low, all) > 0);
     CHECK (differing (still, low, all) == differing (still, low, along));
@@ -81,7 +81,7 @@ TEST_CASE ("a card is painted over the graph, and not during a drag", "[app][can
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     const auto all = rig.canvas->getLocalBounds();
     const auto still = rig.canvas->createComponentSnapshot (all);
-    Live live;
+    LiveState live;
     const auto at = rig.canvas->view().toCanvas ({ 600.0f, 400.0f });
     live.card = cardAt (at, PointedPort::Side::below);
     const auto place = boundsOf (*live.card, { 600.0f, 400.0f }, all);

@@ -49,7 +49,7 @@ void Monkey::begin()
             [safe = juce::Component::SafePointer<juce::Component> (view.get()), chosen, file] { if (safe != nullptr) chosen (file); });
     };
     stage->fill (*view);
-    MainView::Start how { .home = home, .safe = upTo (5) == 0, .light = upTo (4) == 0 };
+    MainView::StartOptions how { .home = home, .safe = upTo (5) == 0, .light = upTo (4) == 0 };
     if (upTo (3) != 0) how.files.push_back (oneOf (shipped));
     view->begin (how);
     Stage::plugIn();

@@ -32,7 +32,7 @@ struct WindowRig
         stage = std::make_unique<Stage> (width, height);
         view = std::make_unique<MainView> (catalogue());
         stage->fill (*view);
-        MainView::Start start { .home = home.path(), .safe = safe };
+        MainView::StartOptions start { .home = home.path(), .safe = safe };
         if (! preset.empty()) start.files = { std::string (TACTUS_SOURCE_DIR "/graphs/") + preset };
         view->begin (start);
         if (! view->asked().isOpen()) view->grabKeyboardFocus();   // as the program does
