@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The menu of the window, and the dialogs for files.
+#include "appearance.hpp"
+#include "main_view.hpp"
+
+#include <host/app/look/fitted_text.hpp>
+#include <host/app/look/focus.hpp>
+#include <host/app/look/key_text.hpp>
+#include <host/app/storage/language.hpp>
+#include <host/app/text/filled.hpp>
+#include <host/io/clip_io.hpp>
+
+#include <array>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr std::array scales { 1.0, 1.25, 1.5, 2.0 };
+
+/// The folder of a file, from ~ on if it is in the home folder of the user.
+juce::String folderText (const std::filesystem::path& file)
+{
+    const auto folder = fromUtf8 (file.parent_path().string()), home = juce::File::getSpecialLocation (juce::File::userHomeDirectory).getFullPathName();
+    return folder == home || folder.startsWith (home + "/") ? "~" + folder.substring (home.length()) : folder;
+}
+
+/// The title of a dialog and the files that it shows. What is saved follows from the proposed name.
+std::pair<juce::String, juce::String> wordsFor (bool saves, const std::filesystem::path& begin)
+{
+    if (! saves) return { TRANS ("Open graph or clip"), "*.json;*.haptic;*.ahap;*.hjif;*.wav" };
+    if (isClipExtension (begin)) return { TRANS ("Save clip; the ending of the name selects the format"), "*.haptic;*.ahap;*.hjif;*.json;*.wav;*.csv" };
+    if (extensionOf (begin) == ".csv") return { TRANS ("Save gesture"), "*.csv" };
+    if (extensionOf (begin) == ".jsonl") return { TRANS ("Save test"), "*.jsonl" };
+    return { TRANS ("Save graph"), "*.json" };
+}
+}   // namespace
+
+juce::PopupMenu::Item MainView::menuItem (const juce::String& text, const juce::String& keys, std::function<void()> act, bool is_ticked)
+{
+    juce::PopupMenu::Item item (text);
+    item.shortcutKeyDescription = keys;
+    item.isTicked = is_ticked;
+    item.action = [safe = SafePointer (this), act = std::move (act)]   // called later, when the window may be gone
+    {
+        if (safe != nullptr) act();
+    };
+    return item;
+}
+
+juce::PopupMenu MainView::languageMenu()
+{
+    juce::PopupMenu menu;
+    const auto add = [&] (const juce::String& name, const std::string& code) {
+        const auto choose = [this, code] {
+            settings.language = code;
+            saveSettingsSoon();
+            status.notify (TRANS ("The language changes at the next start."));
+        };
+        menu.addItem (menuItem (name, {}, choose, settings.language == code));
+    };
+    add (TRANS ("As the system"), {});
+    add ("English", english);
+    for (const auto& [code, name] : translationsIn (home))
+        add (name, code);
+    return menu;
+}
+
+void MainView::openMenu (juce::Component& at)
+{
+    constexpr float widest = 280.0f;   // of a part of an entry, in pixels
+    const auto font = lookOf (*this).getPopupMenuFont();
+    juce::PopupMenu menu, recent, size;
+    for (const auto& file : settings.recent)
+        recent.addItem (menuItem (fittedPath (fromUtf8 (file.filename().string()), font, widest), fittedPath (folderText (file), font, widest),
+                                  [this, file] { files.open (file); }));
+    const auto addSize = [&] (const juce::String& name, double scale) {
+        size.addItem (menuItem (
+            name, {}, [this, scale] {
+            settings.scale = scale;
+            applyScale (scale);
+            saveSettingsSoon(); },
+            settings.scale == scale));
+    };
+    addSize (TRANS ("Automatic"), 0.0);
+    for (const double scale : scales)
+        addSize (juce::String (juce::roundToInt (100.0 * scale)) + " %", scale);
+
+    menu.addItem (menuItem (TRANS ("New"), keyText ("ctrl + n"), [this] { files.create(); }));
+    menu.addItem (menuItem (TRANS ("Open ..."), keyText ("ctrl + o"), [this] { files.open(); }));
+    menu.addSubMenu (TRANS ("Open recent"), recent, ! settings.recent.empty());
+    menu.addItem (menuItem (TRANS ("Save"), keyText ("ctrl + s"), [this] { files.save(); }));
+    menu.addItem (menuItem (TRANS ("Save as ..."), keyText ("ctrl + shift + s"), [this] { files.saveAs(); }));
+    menu.addItem (menuItem (TRANS ("Fit a recording ..."), {}, [this] { askForRecording(); }));
+    menu.addSeparator();
+    menu.addItem (menuItem (
+        TRANS ("Light theme"), {}, [this] {
+        settings.light = light = ! light;
+        applyTheme (*getTopLevelComponent(), light ? Theme::light() : Theme::dark());
+        saveSettingsSoon(); },
+        light));
+    menu.addSubMenu (TRANS ("Interface scale"), size);
+    menu.addSubMenu (TRANS ("Language"), languageMenu());
+    menu.addItem (menuItem (
+        TRANS ("Fuse: run the graph as compiled code"), {}, [this] {
+        settings.fuse = ! settings.fuse;
+        applyFusion();
+        saveSettingsSoon(); },
+        settings.fuse));
+    menu.addSeparator();
+    menu.addItem (menuItem (TRANS ("Help on selected node"), "F1", [this] { helpOnSelection(); }));
+    menu.addItem (menuItem (TRANS ("Keyboard shortcuts"), {}, [this] { help.showKeys(); }));
+    menu.showMenuAsync (juce::PopupMenu::Options().withParentComponent (this).withTargetComponent (at).withMinimumWidth (240).withStandardItemHeight (28));
+}
+
+void MainView::askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)> chosen)
+{
+    const auto [title, patterns] = wordsFor (saves, begin);
+    using Choice = juce::FileBrowserComponent;
+    const int how = saves ? Choice::saveMode | Choice::canSelectFiles | Choice::warnAboutOverwriting : Choice::openMode | Choice::canSelectFiles;
+    launchChooser (title, patterns, juce::File (begin.string()), how, std::move (chosen));
+}
+
+void MainView::askForRecording()
+{
+    const auto home_folder = juce::File::getSpecialLocation (juce::File::userHomeDirectory);
+    launchChooser (TRANS ("Fit a recording"), "*.csv;*.tsv;*.txt;*.wav", recordings.isDirectory() ? recordings : home_folder,
+                   juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this] (const std::filesystem::path& file) {
+                       recordings = juce::File (file.parent_path().string());
+                       fitRecordingIn (file);
+                   });
+}
+
+void MainView::launchChooser (const juce::String& title, const juce::String& patterns, const juce::File& begin, int how,
+                              std::function<void (const std::filesystem::path&)> chosen)
+{
+    // Never a dialog of the desktop: that is another program, so its window would keep Esc from stopping the forces.
+    constexpr bool of_the_desktop = false;
+    chooser = std::make_unique<juce::FileChooser> (title, begin, patterns, of_the_desktop);
+    chooser->launchAsync (how, [this, chosen = std::move (chosen)] (const juce::FileChooser& c) {
+        takeFocus (patching);
+        // Later, when the dialog is gone: it gives the focus back, which what `chosen` opens needs.
+        if (const auto file = c.getResult(); file != juce::File())
+            juce::MessageManager::callAsync ([safe = SafePointer (this), chosen, path = file.getFullPathName().toStdString()] {
+                if (safe != nullptr) chosen (path);
+            });
+    });
+}
+
+}   // namespace tactus::host
