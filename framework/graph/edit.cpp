@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "edit.hpp"
 
-#include "edit_checks.hpp"
+#include <tactus/graph/edit/edit_checks.hpp>
 #include "endpoint_text.hpp"
-#include "exchange_member.hpp"
-#include "find_wire.hpp"
+#include <tactus/graph/edit/exchange_member.hpp>
+#include <tactus/graph/edit/find_wire.hpp>
 #include "graph_parts.hpp"
-#include "references.hpp"
-#include "refusals.hpp"
-#include "regroup.hpp"
+#include <tactus/graph/edit/references.hpp>
+#include <tactus/graph/edit/refusals.hpp>
+#include <tactus/graph/edit/regroup.hpp>
 
 #include <tactus/kit/at.hpp>
 #include <tactus/text/quote.hpp>

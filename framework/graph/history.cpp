@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "history.hpp"
-#include "find_wire.hpp"
+#include <tactus/graph/edit/find_wire.hpp>
 
 #include <string_view>
 

@@ -10,10 +10,10 @@ namespace tactus::graph
 namespace
 {
 /// Visits everything in a graph that names nodes, and renames or drops the references to one node.
-class Walk
+class References
 {
 public:
-    Walk (Graph& g, std::string_view p, std::string_view n, const std::string_view* t)
+    References (Graph& g, std::string_view p, std::string_view n, const std::string_view* t)
         : graph (g), patch (p.empty() ? &g.root : g.find (p)), node (n), to (t)
     {
     }
@@ -140,12 +140,12 @@ private:
 
 std::vector<Command> renameReferences (Graph& graph, std::string_view patch, std::string_view node, std::string_view to)
 {
-    return Walk (graph, patch, node, &to).everywhere();
+    return References (graph, patch, node, &to).everywhere();
 }
 
 std::vector<Command> dropReferences (Graph& graph, std::string_view patch, std::string_view node)
 {
-    return Walk (graph, patch, node, nullptr).everywhere();
+    return References (graph, patch, node, nullptr).everywhere();
 }
 
 }   // namespace tactus::graph

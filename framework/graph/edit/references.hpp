@@ -4,7 +4,7 @@
 /// References to a node by name: in wires, exposed ports, overrides and targets of controls; in its own patch, and from outside
 /// through the instances of its subgraph.
 
-#include "edit.hpp"
+#include <tactus/graph/edit.hpp>
 
 #include <string_view>
 #include <vector>

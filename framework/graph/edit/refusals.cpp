@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "refusals.hpp"
 
-#include "meant.hpp"
+#include <tactus/graph/meant.hpp>
 
 #include <tactus/text/quote.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "edit.hpp"
+#include <tactus/graph/edit.hpp>
 
 namespace tactus::graph
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "graph.hpp"
+#include <tactus/graph/graph.hpp>
 
 #include <tactus/text/result.hpp>
 

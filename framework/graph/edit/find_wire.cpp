@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "find_wire.hpp"
 
-#include "endpoint_text.hpp"
-#include "inside.hpp"
-#include "instances.hpp"
+#include <tactus/graph/endpoint_text.hpp>
+#include <tactus/graph/inside.hpp>
+#include <tactus/graph/instances.hpp>
 #include "refusals.hpp"
 
 #include <tactus/text/closest_match.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "edit.hpp"
-#include "endpoint_text.hpp"
+#include <tactus/graph/edit.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 
 #include <tactus/text/quote.hpp>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "separate.hpp"
 
-#include "endpoint_text.hpp"
-#include "instances.hpp"
-#include "overrides.hpp"
+#include <tactus/graph/endpoint_text.hpp>
+#include <tactus/graph/instances.hpp>
+#include <tactus/graph/overrides.hpp>
 
 #include <tactus/kit/at.hpp>
 #include <tactus/text/json_text.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "edit_checks.hpp"
 
-#include "graph_parts.hpp"
+#include <tactus/graph/graph_parts.hpp>
 #include "refusals.hpp"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "regroup.hpp"
 
-#include "endpoint_text.hpp"
-#include "endpoints.hpp"
-#include "instances.hpp"
-#include "overrides.hpp"
+#include <tactus/graph/endpoint_text.hpp>
+#include <tactus/graph/endpoints.hpp>
+#include <tactus/graph/instances.hpp>
+#include <tactus/graph/overrides.hpp>
 #include "separate.hpp"
 
 #include <tactus/text/json_text.hpp>
