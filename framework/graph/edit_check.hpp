@@ -26,18 +26,21 @@ struct Problem
     Message message;
 };
 
-/// Knows the errors of a graph against the catalogue. It looks only at what an edit touches. The History of the graph owns it and shows
-/// it every edit. [main thread]
+/// Knows the errors of a graph against the catalogue. The History of the graph owns it. [main thread]
 class EditCheck
 {
 public:
     virtual ~EditCheck() = default;
 
-    /// Notes an edit that has been carried out; `inverse` undoes it.
-    virtual void follow (const Command&, const Command& inverse) = 0;
+    /// The graph has changed otherwise than by an edit that the functions below have seen.
+    virtual void forget() = 0;
 
-    /// The errors of everything that the edit touches. Call it with the graph before or after the edit.
-    virtual std::vector<Problem> problems (const Graph&, const Command&, const Command& inverse) = 0;
+    /// False if a command that has just been carried out surely adds no error. This looks only at what the command touches. If it is true,
+    /// problems() comes next: with this graph, and if that has any, with the graph before.
+    virtual bool mayAddError (const Graph&, const Command&) = 0;
+
+    /// All errors of a graph.
+    virtual std::vector<Problem> problems (const Graph&) = 0;
 };
 
 /// Says whether a node type that is not in the catalogue is one that the program will add when it plays the graph.

@@ -42,7 +42,7 @@ Message located (Message refusal, const Command& command)
 Result<> History::perform (Command command, Step step)
 {
     identify (edited, command);
-    auto inverse = carryOutIfRight (command);
+    auto inverse = carryOut (command);
     if (! inverse) return located (std::move (inverse).error(), command);
 
     steps.erase (steps.begin() + static_cast<std::ptrdiff_t> (done), steps.end());
@@ -63,7 +63,7 @@ bool History::undo()
     if (done == 0) return false;
     auto& [name, commands, inverses] = steps[--done];
     for (auto i = inverses.size(); i-- > 0;)
-        commands[i] = *carryOut (inverses[i], Checks::none);   // redoing it brings back the same ids
+        commands[i] = restore (inverses[i]);   // redoing it brings back the same ids
     return true;
 }
 
@@ -71,28 +71,28 @@ bool History::redo()
 {
     if (done == steps.size()) return false;
     for (const auto& command : steps[done++].commands)
-        (void)carryOut (command, Checks::none);
+        restore (command);
     return true;
 }
 
-Result<Command> History::carryOut (const Command& command, Checks checks)
+Command History::restore (const Command& command)
 {
-    auto inverse = apply (edited, command, checks);
-    if (inverse && check) check->follow (command, *inverse);
-    return inverse;
+    if (check) check->forget();
+    return *apply (edited, command, Checks::none);
 }
 
-Result<Command> History::carryOutIfRight (const Command& command)
+Result<Command> History::carryOut (const Command& command)
 {
-    auto inverse = carryOut (command, Checks::all);
-    if (! inverse) return inverse;
-    if (const auto after = check ? check->problems (edited, command, *inverse) : std::vector<Problem> {}; ! after.empty())
-    {
-        const auto again = carryOut (*inverse, Checks::none);
-        if (const auto* added = firstAdded (check->problems (edited, command, *inverse), after, command)) return *added;
-        inverse = carryOut (*again, Checks::none);
-    }
-    return inverse;
+    auto inverse = apply (edited, command, Checks::all);
+    if (! inverse || ! check || ! check->mayAddError (edited, command)) return inverse;
+    const auto after = check->problems (edited);
+    if (after.empty()) return inverse;
+    auto before = edited;
+    (void)apply (before, *inverse, Checks::none);
+    const auto* added = firstAdded (check->problems (before), after, command);
+    if (added == nullptr) return inverse;
+    edited = std::move (before);
+    return *added;
 }
 
 std::vector<std::string> History::names() const

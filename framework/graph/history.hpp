@@ -59,8 +59,8 @@ private:
         std::vector<Command> commands, inverses;   ///< by edit of the step: its command and its inverse
     };
 
-    Result<Command> carryOut (const Command&, Checks);
-    Result<Command> carryOutIfRight (const Command&);
+    Result<Command> carryOut (const Command&);
+    Command restore (const Command&);   ///< carries out without checks; returns the inverse
 
     Graph edited;
     std::unique_ptr<EditCheck> check;

@@ -5,12 +5,12 @@
 ///
 ///   flat/       expands subgraphs, resolves names, reads values              flatten.hpp, directory.hpp, sections.hpp, values.hpp
 ///   settings/   reads the settings of nodes                                  node_settings.hpp
-///   rules/      checks units, finds the running order, loops and delays,     unit_check.hpp, order.hpp, aliasing.hpp, lateness.hpp
-///               and warns of what will not work well
+///   rules/      checks units and sums, finds the running order, loops and    examine.hpp, unit_check.hpp, fan_in.hpp, order.hpp,
+///               delays, and warns of what will not work well                 aliasing.hpp, lateness.hpp
 ///   build/      makes nodes, lays out storage, writes records                build.hpp, lane_groups.hpp, rate_conversions.hpp
 ///   steps/      what a tick does besides the nodes: sums, delays, ramps      ops.hpp, sum_step.hpp, ramps.hpp
 ///   swap/       decides what continues from the plan before                  plan_diff.hpp, matching.hpp, takeover.hpp
-///   edit/       applies the rules to what an edit touches                    edit_check.cpp, graph_part.hpp
+///   edit/       applies the rules to what an edit touches                    edit_check.cpp, surroundings.hpp
 
 #include "plan.hpp"
 #include <tactus/plan/flat/flatten.hpp>

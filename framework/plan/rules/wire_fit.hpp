@@ -13,7 +13,4 @@ bool readGain (const graph::Wire&, FlatWire&, Flat&);
 /// wire/add_to_input, wire/width. unit_check checks the units.
 bool wireFits (const FlatWire&, Flat&);
 
-/// True if several values of this quantity can be summed, so that several wires may end at one input.
-constexpr bool addsUp (Quantity q) noexcept { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; }
-
 }   // namespace tactus::plan

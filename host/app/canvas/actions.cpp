@@ -7,6 +7,7 @@
 #include <host/app/model/wire_rules.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoints.hpp>
+#include <tactus/plan/rules/fan_in.hpp>
 #include <tactus/run/device/make_device.hpp>
 
 #include <algorithm>
@@ -161,7 +162,7 @@ graph::Command connect (const graph::Graph& g, const std::string& patch, const P
     graph::Wire wire;
     wire.from = endpoint (from.node.name, from.port, from.component);
     wire.to = endpoint (to.node.name, to.port, to.component);
-    const bool several = to.port.role == Role::input && addsUp (to.node.quantityOf (to.port));
+    const bool several = to.port.role == Role::input && plan::addsUp (to.node.quantityOf (to.port));
     graph::Batch batch { NEEDS_TRANS ("connect"), {} };
     for (const auto& w : patchOf (g, patch).wires)
         if (overlap (w.to, wire.to) && (! several || w.from == wire.from)) batch.commands.push_back (graph::RemoveWire { patch, w.id });

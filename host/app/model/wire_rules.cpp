@@ -29,8 +29,6 @@ std::string described (const Unit& u)
 }
 }   // namespace
 
-bool addsUp (Quantity q) noexcept { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; }
-
 Result<> checkWireByComponent (const WireEnd& from, const WireEnd& to)
 {
     const auto refuse = [] (const juce::String& why) { return Message::error ("wire/refused", {}, why.toStdString()); };

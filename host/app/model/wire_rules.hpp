@@ -21,9 +21,6 @@ Result<> checkWire (const WireEnd& from, const WireEnd& to);
 /// Like checkWire(), but also allows a vector at one end and a scalar at the other, because one component can be wired.
 Result<> checkWireByComponent (const WireEnd& from, const WireEnd& to);
 
-/// True if several wires into one input of this quantity add up. An input of any other quantity takes one wire.
-bool addsUp (Quantity) noexcept;
-
 /// The SI unit of a quantity; "" if it has none.
 Unit unitOf (Quantity) noexcept;
 
