@@ -2,7 +2,7 @@
 #include "listening.hpp"
 #include "resample_file.hpp"
 
-#include <host/io/wav_header.hpp>
+#include <host/io/wav/wav_header.hpp>
 #include <tactus/file/atomic_file.hpp>
 
 #include <Eigen/Eigenvalues>

@@ -4,8 +4,8 @@
 #include "encoder_watch.hpp"
 #include "kinematics.hpp"
 #include "motor_limiter.hpp"
-#include "report_decoder.hpp"
-#include "report_encoder.hpp"
+#include <host/hid/report/report_decoder.hpp>
+#include <host/hid/report/report_encoder.hpp>
 
 #include <tactus/node/device.hpp>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "profile.hpp"
-#include "profile_fields.hpp"
+#include <host/hid/profile/profile_fields.hpp>
 
 namespace tactus::host::hid
 {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "profile_reader.hpp"
 #include "hex.hpp"
-#include "kinematics_reader.hpp"
+#include <host/hid/profile/kinematics_reader.hpp>
 #include "physics.hpp"
-#include "profile_check.hpp"
-#include "report_reader.hpp"
+#include <host/hid/profile/profile_check.hpp>
+#include <host/hid/profile/report_reader.hpp>
 
 #include <tactus/file/text_file.hpp>
 #include <tactus/run/device/guard_limits.hpp>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plot.hpp"
 
-#include "figure_layout.hpp"
-#include "png_density.hpp"
-#include "polyline.hpp"
-#include "vector_canvas.hpp"
+#include <host/io/figure/figure_layout.hpp>
+#include <host/io/figure/png_density.hpp>
+#include <host/io/figure/polyline.hpp>
+#include <host/io/figure/vector_canvas.hpp>
 #include <tactus/file/atomic_file.hpp>
 
 #include <juce_events/juce_events.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wav.hpp"
-#include "wav_header.hpp"
-#include "wav_samples.hpp"
+#include <host/io/wav/wav_header.hpp>
+#include <host/io/wav/wav_samples.hpp>
 
 #include <tactus/file/atomic_file.hpp>
 #include <tactus/file/text_file.hpp>

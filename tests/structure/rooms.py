@@ -6,8 +6,10 @@ Usage: rooms.py [SOURCE_FOLDER]. Prints FILE:LINE for each problem. Exit status 
 
 - host includes nodes and framework, and nodes includes framework, never the other way round.
 - Within framework/, includes point downwards only, in the order of LAYERS.
-- Folders do not form a ring. A layer of framework/ counts as one folder, together with its subfolders. Elsewhere each folder
-  counts on its own, such as host/cli and host/app/canvas.
+- Folders do not form a ring. A folder such as framework/plan, nodes/cut or host/hid counts as one, together with its rooms, which are its
+  subfolders. Each subfolder of host/app counts on its own.
+- docs/architecture.md, "Rooms and doors": if it lists a room of a folder, it lists all of them, each with its doors, which are the headers that
+  others include. It lists the folders that have more than MOST_FILES files.
 - The folders of MODELS include no header of a component."""
 
 import pathlib
@@ -17,6 +19,8 @@ import sys
 LAYERS = ["text", "kit", "fit", "node", "plugin", "examine", "graph", "plan", "file", "run", "check", "capi", "python"]   # lowest first
 PARTS = ["framework", "nodes", "host"]                             # the same for the parts of the project
 MODELS = {pathlib.PurePath("host/app", name) for name in ("model", "run", "storage", "text")}   # what runs without a component
+PAGE = "docs/architecture.md"
+MOST_FILES = 40
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 
@@ -50,9 +54,9 @@ def in_the_tree(header):
     return pathlib.PurePath("framework" + header.removeprefix("tactus") if header.startswith("tactus/") else header)
 
 
-def room(path):
-    """What counts as one folder: in the framework a layer with all its subfolders, elsewhere each folder."""
-    return pathlib.PurePath(*path.parts[:2]) if path.parts[0] == "framework" and len(path.parts) > 2 else path.parent
+def house(path):
+    """What counts as one folder: a folder with its rooms, but in host/app each subfolder."""
+    return pathlib.PurePath(*path.parent.parts[:3 if path.parts[:2] == ("host", "app") else 2])
 
 
 def level(path, order, depth):
@@ -92,17 +96,56 @@ def shortest_ring(start, edges):
     return None
 
 
+def listed_rooms(root):
+    """The rows of the two tables of the page: the doors of each room, and the folders that may be large; each with its line."""
+    rooms, large, in_section = {}, {}, False
+    for number, line in enumerate((root / PAGE).read_text(encoding="utf-8").splitlines(), 1):
+        if line.startswith("## "):
+            in_section = line == "## Rooms and doors"
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if not in_section or not cells[0].startswith("`"):
+            continue
+        folder = pathlib.PurePath(cells[0].strip("`"))
+        if len(cells) == 3:
+            rooms[folder] = number, set(re.findall(r"`([^`]+)`", cells[2]))
+        elif cells[1]:
+            large[folder] = number
+    return rooms, large
+
+
+def wrong_doors(root, files, all_includes):
+    """What the page says about rooms that is not so."""
+    rooms, large = listed_rooms(root)
+    folders = {}
+    for file in files:
+        folders.setdefault(file.parent, []).append(file)
+    problems = [] if rooms else [f"{PAGE}: no room is listed under \"Rooms and doors\""]
+    for room, (line, doors) in rooms.items():
+        used = {target.relative_to(room).as_posix() for file, _, target in all_includes if room in target.parents and room not in file.parents}
+        problems += [f"{PAGE}:{line}: {room} has another door: {name}" for name in sorted(used - doors)]
+        problems += [f"{PAGE}:{line}: nobody outside of {room} includes {name}" for name in sorted(doors - used)]
+    with_rooms = {room.parent for room in rooms}
+    problems += [f"{PAGE}: the room {folder} is not listed" for folder in sorted(folders)
+                 if folder.parent in with_rooms and folder not in rooms]
+    problems += [f"{PAGE}: {folder} has {len(inside)} files, more than {MOST_FILES}: make rooms, or list it with a reason"
+                 for folder, inside in sorted(folders.items()) if len(inside) > MOST_FILES and folder not in large]
+    problems += [f"{PAGE}:{line}: {folder} has no more than {MOST_FILES} files" for folder, line in large.items()
+                 if len(folders.get(folder, [])) <= MOST_FILES]
+    return problems
+
+
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2]).resolve()
-    problems, edges = [], {}
-    for file in sources(root):
-        for line, target in includes(root, file):
-            if reason := points_upwards(file, target):
-                problems.append(f"{file}:{line}: <{target}>: {reason}")
-            if room(file) in MODELS and "public juce::Component" in (root / target).read_text(encoding="utf-8"):
-                problems.append(f"{file}:{line}: <{target}>: {room(file)} must not include a component")
-            if room(file) != room(target):
-                edges.setdefault(room(file), {}).setdefault(room(target), f"{file}:{line}: <{target}>")
+    files = list(sources(root))
+    all_includes = [(file, line, target) for file in files for line, target in includes(root, file)]
+    problems, edges = wrong_doors(root, files, all_includes), {}
+    for file, line, target in all_includes:
+        if reason := points_upwards(file, target):
+            problems.append(f"{file}:{line}: <{target}>: {reason}")
+        if house(file) in MODELS and file.parent == house(file) and "public juce::Component" in (root / target).read_text(encoding="utf-8"):
+            problems.append(f"{file}:{line}: <{target}>: {house(file)} must not include a component")
+        if house(file) != house(target):
+            edges.setdefault(house(file), {}).setdefault(house(target), f"{file}:{line}: <{target}>")
 
     in_ring = set()
     for folder in sorted(edges):

@@ -4,7 +4,7 @@
 
 #include <fuzz/report_target.hpp>
 #include <host/hid/bits.hpp>
-#include <host/hid/crc32.hpp>
+#include <host/hid/report/crc32.hpp>
 
 #include <rapidcheck/catch.h>
 

@@ -5,7 +5,7 @@
 #include "host/hid/hid.hpp"
 #include "support/no_allocation.hpp"
 
-#include <host/hid/crc32.hpp>
+#include <host/hid/report/crc32.hpp>
 #include <host/hid_link/stream_feed.hpp>
 #include <host/hid_link/vibration_tracker.hpp>
 

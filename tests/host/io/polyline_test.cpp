@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/io/polyline.hpp>
+#include <host/io/figure/polyline.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>

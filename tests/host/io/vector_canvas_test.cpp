@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/io/vector_canvas.hpp>
+#include <host/io/figure/vector_canvas.hpp>
 
 #include <catch2/catch.hpp>
 

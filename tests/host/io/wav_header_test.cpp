@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/io/wav_header.hpp>
+#include <host/io/wav/wav_header.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "axis.hpp"
+#include <host/io/axis.hpp>
 #include "lettering.hpp"
-#include "plot.hpp"
+#include <host/io/plot.hpp>
 
 #include <juce_graphics/juce_graphics.h>
 

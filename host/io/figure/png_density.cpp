@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "png_density.hpp"
-#include "png_chunks.hpp"
+#include <host/io/png_chunks.hpp>
 
 #include <cmath>
 

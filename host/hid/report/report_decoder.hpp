@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "profile.hpp"
+#include <host/hid/profile.hpp>
 
 #include <array>
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "profile_fields.hpp"
-#include "hex.hpp"
+#include <host/hid/hex.hpp>
 
 #include <tactus/graph/endpoint_text.hpp>
 #include <tactus/text/quote.hpp>

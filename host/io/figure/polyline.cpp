@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "polyline.hpp"
 
-#include "axis.hpp"
+#include <host/io/axis.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "profile_check.hpp"
-#include "bits.hpp"
-#include "physics.hpp"
-#include "report_encoder.hpp"
+#include <host/hid/bits.hpp>
+#include <host/hid/physics.hpp>
+#include <host/hid/report/report_encoder.hpp>
 
 #include <tactus/node/device.hpp>
 #include <tactus/run/device/guard_limits.hpp>

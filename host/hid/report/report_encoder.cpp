@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "report_encoder.hpp"
-#include "bits.hpp"
+#include <host/hid/bits.hpp>
 #include "crc32.hpp"
 #include "report_decoder.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "figure_layout.hpp"
 
-#include "typeface.hpp"
+#include <host/io/typeface.hpp>
 
 #include <algorithm>
 #include <cmath>

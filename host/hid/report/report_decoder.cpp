@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "report_decoder.hpp"
-#include "bits.hpp"
+#include <host/hid/bits.hpp>
 
 #include <algorithm>
 #include <utility>
