@@ -70,6 +70,27 @@ double stepOf (double slew, double s) noexcept { return slew == GuardLimits::non
     return all;
 }
 
+/// The most that each part of an effort may have.
+struct Most
+{
+    double force, torque, axis;
+};
+
+/// The share, 0…1, with which no part has more than it may. A tiny share is subnormal and has lost digits, so the parts are then scaled down first.
+double shareWithin (Vec3& force, Vec3& torque, Channels& axes, const Most& most) noexcept
+{
+    constexpr double smallest = 1e-280, less = 0x1p-512;
+    for (;;)
+    {
+        double share = std::min (shareWithin (force, most.force), shareWithin (torque, most.torque));
+        if (axes.size() > 0) share = std::min (share, shareWithin (axes, most.axis));
+        if (share >= smallest || share == 0.0) return share;
+        force *= less;
+        torque *= less;
+        axes = mixed (less, axes, 0.0, {});
+    }
+}
+
 /// The first n values; missing ones are 0.
 [[gnu::noinline]] Channels resized (const Channels& all, int n) noexcept
 {
@@ -493,10 +514,8 @@ double Guard::fit (Vec3& force, Vec3& torque, Channels& axes) const noexcept
 {
     if (! (limits.max_force > 0.0)) force.setZero();
     if (! (limits.max_torque > 0.0)) torque.setZero();
-    const double size = std::min (shareWithin (force, limits.max_force), shareWithin (torque, limits.max_torque));
-    if (axes.size() == 0) return size;
-    if (! (limits.max_axis_effort > 0.0)) axes = resized ({}, axes.size());
-    return std::min (size, shareWithin (axes, limits.max_axis_effort));
+    if (! (limits.max_axis_effort > 0.0) && axes.size() > 0) axes = resized ({}, axes.size());
+    return shareWithin (force, torque, axes, { limits.max_force, limits.max_torque, limits.max_axis_effort });
 }
 
 /// Moves the last effort towards this one, as far as the limits of size and slew allow. One factor scales force, torque and axes,
@@ -518,15 +537,12 @@ void Guard::approach (const Effort& to, double step_s) noexcept
     }
 
     // Half steps, because the difference of two finite numbers may be infinite.
-    const Vec3 force = 0.5 * size * to_force - 0.5 * last.force, torque = 0.5 * size * to_torque - 0.5 * last.torque;
-    const double half_s = 0.5 * step_s;
-    double step = std::min (shareWithin (force, stepOf (limits.max_slew, half_s)), shareWithin (torque, stepOf (limits.max_torque_slew, half_s)));
+    Vec3 force = 0.5 * size * to_force - 0.5 * last.force, torque = 0.5 * size * to_torque - 0.5 * last.torque;
     Channels axes;
-    if (has_channels)
-    {
-        axes = mixed (0.5 * size, to_axes, -0.5, last.axes);
-        step = std::min (step, shareWithin (axes, stepOf (limits.max_axis_slew, half_s)));
-    }
+    if (has_channels) axes = mixed (0.5 * size, to_axes, -0.5, last.axes);
+    const double half_s = 0.5 * step_s;
+    const Most most { stepOf (limits.max_slew, half_s), stepOf (limits.max_torque_slew, half_s), stepOf (limits.max_axis_slew, half_s) };
+    const double step = shareWithin (force, torque, axes, most);
 
     const bool arrives = step == 1.0;
     last.force = arrives ? Vec3 (size * to_force) : Vec3 (last.force + 2.0 * step * force);

@@ -302,6 +302,28 @@ TEST_CASE ("guard: the effort never changes faster than the slew limit, even in 
               });
 }
 
+TEST_CASE ("guard: an effort near the largest double exceeds no limit, not by one bit", "[framework][guard][safety]")
+{
+    const auto huge = GENERATE (1e300, 1.7e306, 1e308, 1.7e308);
+    const auto most = GENERATE (0.01, 0.3, 7e-5);
+
+    SECTION ("of slew")
+    {
+        auto guard = guardWith ({ .max_slew = most / dt });
+        CHECK (guard ({ .force = { 0, -huge, 1e-5 * huge } }, fresh).force.norm() <= most);
+        CHECK (guard ({ .force = { huge, 0, 0 }, .torque = { 0, huge, 0 } }, fresh).force.y() >= -most);
+    }
+
+    SECTION ("of size")
+    {
+        auto guard = guardWith ({ .max_force = most, .max_torque = most });
+        const auto now = guard ({ .force = { 0.5 * huge, -huge, 0 }, .torque = { 0, 0.3 * huge, huge } }, fresh);
+        CHECK (now.force.norm() <= most);
+        CHECK (now.torque.norm() <= most);
+        CHECK (std::max (now.force.norm(), now.torque.norm()) > 0.999 * most);
+    }
+}
+
 TEST_CASE ("guard: a stop takes the fade time and is never a step, regardless of its cause and of anything that happens meanwhile", "[framework][guard]")
 {
     rc::prop ("any run, any limits except slew limits, which lengthen the stop",
