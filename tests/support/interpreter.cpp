@@ -114,10 +114,27 @@ void Interpreter::override (const graph::Node& n, const std::string& prefix)
             {
                 auto& i = instances.at (prefix + name + "/" + inside.substr (0, dot));
                 const auto row = std::ranges::find (i.type->params, inside.substr (dot + 1), &PortSheet::id);
-                i.params[static_cast<std::size_t> (row - i.type->params.begin())][0] = value.get<double>();
-                *reinterpret_cast<double*> (static_cast<char*> (i.type->paramsOf (i.node.get())) + row->offset) = value.get<double>();
+                if (! row->choices.empty())
+                {
+                    choose (i, *row, value);
+                    continue;
+                }
+                auto& all = i.params[static_cast<std::size_t> (row - i.type->params.begin())];
+                if (value.is_array())
+                    for (std::size_t k = 0; k < value.size(); ++k)
+                        all[k] = value[k].get<double>();
+                else
+                    all[0] = value.get<double>();
+                std::ranges::copy (all, reinterpret_cast<double*> (static_cast<char*> (i.type->paramsOf (i.node.get())) + row->offset));
             }
         }
+}
+
+/// Sets a parameter whose value is one of several words.
+void Interpreter::choose (Instance& i, const PortSheet& row, const Json& word)
+{
+    const int chosen = static_cast<int> (std::ranges::find (row.choices, word.get<std::string>()) - row.choices.begin());
+    std::memcpy (static_cast<char*> (i.type->paramsOf (i.node.get())) + row.offset, &chosen, sizeof chosen);
 }
 
 /// Each instance of a subgraph with its own rate is a separate section.
@@ -155,11 +172,7 @@ void Interpreter::add (const graph::Node& n, const std::string& path, const Role
     {
         i.params.emplace_back (static_cast<std::size_t> (p.list ? i.entries : p.width), p.initial[0]);
         if (p.width == 3) i.params.back().assign (p.initial, p.initial + 3);
-        if (! p.choices.empty() && n.params.contains (p.id))
-        {
-            const int chosen = static_cast<int> (std::ranges::find (p.choices, n.params.at (std::string (p.id)).get<std::string>()) - p.choices.begin());
-            std::memcpy (static_cast<char*> (i.type->paramsOf (i.node.get())) + p.offset, &chosen, sizeof chosen);
-        }
+        if (! p.choices.empty() && n.params.contains (p.id)) choose (i, p, n.params.at (std::string (p.id)));
     }
     if (i.type->bind && ! n.bypass)
     {

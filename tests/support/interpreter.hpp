@@ -84,6 +84,7 @@ private:
     int sectionOf (const graph::Node&, int around);
     void add (const graph::Node&, const std::string& path, const Roles&, int section);
     void override (const graph::Node&, const std::string& prefix);
+    static void choose (Instance&, const PortSheet&, const Json& word);
     void route();
     void findWhatIsCarried();
     const PortSheet& sheet (const End&, bool start) const;
