@@ -29,5 +29,6 @@ void addExport (const Command&);
 void addConvert (const Command&);
 void addCapture (const Command&);
 void addTest (const Command&);
+void addReport (const Command&);
 
 }   // namespace tactus::host

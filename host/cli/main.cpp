@@ -39,6 +39,7 @@ constexpr auto examples =
     "  tactus render --replay run.jsonl               repeat a run logged by `play --log run.jsonl`\n"
     "  tactus capture run.jsonl --test run_test.jsonl   make a clip, gesture or test from a logged run\n"
     "  tactus test run_test.jsonl                       does it still give the same bits?\n"
+    "  tactus report                                    what a report of a problem needs\n"
     "\n`tactus COMMAND --help` shows the options and more examples.";
 }   // namespace
 
@@ -73,6 +74,7 @@ int main (int argc, char** argv)
     addConvert (app);
     addCapture (app);
     addTest (app);
+    addReport (app);
 
     try
     {

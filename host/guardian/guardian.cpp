@@ -4,6 +4,7 @@
 #include <host/platform/guardian.hpp>
 
 #if defined(__linux__)
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
@@ -13,7 +14,9 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
+#include <ctime>
 
 using namespace tactus::host;
 using guardian::FinalReports;
@@ -55,10 +58,27 @@ bool receive (int from, FinalReports& reports, int& file) noexcept
     return true;
 }
 
-/// Takes each device whose beats have stopped while an effort was on it. If a beat comes at the last moment, the exchange fails.
-/// Later beats see that the device is taken, so the program and the guardian never both drive it.
-void lookAtBeats (SharedState& shared) noexcept
+const char* notes = "";   // where note() writes
+
+/// Notes when and why devices were brought to rest, for lastFailsafe(). Call after the reports are written.
+void note (const char* cause) noexcept
 {
+    const int file = ::open (notes, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, S_IRUSR | S_IWUSR);
+    if (file < 0) return;
+    const auto now = ::time (nullptr);
+    tm utc {};
+    std::array<char, 100> line {};
+    auto length = std::strftime (line.data(), line.size(), "%Y-%m-%dT%H:%M:%SZ ", ::gmtime_r (&now, &utc));
+    length += static_cast<std::size_t> (std::snprintf (line.data() + length, line.size() - length, "%s\n", cause));
+    static_cast<void> (::write (file, line.data(), length) < 0);   // it is only a note
+    ::close (file);
+}
+
+/// Takes each device whose beats have stopped while an effort was on it. If a beat comes at the last moment, the exchange fails.
+/// Later beats see that the device is taken, so the program and the guardian never both drive it. True if it has taken any.
+bool lookAtBeats (SharedState& shared) noexcept
+{
+    bool has_taken = false;
     struct LastBeat
     {
         std::int64_t beat = SharedState::at_rest;
@@ -74,7 +94,9 @@ void lookAtBeats (SharedState& shared) noexcept
         if (armed[i].file < 0 || all[i].times < looks_until_taken || ! shared.beats[i].compare_exchange_strong (beat, SharedState::taken)) continue;
         shared.raiseAlarm (SharedState::Cause::frozen, beat);
         armed[i].due = guardian::all_reports;
+        has_taken = true;
     }
+    return has_taken;
 }
 
 /// Writes the reports that are due. A device that is too busy for one is tried again the next time. True if there is a next time.
@@ -124,9 +146,10 @@ void ignoreSignals() noexcept
 }
 }   // namespace
 
-int main()
+int main (int count, char** arguments)
 {
     ignoreSignals();
+    if (count > 1) notes = arguments[1];
     auto* const shared = sharedMemory();
     if (shared == nullptr || ::chdir ("/") != 0) return 1;
     ::close_range (1, ~0U, 0);   // what the program had open must not stay open here
@@ -140,21 +163,25 @@ int main()
         ++shared->looks;
         if (ready == 0)
         {
-            lookAtBeats (*shared);
+            const bool has_taken = lookAtBeats (*shared);
             writeDue();
+            if (has_taken) note ("the program did not respond");
         }
         else if (ready > 0 && receive (guardian::message_socket, reports, file))
             takeOver (reports, file);
         else if (ready > 0 || errno != EINTR)
             break;
     }
+    bool has_any = false;
     for (auto& each : armed)
     {
+        has_any = has_any || each.file >= 0;
         each.due = guardian::all_reports;
         each.tries = 0;
     }
     while (writeDue())
         ::poll (nullptr, 0, look_apart_ms);
+    if (has_any) note ("the program ended without closing its devices");
     return 0;
 }
 

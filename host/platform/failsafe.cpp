@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "failsafe.hpp"
 #include "guardian.hpp"
+#include "last_failsafe.hpp"
 #include "preset_folder.hpp"
 
 #include <tactus/text/caught.hpp>
@@ -119,7 +120,7 @@ extern "C" void afterFault (int signal, siginfo_t* info, void* context)
 
 std::string reason (int error) { return std::generic_category().message (error); }
 
-/// Starts a program with these two files, in a session of its own, and with all signals blocked. Returns an errno; 0 if it worked.
+/// Starts a guardian with these two files, in a session of its own, and with all signals blocked. Returns an errno; 0 if it worked.
 int spawn (const char* program, int socket, pid_t& child)
 {
     posix_spawn_file_actions_t files;
@@ -134,8 +135,8 @@ int spawn (const char* program, int socket, pid_t& child)
     ::posix_spawn_file_actions_adddup2 (&files, free, guardian::memory_file);
     ::posix_spawnattr_setflags (&how, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSID);
     ::posix_spawnattr_setsigmask (&how, &all);
-    std::string name = guardian::program_name;
-    std::array<char*, 2> arguments { name.data(), nullptr };
+    std::string name = guardian::program_name, notes = lastFailsafeFile().string();
+    std::array<char*, 3> arguments { name.data(), notes.data(), nullptr };
     std::array<char*, 1> environment { nullptr };
     const int error = ::posix_spawn (&child, program, &files, &how, arguments.data(), environment.data());
     ::posix_spawnattr_destroy (&how);

@@ -60,6 +60,8 @@ static_assert (std::atomic<std::int64_t>::is_always_lock_free && std::atomic<Sha
 /// both.
 inline constexpr auto program_name = "force-guardian";
 
+/// The guardian's only argument is the file in which it notes when and why it brought devices to rest; "" if there is none. See lastFailsafe().
+
 /// The files that the guardian starts with: its messages, and memory that contains Shared.
 inline constexpr int message_socket = 0, memory_file = 1;
 

@@ -4,6 +4,7 @@
 #include "support/temporary_folder.hpp"
 
 #include <host/platform/failsafe.hpp>
+#include <host/platform/last_failsafe.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -11,6 +12,7 @@
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <sstream>
@@ -105,6 +107,23 @@ TEST_CASE ("a killed process leaves its device at rest", "[platform]")
                file, [] { ::kill (::getpid(), SIGKILL); },
                "rest!")
            == "rest!");
+}
+
+TEST_CASE ("the guardian notes when and why it brought a device to rest", "[platform]")
+{
+    const TemporaryFolder folder;
+    const auto file = (folder / "device").string();
+    const auto* const before = std::getenv ("TACTUS_HOME");
+    const std::string kept = before != nullptr ? before : "";
+    ::setenv ("TACTUS_HOME", (folder / "home").c_str(), 1);
+    CHECK (host::lastFailsafe().empty());
+    CHECK (afterDying (
+               file, [] { ::kill (::getpid(), SIGKILL); }, "rest!")
+           == "rest!");
+    CHECK (until ([] { return host::lastFailsafe().ends_with ("Z the program ended without closing its devices"); }));
+    const auto noted = host::lastFailsafe();
+    before != nullptr ? ::setenv ("TACTUS_HOME", kept.c_str(), 1) : ::unsetenv ("TACTUS_HOME");
+    CHECK (noted.starts_with ("20"));
 }
 
 TEST_CASE ("a process that dies leaves its device at rest, even if a child of it lives on with all that it had open", "[platform]")

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+
+#include <host/audio/card.hpp>
+#include <host/hid/match.hpp>
+#include <host/hid_link/open_device.hpp>
+#include <host/hid_link/profile_library.hpp>
+#include <host/platform/last_failsafe.hpp>
+#include <host/platform/system_facts.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/run/realtime.hpp>
+#include <tactus/tactus.h>
+#include <tactus/text/quote.hpp>
+
+#include <Eigen/Core>
+#include <hidapi.h>
+#include <juce_core/juce_core.h>
+
+#include <iostream>
+#include <thread>
+
+namespace tactus::host
+{
+
+namespace
+{
+void print (const std::string& name, const std::string& text) { std::cout << name << ": " << text << '\n'; }
+
+void printVersions()
+{
+    print ("Tactus", std::string (tactus_version()) + " (C API " + std::to_string (TACTUS_API_VERSION) + ")");
+    print ("compiler", __VERSION__);
+    print ("libraries", std::string ("JUCE ") + juce::String (JUCE_STRINGIFY (JUCE_MAJOR_VERSION) "." JUCE_STRINGIFY (JUCE_MINOR_VERSION) "." JUCE_STRINGIFY (JUCE_BUILDNUMBER)).toStdString()
+                            + ", Eigen " + std::to_string (EIGEN_WORLD_VERSION) + "." + std::to_string (EIGEN_MAJOR_VERSION) + "."
+                            + std::to_string (EIGEN_MINOR_VERSION) + ", hidapi " + hid_version_str());
+    std::size_t of_plugins = 0;
+    for (const auto& type : catalogue())
+        of_plugins += type.origin.empty() ? 0 : 1;
+    print ("node types", std::to_string (std::distance (catalogue().begin(), catalogue().end())) + ", " + std::to_string (of_plugins) + " of them from plugins");
+}
+
+/// Requests what a live run requests, and says what it got.
+void printRights()
+{
+    std::vector<std::string> refused;
+    if (auto why = lockMemory()) refused.push_back (std::move (*why));
+    std::jthread ([&] {
+        for (auto& why : becomeRealTime (std::nullopt))
+            refused.push_back (std::move (why));
+    }).join();
+    if (refused.empty()) print ("real time", "the tick thread has real-time priority, and its memory is locked");
+    for (const auto& why : refused)
+        print ("real time", why);
+}
+
+/// Devices by what they are, without paths, serial numbers and names, which a user may have chosen.
+void printDevices()
+{
+    const auto profiles = hid::loadProfileLibrary();
+    const auto devices = eachOnce (hid::thisComputer().connected(), profiles);
+    for (const auto& d : devices)
+    {
+        char numbers[16];
+        std::snprintf (numbers, sizeof numbers, "%04x:%04x", d.vid, d.pid);
+        const auto fitting = matching (profiles.profiles, d);
+        print ("HID device", std::string (numbers) + ", " + (fitting.empty() ? "no profile" : "profile " + printableName (fitting.front()->id))
+                                 + (hid::thisComputer().mayOpen (d) ? "" : ", may not be opened by this user"));
+    }
+    if (devices.empty()) print ("HID devices", "none");
+    for (const auto& card : audio::soundCards().list())
+        print ("sound card", printableName (card.type) + ", " + std::to_string (card.outputs.size()) + " outputs, " + std::to_string (card.inputs.size())
+                                 + " inputs");
+}
+
+void run()
+{
+    printVersions();
+    for (const auto& [name, text] : systemFacts())
+        print (name, text);
+    printRights();
+    printDevices();
+    const auto last = lastFailsafe();
+    print ("last failsafe", last.empty() ? "none" : last);
+}
+}   // namespace
+
+void addReport (const Command& app)
+{
+    const auto command = app.add ("report", "Print what a report of a problem needs: versions, devices, limits and rights of this computer");
+    command.footer ("It contains no names of users, computers, files or devices, and no serial numbers.\n\n"
+                    "Examples:\n"
+                    "  tactus report\n"
+                    "  tactus report > report.txt");
+    command.callback ([] { run(); });
+}
+
+}   // namespace tactus::host
