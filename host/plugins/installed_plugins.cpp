@@ -2,8 +2,8 @@
 #include "installed_plugins.hpp"
 #include "quarantine.hpp"
 
-#include <host/platform/start_program.hpp>
 #include <host/platform/home_folder.hpp>
+#include <host/platform/start_program.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>

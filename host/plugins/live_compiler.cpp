@@ -2,9 +2,9 @@
 #include "live_compiler.hpp"
 #include "compiler_output.hpp"
 
-#include <host/platform/start_program.hpp>
 #include <host/platform/preset_folder.hpp>
 #include <host/platform/private_folder.hpp>
+#include <host/platform/start_program.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/text/quote.hpp>
 

@@ -74,7 +74,7 @@ int main (int argc, char** argv)
     if (strcmp (what, "two") == 0) other = open (argv[1], "stylus=gesture:circle", messages);
     if (strcmp (what, "fork") == 0 && fork() == 0)
     {
-        sleep (600);   /* the child outlives its parent, with copies of all that it had open */
+        sleep (600); /* the child outlives its parent, with copies of all that it had open */
         return 0;
     }
 

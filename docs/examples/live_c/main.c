@@ -54,7 +54,7 @@ int main (int argc, char** argv)
     }
     if (! failed) printf ("%lu ticks, peak force %.3f N\n", (unsigned long)status.ticks, status.peak_force);
 
-    tactus_session_close (session);   /* all forces go to zero first */
+    tactus_session_close (session); /* all forces go to zero first */
     tactus_graph_free (graph);
     tactus_text_free (file);
     tactus_messages_free (messages);

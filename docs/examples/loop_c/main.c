@@ -23,7 +23,8 @@ static void move (tactus_reading* at, double* speed, const tactus_effort* effort
     int i;
     for (i = 0; i < 3; ++i)
     {
-        const double hand = i == 0 ? 0.03 * sin (6.0 * time_s) : i == 2 ? -0.001 : 0.0;
+        const double hand = i == 0 ? 0.03 * sin (6.0 * time_s) : i == 2 ? -0.001
+                                                                        : 0.0;
         const double force = effort->force[i] + 600.0 * (hand - at->position[i]) - 6.0 * speed[i];
         speed[i] += period_s * force / 0.05;
         at->position[i] += period_s * speed[i];
@@ -56,7 +57,7 @@ int main (int argc, char** argv)
     for (k = 0; k < 8000; ++k)
     {
         tactus_run_push (run, role, &reading);
-        if (tactus_run_tick (run) != TACTUS_OK) return fail (messages);   /* tactus_run_tick_after, if your loop can be late */
+        if (tactus_run_tick (run) != TACTUS_OK) return fail (messages); /* tactus_run_tick_after, if your loop can be late */
         tactus_run_take (run, role, &effort);
         move (&reading, speed, &effort, k * period_s, period_s);
         if (k % 100 != 0) continue;
