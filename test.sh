@@ -21,17 +21,26 @@
 #   ./test.sh --figures redraws docs/figures/ and recounts docs/instructions.md
 #   ./test.sh --packages makes the Debian packages, and installs, uses and removes them in a clean Debian (needs root); before that,
 #                       it builds all nodes as plugins and examines them
+#   ./test.sh --format  compares every source file with .clang-format, as each run does; with --fix, also formats it
+#   ./test.sh --tidy [PART/PARTS | FILE...] looks for mistakes in all files with clang-tidy, which takes hours, or in one part of them,
+#                       or in these files
+#   ./test.sh --sanitizers runs the tests under ASan and UBSan and under TSan, and the window under ASan and UBSan
+#   ./test.sh --coverage counts which lines the tests run, without the window: build/coverage/index.html
+#   ./test.sh --install installs the packages that ./test.sh and ./demo.sh need
 . "$(dirname "$0")/.ci/setup.sh"
 
 mode=${1:-}
 case $mode in
-    ''|--quick|--long|--screens|--sound|--devices|--export|--figures|--packages) ;;
-    *) echo "usage: ./test.sh [--quick|--long|--screens [--update]|--sound|--devices|--export|--figures|--packages]" >&2; exit 2 ;;
+    ''|--quick|--long|--screens|--sound|--devices|--export|--figures|--packages|--format|--tidy|--sanitizers|--coverage|--install) ;;
+    *) echo "usage: ./test.sh [--quick|--long|--screens [--update]|--sound|--devices|--export|--figures|--packages|--format [--fix]|--tidy [PART/PARTS | FILE...]|--sanitizers|--coverage|--install]" >&2; exit 2 ;;
 esac
 
 packages+=(python3-jsonschema python3-distributed python3-build python3-venv python3-pip mypy python3-pandas python3-xarray xvfb xdotool)
-case $mode in ''|--long) packages+=(libclang-rt-14-dev) ;; esac
-case $mode in ''|--quick|--long) packages+=(valgrind) ;; esac
+case $mode in ''|--long|--sanitizers|--install) packages+=(libclang-rt-14-dev) ;; esac
+case $mode in ''|--quick|--long|--install) packages+=(valgrind) ;; esac
+case $mode in ''|--quick|--long|--format|--install) packages+=(clang-format-14) ;; esac
+[ "$mode" = --coverage ] && packages+=(gcovr)
+[ "$mode" = --tidy ] && packages+=(clang-tidy-14)
 [ "$mode" = --export ] && packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
 [ "$mode" = --screens ] && packages+=(xauth imagemagick)
@@ -40,7 +49,9 @@ case $mode in ''|--quick|--long) packages+=(valgrind) ;; esac
 install_packages
 
 # Without these packages the guest is skipped, with a message.
-case $mode in ''|--long|--devices) (packages=(qemu-system-x86 busybox-static cpio kmod procps) && install_packages) || true ;; esac
+case $mode in ''|--long|--devices|--install) (packages=(qemu-system-x86 busybox-static cpio kmod procps) && install_packages) || true ;; esac
+
+[ "$mode" = --install ] && exit
 
 # Property tests use the same random inputs each time, so a commit either passes or fails. --long uses new ones.
 export RC_PARAMS=${RC_PARAMS:-}
@@ -52,6 +63,55 @@ run_tests ()
     shift
     ctest --test-dir "build/$preset" --output-on-failure --parallel $(($(nproc) + 1)) "$@"   # one more, because some tests wait
 }
+
+sources () { find framework nodes host tests docs -name '*.[ch]' -o -name '*.[ch]pp'; }
+
+case $mode in ''|--quick|--long|--format)
+    say "Formatting"
+    if [ "${2:-}" = --fix ]; then sources | xargs clang-format-14 -i; else sources | xargs clang-format-14 --dry-run -Werror; fi
+esac
+[ "$mode" = --format ] && exit
+
+if [ "$mode" = --tidy ]; then
+    say "Looking for mistakes"
+    cmake --preset tidy >/dev/null
+    /usr/bin/python3 -B tests/structure/tidy.py build/tidy "${@:2}"
+    exit
+fi
+
+sanitize ()
+{
+    build asan
+    say "Tests under ASan and UBSan"
+    # Memory errors depend on the kind of input, rarely on the number of inputs.
+    RC_PARAMS="$RC_PARAMS max_success=20" TACTUS_ROUNDS=20 run_tests asan
+}
+
+sanitize_more ()
+{
+    build tsan
+    say "Tests under TSan"
+    TACTUS_LIVE_SECONDS=60 run_tests tsan
+    build asan-window tactus_app_tests
+    say "The window under ASan and UBSan"
+    run_tests asan-window -R '^app:'
+}
+
+if [ "$mode" = --sanitizers ]; then
+    sanitize
+    sanitize_more
+    exit
+fi
+
+if [ "$mode" = --coverage ]; then
+    build coverage
+    say "Tests"
+    RC_PARAMS="$RC_PARAMS max_success=20" TACTUS_ROUNDS=20 run_tests coverage --label-exclude whole || true   # what fails here fails in ./test.sh
+    say "Lines that they run"
+    gcovr --root . --filter 'framework/|nodes/|host/' --object-directory build/coverage --gcov-ignore-parse-errors -j "$(nproc)" \
+        --print-summary --html-details build/coverage/index.html | tail -3
+    exit
+fi
 
 if [ "$mode" = --devices ]; then
     build release tactus guest_device
@@ -141,20 +201,10 @@ if [ "$mode" = --long ]; then
     say "Each installed header"
     cmake --install build/release --component development --prefix build/installed >/dev/null
     tests/install/headers.sh build/installed/include --each
-    build tsan
-    say "Tests under TSan"
-    TACTUS_LIVE_SECONDS=60 run_tests tsan
-    build asan-window tactus_app_tests
-    say "The window under ASan and UBSan"
-    run_tests asan-window -R '^app:'
+    sanitize_more
 fi
 
-if [ "$mode" != --quick ]; then
-    build asan
-    say "Tests under ASan and UBSan"
-    # Memory errors depend on the kind of input, rarely on the number of inputs.
-    RC_PARAMS="$RC_PARAMS max_success=20" TACTUS_ROUNDS=20 run_tests asan
-fi
+[ "$mode" = --quick ] || sanitize
 
 parts=()
 if [ "$mode" = --quick ]; then
