@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "edit.hpp"
 
-#include <tactus/graph/edit/edit_checks.hpp>
 #include "endpoint_text.hpp"
+#include "graph_parts.hpp"
+#include <tactus/graph/edit/edit_checks.hpp>
 #include <tactus/graph/edit/exchange_member.hpp>
 #include <tactus/graph/edit/find_wire.hpp>
-#include "graph_parts.hpp"
 #include <tactus/graph/edit/references.hpp>
 #include <tactus/graph/edit/refusals.hpp>
 #include <tactus/graph/edit/regroup.hpp>

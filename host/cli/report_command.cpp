@@ -10,13 +10,17 @@
 #include <tactus/node/catalogue.hpp>
 #include <tactus/run/realtime.hpp>
 #include <tactus/tactus.h>
+#include <tactus/text/caught.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <Eigen/Core>
 #include <hidapi.h>
 #include <juce_core/juce_core.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <iostream>
+#include <iterator>
 #include <thread>
 
 namespace tactus::host
@@ -45,8 +49,7 @@ void printRights()
     std::vector<std::string> refused;
     if (auto why = lockMemory()) refused.push_back (std::move (*why));
     std::jthread ([&] {
-        for (auto& why : becomeRealTime (std::nullopt))
-            refused.push_back (std::move (why));
+        static_cast<void> (caught ("the thread that asks for real time", [&] { std::ranges::move (becomeRealTime (std::nullopt), std::back_inserter (refused)); }));
     }).join();
     if (refused.empty()) print ("real time", "the tick thread has real-time priority, and its memory is locked");
     for (const auto& why : refused)

@@ -272,8 +272,7 @@ graph::Graph switchPreset (const SwitchLoop& loop, double stiffness, const std::
             { "rub", { { "type", "friction.elasto_plastic" }, { "params", { { "mu", 1 }, { "stiffness", stiffness } } } } },
             { "motor", { { "type", "device.force" }, { "role", "finger" } } } } },
         { "wires",
-          { "hand.position -> key.position", "key.depth -> bound.in", "key.depth -> rub.position.x", "bound.out -> rub.normal_force",
-            "key.force -> motor.force", { { "wire", "rub.force.x -> motor.force.z" }, { "gain", -1 } } } },
+          { "hand.position -> key.position", "key.depth -> bound.in", "key.depth -> rub.position.x", "bound.out -> rub.normal_force", "key.force -> motor.force", { { "wire", "rub.force.x -> motor.force.z" }, { "gain", -1 } } } },
     };
     auto graph = readGraph (key.dump()).graph;
     setSources (graph, { { "key.law", source }, { "bound.curve", source } });

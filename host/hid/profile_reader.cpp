@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "profile_reader.hpp"
 #include "hex.hpp"
-#include <host/hid/profile/kinematics_reader.hpp>
 #include "physics.hpp"
+#include <host/hid/profile/kinematics_reader.hpp>
 #include <host/hid/profile/profile_check.hpp>
 #include <host/hid/profile/report_reader.hpp>
 

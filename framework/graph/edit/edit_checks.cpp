@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "edit_checks.hpp"
 
-#include <tactus/graph/graph_parts.hpp>
 #include "refusals.hpp"
+#include <tactus/graph/graph_parts.hpp>
 
 #include <algorithm>
 #include <set>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "find_wire.hpp"
 
+#include "refusals.hpp"
 #include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/inside.hpp>
 #include <tactus/graph/instances.hpp>
-#include "refusals.hpp"
 
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/quote.hpp>

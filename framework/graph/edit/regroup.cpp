@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "regroup.hpp"
 
+#include "separate.hpp"
 #include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/endpoints.hpp>
 #include <tactus/graph/instances.hpp>
 #include <tactus/graph/overrides.hpp>
-#include "separate.hpp"
 
 #include <tactus/text/json_text.hpp>
 #include <tactus/text/quote.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <host/hid/profile.hpp>
 #include "profile_fields.hpp"
+#include <host/hid/profile.hpp>
 
 namespace tactus::host::hid
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "report_encoder.hpp"
-#include <host/hid/bits.hpp>
 #include "crc32.hpp"
 #include "report_decoder.hpp"
+#include <host/hid/bits.hpp>
 
 #include <tactus/kit/math/math.hpp>
 

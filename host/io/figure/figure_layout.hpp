@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/io/axis.hpp>
 #include "lettering.hpp"
+#include <host/io/axis.hpp>
 #include <host/io/plot.hpp>
 
 #include <juce_graphics/juce_graphics.h>
