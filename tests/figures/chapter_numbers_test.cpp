@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Numbers in section 1 of docs/chapter.md that no picture shows.
 
 #include "figure_data.hpp"

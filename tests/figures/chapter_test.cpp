@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // The walk through the chapter: its figures exist, and its commands run.
 
 #include "host/cli/program.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 /// Data of the figures in docs/chapter.md. A test renders a graph of docs/figures/, checks what the figure shows, and

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT
 """Runs the command line on mutated files. Each must be accepted, or refused with an error, within the budgets of time and memory.
 
   whole_program.py TACTUS --kept                 the files in tests/fuzz/programs, which once broke something or are hard

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // The presets whose cut has a place do what their descriptions say.
 
 #include "figures/figure_data.hpp"

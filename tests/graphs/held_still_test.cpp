@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // A hand that stops in the middle of a preset's gesture and then holds still, while its pressure trembles, keeps its drag.
 
 #include "support/sketch.hpp"

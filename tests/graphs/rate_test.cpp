@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Every preset renders the same physics at any rate. A new preset is checked automatically.
 
 #include "support/sketch.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // `tactus export` of a graph with a node from a plugin: its header is copied if it is at hand, and never anything else.
 #include "load.hpp"
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "load.hpp"
 #include "support/other_user.hpp"
 #include "support/sketch.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Live C++: what decides whether a state may be adopted, and how messages of a compiler are read.
 #include "support/temporary_folder.hpp"
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Live C++: new versions of a plugin take over during a run.
 #include "load.hpp"
 #include "support/no_allocation.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // `tactus new-node` as a newcomer uses it, from the folder in which Tactus was built.
 #include "load.hpp"
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // `tactus check-plugin` catches bad plugins, and says what is wrong.
 #include "load.hpp"
 

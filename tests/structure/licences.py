@@ -6,6 +6,7 @@ Usage: licences.py [SOURCE_FOLDER]. Prints FILE: PROBLEM for each problem. Exit 
 
 - Every source file has an SPDX line with one of the two licences. framework/, nodes/, graphs/ and docs/ are MIT.
 - In host/ each folder is MIT or GPL as a whole, but for MIXED, where each file counts.
+- tests/ is MIT, but for the tests of a folder under the GPL, and for files that include JUCE or a header under the GPL.
 - A file under the MIT licence includes neither JUCE nor a header under the GPL. CARDS may include the modules of JUCE that are under the ISC
   licence."""
 
@@ -15,6 +16,7 @@ import sys
 
 MIT_ROOMS = ["audio", "check_plugin", "command_line", "device_plugins", "fitting", "fuse", "fuse_llvm", "generate", "guardian", "hid", "hid_link", "live",
              "platform", "plugins", "profiles", "sessions"]
+GPL_ROOMS = ["app", "bench", "cli", "packaging"]
 MIXED = ["assets", "io", "osc"]
 CARDS = "host/audio/juce_cards.cpp"
 ISC = ("juce_core", "juce_events", "juce_audio_basics", "juce_audio_devices")
@@ -28,9 +30,12 @@ def licence(path):
     return found[1] if found else ""
 
 
-def should_be(path):
+def should_be(root, path):
     """The licence that the folder asks for; "" if each file decides."""
     parts = path.parts
+    if parts[0] == "tests":
+        of_gpl = len(parts) > 3 and parts[1] == "host" and parts[2] in GPL_ROOMS
+        return "GPL-3.0-or-later" if of_gpl or any(is_gpl(root, what) for what in included(root, path)) else "MIT"
     if parts[0] in ("framework", "nodes", "graphs", "docs"):
         return "MIT"
     if parts[0] == "host" and len(parts) > 2:
@@ -50,16 +55,21 @@ def included(root, path):
             yield name
 
 
+def is_gpl(root, what):
+    """True for a header of JUCE or one under the GPL."""
+    return licence(root / what) == "GPL-3.0-or-later" if isinstance(what, pathlib.PurePath) else what.split("/")[0].lower().startswith("juce")
+
+
 def problems(root):
-    for path in sorted(p.relative_to(root) for part in ("framework", "nodes", "host", "graphs", "docs") for p in (root / part).rglob("*")):
+    for path in sorted(p.relative_to(root) for part in ("framework", "nodes", "host", "graphs", "docs", "tests") for p in (root / part).rglob("*")):
         if path.suffix not in SOURCES and path.name != "CMakeLists.txt" or not (root / path).is_file():
             continue
         own = licence(root / path)
         if own not in ("MIT", "GPL-3.0-or-later"):
             yield path, "has no SPDX line with MIT or GPL-3.0-or-later"
             continue
-        if should_be(path) not in ("", own):
-            yield path, f"is {own}, but its folder is {should_be(path)}"
+        if should_be(root, path) not in ("", own):
+            yield path, f"is {own}, but should be {should_be(root, path)}"
         if own != "MIT" or path.suffix not in (".c", ".cpp", ".hpp", ".h"):
             continue
         for what in included(root, path):

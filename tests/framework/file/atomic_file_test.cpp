@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <tactus/file/atomic_file.hpp>
 
 #include "support/no_system_calls.hpp"

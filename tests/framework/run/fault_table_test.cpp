@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Measures how the force responds when something goes wrong. The results are the table in docs/safety.md.
 //
 //     TACTUS_UPDATE=1 build/release/bin/tactus_tests "the table of faults*"       rewrites the table

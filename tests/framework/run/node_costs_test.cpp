@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <tactus/node/generic.hpp>
 #include <tactus/run/clock/node_costs.hpp>
 

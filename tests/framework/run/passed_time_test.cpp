@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Guards count seconds, not ticks: what happens to stops and limits when ticks are missing, or come too fast.
 #include "support/sketch.hpp"
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <tactus/run/runner.hpp>
 
 #include "support/chance_hand.hpp"

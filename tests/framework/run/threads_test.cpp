@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // All threads of a live run at the same time, mainly for TSan. TACTUS_LIVE_SECONDS makes the test longer.
 
 #include <tactus/kit/threads/spsc_ring.hpp>

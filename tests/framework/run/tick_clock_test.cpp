@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <tactus/run/tick_clock.hpp>
 
 #include "support/tick_thread_locks.hpp"

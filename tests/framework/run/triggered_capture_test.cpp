@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "support/no_allocation.hpp"
 
 #include <tactus/run/probe/triggered_capture.hpp>

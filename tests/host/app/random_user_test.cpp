@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A monkey test of the window: random actions in random order, with checks after each one. TACTUS_UI_ACTIONS sets the total
 // number of actions. TACTUS_UI_SEED runs one seed only and prints each action before it is performed.
 #include "support/consistency.hpp"

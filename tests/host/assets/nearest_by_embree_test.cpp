@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <host/assets/nearest_by_embree.hpp>
 
 #include "support/no_allocation.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sound cards on the command line, with a card that does not exist. ./test.sh --sound uses one that exists.
 
 #include "program.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Real devices on the command line, on a machine without any. ./test.sh --devices uses some.
 
 #include "program.hpp"

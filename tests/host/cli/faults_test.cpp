@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A full disk or a flood of OSC packets during a run does not affect the force, as docs/safety.md claims.
 
 #include "running.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <tactus/run/device/flexible_tool.hpp>
 #include <tactus/run/device/rigid_tool.hpp>
 #include <tactus/run/device/sim.hpp>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <support/temporary_folder.hpp>
 #include <tactus/run/device/gestures.hpp>
 #include <tactus/run/device/make_device.hpp>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // The effect of a wall computed from samples on a hand, through the whole loop: device, graph, guard, device.
 
 #include <tactus/run/device/sim.hpp>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <tactus/run/device/path.hpp>
 #include <tactus/run/device/trace.hpp>
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // A recorded run is bit-identical when it runs again.
 
 #include "support/chance_hand.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // A test of a run passes with the same graph, and finds every bit that differs.
 #include "support/corpus.hpp"
 #include "support/temporary_folder.hpp"

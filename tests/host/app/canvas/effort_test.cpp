@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Times painting and editing of large graphs. Prints the times without checking them, because machines are shared.
 #include "host/app/support/canvas_rig.hpp"
 

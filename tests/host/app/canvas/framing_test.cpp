@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a canvas shows of a graph when it is opened.
 #include "host/app/support/canvas_rig.hpp"
 #include "host/app/support/seen_text.hpp"

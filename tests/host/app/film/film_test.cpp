@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/scene/preset_bodies.hpp"
 #include "host/io/played_png.hpp"
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/fit_panel/fit_panel.hpp>
 #include <host/app/window/main_view.hpp>
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/history/history_panel.hpp>
 
 #include <tactus/file/graph_file.hpp>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "rig.hpp"
 
 #include <host/app/inspector/blocks/plot_block.hpp>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/inspector/settings/file_text.hpp>
 #include <host/app/inspector/settings/law_shape.hpp>
 #include <host/app/model/controlled_param.hpp>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/layers/bands.hpp>
 #include <host/app/layers/meter.hpp>
 #include <host/app/layers/taper.hpp>

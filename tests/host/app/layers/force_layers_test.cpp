@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/layers/mixer.hpp>
 #include <host/app/layers/sends.hpp>
 

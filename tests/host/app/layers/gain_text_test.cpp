@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/layers/gain_text.hpp>
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/layers/layers_panel.hpp>
 #include <host/app/run/live_run.hpp>
 

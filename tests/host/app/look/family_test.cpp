@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/look/component_colour.hpp>
 #include <host/app/look/family.hpp>
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/inspector/blocks/formula_block.hpp>
 #include <host/app/look/formula.hpp>
 #include <host/app/model/node_doc.hpp>

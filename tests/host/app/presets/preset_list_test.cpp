@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/presets/force_picture.hpp>
 #include <host/app/presets/preset_list.hpp>
 

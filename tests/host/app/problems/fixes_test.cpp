@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/problems/fixes.hpp>
 #include <host/app/problems/missing_ends.hpp>
 

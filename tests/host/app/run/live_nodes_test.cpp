@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Live C++ in the window: the header of a node is saved while its graph runs.
 #include <host/app/window/main_view.hpp>
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/run/sound.hpp>
 
 #include "host/audio/fake_cards.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/run/transport_path.hpp>
 #include <tactus/run/device/gestures.hpp>
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What plugins say about the looks of their nodes.
 #include <nodes/deform/plane.hpp>
 #include <tactus/plugin/known.hpp>

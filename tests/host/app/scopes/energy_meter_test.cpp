@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/scopes/energy_meter.hpp>
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scopes in panels of any size, and a panel without scopes.
 #include "scope_bench.hpp"
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "scope_bench.hpp"
 
 #include <host/app/scopes/energy_plot.hpp>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/scopes/tool_picture.hpp>
 #include <host/app/scopes/trace_file.hpp>
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Strokes a board in the host with the mouse, slowly and fast, and records the sound: ./test.sh --sound
 
 listen.py HOST OUT   writes slow.wav and fast.wav, as a sound card would have played them

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Drives the host with mouse and keyboard on a virtual display, and takes a picture after each step: ./test.sh --screens
 
 walk.py HOST OUT [WIDTHxHEIGHT dark|light]   default: all sizes and themes

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "consistency.hpp"
 
 #include <host/assets/nearest_by_embree.hpp>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // For tests under ASan that open a window on a display: Xlib keeps a little memory until the process ends, and JUCE unloads it before
 // that. Here it stays loaded, so that the leak checker knows whose memory it is, and leaves it out.
 #ifdef __clang__

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The life of the window, and the choice of an action.
 #include "monkey.hpp"
 

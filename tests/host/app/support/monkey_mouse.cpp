@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the monkey does with the mouse anywhere in the window.
 #include "monkey.hpp"
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the monkey does with keys, files, menus and dialogs.
 #include "monkey.hpp"
 

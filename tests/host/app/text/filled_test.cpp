@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/storage/language.hpp>
 #include <host/app/storage/settings.hpp>
 #include <host/app/text/filled.hpp>

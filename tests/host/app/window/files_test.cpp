@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/window/files.hpp>
 #include <tactus/file/text_file.hpp>
 

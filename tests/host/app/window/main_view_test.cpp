@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/window/main_view.hpp>
 
 #include "support/temporary_folder.hpp"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a person does to reach a goal, action by action: each click, drag, typed word and key is one.
 #include "host/app/support/window_rig.hpp"
 

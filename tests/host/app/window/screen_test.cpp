@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What is on the screen is what should be there, whatever has happened before: no place keeps an old picture.
 #include "host/app/support/window_rig.hpp"
 

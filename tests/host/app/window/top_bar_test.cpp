@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
 

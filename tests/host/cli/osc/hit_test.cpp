@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `tactus hit` triggers hits in a running play, and a replay triggers them again.
 
 #include "host/cli/running.hpp"

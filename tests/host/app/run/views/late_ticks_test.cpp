@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The window does nothing that could make a tick of the run late.
 #include "host/app/scene/preset_bodies.hpp"
 
