@@ -46,7 +46,7 @@ public:
 /// Says whether a node type that is not in the catalogue is one that the program will add when it plays the graph.
 using KnownElsewhere = std::function<bool (const std::string& type)>;
 
-/// Checks against the types of this catalogue, which must outlive it. framework/plan/edit/edit_check.cpp defines it, because the checks are
+/// Checks against the types of this catalogue, which must outlive it. framework/plan/edit_check/edit_check.cpp defines it, because the checks are
 /// those of compiling.
 std::unique_ptr<EditCheck> makeEditCheck (const Catalogue&, KnownElsewhere);
 

@@ -10,7 +10,7 @@
 ///   build/      makes nodes, lays out storage, writes records                build.hpp, lane_groups.hpp, rate_conversions.hpp
 ///   steps/      what a tick does besides the nodes: sums, delays, ramps      ops.hpp, sum_step.hpp, ramps.hpp
 ///   swap/       decides what continues from the plan before                  plan_diff.hpp, matching.hpp, takeover.hpp
-///   edit/       applies the rules to what an edit touches                    edit_check.cpp, surroundings.hpp
+///   edit_check/ applies the rules to what an edit touches                    edit_check.cpp, surroundings.hpp
 
 #include "plan.hpp"
 #include <tactus/plan/flat/flatten.hpp>
