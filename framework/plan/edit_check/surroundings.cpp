@@ -143,8 +143,10 @@ void Surroundings::step (Search& search)
     search.open.pop_back();
     addNode (n);
     const auto* type = types.find (node (n).type);
+    const auto& params = node (n).params;   // null if there are none
     const auto isText = [] (const auto& member) { return ! member.second.is_number(); };
-    if (type == nullptr || ! carriesOneUnit (*type) || std::ranges::any_of (node (n).params.asObject(), isText)) search.is_mixed = true;
+    const bool has_text = params.is_object() && std::ranges::any_of (params.asObject(), isText);
+    if (type == nullptr || ! carriesOneUnit (*type) || has_text) search.is_mixed = true;
 
     for (const bool starts : { false, true })
         for (const int w : starts ? index.at (n).out : index.at (n).in)

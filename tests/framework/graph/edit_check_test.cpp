@@ -313,3 +313,13 @@ TEST_CASE ("a wire is removed by its text, in every spelling that means the same
         CHECK ((! done && done.error().id == "edit/unknown_wire"));
     }
 }
+
+TEST_CASE ("a wire between nodes that have no params at all is checked like any other", "[edit_check]")
+{
+    auto sketch = test::Sketch {}.node ("a", "signal.abs").node ("b", "signal.abs").node ("c", "signal.abs").wire ("a.out -> b.in");
+    for (auto& node : sketch.graph.root.nodes)
+        node.params = Json {};
+    History history (sketch.graph);
+    CHECK (history.perform (AddWire { "", *parseWire ("b.out -> c.in") }));
+    CHECK_FALSE (history.perform (AddWire { "", *parseWire ("c.out -> a.in") }));   // a loop
+}
