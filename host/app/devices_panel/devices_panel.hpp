@@ -72,6 +72,7 @@ private:
     Remark fitRemark (const std::string& role) const;
     Remark statusRemark (const std::string& role) const;
     Remark clockRemark() const;
+    Remark tickRemark() const;
     Remark soundRemark() const;
 
     Document& document;

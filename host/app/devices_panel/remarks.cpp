@@ -66,7 +66,21 @@ Remark DevicesPanel::statusRemark (const std::string& role) const
     return r;
 }
 
+/// What ticks the run, and what the system refuses to a run that drives a device.
 Remark DevicesPanel::clockRemark() const
+{
+    auto r = tickRemark();
+    if (run.isRunning() && run.drivesDevice())
+        for (const auto& refusal : run.refusals())
+        {
+            r.text << "\n"
+                   << fromUtf8 (refusal);
+            r.is_problem = true;
+        }
+    return r;
+}
+
+Remark DevicesPanel::tickRemark() const
 {
     const auto status = run.status();
     if (! status || ! run.isRunning()) return { TRANS ("Not running."), false };

@@ -233,7 +233,7 @@ void LiveRun::begin()
     film_tape.begin (session->rate());
     beginSound();
     session->fuse (fuses);
-    session->start ({ .stop_wanted = stopRequested });
+    refused = session->start ({ .stop_wanted = stopRequested });
 }
 
 void LiveRun::end()

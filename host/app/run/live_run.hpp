@@ -120,6 +120,9 @@ public:
     /// simulated.
     bool drivesDevice() const { return session && session->drivesDevice(); }
 
+    /// What the system refused to the tick thread when the run started, a sentence each, with what to do: docs/realtime.md.
+    const std::vector<std::string>& refusals() const noexcept { return refused; }
+
     /// The role whose device ticks the run; empty if a timer does.
     const std::string& clockRole() const noexcept;
 
@@ -224,6 +227,7 @@ private:
     const Catalogue& catalogue;
     FileAssets assets;
     Messages said;
+    std::vector<std::string> refused;   // by the system, to the latest run
     Traces probes;
     SceneFeed scene_feed;
     FilmTape film_tape;
