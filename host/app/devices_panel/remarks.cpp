@@ -73,8 +73,7 @@ Remark DevicesPanel::clockRemark() const
     if (run.isRunning() && run.drivesDevice())
         for (const auto& refusal : run.refusals())
         {
-            r.text << "\n"
-                   << fromUtf8 (refusal);
+            r.text << "\n" + fromUtf8 (refusal);
             r.is_problem = true;
         }
     return r;
