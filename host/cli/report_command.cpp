@@ -34,13 +34,17 @@ void printVersions()
 {
     print ("Tactus", std::string (tactus_version()) + " (C API " + std::to_string (TACTUS_API_VERSION) + ")");
     print ("compiler", __VERSION__);
-    print ("libraries", std::string ("JUCE ") + juce::String (JUCE_STRINGIFY (JUCE_MAJOR_VERSION) "." JUCE_STRINGIFY (JUCE_MINOR_VERSION) "." JUCE_STRINGIFY (JUCE_BUILDNUMBER)).toStdString()
-                            + ", Eigen " + std::to_string (EIGEN_WORLD_VERSION) + "." + std::to_string (EIGEN_MAJOR_VERSION) + "."
-                            + std::to_string (EIGEN_MINOR_VERSION) + ", hidapi " + hid_version_str());
-    std::size_t of_plugins = 0;
+    constexpr auto juce_version = JUCE_STRINGIFY (JUCE_MAJOR_VERSION) "." JUCE_STRINGIFY (JUCE_MINOR_VERSION) "." JUCE_STRINGIFY (JUCE_BUILDNUMBER);
+    constexpr auto eigen_version =
+        JUCE_STRINGIFY (EIGEN_WORLD_VERSION) "." JUCE_STRINGIFY (EIGEN_MAJOR_VERSION) "." JUCE_STRINGIFY (EIGEN_MINOR_VERSION);
+    print ("libraries", std::string ("JUCE ") + juce_version + ", Eigen " + eigen_version + ", hidapi " + hid_version_str());
+    std::size_t types = 0, of_plugins = 0;
     for (const auto& type : catalogue())
+    {
+        ++types;
         of_plugins += type.origin.empty() ? 0 : 1;
-    print ("node types", std::to_string (std::distance (catalogue().begin(), catalogue().end())) + ", " + std::to_string (of_plugins) + " of them from plugins");
+    }
+    print ("node types", std::to_string (types) + ", " + std::to_string (of_plugins) + " of them from plugins");
 }
 
 /// Requests what a live run requests, and says what it got.
@@ -49,7 +53,9 @@ void printRights()
     std::vector<std::string> refused;
     if (auto why = lockMemory()) refused.push_back (std::move (*why));
     std::jthread ([&] {
-        static_cast<void> (caught ("the thread that asks for real time", [&] { std::ranges::move (becomeRealTime (std::nullopt), std::back_inserter (refused)); }));
+        static_cast<void> (caught ("the thread that asks for real time", [&] {
+            std::ranges::move (becomeRealTime (std::nullopt), std::back_inserter (refused));
+        }));
     }).join();
     if (refused.empty()) print ("real time", "the tick thread has real-time priority, and its memory is locked");
     for (const auto& why : refused)

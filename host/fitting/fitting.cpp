@@ -173,8 +173,8 @@ Result<FittedGraph> keySwitch (const Columns& c, const std::string& file, const 
     FittedGraph made { .kind = FitKind::key_switch,
                        .preset = switchPreset (fit->loop, s.stiffness, sourceOf (FitKind::key_switch, file, fit->report)),
                        .nodes = { "key", "bound", "rub" } };
-    made.details.push_back ("loop         " + std::to_string (fit->loop.travel.size()) + " points; the graph loses " + roundedText (1e3 * lostEnergy (fit->loop), 4)
-                            + " mJ per stroke");
+    const auto lost_mj = roundedText (1e3 * lostEnergy (fit->loop), 4);
+    made.details.push_back ("loop         " + std::to_string (fit->loop.travel.size()) + " points; the graph loses " + lost_mj + " mJ per stroke");
     made.report = std::move (fit->report);
     return made;
 }

@@ -189,7 +189,8 @@ class Callback(TestCase):
     def test_a_program_that_ends_with_a_callback_does_not_hang_and_shows_its_exception(self):
         for body, shown in (("pass", ""), ("raise ZeroDivisionError", "ZeroDivisionError")):
             code = (f"import tactus, time\ndef f(r):\n    {body}\n"
-                    f"s = tactus.play({WOOD!r}, {CIRCLE!r}, session='off', record='motor.force', callback=f)\nwhile s.status().ticks < 100 and s.status().phase != 'over': time.sleep(0.01)")
+                    f"s = tactus.play({WOOD!r}, {CIRCLE!r}, session='off', record='motor.force', callback=f)\n"
+                    "while s.status().ticks < 100 and s.status().phase != 'over': time.sleep(0.01)")
             done = subprocess.run([sys.executable, "-B", "-c", code], stderr=subprocess.PIPE, timeout=120, check=False)
             self.assertIn(shown, done.stderr.decode())
             self.assertEqual(done.returncode, 0)

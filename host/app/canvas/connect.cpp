@@ -65,7 +65,8 @@ void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& requ
     canvas.select ({ made });
     if (request.wire != 0)
     {
-        if (auto command = insertInto (document.graph(), canvas.patch(), canvas.scene(), request.wire, made)) perform (std::move (*command), graph::Step::joined);
+        if (auto command = insertInto (document.graph(), canvas.patch(), canvas.scene(), request.wire, made))
+            perform (std::move (*command), graph::Step::joined);
         return;
     }
     const auto* node = canvas.scene().find (made);
@@ -104,7 +105,8 @@ void CanvasCommands::join (const ScenePort& from, const ScenePort& to)
         const auto component = static_cast<int> (std::ranges::find (entries, chosen, &PaletteEntry::type) - entries.begin());
         const auto a = canvas.scene().findPort (out), b = canvas.scene().findPort (in);
         if (component >= 3 || ! a || ! b) return;
-        perform (connect (document.graph(), canvas.patch(), { *a.node, *a.port, of_output ? component : -1 }, { *b.node, *b.port, of_output ? -1 : component }));
+        const int of_a = of_output ? component : -1, of_b = of_output ? -1 : component;
+        perform (connect (document.graph(), canvas.patch(), { *a.node, *a.port, of_a }, { *b.node, *b.port, of_b }));
     });
 }
 

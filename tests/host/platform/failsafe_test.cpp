@@ -122,6 +122,16 @@ TEST_CASE ("the guardian notes when and why it brought a device to rest", "[plat
            == "rest!");
     CHECK (until ([] { return host::lastFailsafe().ends_with ("Z the program ended without closing its devices"); }));
     const auto noted = host::lastFailsafe();
+
+    const auto note = folder / "home" / "last_failsafe.txt", other = folder / "other";   // the guardian follows no link
+    std::ofstream (other) << "mine";
+    std::filesystem::remove (note);
+    std::filesystem::create_symlink (other, note);
+    CHECK (afterDying (
+               file, [] { ::kill (::getpid(), SIGKILL); }, "rest!")
+           == "rest!");
+    std::this_thread::sleep_for (std::chrono::milliseconds (100));
+    CHECK (contentOf (other.string()) == "mine");
     before != nullptr ? ::setenv ("TACTUS_HOME", kept.c_str(), 1) : ::unsetenv ("TACTUS_HOME");
     CHECK (noted.starts_with ("20"));
 }
