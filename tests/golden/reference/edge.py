@@ -84,10 +84,12 @@ def energy(line, cut, strip, width):
     return total
 
 
-def slopes(line, cut, strip, width):
+def slopes(line, cut, strip, width, floats):
+    """The derivatives of the energy by the places and depths of the ends. A cut that floats follows the middle of the edge."""
     out = []
     for i in range(4):
-        ends = [[v + (step if k == i else 0.0) for k, v in enumerate(line)]
+        back = 0.5 if floats and i < 2 else 0.0
+        ends = [[v + step * ((1.0 if k == i else 0.0) - (back if k < 2 else 0.0)) for k, v in enumerate(line)]
                 for step in (NUDGE, -NUDGE)]
         out.append((energy(ends[0], cut, strip, width) - energy(ends[1], cut, strip, width)) / (2.0 * NUDGE))
     return out
@@ -173,7 +175,8 @@ class Body:
 
         line, stored, by = [*x, *depth], 0.0, [0.0] * 4
         if self.inside:
-            stored, by = energy(line, cut, self.strip, self.width), slopes(line, cut, self.strip, self.width)
+            stored = energy(line, cut, self.strip, self.width)
+            by = slopes(line, cut, self.strip, self.width, self.floats)
         ends = [vec.sub(vec.scale(by[2 + i], self.n), vec.scale(by[i], cut["along"])) for i in (0, 1)]
         torque = vec.scale(0.5 * self.width, vec.cross(edge, vec.sub(ends[1], ends[0])))
         state = (2 if "bursts" in happened else 4 if "cuts" in happened else
