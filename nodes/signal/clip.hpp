@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tactus::nodes
@@ -166,6 +167,7 @@ struct SignalClip
             state.playing = params.drive == Drive::run;
             state.open = state.known = false;
             state.level = 1.0;
+            state.way = 0.0;
             goTo (0.0);
             wanted_drive = params.drive;
         }
@@ -202,12 +204,14 @@ private:
         std::uint64_t ticks = 0;
         double level = 1.0;                                    // amplitude of the current start
         double step = 0.0;                                     // time in the clip per tick by which fast tones are faded, s
+        double way = 0.0;                                      // distance from the time before, unless it was a leap, s
         double value = 0.0, before = 0.0, amplitude = 0.0;     // the latest outputs, for a gain of 1; before: the value before that
         double missing_value = 0.0, missing_amplitude = 0.0;   // what a leap left to fade
         double fade = 0.0;                                     // 1 at a leap, 0 after it
         double most = 0.0;                                     // neither the old nor the new clip exceeds this while it fades
         bool playing = false, open = false;                    // open: the gate
         bool leaps = false;                                    // before the next sample
+        bool guessed = false;                                  // the latest value is a guess, because it followed a leap
         bool known = false, leapt = false;                     // the previous time or position; whether it was a leap
     };
 
@@ -282,12 +286,16 @@ inline void SignalClip::begin (double level) noexcept
     state.level = level;
 }
 
-/// True if the distance from the previous time is much longer than usual, or mutes the fastest tones at once.
+/// True if this distance from the previous time is a leap. Another node moves evenly, so its leap is a distance unlike the one before. A
+/// hand is measured in quanta, so its leap is a distance much longer than usual, or one that mutes a tone at once. `slower`: of all
+/// tones up to the fastest, it is the one that is silent from this distance on that loses most.
 inline bool SignalClip::isLeap (double way) const noexcept
 {
     constexpr double sudden = 8.0, small = 0.02, quieter = 0.1;
-    const double cycles = way * score->fastest(), usual = state.step * score->fastest();
-    return (cycles > sudden * usual && cycles > small) || ClipScore::audible (cycles) < ClipScore::audible (usual) - quieter;
+    if (wanted_drive == Drive::time) return std::abs (way - state.way) * score->fastest() > small;
+    const double cycles = std::abs (way) * score->fastest(), usual = state.step * score->fastest();
+    const double slower = std::min (1.0, ClipScore::silent / cycles);
+    return (cycles > sudden * usual && cycles > small) || ClipScore::audible (slower * cycles) < ClipScore::audible (slower * usual) - quieter;
 }
 
 /// Moves to a time that another node or the hand gives.
@@ -305,8 +313,9 @@ inline void SignalClip::follow (double t) noexcept
     }
     const bool inside = t >= 0.0 && t < duration;
     // A single leap fades. A second one is a fast hand, whose tones are too fast for the rate.
-    const bool leapt = isLeap (std::abs (way));
-    const double step = leapt && ! state.leapt ? 0.0 : std::abs (way);
+    const bool leapt = isLeap (way), alone = leapt && ! state.leapt;
+    if (! alone) state.way = way;
+    const double step = alone ? 0.0 : std::abs (way);
     if (leapt || inside != state.playing) state.leaps = true;
     state.leapt = leapt;
     state.step = step > state.step ? step : step + (state.step - step) * calming;
@@ -334,7 +343,7 @@ inline void SignalClip::advance() noexcept
 }
 
 /// The clip at the current time, with what remains of a leap. What would have come without the leap is guessed from the last two
-/// values, so a clip whose end fits its beginning loops without a trace.
+/// values, so a clip whose end fits its beginning loops without a trace. After a guess, the value stays, or many leaps would be a ramp.
 inline SignalClip::Outputs SignalClip::sample() noexcept
 {
     ClipMoment now;
@@ -343,12 +352,12 @@ inline SignalClip::Outputs SignalClip::sample() noexcept
     now.amplitude *= state.level;
     if (state.leaps)
     {
-        state.missing_value = 2.0 * state.value - state.before - now.value;
+        state.missing_value = (state.guessed ? state.value : 2.0 * state.value - state.before) - now.value;
         state.missing_amplitude = state.amplitude > 0.0 ? state.amplitude - now.amplitude : 0.0;
         state.fade = state.missing_value != 0.0 || state.missing_amplitude != 0.0 ? 1.0 : 0.0;
         state.most = std::max ({ score->peak(), std::abs (state.value), state.amplitude });
-        state.leaps = false;
     }
+    state.guessed = std::exchange (state.leaps, false);
     if (state.fade > 0.0)
     {
         const double weight = state.fade * state.fade * (3.0 - 2.0 * state.fade);

@@ -37,7 +37,8 @@ struct ClipMoment
 class ClipScore
 {
 public:
-    static constexpr int together = 4;   ///< most transients of a track that sound together
+    static constexpr int together = 4;                     ///< most transients of a track that sound together
+    static constexpr double whole = 0.25, silent = 0.45;   ///< cycles per sample below which a tone sounds in full, and from which it is silent
 
     /// Where a reader is in a track. It only speeds up the search: any value gives the same result.
     struct Cursor
@@ -74,7 +75,6 @@ public:
     /// The gain of a tone: 1 if it is slow, 0 near half the rate and above. [tick thread]
     static double audible (double cycles_per_sample) noexcept
     {
-        constexpr double whole = 0.25, silent = 0.45;
         if (cycles_per_sample <= whole) return 1.0;
         return cycles_per_sample < silent ? (silent - cycles_per_sample) / (silent - whole) : 0.0;
     }

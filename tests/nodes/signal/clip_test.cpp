@@ -212,13 +212,24 @@ TEST_CASE ("clip: a loop whose end fits its beginning leaves no trace", "[nodes]
         REQUIRE (node.tick ({}).value == Approx (std::sin (2.0 * pi * 100.0 * k / 48000.0)).margin (2e-4));
 }
 
+/// Two tones, of 200 Hz and 84 Hz.
+Clip twoTones()
+{
+    Clip clip = tone (0.2, 0.8, 1.0);
+    clip.tracks.push_back (tone (0.2, 0.7, 0.2).tracks[0]);
+    return clip;
+}
+
+constexpr double two_tones_step = 2.0 * (2.0 * pi * 200.0 / 48000.0 + 1e-3);   // the largest step of two tones that just play, at 48 kHz
+
 TEST_CASE ("clip: no start, stop or leap clicks", "[nodes][signal][clip]")
 {
-    const double rate = 48000.0, ordinary = 2.0 * (2.0 * pi * 200.0 / rate + 1e-3);   // two tracks
-    const double fading = 1.5 * 3.0 * 3.0 / (2e-3 * rate);                            // a smooth step of up to three times the peak
+    // A distance that is no leap is up to 0.02 cycles longer than the one before. A leap repeats the last step, and then fades what is
+    // missing, which is up to twice the peak and this step, along a curve whose slope is at most 1.5 per 2 ms.
+    const double rate = 48000.0, peak = 0.8 + 0.7, slope = 1.5 / (2e-3 * rate), least_leap = 2.0 * pi * 0.02 * peak;
+    const double largest = (two_tones_step + least_leap + slope * 2.0 * peak) / (1.0 - slope);
     rc::prop ("random hits, gates, times and drives", [&] {
-        Clip clip = tone (0.2, 0.8, 1.0);
-        clip.tracks.push_back (tone (0.2, 0.7, 0.2).tracks[0]);
+        const Clip clip = twoTones();
         const auto drive = static_cast<SignalClip::Drive> (*rc::gen::inRange (0, 3));
         const auto repeat = static_cast<SignalClip::Repeat> (*rc::gen::inRange (0, 2));
         auto node = playing (clip, { .drive = drive, .repeat = repeat }, rate);
@@ -234,8 +245,37 @@ TEST_CASE ("clip: no start, stop or leap clicks", "[nodes][signal][clip]")
                 in.time += 1.0 / rate;
             }
         }
-        RC_ASSERT (largestStep (out) < ordinary + fading);
+        RC_ASSERT (largestStep (out) < largest);
     });
+}
+
+TEST_CASE ("clip: a leap shortly after others does not click", "[nodes][signal][clip]")
+{
+    struct Leap
+    {
+        double time;
+        int ticks;
+    };
+    const std::vector<Leap> two_in_a_row { { -0.05, 1 }, { 0.041, 1 }, { -0.05, 1 }, { 0.015, 1 }, { -0.005, 1120 }, { 0.226, 1734 }, { 0.025, 1 }, { -0.05, 5 } };
+    const std::vector<Leap> a_short_one { { 0.046, 1077 }, { 0.069, 720 }, { 0.199, 1 }, { -0.02, 2189 }, { 0.059, 925 }, { 0.077, 1730 } };
+    for (const auto& leaps : { two_in_a_row, a_short_one })
+    {
+        auto node = playing (twoTones(), { .drive = SignalClip::Drive::time, .repeat = SignalClip::Repeat::loop }, 48000.0);
+        std::vector<double> out;
+        for (const auto& leap : leaps)
+            for (int k = 0; k < leap.ticks; ++k)
+                out.push_back (node.tick ({ .time = leap.time + k / 48000.0 }).value);
+        CHECK (largestStep (out) < two_tones_step);
+    }
+}
+
+TEST_CASE ("clip: a hit on each tick is no ramp", "[nodes][signal][clip]")
+{
+    auto node = playing (tone (0.2), {}, 48000.0);
+    double before = heard (node, 20, { .hit = 1.0 }).back();
+    before = node.tick ({ .hit = 1.0 }).value;
+    for (int k = 0; k < 1000; ++k)
+        REQUIRE (node.tick ({ .hit = 1.0 }).value == before);
 }
 
 TEST_CASE ("clip: along a path it is a texture, the same on the way back", "[nodes][signal][clip]")
