@@ -53,9 +53,10 @@ namespace tactus::nodes
 ///    by one tick, a pressing hand meets a limit cycle; with two ticks, a bounce gains speed.
 ///  - A mass that is assumed too large makes the force too large and too early, which counts as a negative damping. If M is smaller than
 ///    assumed by a fraction of up to B T / (2 M) (M / ((1 + 2 delay) K T^2))^2, but at most 20 %, a pressing hand still comes to rest;
-///    without a delay and with K < 0.6 M/T^2, it never does with 4 times that. For 0.1 kg, 2 N s/m and 1 kHz, this is 20 % at 3 times
+///    without a delay and with K from 0.2 to 0.6 M/T^2, it never does with 4 times that. For 0.1 kg, 2 N s/m and 1 kHz, this is 20 % at 3 times
 ///    2B/T, 6 % at 10 times and 0.7 % at 30 times. A mass that is assumed up to 20 % too small, as when a finger is tied to the tool, does no
-///    harm while (1 + delay)^2 K < 3 M/T^2. `tactus check` judges both, in the row `deadbeat`.
+///    harm while (1 + delay)^2 K < 3 M/T^2, except at a low rate with a delay and little damping: there, the missing inertia seems to be a
+///    force of the hand, and its estimate comes late. `tactus check` judges both, in the row `deadbeat`.
 ///  - If a bounce lasts less than about four samples (K > 0.6 M/T^2), its speed is still correct, but it feels like two pulses.
 ///  - A position quantum q makes the speed at which a tool leaves wrong by less than (3 + 2 delay) q sqrt (K/M), whatever T, B and
 ///    the speed are; without a delay, it is wrong by 0.4 to 0.8 q sqrt (K/M) rms. For each plan, the position is wrong by up to q / 2
