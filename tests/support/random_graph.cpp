@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "random_graph.hpp"
+#include "sketch.hpp"
 
 #include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/endpoints.hpp>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
+#include <stdexcept>
 
 namespace tactus::test
 {
@@ -259,11 +261,20 @@ private:
                     doomed.emplace (&patch, index);
             }
             if (! hasErrors (messages)) return;
-            if (doomed.empty() && ! repaired)
-                doomed.emplace (&g.root, g.root.wires.size() - 1);   // a clash inside a subgraph comes from a wire outside
+            if (doomed.empty() && ! repaired) doomLast (g, messages, doomed);
             for (auto i = doomed.rbegin(); i != doomed.rend(); ++i)
                 i->first->wires.erase (i->first->wires.begin() + static_cast<std::ptrdiff_t> (i->second));
         }
+    }
+
+    /// Removes the last wire of the graph, or else of a subgraph: a clash inside a subgraph comes from a wire outside.
+    static void doomLast (graph::Graph& g, const Messages& messages, std::set<std::pair<graph::Patch*, std::size_t>>& doomed)
+    {
+        auto* patch = &g.root;
+        for (auto& [name, sub] : g.graphs)
+            if (g.root.wires.empty() && ! sub.wires.empty()) patch = &sub;
+        if (patch->wires.empty()) throw std::logic_error ("a graph without wires has errors:\n" + text (messages));
+        doomed.emplace (patch, patch->wires.size() - 1);
     }
 
     /// A subgraph that returns effort to the hand must not run several times a tick: "/graphs/sub1/nodes/n3/times".
