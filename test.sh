@@ -8,7 +8,8 @@
 #   ./test.sh --quick   runs only the tests
 #   ./test.sh --long    adds to ./test.sh: each fuzzer for 60 s, 10 000 mutated files through the command line, each installed header
 #                       compiled on its own, the tests under TSan (thread tests for 60 s each), the window under ASan and UBSan, the
-#                       energy of elastic surfaces on 1000 long loops for each body and friction, and a soak of 1.2e8 ticks
+#                       energy of elastic surfaces on 1000 long loops for each body and friction, and a soak of 1.2e8 ticks. All tests
+#                       use a new seed, and those with properties five more: each is printed. RC_PARAMS=seed=N ./test.sh --quick uses it again
 #
 # Each of these runs only one part:
 #   ./test.sh --screens drives the host with mouse and keyboard on a virtual display, and draws build/screens/;
@@ -54,14 +55,29 @@ case $mode in ''|--long|--devices|--install) (packages=(qemu-system-x86 busybox-
 [ "$mode" = --install ] && exit
 
 # Property tests use the same random inputs each time, so a commit either passes or fails. --long uses new ones.
-export RC_PARAMS=${RC_PARAMS:-}
-[ "$mode" = --long ] || RC_PARAMS=${RC_PARAMS:-seed=1}
+seeds () { shuf --input-range 1-2147483647 --head-count "$1"; }
+if [ "$mode" = --long ]; then RC_PARAMS=${RC_PARAMS:-seed=$(seeds 1)}; fi
+export RC_PARAMS=${RC_PARAMS:-seed=1}
+[ "$mode" = --long ] && say "Random inputs: RC_PARAMS=$RC_PARAMS"
 
 run_tests ()
 {
     local preset=$1
     shift
     ctest --test-dir "build/$preset" --output-on-failure --parallel $(($(nproc) + 1)) "$@"   # one more, because some tests wait
+}
+
+# more_properties N: runs the files of tests that have properties with N new seeds
+more_properties ()
+{
+    local files seed program
+    files=$(grep -rl 'rc::prop' tests --include='*_test.cpp' | sed 's|.*/\(.*\)\.cpp|[#\1]~[.]|' | sort -u | paste -sd,)
+    for seed in $(seeds "$1"); do
+        say "Tests with properties: RC_PARAMS=seed=$seed"
+        for program in tactus_tests tactus_app_tests tactus_plugin_tests; do
+            RC_PARAMS=seed=$seed "build/release/bin/$program" --filenames-as-tags "$files"
+        done
+    done
 }
 
 sources () { find framework nodes host tests docs -name '*.[ch]' -o -name '*.[ch]pp'; }
@@ -220,6 +236,7 @@ fi
 say "Tests"
 run_tests release "${parts[@]}"
 if [ "$mode" = --long ]; then
+    more_properties 5
     say "The energy of elastic surfaces on long loops"
     build/release/bin/tactus_tests "[long]"
     say "Soak"
