@@ -22,10 +22,10 @@ namespace tactus
 namespace
 {
 /// Longer than any line of a real table, so it tells binary files from tables.
-constexpr std::size_t longest_line = 512 * 1024;
+constexpr std::size_t longest_line = std::size_t { 512 } * 1024;
 
 /// Rows are written once there are this many bytes of them.
-constexpr std::size_t bytes_per_write = 64 * 1024;
+constexpr std::size_t bytes_per_write = std::size_t { 64 } * 1024;
 
 constexpr std::string_view spaces = " \t";
 

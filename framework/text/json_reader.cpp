@@ -64,7 +64,7 @@ private:
     bool key (std::string_view& text);
 
     std::string pathOf (const Level*) const;
-    bool refuse (std::string id, std::string where, TextPosition, std::string text, std::string remedy);
+    bool refuse (std::string id, const std::string& where, TextPosition, std::string text, std::string remedy);
     bool syntax (TextPosition, std::string text, std::string remedy);
     bool expected (const std::string& what, Wanted, bool after_comma = false);
     std::string found() const;
@@ -239,7 +239,7 @@ std::string JsonReader::pathOf (const Level* level) const
 }
 
 /// Returns false, which is what the caller returns.
-bool JsonReader::refuse (std::string id, std::string where, TextPosition p, std::string text, std::string remedy)
+bool JsonReader::refuse (std::string id, const std::string& where, TextPosition p, std::string text, std::string remedy)
 {
     auto m = Message::error (std::move (id), where.substr (0, longest_path), std::move (text), std::move (remedy));
     m.line = p.line;

@@ -14,10 +14,10 @@ namespace
 constexpr std::size_t longest = 65535;   // in bytes: the largest length that a HID class descriptor can give
 constexpr std::size_t most_fields = 4096;
 constexpr std::size_t most_collections = 1024;
-constexpr std::size_t most_usages = 256;           // the most usage ranges that one field may have
-constexpr std::size_t deepest = 32;                // the most levels of nested collections, and of pushed states
-constexpr std::size_t largest_field = 256;         // in bits; vendors declare opaque data as one large field
-constexpr std::size_t largest_report = 8 * 8192;   // in bits
+constexpr std::size_t most_usages = 256;                           // the most usage ranges that one field may have
+constexpr std::size_t deepest = 32;                                // the most levels of nested collections, and of pushed states
+constexpr std::size_t largest_field = 256;                         // in bits; vendors declare opaque data as one large field
+constexpr std::size_t largest_report = std::size_t { 8 } * 8192;   // in bits
 
 struct Globals
 {

@@ -65,7 +65,7 @@ std::optional<Message> competition (const std::vector<std::shared_ptr<const Prof
 
 /// The user's profile with the limits of the shipped ones that can fit the same device, except the one that it replaces. Appends
 /// their ids to `others`.
-std::shared_ptr<const Profile> limitedBy (const std::vector<std::shared_ptr<const Profile>>& shipped, std::shared_ptr<const Profile> own, std::string& others)
+std::shared_ptr<const Profile> limitedBy (const std::vector<std::shared_ptr<const Profile>>& shipped, const std::shared_ptr<const Profile>& own, std::string& others)
 {
     auto limited = *own;
     for (const auto& other : shipped)
@@ -127,7 +127,7 @@ LoadedProfiles joined (LoadedProfiles own, LoadedProfiles shipped)
             replaced.push_back (profile->replaces);
         }
         std::string others;
-        profile = limitedBy (shipped.profiles, std::move (profile), others);
+        profile = limitedBy (shipped.profiles, profile, others);
         if (! others.empty())
             note (Message::warning ("profile/competes", "/match",
                                     "the profile fits the same devices as the shipped " + others + ", so it keeps to those limits too",

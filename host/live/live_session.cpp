@@ -203,7 +203,7 @@ LiveSession::Events LiveSession::poll()
     }
     news.fusion = attendFusion();
     if (hardware.sound() != nullptr)
-        if (auto attended_sound = hardware.sound()->poll(); ! attended_sound) news.sound = std::move (attended_sound.error());
+        if (auto attended_sound = hardware.sound()->poll(); ! attended_sound) news.sound = attended_sound.error();
     return news;
 }
 

@@ -171,7 +171,7 @@ std::string tryGuardian()
 bool startGuardian()
 {
     auto started = caught ("the guardian", tryGuardian);
-    why_unguarded = started ? std::move (*started) : started.error().text;
+    why_unguarded = started ? *started : started.error().text;
     return why_unguarded.empty();
 }
 

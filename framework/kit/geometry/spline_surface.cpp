@@ -44,7 +44,7 @@ Reach reach (const MirroredAxis& axis, double place) noexcept
 void filterBothWays (double* first, int stride, int n, double pole)
 {
     if (n == 0) return;
-    const auto c = [&] (int k) -> double& { return first[k * stride]; };
+    const auto c = [&] (int k) -> double& { return first[static_cast<std::ptrdiff_t> (k) * stride]; };
 
     double start = c (0) + math::pow (pole, n) * c (n), forth = pole, back = math::pow (pole, 2 * n - 1);
     for (int k = 1; k < n; ++k, forth *= pole, back /= pole)

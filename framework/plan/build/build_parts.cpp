@@ -60,7 +60,7 @@ void keepFlat (Flat& flat, PlanParts& parts)
 {
     auto messages = std::move (flat.messages);
     parts.flat = std::move (flat);
-    flat.messages = std::move (messages);
+    flat.messages = std::move (messages);   // NOLINT(bugprone-use-after-move): gives a moved-from member a value
     parts.flat.assignments = {};
     parts.flat.places = {};
     for (std::size_t i = 0; i < parts.flat.nodes.size(); ++i)

@@ -372,10 +372,7 @@ private:
                 if (! starts.empty()) w.from = starts[k];
                 w.crosses = (w.from && flat.node (*w.from).section != w.section) || flat.node (to).section != w.section;
                 if (! wireFits (w, flat) || ! is_active) continue;
-                if (from == 1 && ends.size() == 1)
-                    flat.wires.push_back (std::move (w));
-                else
-                    flat.wires.push_back (w);
+                flat.wires.push_back (w);
             }
     }
 

@@ -23,7 +23,7 @@ public:
 private:
     static constexpr int per_octave = 8;
     static constexpr double shortest = 100e-9;   // in s; shorter durations share one bin
-    static constexpr std::size_t bins = 30 * per_octave;
+    static constexpr std::size_t bins = std::size_t { 30 } * per_octave;
 
     std::array<std::atomic<std::uint64_t>, bins> counts {};
     std::atomic<double> longest_s = 0.0;

@@ -104,7 +104,7 @@ Result<std::unique_ptr<RunLog>> RunLog::create (const std::filesystem::path& pat
         return Message::error ("output/unwritable", path.string(), "cannot be written: " + who, "choose another file");
     errno = 0;
     std::unique_ptr<RunLog> log { new RunLog (path, head) };
-    if (auto problem = written (log->out && log->out->good(), path); ! problem) return std::move (problem.error());
+    if (auto problem = written (log->out && log->out->good(), path); ! problem) return problem.error();
     log->whole = static_cast<std::uintmax_t> (log->out->tellp());
     return log;
 }

@@ -179,7 +179,7 @@ Result<RunLogReader> RunLogReader::open (std::unique_ptr<std::istream> from, std
     reader.number = lines_before;
     reader.in = std::move (from);
     reader.called = std::move (name);
-    if (auto head = reader.readHead(); ! head) return std::move (head.error());
+    if (auto head = reader.readHead(); ! head) return head.error();
     return reader;
 }
 
@@ -247,7 +247,7 @@ Result<std::optional<RunTick>> RunLogReader::next()
         return std::nullopt;
     }
     auto tick = readTick (*text);
-    if (! tick) return std::move (tick.error());
+    if (! tick) return tick.error();
     over = tick->last != RunTick::Last::no;
     return std::optional (std::move (*tick));
 }

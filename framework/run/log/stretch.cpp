@@ -54,7 +54,7 @@ StretchReader::StretchReader (std::unique_ptr<Replay> r, const Options& options,
 {
 }
 
-Result<std::unique_ptr<StretchReader>> StretchReader::open (const std::string& log, Options options)
+Result<std::unique_ptr<StretchReader>> StretchReader::open (const std::string& log, const Options& options)
 {
     auto replay = Replay::open (log, { .records = options.records, .assets = options.assets, .services = options.services, .program = options.program });
     if (! replay) return replay.error();

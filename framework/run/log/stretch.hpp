@@ -44,7 +44,7 @@ public:
     };
 
     /// Ids: those of Replay, take/role, take/empty.
-    static Result<std::unique_ptr<StretchReader>> open (const std::string& log, Options);
+    static Result<std::unique_ptr<StretchReader>> open (const std::string& log, const Options&);
 
     /// Plays at most this many ticks. Returns false at the end of the stretch or of the run. Ids: those of Replay, take/too_large.
     Result<bool> advance (std::uint64_t ticks);
