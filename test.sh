@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 # Builds and tests everything. Works on a fresh Debian 12 and can be run repeatedly.
 #
-#   ./test.sh           runs the tests, normally and under ASan and UBSan (everything that does not need JUCE), runs the demo,
-#                       adds a node as a newcomer would, builds the examples against the installed library, and drives virtual
-#                       HID devices in a QEMU guest
+#   ./test.sh           runs the tests, normally and under ASan and UBSan (everything that does not need JUCE; clang only reads the rest of the
+#                       host), runs the demo, adds a node as a newcomer would, builds the examples against the installed library, drives
+#                       virtual HID devices in a QEMU guest, and looks for mistakes in a few of the changed files with clang-tidy
 #   ./test.sh --quick   runs only the tests
 #   ./test.sh --long    adds to ./test.sh: each fuzzer for 60 s, 10 000 mutated files through the command line, each installed header
 #                       compiled on its own, the tests under TSan (thread tests for 60 s each), the window under ASan and UBSan, the
@@ -23,8 +23,8 @@
 #   ./test.sh --packages makes the Debian packages, and installs, uses and removes them in a clean Debian (needs root); before that,
 #                       it builds all nodes as plugins and examines them
 #   ./test.sh --format  compares every source file with .clang-format, as each run does; with --fix, also formats it
-#   ./test.sh --tidy [PART/PARTS | FILE...] looks for mistakes in all files with clang-tidy, which takes hours, or in one part of them,
-#                       or in these files
+#   ./test.sh --tidy [PART/PARTS | --changed | FILE...] looks for mistakes in all files with clang-tidy, which takes an hour of a processor, or in
+#                       one part of them, in a few of the changed ones, or in these files
 #   ./test.sh --sanitizers runs the tests under ASan and UBSan and under TSan, and the window under ASan and UBSan
 #   ./test.sh --coverage counts which lines the tests run, without the window: build/coverage/index.html
 #   ./test.sh --install installs the packages that ./test.sh and ./demo.sh need
@@ -33,15 +33,15 @@
 mode=${1:-}
 case $mode in
     ''|--quick|--long|--screens|--sound|--devices|--export|--figures|--packages|--format|--tidy|--sanitizers|--coverage|--install) ;;
-    *) echo "usage: ./test.sh [--quick|--long|--screens [--update]|--sound|--devices|--export|--figures|--packages|--format [--fix]|--tidy [PART/PARTS | FILE...]|--sanitizers|--coverage|--install]" >&2; exit 2 ;;
+    *) echo "usage: ./test.sh [--quick|--long|--screens [--update]|--sound|--devices|--export|--figures|--packages|--format [--fix]|--tidy [PART/PARTS | --changed | FILE...]|--sanitizers|--coverage|--install]" >&2; exit 2 ;;
 esac
 
 packages+=(python3-jsonschema python3-distributed python3-build python3-venv python3-pip mypy python3-pandas python3-xarray xvfb xdotool)
 case $mode in ''|--long|--sanitizers|--install) packages+=(libclang-rt-14-dev) ;; esac
 case $mode in ''|--quick|--long|--install) packages+=(valgrind) ;; esac
 case $mode in ''|--quick|--long|--format|--install) packages+=(clang-format-14) ;; esac
+case $mode in ''|--long|--tidy|--install) packages+=(clang-tidy-14) ;; esac
 [ "$mode" = --coverage ] && packages+=(gcovr)
-[ "$mode" = --tidy ] && packages+=(clang-tidy-14)
 [ "$mode" = --export ] && packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
 [ "$mode" = --screens ] && packages+=(xauth imagemagick)
@@ -88,10 +88,15 @@ case $mode in ''|--quick|--long|--format)
 esac
 [ "$mode" = --format ] && exit
 
-if [ "$mode" = --tidy ]; then
+tidy ()
+{
     say "Looking for mistakes"
     cmake --preset tidy >/dev/null
-    /usr/bin/python3 -B tests/structure/tidy.py build/tidy "${@:2}"
+    /usr/bin/python3 -B tests/structure/tidy.py build/tidy "$@"
+}
+
+if [ "$mode" = --tidy ]; then
+    tidy "${@:2}"
     exit
 fi
 
@@ -220,7 +225,12 @@ if [ "$mode" = --long ]; then
     sanitize_more
 fi
 
-[ "$mode" = --quick ] || sanitize
+if [ "$mode" != --quick ]; then
+    tidy --changed
+    sanitize
+    say "What the sanitizers leave out, with clang"
+    /usr/bin/python3 -B tests/structure/clang_warnings.py build/tidy build/asan
+fi
 
 parts=()
 if [ "$mode" = --quick ]; then
