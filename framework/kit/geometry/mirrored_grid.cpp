@@ -10,14 +10,14 @@ namespace tactus
 
 namespace
 {
-struct Tap
+struct GridTap
 {
     int point;
     double weight;
 };
 
 /// For each new point, the old points that it is a weighted sum of.
-std::vector<std::vector<Tap>> tapsOf (const MirroredAxis& from, const MirroredAxis& to, double cutoff, double zeros)
+std::vector<std::vector<GridTap>> tapsOf (const MirroredAxis& from, const MirroredAxis& to, double cutoff, double zeros)
 {
     const double reach = 0.5 * zeros / cutoff;
     const auto kernel = [&] (double distance) {
@@ -25,7 +25,7 @@ std::vector<std::vector<Tap>> tapsOf (const MirroredAxis& from, const MirroredAx
         return std::abs (r) >= 1.0 ? 0.0 : sinc (phase) * kaiser60 (r);
     };
 
-    std::vector<std::vector<Tap>> all (at (to.points()));
+    std::vector<std::vector<GridTap>> all (at (to.points()));
     for (std::size_t k = 0; k < all.size(); ++k)
     {
         const double place = static_cast<double> (k) * to.spacing;
@@ -36,7 +36,7 @@ std::vector<std::vector<Tap>> tapsOf (const MirroredAxis& from, const MirroredAx
             all[k].push_back ({ from.mirrored (i), kernel (i * from.spacing - place) });
             sum += all[k].back().weight;
         }
-        for (Tap& tap : all[k])
+        for (GridTap& tap : all[k])
             tap.weight /= sum;
     }
     return all;

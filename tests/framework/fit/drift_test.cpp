@@ -3,6 +3,7 @@
 
 #include "draws.hpp"
 
+#include <support/rounds.hpp>
 #include <tactus/fit/friction_fit.hpp>
 #include <tactus/fit/grating_fit.hpp>
 #include <tactus/fit/least_squares.hpp>
