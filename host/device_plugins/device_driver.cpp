@@ -229,6 +229,7 @@ OpenedDevice::~OpenedDevice()
         return;
     }
     static std::mutex changing;
+    // NOLINTNEXTLINE(bugprone-unhandled-exception-at-new): a program without memory for this ends
     static auto& kept = *new std::vector<std::shared_ptr<const DeviceDriver>>;   // the device stays open, so its driver must stay loaded
     const std::lock_guard lock (changing);
     kept.push_back (of);

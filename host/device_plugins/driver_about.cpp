@@ -20,7 +20,7 @@ namespace
 constexpr double default_ramp = 0.2;                              // in s, as for a profile without a ramp (hid::limitsOf)
 constexpr double longest_watchdog = 0.5, longest_silence = 1.0;   // in s, of the device and of Tactus
 constexpr double highest_rate = 10e3;                             // Hz; a driver may be called twice as often
-constexpr std::size_t longest_name = 64, longest_text = 4096, longest_limits = 64 * 1024;
+constexpr std::size_t longest_name = 64, longest_text = 4096, longest_limits = std::size_t { 64 } * 1024;
 constexpr const char* ask_author = "ask the author of the driver to correct it";
 
 /// What a driver says that cannot be.

@@ -99,7 +99,7 @@ std::string PluginDevice::Link::trouble() const
     const auto hangs = [&] (const std::atomic<std::int64_t>& since, Clock::duration longest, const char* what) {
         const auto began = since.load (std::memory_order_acquire);
         if (began == 0 || now - began <= std::chrono::nanoseconds (longest).count()) return std::string();
-        const auto tenths = static_cast<double> ((now - began) / 100'000'000);
+        const auto tenths = static_cast<double> ((now - began) / 100'000'000);   // NOLINT(bugprone-integer-division): whole tenths
         return "the driver has not returned from `" + std::string (what) + "` for " + numberText (tenths / 10.0) + " s";
     };
     if (auto why = hangs (read_since, longest_read, "read"); ! why.empty()) return why;

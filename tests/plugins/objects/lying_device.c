@@ -135,7 +135,7 @@ static int32_t read_device (void* device_, int32_t timeout_ms, tactus_reading* r
     const int batch = lies (d, "batches") ? 16 : 1; /* readings that come at once; only the last is returned */
     if (! lies (d, "spins"))
     {
-        d->next.tv_nsec += batch * 1000000;
+        d->next.tv_nsec += batch * 1000000L;
         if (d->next.tv_nsec >= 1000000000)
         {
             d->next.tv_nsec -= 1000000000;
