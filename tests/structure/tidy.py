@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Looks for mistakes with clang-tidy: ./test.sh --tidy
 
-Usage: tidy.py BUILD [PART/PARTS | --changed | FILE...]. BUILD has compile_commands.json. Checks all sources of the repository, in the batches in which
-they are compiled; or every PARTS-th batch from the PART-th on; or what changed since the branch left origin/main, or since the last commit; or these
-files. .clang-tidy has the checks, and reasons for those that are off. Prints each problem once. Exit status 1 if there are any."""
+Usage: tidy.py BUILD [PART/PARTS | --changed | FILE...]. BUILD has compile_commands.json. Checks all sources of the repository, in the batches in
+which they are compiled; or every PARTS-th batch from the PART-th on; or what changed since the branch left origin/main, or since the last commit;
+or these files. .clang-tidy has the checks, and reasons for those that are off. Prints each problem once. Exit status 1 if there are any."""
 
 import concurrent.futures
 import json

@@ -43,7 +43,7 @@ void readBinary (std::string_view bytes, MeshBuilder& mesh)
     bytes = bytes.substr (header, binarySize (bytes) - header);
     while (! bytes.empty())
     {
-        auto corners = bytes.substr (3 * 4);
+        auto corners = bytes.substr (std::size_t { 3 } * 4);
         for (int corner = 0; corner < 3; ++corner)
         {
             Vec3 at;

@@ -52,10 +52,10 @@ public:
             if (line->find ('\0') != std::string_view::npos) return fail ("table/binary", "there is a NUL byte", "check that the file is text");
             const auto said = trim (*line);
             if (said.empty() || said[0] == '#' || said[0] == '%') continue;
-            if (auto taken = takeRow (said); ! taken) return std::move (taken.error());
+            if (auto taken = takeRow (said); ! taken) return taken.error();
         }
         if (grid.rows == 0) return fail ("table/empty", "no line starts with a number", "save it as text, with numbers in rows and columns");
-        if (auto checked = takeLine(); ! checked) return std::move (checked.error());
+        if (auto checked = takeLine(); ! checked) return checked.error();
         return std::move (grid);
     }
 
