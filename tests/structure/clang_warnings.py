@@ -23,7 +23,7 @@ def run(arguments, directory):
     ran = subprocess.run(arguments, cwd=directory, capture_output=True, text=True, check=False)
     if ran.returncode != 0:
         print(ran.stderr, end="", flush=True)
-    return ran.returncode
+    return ran.returncode != 0
 
 
 def main():
