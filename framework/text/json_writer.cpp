@@ -12,7 +12,7 @@ namespace tactus
 {
 namespace
 {
-constexpr std::size_t longest_line = 120;
+constexpr std::size_t widest_line = 120;
 constexpr std::size_t step = 2;
 
 bool isContainer (const Json& value) { return (value.is_object() || value.is_array()) && ! value.empty(); }
@@ -145,7 +145,7 @@ private:
     bool onOneLine (const Json& v, std::size_t tail)
     {
         const auto before = out.size();
-        if (inlined (v) && column() + tail <= longest_line) return true;
+        if (inlined (v) && column() + tail <= widest_line) return true;
         out.resize (before);
         return false;
     }
@@ -156,7 +156,7 @@ private:
         if (! isContainer (v))
         {
             out += scalarText (v);
-            return column() <= longest_line;
+            return column() <= widest_line;
         }
         bool first = true;
         const auto separate = [&] {
@@ -185,7 +185,7 @@ private:
             }
             out += " }";
         }
-        return column() <= longest_line;
+        return column() <= widest_line;
     }
 
     void onLines (const Json& v, std::size_t indent)
@@ -225,7 +225,7 @@ private:
         for (const auto& number : numbers)
         {
             const auto text = scalarText (number) + (--left > 0 ? "," : "");
-            if (! first && column() + 1 + text.size() > longest_line)
+            if (! first && column() + 1 + text.size() > widest_line)
                 newLine (indent);
             else if (! first)
                 out += ' ';

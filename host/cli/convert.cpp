@@ -53,7 +53,7 @@ std::string bytesOf (const std::string& file)
 }
 
 /// Prints how far the written clip is from the one that was read. Always prints something, even if nothing was lost.
-void report (const SavedClip& saved)
+void print (const SavedClip& saved)
 {
     sayAll (saved.losses);
     for (const auto& sentence : differenceReport (saved))
@@ -88,7 +88,7 @@ void writeFile (const std::string& out, const Clip& clip, double rate_hz)
 {
     const auto saved = orFail (saveClip (clip, out, rate_hz));
     wrote (out);
-    report (saved);
+    print (saved);
 }
 
 /// Continuous events into one file, transients into another: the engine of the phone then does not apply the curves of one file to the

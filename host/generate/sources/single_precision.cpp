@@ -146,21 +146,21 @@ std::string inSinglePrecision (std::string_view code, std::vector<std::string>* 
 namespace
 {
 constexpr std::string_view own = "tactus/kit/single/";
-constexpr std::string_view positions = "tactus/kit/fine.hpp", functions = "tactus/kit/math/math.hpp";
+constexpr std::string_view positions = "tactus/kit/fine.hpp", math_functions = "tactus/kit/math/math.hpp";
 }   // namespace
 
 std::set<std::string> inSinglePrecision (const std::set<std::string>& paths)
 {
     std::set<std::string> all { std::string (own) + "extended.hpp", std::string (own) + "math.hpp" };
     for (const auto& path : paths)
-        if (path == functions || ! path.starts_with ("tactus/kit/math/")) all.insert (path);
+        if (path == math_functions || ! path.starts_with ("tactus/kit/math/")) all.insert (path);
     return all;
 }
 
 std::string adaptedSingle (const std::string& path)
 {
     if (path == positions) return std::string (findSource (std::string (own) + "fine.hpp")->text);
-    if (path == functions) return std::string (findSource (std::string (own) + "math_names.hpp")->text);
+    if (path == math_functions) return std::string (findSource (std::string (own) + "math_names.hpp")->text);
     return adaptedSingle (*findSource (path));
 }
 
