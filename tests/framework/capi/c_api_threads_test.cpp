@@ -108,7 +108,7 @@ TEST_CASE ("C API: a loop on a thread of its own ticks and logs, and another thr
     REQUIRE (run);
     REQUIRE (tactus_run_pushed_device (run.get(), "stylus", nullptr, m.get()) == TACTUS_OK);
     REQUIRE (tactus_run_open (run.get(), m.get()) == TACTUS_OK);
-    std::atomic<int> ticked = 0, edits = 0;
+    std::atomic<int> ticked = 0, allowed = 1000;   // the log buffers 4000 ticks
     std::atomic<bool> is_over = false;
     std::jthread ticking ([&] {
         tactus_reading r TACTUS_READING;
@@ -117,9 +117,10 @@ TEST_CASE ("C API: a loop on a thread of its own ticks and logs, and another thr
         for (int k = 0; ! is_over; ++k)
         {
             r.position[2] = -1e-6 * (k % 1000);
-            if (tactus_run_push (run.get(), "stylus", &r) != TACTUS_OK || tactus_run_tick (run.get()) != TACTUS_OK) return;
-            if (tactus_run_get_records (run.get(), records.data()) != TACTUS_OK) return;
-            for (++ticked; ticked >= 1000 * (edits + 1) && ! is_over;)   // the log buffers 4000 ticks
+            if (tactus_run_push (run.get(), "stylus", &r) != TACTUS_OK || tactus_run_tick (run.get()) != TACTUS_OK
+                || tactus_run_get_records (run.get(), records.data()) != TACTUS_OK)
+                is_over = true;
+            for (++ticked; ticked >= allowed && ! is_over;)
                 std::this_thread::yield();
         }
     });
@@ -127,16 +128,18 @@ TEST_CASE ("C API: a loop on a thread of its own ticks and logs, and another thr
     std::vector<double> rows (3 * 1000);
     int broken = tactus_run_probe (run.get(), ports, 1, m.get()) != TACTUS_OK;
     size_t collected = 0;
-    for (; edits < 30; ++edits)
+    for (int edits = 0; edits < 30; ++edits)
     {
         const auto mu = std::to_string (0.2 + 0.01 * edits);
         broken += tactus_graph_set_param (g.get(), "", "drag", "mu", mu.c_str(), m.get()) != TACTUS_OK;
         broken += tactus_run_edit (run.get(), g.get(), m.get()) != TACTUS_OK;
         broken += tactus_run_turn (run.get(), "roughness", 0.03 * edits, m.get()) != TACTUS_OK;
         broken += tactus_run_attend (run.get(), m.get()) != TACTUS_OK;
-        collected += tactus_run_collect_probes (run.get(), nullptr, rows.data(), 1000);
-        while (ticked < 50 * (edits + 1))
+        const int before = ticked;
+        allowed = before + 1000;
+        while (ticked < before + 50 && ! is_over)
             std::this_thread::yield();
+        collected += tactus_run_collect_probes (run.get(), nullptr, rows.data(), 1000);
     }
     tactus_effort e TACTUS_EFFORT;
     broken += tactus_run_stop (run.get()) != TACTUS_OK;   // while the other thread still ticks
