@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 namespace tactus::check
 {
 
@@ -20,6 +23,20 @@ struct Factors
 constexpr double stiffestWall (double damping, double period_s, double delay_ticks) noexcept
 {
     return 2.0 * damping / ((2.0 * delay_ticks + 1.0) * period_s);
+}
+
+/// The largest virtual damping b, in N s/m, that does not swing by itself on a device with a mass M in kg and a damping of B in N s/m. The node
+/// takes the speed from the last two positions, without a delay, and the force is held for a tick. Exact:
+///
+///     with w = B T/M and a = exp (-w), the loop reaches z = exp (+-j phi) at b = B/((1 - a)/w - a), and z = -1 at b = B/(1 - tanh (w/2)/(w/2))
+///
+/// While w is small, the first is smaller: 2M/T + 4B/3. The chapter, footnote 2, has 2M/T + B.
+inline double largestDamper (double mass, double damping, double period_s) noexcept
+{
+    const double w = damping * period_s / mass, half = 0.5 * w;
+    if (w < 1e-4) return 2.0 * mass / period_s + 4.0 / 3.0 * damping;   // else the differences lose digits
+    const double a = std::exp (-w);
+    return std::min (damping / ((1.0 - a) / w - a), damping / (1.0 - std::tanh (half) / half));
 }
 
 }   // namespace tactus::check

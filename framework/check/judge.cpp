@@ -43,6 +43,8 @@ public:
             if (wall.role == role.role) deadbeat (wall);
         for (const auto& t : demand.textures)
             if (t.role == role.role) texture (t);
+        for (const auto& u : demand.unreached)
+            if (u.role == role.role) unreached (u);
         return std::move (conditions);
     }
 
@@ -89,7 +91,7 @@ private:
     }
 
     /// The largest b at which the virtual damper does not oscillate, in N s/m.
-    double largestDamper() const { return numbers.damping->value + 2.0 * motorMass() / period_s; }
+    double largestDamper() const { return check::largestDamper (motorMass(), numbers.damping->value, period_s); }
 
     /// True if b breaks the condition `damping`. Then `stiffness` is judged without b, because b would break it too.
     bool isOverdamped() const { return numbers.damping && numbers.mass && ! (virtualDamping() < largestDamper()); }
@@ -157,10 +159,10 @@ private:
     void damping()
     {
         const double most = virtualDamping();
-        auto& c = add ("damping", "b < B + 2M/T", "N*s/m", "b " + text (most, "N*s/m") + ", T " + text (1e3 * period_s, "ms"));
+        auto& c = add ("damping", "b < 2M/T + 4B/3", "N*s/m", "b " + text (most, "N*s/m") + ", T " + text (1e3 * period_s, "ms"));
         if (! numbers.damping) return unknown (c, most, "damping");
         if (! numbers.mass) return unknown (c, most, "mass");
-        const double limit = largestDamper(), rate = (most - numbers.damping->value) / (2.0 * motorMass());
+        const double limit = largestDamper(), rate = (most - 4.0 / 3.0 * numbers.damping->value) / (2.0 * motorMass());
         if (motorMass() < numbers.mass->value) c.text += ", M " + text (motorMass(), "kg") + " at the motor";
         decide (c, most, limit, Strict::yes, 1.0, "a virtual damping below " + text (limit, "N*s/m") + ", or a rate above " + text (rate, "Hz"));
     }
@@ -241,6 +243,14 @@ private:
     void deadbeat (const Deadbeat& wall)
     {
         judgeDeadbeat (demand, wall, numbers, add (wall.node, "deadbeat", "d and M as assumed, M delta/(2 T^2) <= f_f", "N", ""));
+    }
+
+    void unreached (const Unreached& u)
+    {
+        const auto conditions_of = u.renders_texture ? "its texture" : "the stretch at which it slides";
+        auto& c = add (u.node, "reach", "the motion reaches the node", "1", std::string ("the node gave no force, so ") + conditions_of + " is not judged");
+        c.verdict = Verdict::not_reached;
+        c.remedy = "another motion of the hand: --sweep, --device ROLE=gesture:NAME or --device ROLE=trace:FILE.csv";
     }
 
     void texture (const Texture& t)
@@ -335,13 +345,13 @@ private:
 
 std::string_view nameOf (Verdict verdict) noexcept
 {
-    constexpr std::array<std::string_view, 4> names { "holds", "close", "broken", "unknown" };
+    constexpr std::array<std::string_view, 5> names { "holds", "close", "broken", "unknown", "not reached" };
     return names[static_cast<std::size_t> (verdict)];
 }
 
 double Condition::margin() const noexcept
 {
-    if (verdict == Verdict::unknown) return 0.0;
+    if (! isKnown()) return 0.0;
     return value > 0.0 ? limit / value : inf;
 }
 

@@ -25,10 +25,11 @@ enum class Verdict
     holds,
     close,   ///< holds, but not by the factor that the chapter recommends
     broken,
-    unknown,   ///< a number of the device is not known
+    unknown,       ///< a number of the device is not known
+    not_reached,   ///< the motion did not reach the node, so nothing about it was judged
 };
 
-/// "holds", "close", "broken" or "unknown".
+/// "holds", "close", "broken", "unknown" or "not reached".
 std::string_view nameOf (Verdict) noexcept;
 
 /// One condition, for a role or for one node of the role.
@@ -45,7 +46,9 @@ struct Condition
     std::string text {};     ///< the numbers behind the verdict, in one sentence
     std::string remedy {};   ///< what would help; empty if the condition holds
 
-    /// The factor by which the value could grow: above 1 if the condition holds, 0 if unknown, infinite if the value is 0.
+    bool isKnown() const noexcept { return verdict != Verdict::unknown && verdict != Verdict::not_reached; }   ///< value and limit have a meaning
+
+    /// The factor by which the value could grow: above 1 if the condition holds, 0 if it is not known, infinite if the value is 0.
     double margin() const noexcept;
 };
 

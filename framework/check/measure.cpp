@@ -192,7 +192,13 @@ private:
         {
             const auto its = nodesOf (*plan, role.name);
             for (const auto& w : stretches)
-                if (its[w.node()] && w.shortest() < inf) demand.stretches.push_back ({ w.node(), role.name, w.shortest(), w.teeth() });
+            {
+                if (! its[w.node()]) continue;
+                if (w.shortest() < inf)
+                    demand.stretches.push_back ({ w.node(), role.name, w.shortest(), w.teeth() });
+                else if (! w.wasFelt())
+                    demand.unreached.push_back ({ w.node(), role.name, false });
+            }
         }
     }
 
@@ -324,9 +330,12 @@ private:
         double most = 0.0;
         for (std::size_t k = 0; k < motion.ticks; ++k)
             most = std::max (most, part (k));
-        if (! (most > 0.0)) return;
-
         const auto& [node, own, is_driven, claims, loudest] = watched;
+        if (! (most > 0.0))
+        {
+            if (nodesOf (*plan, motion.roles[r].role)[node]) demand.unreached.push_back ({ node, motion.roles[r].role, true });
+            return;
+        }
         Texture t { .node = node, .role = motion.roles[r].role, .spatial_frequency = claims.spatial_frequency };
         const double reach = loudest > 0.0 ? most / loudest : 1.0;   // gain of the wires and layers that follow the node
         t.amplitude = claims.amplitude < inf ? std::max (most, reach * claims.amplitude) : most;

@@ -100,6 +100,14 @@ struct Texture
     double speed = 0.0;               ///< v: largest speed across the texture while it was felt, in m/s
 };
 
+/// A node between a source and a sink of a role whose force the hand did not feel, so that nothing could be measured.
+struct Unreached
+{
+    std::size_t node = 0;
+    std::string role;
+    bool renders_texture = false;   ///< false: it has a stretch at which it slides
+};
+
 struct MeasuredNode
 {
     std::string path;
@@ -117,6 +125,7 @@ struct Demand
     std::vector<Stretch> stretches {};
     std::vector<Deadbeat> deadbeats {};
     std::vector<Texture> textures {};
+    std::vector<Unreached> unreached {};
     std::vector<MeasuredNode> nodes {};   ///< by node number
 };
 

@@ -59,8 +59,8 @@ Json toJson (const Condition& c)
     j["law"] = c.law;
     j["verdict"] = nameOf (c.verdict);
     j["value"] = number (c.value);
-    j["limit"] = c.verdict == Verdict::unknown ? Json() : number (c.limit);
-    j["margin"] = c.verdict == Verdict::unknown ? Json() : number (c.margin());
+    j["limit"] = c.isKnown() ? number (c.limit) : Json();
+    j["margin"] = c.isKnown() ? number (c.margin()) : Json();
     j["unit"] = c.unit;
     j["text"] = c.text;
     if (! c.remedy.empty()) j["remedy"] = c.remedy;

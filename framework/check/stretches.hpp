@@ -34,8 +34,9 @@ public:
     void poll (const Plan&);   ///< call after each tick
 
     std::size_t node() const noexcept { return its_node; }
-    double shortest() const noexcept;   ///< s, in m; infinite if the node gave no force
-    double teeth() const noexcept;      ///< length of the teeth of stick-slip at this stretch, in m; 0 without stick-slip
+    double shortest() const noexcept;                          ///< s, in m; infinite if the node gave no force
+    bool wasFelt() const noexcept { return ! seen.empty(); }   ///< the node gave a force
+    double teeth() const noexcept;                             ///< length of the teeth of stick-slip at this stretch, in m; 0 without stick-slip
 
 private:
     enum class Kind

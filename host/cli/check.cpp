@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "graph_argument.hpp"
 #include "report.hpp"
 #include "run_options.hpp"
 
@@ -161,14 +162,14 @@ std::string number (double v)
 
 std::string describe (const check::Condition& c)
 {
-    const bool is_known = c.verdict != check::Verdict::unknown;
-    auto line = "  " + padded (nameOf (c.verdict), 9) + padded (c.id, 18) + padded (printableName (c.node.empty() ? "-" : c.node), 16);
-    line += padded (number (c.value) + " of " + (is_known ? number (c.limit) : "?") + (c.unit == "1" ? "" : " " + std::string (c.unit)), 28);
-    if (is_known) line += padded ("margin " + number (c.margin()), 18);
+    auto line = "  " + padded (nameOf (c.verdict), 12) + padded (c.id, 18) + padded (printableName (c.node.empty() ? "-" : c.node), 16);
+    if (c.verdict != check::Verdict::not_reached)
+        line += padded (number (c.value) + " of " + (c.isKnown() ? number (c.limit) : "?") + (c.unit == "1" ? "" : " " + std::string (c.unit)), 28);
+    if (c.isKnown()) line += padded ("margin " + number (c.margin()), 18);
     line += std::string (c.law) + '\n';
     if (c.verdict == check::Verdict::holds) return line;
-    line += "           " + c.text + '\n';
-    if (! c.remedy.empty()) line += "           " + std::string (is_known ? "would help: " : "") + c.remedy + '\n';
+    line += "              " + c.text + '\n';
+    if (! c.remedy.empty()) line += "              " + std::string (c.verdict == check::Verdict::unknown ? "" : "would help: ") + c.remedy + '\n';
     return line;
 }
 
@@ -291,7 +292,10 @@ void addCheck (const Command& app)
 {
     const auto options = std::make_shared<CheckOptions>();
     const auto command = app.add ("check", "Check whether the devices of a graph can render it: stability, quanta, friction, textures, forces");
-    command.addOption ("graph", options->graph, "The graph file").required();
+    command
+        .addOption (
+            "graph", [options] (const std::string& given) { options->graph = graphArgument (given); }, "The graph file, or the name of a preset")
+        .required();
     command.addOption ("--device", options->devices,
                        "The device of a role: ROLE=PROFILE, ROLE=FILE.json (a profile or a device), ROLE=sim or ROLE=DRIVER:PORT (whose numbers are "
                        "unknown); ROLE=gesture:NAME and ROLE=trace:FILE.csv choose the hand of a role; may be given more than once")
@@ -312,7 +316,7 @@ void addCheck (const Command& app)
     addPlugins (command);
     command.footer ("Exit status 1 if a condition is broken. docs/check.md explains each condition.\n\n"
                     "Examples:\n"
-                    "  tactus check graphs/dry_wood.json\n"
+                    "  tactus check dry_wood\n"
                     "  tactus check graphs/dry_wood.json --device stylus=tactus_board --rate 1000\n"
                     "  tactus check graphs/dry_wood.json --device stylus=gesture:circle --speed 0.3\n"
                     "  tactus check graphs/dry_wood.json --json | jq '.conditions[] | select(.verdict == \"broken\")'");

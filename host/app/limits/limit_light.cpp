@@ -36,6 +36,11 @@ juce::String tooltipOf (const LimitList& list)
     if (list.limits.empty()) text << TRANS ("No limit of the devices is broken, and none is near.") << "\n\n";
     text << filled (list.held == 1 ? TRANS ("%1 other condition holds") : TRANS ("%1 other conditions hold"), list.held);
     if (list.unknown > 0) text << "; " << filled (TRANS ("%1 cannot be judged, because numbers of the device are not known"), list.unknown);
+    if (list.not_reached > 0)
+        text << "; "
+             << filled (list.not_reached == 1 ? TRANS ("%1 node is not judged, because the hand does not reach it")
+                                              : TRANS ("%1 nodes are not judged, because the hand does not reach them"),
+                        list.not_reached);
     return text + ". " + TRANS ("Measured along the path of the hand that the graph describes. Click for the list.");
 }
 }   // namespace

@@ -143,7 +143,9 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
     for (const auto& c : check::judge (demand, devices))
     {
         const bool is_broken = c.verdict == check::Verdict::broken;
-        if (c.verdict == check::Verdict::unknown)
+        if (c.verdict == check::Verdict::not_reached)
+            ++list.not_reached;
+        else if (c.verdict == check::Verdict::unknown)
             ++list.unknown;
         else if (! is_broken && c.margin() >= LimitList::near)
             ++list.held;
@@ -154,7 +156,7 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
             list.limits.push_back ({ is_broken, std::string (c.id), nodesOf (c, demand, plan), std::move (text), c.remedy });
         }
     }
-    list.is_checked = ! list.limits.empty() || list.held > 0 || list.unknown > 0;
+    list.is_checked = ! list.limits.empty() || list.held > 0 || list.unknown > 0 || list.not_reached > 0;
     std::stable_partition (list.limits.begin(), list.limits.end(), [] (const Limit& l) { return l.is_broken; });
     return list;
 }

@@ -57,6 +57,7 @@ struct LimitList
 
     std::vector<Limit> limits {};        ///< broken ones first
     std::size_t held = 0, unknown = 0;   ///< how many other conditions hold, and how many cannot be judged
+    std::size_t not_reached = 0;         ///< how many nodes the path of the hand does not reach, so that nothing about them is judged
     bool is_checked = false;             ///< false if the graph has not been checked, has errors, or drives no device
 
     std::size_t broken() const noexcept;

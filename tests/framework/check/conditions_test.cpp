@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include <functional>
+#include <map>
 #include <set>
 
 using namespace tactus;
@@ -23,7 +24,8 @@ struct Board
     double amplitude = 0.1, spatial_frequency = 100.0;   // of the grating, N and 1/m
     double knock = 0.0;                                  // amplitude of a square wave, N
     const char* path = "stroke";
-    int delay = 0;   // of the wire from the wall, in ticks
+    double above = 0.0;   // how far the path is raised above the board, m
+    int delay = 0;        // of the wire from the wall, in ticks
 
     graph::Graph graph() const
     {
@@ -40,8 +42,8 @@ struct Board
         s.wire (delay > 0 ? "wall.force -> [" + std::to_string (delay) + "] -> motor.force" : "wall.force -> motor.force");
         s.wire ("square.out -> knock.z").wire ("knock.out -> motor.force");
         s.graph.rate_hz = rate_hz;
-        const Json hand { { "stiffness", 100.0 }, { "damping", 2.0 }, { "path", path } };
-        s.graph.devices.emplace_back ("tip", Json { { "driver", "sim" }, { "mass", 0.05 }, { "damping", 2.0 }, { "hand", hand } });
+        const Json hand { { "stiffness", 100.0 }, { "damping", 2.0 }, { "path", path }, { "offset", { 0.0, 0.0, above } } };
+        s.graph.devices.emplace_back ("tip", Json { { "driver", "sim" }, { "mass", 0.05 }, { "damping", 2.0 }, { "position", { 0.0, 0.0, above } }, { "hand", hand } });
         return s.graph;
     }
 };
@@ -145,6 +147,29 @@ TEST_CASE ("a graph or a device that breaks one condition breaks only that one",
     CHECK (brokenBy ([&] (Trial& t) { finelyRibbed (t); t.options.factors.beta = 20.0; }) == Names { "low_speed" });
     CHECK (brokenBy ([&] (Trial& t) { finelyRibbed (t); t.options.factors.alpha = 20.0; }) == Names { "high_speed" });
     CHECK (brokenBy ([&] (Trial& t) { finelyRibbed (t); t.board.amplitude = 0.5; }) == Names { "gain" });
+}
+
+TEST_CASE ("a friction and a texture that the motion does not reach are listed, with what to do", "[check]")
+{
+    Trial t;
+    t.board.above = 0.02;
+    t.board.amplitude = 0.0;
+    std::map<std::string, check::Condition> unreached;
+    for (const auto& c : t.conditions())
+    {
+        CHECK (c.verdict != check::Verdict::broken);
+        if (c.id == "reach") unreached.emplace (c.node, c);
+    }
+    REQUIRE (unreached.size() == 2);
+    for (const auto* node : { "drag", "ribs" })
+    {
+        INFO (node);
+        REQUIRE (unreached.contains (node));
+        const auto& c = unreached.at (node);
+        CHECK (c.verdict == check::Verdict::not_reached);
+        CHECK (c.margin() == 0.0);
+        CHECK (c.remedy.find ("--sweep") != std::string::npos);
+    }
 }
 
 TEST_CASE ("every condition that a graph breaks is reported by name", "[check]")

@@ -127,6 +127,38 @@ TEST_CASE ("a wall on a light damped tool starts to oscillate within 10 % of whe
     });
 }
 
+TEST_CASE ("a virtual damper on any tool starts to swing within 1 % of where the condition says", "[check]")
+{
+    // A tool that moves freely along z in a damper without a spring. Exact, so any ratio of damping to mass will do.
+    const auto growthOf = [] (const Simulation& sim, double virtual_damping, double rate_hz) {
+        double last = 0.0, speed = 0.0, first_half = 0.0, second_half = 0.0;
+        constexpr int ticks = 4000;
+        const double w = sim.damping / (sim.mass * rate_hz), a = std::exp (-w);
+        double step = 1e-6;   // m, per tick
+        for (int k = 0; k < ticks; ++k)
+        {
+            const double force = -virtual_damping * step * rate_hz;
+            step = (sim.mass / sim.damping) * (1.0 - a) * speed + (1.0 / rate_hz - (1.0 - a) * sim.mass / sim.damping) * force / sim.damping;
+            speed = a * speed + (1.0 - a) * force / sim.damping;
+            last += step;
+            if (std::abs (step) > 1.0) return 1e9;
+            (k < ticks / 2 ? first_half : second_half) += std::abs (step);
+        }
+        return second_half / first_half;
+    };
+    rc::prop ("damper", [&] {
+        const double rate_hz = *between (500.0, 20e3), mass = *between (0.01, 1.0), share = *between (0.01, 20.0);
+        const Simulation sim { .mass = mass, .damping = share * mass * rate_hz };
+        const double limit = check::largestDamper (mass, sim.damping, 1.0 / rate_hz);
+        RC_LOG() << "limit " << limit << " N s/m, B T/M " << share << '\n';
+        RC_ASSERT (growthOf (sim, 0.99 * limit, rate_hz) < 1.0);
+        RC_ASSERT (growthOf (sim, 1.01 * limit, rate_hz) > 1.0);
+    });
+    CHECK (check::largestDamper (0.1, 2.0, 1e-3) == Approx (202.682).epsilon (1e-5));
+    CHECK (check::largestDamper (0.1, 2.0, 1e-3) == Approx (2.0 * 0.1 / 1e-3 + 4.0 / 3.0 * 2.0).epsilon (1e-4));
+    CHECK (check::largestDamper (0.1, 0.0, 1e-3) == Approx (200.0));
+}
+
 TEST_CASE ("on a heavily damped or compliant tool, a wall that meets the condition never oscillates", "[check]")
 {
     rc::prop ("safe side", [] {

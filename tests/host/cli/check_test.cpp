@@ -41,9 +41,30 @@ TEST_CASE ("`tactus check` says which condition a wall breaks, by how much, and 
     INFO (ran.out << ran.err);
     CHECK (ran.status == 1);
     CHECK (ran.out.find ("tip on numbers: M 0.075 kg, B 1 N*s/m (guess)") != std::string::npos);
-    CHECK (ran.out.find ("broken   stiffness") != std::string::npos);
+    CHECK (ran.out.find ("broken      stiffness") != std::string::npos);
     CHECK (ran.out.find ("would help: a stiffness of at most 2e+03 N/m, a rate of at least 5e+04 Hz") != std::string::npos);
-    CHECK (ran.out.find ("unknown  force_resolution") != std::string::npos);
+    CHECK (ran.out.find ("unknown     force_resolution") != std::string::npos);
+}
+
+TEST_CASE ("`tactus check` takes the name of a preset, and lists a texture that the hand does not reach", "[check][cli]")
+{
+    const auto preset = runTactus ({ "check", "granite_wall" });
+    INFO (preset.out << preset.err);
+    CHECK (preset.out.find ("granite_wall.json at ") != std::string::npos);
+    CHECK (runTactus ({ "check", "granite_wal" }).err.find ("granite_wall") != std::string::npos);
+
+    Scratch scratch;
+    const auto still = R"({ "driver": "sim", "mass": "50 g", "damping": "1 N*s/m" })";
+    const auto ran = runTactus ({ "check", scratch.write ("wall.json", graphWith ("100 N/m", still)) });
+    INFO (ran.out << ran.err);
+    CHECK (ran.out.find ("not reached reach             ribs") != std::string::npos);
+    CHECK (ran.out.find ("would help: another motion of the hand: --sweep") != std::string::npos);
+}
+
+TEST_CASE ("`tactus nodes` says which nodes claim to be passive", "[cli]")
+{
+    CHECK (runTactus ({ "nodes", "friction.elasto_plastic" }).out.find ("\nPassive: ") != std::string::npos);
+    CHECK (runTactus ({ "nodes", "signal.lfo" }).out.find ("Passive") == std::string::npos);
 }
 
 TEST_CASE ("`tactus check --json` reports every condition, with the numbers of the device and their sources", "[check][cli]")
