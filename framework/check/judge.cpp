@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "judging.hpp"
+#include "sampled_loop.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 namespace tactus::check
 {
@@ -154,6 +158,69 @@ private:
         remedy += "a device with a damping of at least " + text (value, "N*s/m");
         if (const auto node = steepestNode (demand, s->by_node); ! node.empty()) remedy += "; the steepest node is " + node;
         decide (c, value, limit, Strict::no, 1.0, remedy);
+        if (c.verdict == Verdict::broken) closeLoop (c);
+    }
+
+    /// A contact that is not passive may still come to rest: judges the loops of all places that are not passive, exactly.
+    void closeLoop (Condition& c) const
+    {
+        struct Place
+        {
+            const Slope* at;
+            double radius;
+        };
+        std::vector<Place> places;
+        for (const auto& s : role.slopes)
+        {
+            if (loadAt (s).total <= numbers.damping->value) continue;
+            const auto radius = largestRadius (s, 1.0);
+            if (! radius)
+            {
+                c.text += "; the sampled loop is not known at every place";
+                return;
+            }
+            places.push_back ({ &s, *radius });
+        }
+        if (places.empty()) return;
+        std::ranges::sort (places, std::ranges::greater {}, &Place::radius);
+        if (places.front().radius > at_rest)
+        {
+            c.text += "; the sampled loop swings by itself";
+            return;
+        }
+        constexpr std::size_t closest = 4;   // places whose loops are nearest to swinging
+        places.resize (std::min (places.size(), closest));
+        const auto rests = [&] (double factor) {
+            return std::ranges::all_of (places, [&] (const Place& p) { return largestRadius (*p.at, factor).value_or (inf) <= at_rest; });
+        };
+        double low = 1.0, high = 2.0;
+        while (high < 1e3 && rests (high))
+            low = std::exchange (high, 2.0 * high);
+        for (int i = 0; i < 12; ++i)
+            (rests (0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+        c.verdict = Verdict::stable;
+        c.may_grow = low;
+        c.text += "; not passive, but the sampled loop comes to rest without a hand and with usual ones, up to " + text (low) + " times this response";
+        c.remedy = "for a contact that is passive, whatever the hand does: " + c.remedy;
+    }
+
+    static constexpr double at_rest = 1.0 + 1e-7;   // a tool that nothing holds has an eigenvalue of 1
+
+    /// The largest radius of the loop at a place, with any of the usual hands, if the response is this many times as large.
+    std::optional<double> largestRadius (const Slope& s, double factor) const
+    {
+        if (period_s > (1.0 + 1e-9) / demand.rate_hz || s.response.empty()) return std::nullopt;
+        auto response = s.response;
+        for (double& v : response)
+            v *= factor;
+        double most = 0.0;
+        for (const auto& hand : usualHands())
+        {
+            const auto radius = loopRadius (response, numbers, period_s, hand);
+            if (! radius) return std::nullopt;
+            most = std::max (most, *radius);
+        }
+        return most;
     }
 
     void damping()
@@ -345,13 +412,14 @@ private:
 
 std::string_view nameOf (Verdict verdict) noexcept
 {
-    constexpr std::array<std::string_view, 5> names { "holds", "close", "broken", "unknown", "not reached" };
+    constexpr std::array<std::string_view, 6> names { "holds", "close", "stable", "broken", "unknown", "not reached" };
     return names[static_cast<std::size_t> (verdict)];
 }
 
 double Condition::margin() const noexcept
 {
     if (! isKnown()) return 0.0;
+    if (verdict == Verdict::stable) return may_grow;
     return value > 0.0 ? limit / value : inf;
 }
 

@@ -2,7 +2,8 @@
 #pragma once
 
 /// Compares what a graph demands with what a device can do: the conditions of Hayward, "Physically-Based Haptic Synthesis" (2007),
-/// sections 1, 2 and 5, and what docs/check.md derives from them for several axes and hands. None is sufficient.
+/// sections 1, 2 and 5, and what docs/check.md derives from them for several axes and hands; and, where a contact is not
+/// passive, the exact sampled loop (sampled_loop.hpp).
 ///
 /// Some faults would break two conditions: a texture that is too steep on its own also makes the sum too steep. The sum is then
 /// judged without that texture, so that each fault is reported once. Condition::text says what was left out.
@@ -23,13 +24,14 @@ namespace tactus::check
 enum class Verdict
 {
     holds,
-    close,   ///< holds, but not by the factor that the chapter recommends
+    close,    ///< holds, but not by the factor that the chapter recommends
+    stable,   ///< `stiffness` does not hold, so the contact is not passive; but its sampled loop comes to rest without a hand and with usual ones
     broken,
     unknown,       ///< a number of the device is not known
     not_reached,   ///< the motion did not reach the node, so nothing about it was judged
 };
 
-/// "holds", "close", "broken", "unknown" or "not reached".
+/// "holds", "close", "stable", "broken", "unknown" or "not reached".
 std::string_view nameOf (Verdict) noexcept;
 
 /// One condition, for a role or for one node of the role.
@@ -45,6 +47,7 @@ struct Condition
     Verdict verdict = Verdict::unknown;
     std::string text {};     ///< the numbers behind the verdict, in one sentence
     std::string remedy {};   ///< what would help; empty if the condition holds
+    double may_grow = 0.0;   ///< for the verdict `stable`: how many times the response could grow before the loop swings
 
     bool isKnown() const noexcept { return verdict != Verdict::unknown && verdict != Verdict::not_reached; }   ///< value and limit have a meaning
 

@@ -10,7 +10,7 @@
 namespace tactus::check::judging
 {
 
-/// Three digits are enough, because the conditions are necessary but not sufficient.
+/// Three digits are enough: the numbers of a device are seldom known better.
 inline std::string text (double v)
 {
     char buffer[32];

@@ -28,6 +28,9 @@ struct Slope
     double lag = 0.0;                 ///< force that is missing because it comes late, integrated over time, per displacement, in N s/m
     double damping = 0.0;             ///< |b|: excess force while it settles, integrated over time, per displacement, in N s/m
     std::vector<double> by_node {};   ///< by node number: the largest response of the node's own forces, in N/m
+    /// The force that pulls back after a step of the tool in the steepest direction, along it, tick by tick, in N/m. Empty if there is none,
+    /// or if sections do not run on every tick.
+    std::vector<double> response {};
 };
 
 /// A matrix of slopes. How it gets its memory does not depend on the flags of the compiler, so a program may free what the library has made.

@@ -128,6 +128,15 @@ Pair::Response Pair::respondTo (double size, std::size_t role, const Vec3& direc
     return summary();
 }
 
+std::vector<double> Pair::pullBack (std::size_t role, const Vec3& direction) const
+{
+    std::vector<double> all;
+    if (period > 1) return all;
+    for (const auto& then : path)
+        all.push_back (-then.segment<3> (static_cast<Eigen::Index> (3 * role)).dot (direction));
+    return all;
+}
+
 VectorXd Pair::changeAt (double tick)
 {
     note (before);

@@ -37,6 +37,10 @@ public:
     /// respond sooner or later, depending on the tick of the shift: late and excess are means over several such ticks.
     std::optional<Response> respond (std::size_t role, const Vec3& direction);
 
+    /// The part of the last response() of a role that pulls back along the direction, tick by tick, in N/m. Empty if sections do not run on
+    /// every tick: the response then depends on the tick of the shift.
+    std::vector<double> pullBack (std::size_t role, const Vec3& direction) const;
+
     /// How the forces of all roles change, in N, if the tools of one copy move to their positions at another time of the motion, while
     /// those of the other copy stay.
     Eigen::VectorXd changeAt (double tick);

@@ -135,11 +135,19 @@ private:
         // No matrix describes a nonlinear response, such as that of friction. So the stiffness is measured again in the steepest direction.
         const Matrix settled = own (all.settled);
         const Vec3 steepest = mostStretched (settled).direction;
+        double most = 0.0;
         for (int axis = 0; axis < 3; ++axis)
             slope.stiffness = std::max (slope.stiffness, settled.col (axis).norm());
         if (slope.stiffness > 0.0)
             for (const double sign : { -1.0, 1.0 })
-                if (const auto response = pair.respond (role, sign * steepest)) slope.stiffness = std::max (slope.stiffness, response->of (role).norm());
+                if (const auto response = pair.respond (role, sign * steepest))
+                {
+                    const double now = response->of (role).norm();
+                    slope.stiffness = std::max (slope.stiffness, now);
+                    if (now < most) continue;
+                    most = now;
+                    slope.response = pair.pullBack (role, sign * steepest);
+                }
         slope.lag = mostStretched (own (all.late)).factor;
         slope.damping = mostStretched (own (all.excess)).factor;
     }

@@ -210,7 +210,7 @@ void print (const CheckOptions& options, const check::Demand& demand, const std:
     }
     const auto broken = std::ranges::count (conditions, check::Verdict::broken, &check::Condition::verdict);
     std::cout << (broken == 0 ? "no condition is broken" : std::to_string (broken) + (broken == 1 ? " condition is broken" : " conditions are broken"))
-              << "; the conditions are necessary, not sufficient\n";
+              << "; not everything can be judged: try it by hand\n";
 }
 
 std::vector<check::HandChoice> handsOf (const std::vector<CheckedRole>& roles)

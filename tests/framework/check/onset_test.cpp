@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/check/hands.hpp>
 #include <tactus/check/judge.hpp>
+#include <tactus/check/sampled_loop.hpp>
 #include <tactus/run/device/sim.hpp>
 #include <tactus/run/engine.hpp>
 
@@ -8,6 +9,11 @@
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
 
 using namespace tactus;
 
@@ -125,6 +131,94 @@ TEST_CASE ("a wall on a light damped tool starts to oscillate within 10 % of whe
         RC_ASSERT (growth (sim, 0.9 * stiffest, rate_hz, ticks) < 1.0);
         RC_ASSERT (growth (sim, 1.1 * stiffest, rate_hz, ticks) > 1.0);
     });
+}
+
+namespace
+{
+/// A wall with virtual damping, from the last two positions.
+std::vector<double> dampedWall (double stiffness, double virtual_damping, double rate_hz) { return { stiffness + virtual_damping * rate_hz, stiffness }; }
+
+/// The ranges of the positions in the third and in the fourth quarter of 60 000 ticks. In the first half, the slow swing of a tool that bends dies
+/// away, which says nothing about the loop.
+std::array<double, 2> lateRanges (const Simulation& sim, double stiffness, double rate_hz)
+{
+    constexpr int ticks = 60'000;
+    SimulatedDevice device { resting (sim, stiffness) };
+    Engine engine { compile (wall (stiffness, rate_hz), catalogue()).plan };
+    engine.attach ("tip", device);
+    std::array<Path, 2> quarters;
+    for (int k = 0; k < ticks; ++k)
+    {
+        engine.tick();
+        if (2 * k >= ticks) quarters[4 * k >= 3 * ticks].to (engine.plan().roles()[0].state->reading.true_position.z());
+    }
+    return { quarters[0].range(), quarters[1].range() };
+}
+
+/// The stiffness at which the sampled loop begins to swing, in N/m.
+double onset (const DeviceNumbers& numbers, double virtual_damping, double rate_hz, const check::HeldHand& hand = {})
+{
+    double low = 1.0, high = 1e8;
+    for (int i = 0; i < 60; ++i)
+    {
+        const double middle = std::sqrt (low * high);
+        const auto radius = check::loopRadius (dampedWall (middle, virtual_damping, rate_hz), numbers, 1.0 / rate_hz, hand);
+        (radius.value() <= 1.0 ? low : high) = middle;
+    }
+    return low;
+}
+}   // namespace
+
+TEST_CASE ("the sampled loop of a wall begins to swing where simulations do, with and without virtual damping", "[check]")
+{
+    const Simulation arm { .mass = 0.1, .damping = 2.0 };   // at 1 kHz, simulated for seconds
+    for (const auto& [virtual_damping, limit] : { std::pair { 0.0, 4.0e3 }, { 1.0, 6.0e3 }, { 5.0, 13.5e3 }, { 20.0, 36e3 } })
+    {
+        INFO (virtual_damping);
+        CHECK (onset (numbersOf (arm), virtual_damping, 1000.0) == Approx (limit).epsilon (0.02));
+    }
+
+    rc::prop ("a wall, a delay, a structure that bends", [] {
+        const double rate_hz = *between (1000.0, 20e3), mass = *between (0.02, 1.0), share = *between (0.01, 1.0);
+        Simulation sim { .mass = mass, .damping = share * mass * rate_hz, .delay = *rc::gen::inRange (0, 6) };
+        if (*rc::gen::arbitrary<bool>()) sim.first_mode = *between (0.005, 0.1) * rate_hz;
+        const double limit = onset (numbersOf (sim), 0.0, rate_hz);
+        const auto [below, above] = std::pair { lateRanges (sim, 0.98 * limit, rate_hz), lateRanges (sim, 1.02 * limit, rate_hz) };
+        RC_LOG() << "limit " << limit << " N/m, at 0.98: " << below[0] << " to " << below[1] << " m, at 1.02: " << above[0] << " to "
+                 << above[1] << " m\n";
+        constexpr double rounding = 1e-13;   // m
+        RC_ASSERT (below[1] < std::max (rounding, 0.999 * below[0]));
+        const double bounce = 0.5 * push / limit;   // m; a swing as large as this soon leaves the wall, and grows no more
+        RC_ASSERT (above[1] > std::max (rounding, std::min (0.999 * above[0], bounce)));
+    });
+}
+
+TEST_CASE ("a wall that is not passive, but rests, is called stable; one that swings is called broken", "[check]")
+{
+    const Simulation arm { .mass = 0.1, .damping = 2.0 };
+    const auto judged = [&] (double stiffness, double virtual_damping) {
+        test::Sketch s;
+        s.node ("hand", "device.position").node ("motor", "device.force");
+        for (auto& node : s.graph.root.nodes)
+            node.role = "tip";
+        s.node ("wall", "deform.plane", { { "stiffness", stiffness }, { "damping", virtual_damping } });
+        s.wire ("hand.position -> wall.position").wire ("wall.force -> motor.force");
+        s.graph.rate_hz = 1000.0;
+        SimulatedDevice still { resting (arm, stiffness) };
+        const std::vector<check::Hand> hands { { "tip", still } };
+        const auto motion = check::recordMotion (compile (s.graph, catalogue()).plan, hands, 8);
+        const auto demand = check::measure ({ s.graph, catalogue() }, motion, { .places = 2 });
+        const std::vector<check::RoleDevice> devices { { "tip", numbersOf (arm), "sim" } };
+        const auto all = check::judge (demand, devices);
+        return *std::ranges::find (all, "stiffness", &check::Condition::id);
+    };
+    const auto verdictOf = [&] (double stiffness, double virtual_damping) { return judged (stiffness, virtual_damping).verdict; };
+    CHECK (verdictOf (2e3, 0.0) == check::Verdict::holds);
+    CHECK (verdictOf (20e3, 20.0) == check::Verdict::stable);
+    CHECK (verdictOf (20e3, 0.0) == check::Verdict::broken);
+    CHECK (verdictOf (5e3, 1.0) == check::Verdict::stable);
+    CHECK (verdictOf (7e3, 1.0) == check::Verdict::broken);
+    CHECK (judged (5e3, 1.0).margin() == Approx (1.31).epsilon (0.02));   // stiffness and damping grow: 6.56 kN/m with 1.31 N s/m
 }
 
 TEST_CASE ("a virtual damper on any tool starts to swing within 1 % of where the condition says", "[check]")
