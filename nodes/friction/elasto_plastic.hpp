@@ -3,6 +3,7 @@
 
 #include <tactus/kit/bristle.hpp>
 #include <tactus/kit/lanes.hpp>
+#include <tactus/kit/tangent_plane.hpp>
 #include <tactus/node/node.hpp>
 
 #include <algorithm>
@@ -220,8 +221,6 @@ struct ElastoPlasticOf
     Outputs tick (const Inputs&, const Params& stored) noexcept;
 
 private:
-    // While `home` stays, the stretch depends on where the normal is, not on how it got there. So `home` follows only a large turn.
-    static constexpr double far = 0.5;          // cosine of 60 degrees
     static constexpr double shortest = 1e-30;   // m; replaces a bound of 0, because the bristle divides by the bound
 
     /// The state from one sample to the next. Only `touching` counts while the tool does not touch.
@@ -229,10 +228,8 @@ private:
     {
         MaskOf<V> touching {};
         PositionOf<V> p = PositionOf<V>::Zero();   // position of the tool
-        Vector<V> n = Vector<V>::UnitZ();          // unit normal
-        Vector<V> given = Vector<V>::UnitZ();      // the normal input, of any length
-        Vector<V> home = Vector<V>::UnitZ();       // unit normal of the plane in which d is kept, at most 60 degrees from n
-        Vector<V> d = Vector<V>::Zero();           // stretch, before it is turned from `home` to n
+        TangentPlaneOf<V> plane {};
+        Vector<V> d = Vector<V>::Zero();   // stretch, in the plane's home
         V sigma = 0.0;
         V energy = 0.0;   // in the stretch, in J
         V d_max0 = 0.0;   // d_max in file and knobs at the touch, in m
@@ -248,12 +245,11 @@ private:
         static auto membersOf (C& c) noexcept
         {
             const auto bristle = [] (auto& b) { return std::tie (b.adhesion, b.integrator, b.d_max, b.d_stick, b.d_ba); };
-            return std::tuple_cat (std::tie (c.touching, c.p, c.n, c.given, c.home, c.d, c.sigma, c.energy, c.d_max0, c.load), bristle (c.bristle));
+            return std::tuple_cat (std::tie (c.touching, c.p), c.plane.members(), std::tie (c.d, c.sigma, c.energy, c.d_max0, c.load),
+                                   bristle (c.bristle));
         }
     };
 
-    static Vector<V> tangential (const Vector<V>& v, const Vector<V>& n) noexcept { return v - n * n.dot (v); }
-    static Vector<V> turned (const Vector<V>& v, const Vector<V>& from, const Vector<V>& to) noexcept;
     V stiffnessAtTouch (const Params& stored) const noexcept;
     Contact atRest (const PositionOf<V>&, const Params& stored) const noexcept;
     void setBound (V normal_force) noexcept;
@@ -300,10 +296,7 @@ inline MaskOf<V> ElastoPlasticOf<V>::follow (Outputs& out, MaskOf<V> touches, co
         where (! touches, c.p) = in.position;   // other lanes must not slip far, because long slips take time
         where (! touches, c.d) = Vector<V>::Zero();
     }
-    if (const auto turns = ! isEqual (in.normal, c.given); any (turns)) where (turns, c.n) = normalized<V> (in.normal / largest (in.normal));
-    c.given = in.normal;
-    where (begins, c.home) = c.n;
-    where (c.n.dot (c.home) < 0.0, c.n) = -c.n;
+    c.plane.turn (in.normal, begins);
 
     // Changes since the last sample take effect where the tool was, before it moves.
     const Contact before = c;
@@ -314,17 +307,13 @@ inline MaskOf<V> ElastoPlasticOf<V>::follow (Outputs& out, MaskOf<V> touches, co
     if (any (c.bristle.d_max < before.bristle.d_max || c.bristle.d_stick < before.bristle.d_stick)) slips = c.bristle.letGo (c.d);
     const V released = c.energy - c.stored();
 
-    const Vector<V> dp = turned (tangential (in.position - c.p, c.n), c.n, c.home);
+    const Vector<V> dp = c.plane.kept (in.position - c.p);
     const auto step = c.bristle.stretch (c.d, dp);
     c.p = in.position;
     c.d = step.d;
 
-    const Vector<V> d = turned (c.d, c.home, c.n);
-    if (const auto is_far = c.n.dot (c.home) < far; any (is_far))
-    {
-        where (is_far, c.d) = d;
-        where (is_far, c.home) = c.n;
-    }
+    const Vector<V> d = c.plane.shown (c.d);
+    c.plane.settle (c.d, d);
     c.energy = c.stored();
     out = {
         .force = -c.sigma * d,
@@ -334,16 +323,6 @@ inline MaskOf<V> ElastoPlasticOf<V>::follow (Outputs& out, MaskOf<V> touches, co
         .state = select (slips || step.slips, 2.0, 1.0),
     };
     return isFinite (c.sigma, c.bristle.d_max, dp.squaredNorm(), out.force, out.deflection, out.stored_energy, out.dissipated_energy);
-}
-
-/// Turns a vector in the plane with the unit normal `from` together with this plane, by the smallest angle, into the plane with the
-/// unit normal `to`. The normals are at most a right angle apart.
-template <typename V>
-inline Vector<V> ElastoPlasticOf<V>::turned (const Vector<V>& v, const Vector<V>& from, const Vector<V>& to) noexcept
-{
-    const auto is_same = isEqual (from, to);
-    if (every (is_same)) return v;
-    return select (is_same, v, Vector<V> { v - v.dot (to) / (1.0 + from.dot (to)) * (from + to) });
 }
 
 /// The stiffness that a contact with load `bound` keeps until it opens.
