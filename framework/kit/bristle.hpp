@@ -59,8 +59,9 @@ struct BristleOf
     /// Fig. 2: how fast the bristle yields at a stretch of length r, in 1/m.
     V zeta (V r) const noexcept;
 
-    /// Moves the tool by dp, in a straight line.
-    Step stretch (const Vector<V>& d, const Vector<V>& dp) const noexcept;
+    /// Moves the tool by dp, in a straight line. If the lengths depend on the direction, they are those in the direction of d + dp, and
+    /// `longer` is how many times as long they are as those in the direction of d.
+    Step stretch (const Vector<V>& d, const Vector<V>& dp, V longer = 1.0) const noexcept;
 
     /// If d_max or d_stick has become too small for the stretch, shortens the stretch to the length at which the contact slides.
     /// Only the exponential form needs this: with eq. (3) and (4), the next call to `stretch` does it. Returns true if the stretch
@@ -70,8 +71,8 @@ struct BristleOf
 private:
     static constexpr double eps_slip = margin (1e-9);   // relative; keeps steady sliding away from the branch points of eq. (3) and (4)
 
-    Step stick (const Vector<V>& d, const Vector<V>& dp) const noexcept;
-    Step euler (const Vector<V>& d, const Vector<V>& dp) const noexcept;
+    Step stick (const Vector<V>& d, const Vector<V>& dp, V longer) const noexcept;
+    Step euler (const Vector<V>& d, const Vector<V>& dp, V longer) const noexcept;
     Step exponential (const Vector<V>& d, const Vector<V>& dp) const noexcept;
     Step drag (V from, const Vector<V>& d, V r, V hold) const noexcept;
     V afterSlip (V r) const noexcept;
@@ -83,11 +84,11 @@ using Bristle = BristleOf<double>;
 // Implementation below.
 
 template <typename V>
-inline auto BristleOf<V>::stretch (const Vector<V>& d, const Vector<V>& dp) const noexcept -> Step
+inline auto BristleOf<V>::stretch (const Vector<V>& d, const Vector<V>& dp, V longer) const noexcept -> Step
 {
     if constexpr (is_single<V>)
-        if (adhesion != Adhesion::stick) return integrator == Integrator::exponential ? exponential (d, dp) : euler (d, dp);
-    return stick (d, dp);
+        if (adhesion != Adhesion::stick) return integrator == Integrator::exponential ? exponential (d, dp) : euler (d, dp, longer);
+    return stick (d, dp, longer);
 }
 
 template <typename V>
@@ -113,23 +114,23 @@ inline V BristleOf<V>::zeta (V r) const noexcept
 
 /// Eq. (3).
 template <typename V>
-inline auto BristleOf<V>::stick (const Vector<V>& d, const Vector<V>& dp) const noexcept -> Step
+inline auto BristleOf<V>::stick (const Vector<V>& d, const Vector<V>& dp, V longer) const noexcept -> Step
 {
     const Vector<V> pulled = d + dp;
     const V r = pulled.norm();
     const auto slips = r > d_stick * (1.0 + eps_slip);
     const Step stuck { .d = pulled };
     if (none (slips)) return stuck;
-    return select (slips, drag (d.norm(), pulled, r, d_stick), stuck);
+    return select (slips, drag (longer * d.norm(), pulled, r, d_stick), stuck);
 }
 
 /// Eq. (4), clamped. For the loss, the bristle first stretches to d~ and then yields there.
 template <typename V>
-inline auto BristleOf<V>::euler (const Vector<V>& d, const Vector<V>& dp) const noexcept -> Step
+inline auto BristleOf<V>::euler (const Vector<V>& d, const Vector<V>& dp, V longer) const noexcept -> Step
 {
     const Vec3 pulled = d + dp;
     const double r = pulled.norm(), z = zeta (r);
-    if (z * r > 1.0 + eps_slip) return drag (d.norm(), pulled, r, 1.0 / z);
+    if (z * r > 1.0 + eps_slip) return drag (longer * d.norm(), pulled, r, 1.0 / z);
 
     const double g = std::min (1.0, z * dp.norm());
     return { .d = pulled - g * pulled, .loss = 0.5 * g * (2.0 - g) * r * r, .slips = g > 0.0 };
