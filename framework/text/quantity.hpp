@@ -84,6 +84,7 @@ inline constexpr Unit gain { Quantity::gain, {}, "1" };
 inline constexpr Unit state { Quantity::state, {}, "1" };
 inline constexpr Unit second { Quantity::any, { 0, 0, 1 }, "s" };
 inline constexpr Unit second_per_metre { Quantity::any, { -1, 0, 1 }, "s/m" };
+inline constexpr Unit kilogram_per_metre { Quantity::any, { -1, 1, 0 }, "kg/m" };
 inline constexpr Unit toughness { Quantity::any, { 0, 1, -2 }, "J/m2" };
 inline constexpr Unit decibel { Quantity::any, {}, "dB" };
 inline constexpr Unit count { Quantity::any, {}, "1" };

@@ -224,7 +224,7 @@ TEST_CASE ("every preset is formatted as Tactus saves it, says what it feels lik
 
 TEST_CASE ("every preset says where the numbers of its materials come from, and marks guesses as guesses", "[graphs]")
 {
-    const std::set<std::string> materials { "friction", "cut", "deform", "texture", "vibration", "shock" };
+    const std::set<std::string> materials { "friction", "cut", "deform", "field", "texture", "vibration", "shock" };
     for (const auto& path : presets())
     {
         DYNAMIC_SECTION (path.stem().string())

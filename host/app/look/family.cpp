@@ -13,12 +13,13 @@ namespace
 /// The palette of Okabe and Ito again, because it is safe for colour-blind people. A tint is far fainter than a port, so the two are not confused.
 juce::Colour hueOf (std::string_view family)
 {
-    constexpr std::array<std::pair<std::string_view, juce::uint32>, 12> hues { {
+    constexpr std::array<std::pair<std::string_view, juce::uint32>, 13> hues { {
         { "friction", 0xffe69f00 },
         { "cut", 0xffd55e00 },
         { "deform", 0xff009e73 },
         { "contact", 0xff009e73 },
         { "coupling", 0xff009e73 },
+        { "field", 0xff009e73 },
         { "texture", 0xffcc79a7 },
         { "vibration", 0xff8f6fd6 },
         { "shock", 0xff8f6fd6 },
