@@ -56,7 +56,9 @@ private:
     {
         const auto is_same = isEqual (from, to);
         if (every (is_same)) return v;
-        return select (is_same, v, Vector<V> { v - v.dot (to) / (1.0 + from.dot (to)) * (from + to) });
+        Vector<V> result = v - v.dot (to) / (1.0 + from.dot (to)) * (from + to);
+        where (is_same, result) = v;
+        return result;
     }
 };
 
