@@ -62,10 +62,10 @@ namespace tactus::nodes
 ///    teeth then get longer the faster the hand moves, and finally vanish. Here, a slip leaves
 ///    d_max + (|d~| - d_stick) mod (d_stick - d_max).
 ///  - With sigma following the load as printed, pressing harder while the bristle is stretched adds energy that comes back on
-///    release (1.6e-4 J in 50 strokes; see the test). `load: passive` adds none, because new contact area is not sheared yet,
-///    but the contact point walks: if the load trembles by 10 % at 10 Hz, a tool that leans with 0.2 N on a contact that can hold
-///    0.5 N creeps by 81 um/s, although the state is 1. `load: bound` neither gives energy nor walks, however the load changes,
-///    and is the default (docs/decisions/friction_load.md). Graph files of version 1 mean `passive` if they say nothing.
+///    release (3.2 uJ in each stroke of docs/figures/load_strokes.json). `load: passive` adds none, because new contact area is not
+///    sheared yet, but the contact point walks: if the load trembles by 10 % at 10 Hz, a tool that leans with 0.2 N on a contact that
+///    can hold 0.5 N creeps by 81 um/s, although the state is 1. `load: bound` neither gives energy nor walks, however the load
+///    changes, and is the default (docs/decisions/friction_load.md). Graph files of version 1 mean `passive` if they say nothing.
 ///  - Eq. (1) to (4) are one-dimensional. Here d and dp lie in the tangent plane. When the normal turns, the plane turns with it
 ///    by the smallest angle and takes d along (parallel transport), so d keeps its length and the turn does no work. If
 ///    p - c were projected on the new plane, every turn would shorten d, and under a normal that trembles the contact would lose its
@@ -86,7 +86,9 @@ namespace tactus::nodes
 ///    Opposite normals have the same plane, so the sign of the normal does not matter.
 ///  - A tool that is held in place does not lose any force under a trembling normal. A tool that leans with a constant force
 ///    stretches the contact by a little more or less as the plane tilts. It walks by at most 2 |d| angle^4 in each cycle, with the
-///    angle in rad: 2 nm for a stretch of 20 um and +-5 degrees.
+///    angle in rad: 2 nm for a stretch of 20 um and +-5 degrees. This holds for a tool that moves only sideways. If it also moves
+///    along the normal by a, as on a soft wall, the contact walks by up to pi a sin (angle) in each cycle: 2.2 um for 8 um and
+///    +-5 degrees. With a constant normal it does not walk, so give friction the normal of the smooth surface.
 ///  - If the bound shrinks below the stretch, the bristle slips immediately, even at rest. This is how a texture on mu or d_max
 ///    is felt: with `bound`, sliding needs the force mu f_n d_max / d_max0. So if d_max changes while the tool touches, the drag
 ///    changes at once, but the softness of the contact only at the next touch.

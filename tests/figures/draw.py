@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws docs/figures/*.png from build/figures/*.csv: all of them, or those named. Each figure is a module in this folder with a function draw()."""
+"""Draws docs/figures/*.png from build/figures/*.csv: all of them, or those named. Each figure is a module in plots/ with a function draw()."""
 
 import importlib
 import pathlib
@@ -8,10 +8,12 @@ import sys
 
 sys.dont_write_bytecode = True
 
+PLOTS = pathlib.Path(__file__).resolve().parent / "plots"
+sys.path.insert(0, str(PLOTS))
+
 import style  # noqa: E402
 
-HERE = pathlib.Path(__file__).resolve().parent
-KNOWN = sorted(path.stem for path in HERE.glob("*.py") if path.stem not in ("draw", "style"))
+KNOWN = sorted(path.stem for path in PLOTS.glob("*.py") if path.stem != "style")
 
 for name in sys.argv[1:] or KNOWN:
     if name not in KNOWN:

@@ -2,7 +2,7 @@
 #pragma once
 
 /// Data of the figures in docs/chapter.md. A test renders a graph of docs/figures/, checks what the figure shows, and
-/// writes the numbers to build/figures/. The scripts in this folder draw them (draw.py).
+/// writes the numbers to build/figures/. draw.py draws them with the scripts in plots/.
 
 #include <tactus/file/csv.hpp>
 

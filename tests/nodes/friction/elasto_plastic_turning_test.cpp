@@ -164,3 +164,45 @@ TEST_CASE ("friction: a normal that jumps takes the stretch along by the smalles
     at ({ 0, 1, 0 });
     CHECK (meets (at ({ 0, 0, 1 }), { -4e-5, 3e-5, 0 }));
 }
+
+TEST_CASE ("friction: a held contact walks by pi angle a in each cycle in which the tool also moves along the normal by a", "[nodes][friction]")
+{
+    // Along a step dp, the plane sees only dp - n (n . dp). Around a cycle of n and p, what is left out along the normal adds up to
+    // the integral of n dz: an ellipse with the half axes sin (angle) and a, if the tool is in the middle while the normal leans most.
+    constexpr int per_cycle = 400, cycles = 10;
+    for (const auto& [angle, a] : { std::pair { 5.0 * degree, 8e-6 }, std::pair { 5.0 * degree, -8e-6 }, std::pair { 2.0 * degree, 3e-6 } })
+    {
+        ElastoPlastic node;
+        node.params = { .mu = 0.5, .d_max = 1e-4 };
+        double work = 0.0;   // J: of the hand, along straight lines between samples
+        Vec3 p = Vec3::Zero();
+        Outputs out, first;
+        for (int k = 0; k <= cycles * per_cycle; ++k)
+        {
+            const double phase = 2.0 * M_PI * k / per_cycle;
+            const Vec3 to { 2e-5, 0.0, a * std::cos (phase) };
+            const auto before = out;
+            out = node.tick ({ .position = to, .normal = { std::sin (angle) * std::sin (phase), 0.0, std::sqrt (1.0 - std::pow (std::sin (angle) * std::sin (phase), 2)) } });
+            REQUIRE (out.state == 1.0);
+            if (k > 0) work -= 0.5 * (before.force + out.force).dot (to - p);
+            if (k == 0) first = out;
+            p = to;
+        }
+        const double walk = first.deflection.x() - out.deflection.x();   // of the contact point, forwards
+        INFO (angle / degree << " degrees, " << a << " m");
+        CHECK (walk == Approx (-cycles * M_PI * std::sin (angle) * a).epsilon (0.01));
+        CHECK (std::abs (walk / cycles) * 10.0 == Approx (std::abs (a) == 8e-6 ? 21.9e-6 : 3.29e-6).epsilon (0.01));   // m/s at 10 Hz
+        CHECK (out.dissipated_energy == 0.0);
+        CHECK (out.stored_energy - first.stored_energy == Approx (work).epsilon (0.02));   // what moves the contact is the work of the hand
+    }
+}
+
+TEST_CASE ("friction: with the normal of the mean surface, a tool may move along it as it likes: a held contact does not walk", "[nodes][friction]")
+{
+    ElastoPlastic node;
+    node.params = { .mu = 0.5, .d_max = 1e-4 };
+    node.tick ({});
+    const auto held = node.tick ({ .position = { 2e-5, 1e-5, 0.0 } });
+    for (int k = 0; k < 4000; ++k)
+        REQUIRE (node.tick ({ .position = { 2e-5, 1e-5, 1e-3 * std::sin (0.1 * k) } }).deflection == held.deflection);
+}
