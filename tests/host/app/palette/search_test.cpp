@@ -65,7 +65,7 @@ TEST_CASE ("palette: a name comes before a keyword, and a keyword before a descr
 TEST_CASE ("palette: mistyped and shortened words find what was meant, but only if nothing else fits")
 {
     CHECK (typesFor ("gratnig").front() == "texture.grating");
-    CHECK (typesFor ("fricton").front() == "friction.elasto_plastic");
+    CHECK (typesFor ("fricton").front().starts_with ("friction."));
     CHECK (isAmong (typesFor ("elpl"), "friction.elasto_plastic", 2));
     CHECK (typesFor ("xyzzy").empty());
     for (const auto& type : typesFor ("mix"))
