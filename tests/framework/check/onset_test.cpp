@@ -225,7 +225,7 @@ TEST_CASE ("a virtual damper on any tool starts to swing within 1 % of where the
 {
     // A tool that moves freely along z in a damper without a spring. Exact, so any ratio of damping to mass will do.
     const auto growthOf = [] (const Simulation& sim, double virtual_damping, double rate_hz) {
-        double last = 0.0, speed = 0.0, first_half = 0.0, second_half = 0.0;
+        double speed = 0.0, first_half = 0.0, second_half = 0.0;
         constexpr int ticks = 4000;
         const double w = sim.damping / (sim.mass * rate_hz), a = std::exp (-w);
         double step = 1e-6;   // m, per tick
@@ -234,7 +234,6 @@ TEST_CASE ("a virtual damper on any tool starts to swing within 1 % of where the
             const double force = -virtual_damping * step * rate_hz;
             step = (sim.mass / sim.damping) * (1.0 - a) * speed + (1.0 / rate_hz - (1.0 - a) * sim.mass / sim.damping) * force / sim.damping;
             speed = a * speed + (1.0 - a) * force / sim.damping;
-            last += step;
             if (std::abs (step) > 1.0) return 1e9;
             (k < ticks / 2 ? first_half : second_half) += std::abs (step);
         }
