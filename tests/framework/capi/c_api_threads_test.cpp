@@ -69,7 +69,7 @@ TEST_CASE ("C API: while a run ticks itself, one thread edits, and others push r
     });
 
     const auto* wanted = std::getenv ("TACTUS_LIVE_SECONDS");
-    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds (wanted ? 1000 * std::atoi (wanted) : 500);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds (wanted ? 1000 * std::stoi (wanted) : 500);
     std::vector<double> rows (tactus_run_record_count (run.get()) * 1000);
     size_t collected = 0;
     int edits = 0;
@@ -125,7 +125,7 @@ TEST_CASE ("C API: a loop on a thread of its own ticks and logs, and another thr
         }
     });
     const char* ports[] = { "motor.force" };
-    std::vector<double> rows (3 * 1000);
+    std::vector<double> rows (3000);
     int broken = tactus_run_probe (run.get(), ports, 1, m.get()) != TACTUS_OK;
     size_t collected = 0;
     for (int edits = 0; edits < 30; ++edits)

@@ -286,7 +286,7 @@ TEST_CASE ("a write that never returns stops the force, and the guardian takes t
     const TemporaryFolder folder;
     FakeDriver fake;
     fake.rest_file = (folder / "device").string();
-    std::ofstream { fake.rest_file };
+    std::ofstream { fake.rest_file }.close();
     const auto alarms = host::Failsafe::alarms();
     {
         auto options = FakeDriver::usual();
@@ -344,7 +344,7 @@ TEST_CASE ("a driver that cannot write any more brings the device to rest, and i
     const TemporaryFolder folder;
     FakeDriver fake;
     fake.rest_file = (folder / "device").string();
-    std::ofstream { fake.rest_file };
+    std::ofstream { fake.rest_file }.close();
     auto options = FakeDriver::usual();
     options.silence_s = 0.2;
     Pushed run (fake, options);
@@ -379,7 +379,7 @@ TEST_CASE ("a device that comes back is not driven while its failsafe cannot be 
     const TemporaryFolder folder;
     FakeDriver fake;
     fake.rest_file = (folder / "device").string();
-    std::ofstream { fake.rest_file };
+    std::ofstream { fake.rest_file }.close();
     Pushed run (fake);
     run.push();
     std::filesystem::remove (fake.rest_file);
@@ -389,7 +389,7 @@ TEST_CASE ("a device that comes back is not driven while its failsafe cannot be 
     fake.is_gone = false;
     REQUIRE (FakeDriver::until ([&] { return run.device->trouble().starts_with ("if this program dies, nothing brings the device to rest"); }));
     CHECK_FALSE (run.device->isConnected());
-    std::ofstream { fake.rest_file };
+    std::ofstream { fake.rest_file }.close();
     REQUIRE (FakeDriver::until ([&] { return run.device->isConnected(); }));
     CHECK (run.device->trouble().empty());
     run.push();
@@ -417,7 +417,7 @@ TEST_CASE ("a device that does not come to rest at the end is left to the guardi
     const TemporaryFolder folder;
     FakeDriver fake;
     fake.rest_file = (folder / "device").string();
-    std::ofstream { fake.rest_file };
+    std::ofstream { fake.rest_file }.close();
     {
         Pushed run (fake);
         do

@@ -87,7 +87,7 @@ TEST_CASE ("stops by a signal, from threads and by the failsafe, rearms, edits a
 {
     const TemporaryFolder folder;
     const auto file = (folder / "device").string();
-    std::ofstream { file };
+    std::ofstream { file }.close();
 
     const auto sketch = pushedAndEdited();
     const CompileOptions options { .rate_hz = 1000.0 };

@@ -87,7 +87,7 @@ bool letChildrenSleep()
 /// itself.
 std::string afterDying (const std::string& file, const std::function<void()>& die, const std::string& awaited)
 {
-    std::ofstream { file };
+    std::ofstream { file }.close();
     const auto end = test::inChild ([&] {
         for (const int fault : { SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL })
             ::signal (fault, SIG_DFL);   // without the test runner's handlers
@@ -163,7 +163,7 @@ TEST_CASE ("the child of a fork neither arms a device nor writes to those of its
 {
     const TemporaryFolder folder;
     const auto file = (folder / "device").string();
-    std::ofstream { file };
+    std::ofstream { file }.close();
     const auto end = test::inChild ([&] {
         const auto failsafe = Failsafe::arm (file, rest());
         if (! failsafe) return 1;
@@ -186,7 +186,7 @@ TEST_CASE ("the handlers of a program run after the last reports, and are back w
 {
     const TemporaryFolder folder;
     const auto file = (folder / "device").string();
-    std::ofstream { file };
+    std::ofstream { file }.close();
     static constexpr int by_handler = 42;
     const auto own = [] (int) { ::_exit (by_handler); };
     const auto faults = test::inChild ([&] {
@@ -263,7 +263,7 @@ TEST_CASE ("a process that disarms its failsafe writes nothing", "[platform]")
 {
     const TemporaryFolder folder;
     const auto file = (folder / "device").string();
-    std::ofstream { file };
+    std::ofstream { file }.close();
     test::inChild ([&] {
         {
             const auto failsafe = Failsafe::arm (file, rest());
@@ -279,8 +279,8 @@ TEST_CASE ("the guardian brings the device of a frozen process to rest, and the 
 {
     const TemporaryFolder folder;
     const auto file = (folder / "device").string(), other = (folder / "other").string();
-    std::ofstream { file };
-    std::ofstream { other };
+    std::ofstream { file }.close();
+    std::ofstream { other }.close();
     const auto end = test::inChild ([&] {
         auto resting = Failsafe::arm (other, rest());   // armed first, so the guardian looks at it first
         auto driven = Failsafe::arm (file, rest());
@@ -303,7 +303,7 @@ TEST_CASE ("a process that was frozen together with its guardian finds out when 
 {
     const TemporaryFolder folder;
     const auto file = (folder / "device").string();
-    std::ofstream { file };
+    std::ofstream { file }.close();
     const auto end = test::inChild ([&] {
         auto failsafe = Failsafe::arm (file, rest());
         if (! failsafe || ! failsafe->beat (false)) return 1;
@@ -328,7 +328,7 @@ TEST_CASE ("a signal to the whole group of a process freezes it, but not the gua
     {
         INFO (signal);
         const auto file = (folder / std::to_string (signal)).string();
-        std::ofstream { file };
+        std::ofstream { file }.close();
         const auto end = test::inChild ([&] {
             ::setpgid (0, 0);   // or the test would be frozen too
             ::signal (signal, SIG_DFL);
@@ -385,7 +385,7 @@ TEST_CASE ("a process finds out that the computer has slept, before it drives a 
     constexpr int refused = 77;
     const TemporaryFolder folder;
     const auto file = (folder / "device").string();
-    std::ofstream { file };
+    std::ofstream { file }.close();
     const auto end = test::inChild ([&] {
         if (! letChildrenSleep()) return refused;
         auto failsafe = Failsafe::arm (file, rest());

@@ -160,7 +160,7 @@ TEST_CASE ("the emergency stop removes the forces while the graph keeps running,
 TEST_CASE ("an alarm of the failsafe removes the forces until someone rearms, and the messages say why", "[app][run]")
 {
     const TemporaryFolder folder;
-    std::ofstream { folder / "device" };
+    std::ofstream { folder / "device" }.close();
     const auto failsafe = Failsafe::arm ((folder / "device").string(), { { { 0 }, false } });
     REQUIRE (failsafe);
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
