@@ -85,7 +85,7 @@ std::shared_ptr<Plan> planOf (Compiled compiled)
 int main (int argc, char** argv)
 {
     if (argc != 2) return 2;
-    const int n = std::atoi (argv[1]);
+    const int n = std::stoi (argv[1]);
     graph::History history (tree (n));
     const auto& graph = history.graph();
     const auto text = writeGraph (graph);

@@ -67,7 +67,7 @@ int main (int argc, char** argv)
     engine.attach (role, *hand.device, hand.limits);
 
     Counted clock { 1.0 / graph.rate_hz };
-    Runner runner { engine, clock, graph.rate_hz, { .length = static_cast<std::uint64_t> (std::atoi (argv[2])) } };
+    Runner runner { engine, clock, graph.rate_hz, { .length = static_cast<std::uint64_t> (std::stoi (argv[2])) } };
     runner.start();
     runner.wait();
     std::printf ("%llu\n", static_cast<unsigned long long> (runner.status().ticks));

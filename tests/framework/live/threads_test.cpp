@@ -65,7 +65,7 @@ TEST_CASE ("a graph that is edited and turned from other threads keeps ticking, 
 
     std::mt19937 random { 7 };
     const auto* wanted = std::getenv ("TACTUS_LIVE_SECONDS");
-    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds (wanted ? 1000 * std::atoi (wanted) : 500);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds (wanted ? 1000 * std::stoi (wanted) : 500);
     std::size_t most_kept = 0;
     for (int i = 0; taken < 2 || std::chrono::steady_clock::now() < end; ++i)   // a busy machine may hold the ticking thread back
     {

@@ -115,7 +115,7 @@ TEST_CASE ("an editor, a turned knob, a probe reader, a recorder and a status re
 
     std::mt19937 random { 7 };
     const auto* wanted = std::getenv ("TACTUS_LIVE_SECONDS");
-    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds (wanted ? 1000 * std::atoi (wanted) : 500);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds (wanted ? 1000 * std::stoi (wanted) : 500);
     int edits = 0;
     for (; std::chrono::steady_clock::now() < end; ++edits)
     {

@@ -23,7 +23,7 @@ constexpr std::size_t reported_actions = 30;
 int numberFrom (const char* variable, int otherwise)
 {
     const auto* text = std::getenv (variable);
-    return text == nullptr ? otherwise : std::atoi (text);
+    return text == nullptr ? otherwise : std::stoi (text);
 }
 
 /// The last actions. A thread of their own prints them once if nothing happens for a minute, because a test that is ended from outside says nothing.

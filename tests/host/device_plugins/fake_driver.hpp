@@ -85,7 +85,7 @@ public:
     {
         {
             const std::lock_guard lock (mutex);
-            waiting.push_back (std::move (s));
+            waiting.push_back (s);
         }
         changed.notify_all();
     }
@@ -97,7 +97,7 @@ public:
         s.reading.valid = 1;
         s.reading.position[0] = x;
         s.number = ++number;
-        send (std::move (s));
+        send (s);
     }
 
     std::vector<Told> told() const

@@ -70,7 +70,7 @@ struct Pushed
 Reading readingOf (PluginDevice& device, FakeDriver& fake, FakeDriver::Sent sent)
 {
     const auto before = device.counts();
-    fake.send (std::move (sent));
+    fake.send (sent);
     REQUIRE (FakeDriver::until ([&] {
         const auto now = device.counts();
         return now.readings + now.refused + now.repeated > before.readings + before.refused + before.repeated;

@@ -208,7 +208,7 @@ TEST_CASE ("all presets and many random graphs give the bits of the engine with 
     const auto* given = std::getenv ("TACTUS_EXPORT_COMPILERS");
     const auto* count = std::getenv ("TACTUS_EXPORT_GRAPHS");
     std::istringstream compilers (given != nullptr ? given : "g++");
-    const unsigned graphs = count != nullptr ? static_cast<unsigned> (std::atoi (count)) : 100, graphs_per_program = 20;
+    const unsigned graphs = count != nullptr ? static_cast<unsigned> (std::stoi (count)) : 100, graphs_per_program = 20;
     for (std::string compiler; compilers >> compiler;)
     {
         ExportedProgram presets;

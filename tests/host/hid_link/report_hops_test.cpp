@@ -151,7 +151,7 @@ void print (const char* how, const Measured& m)
 TEST_CASE ("a report reaches the tick thread without a stop at another thread, an allocation or a lock", "[hid][hops][threads]")
 {
     const auto* wanted = std::getenv ("TACTUS_HOPS");
-    const int reports = wanted ? std::atoi (wanted) : 200;
+    const int reports = wanted ? std::stoi (wanted) : 200;
     const auto through = measure (false, reports, wanted != nullptr), directly = measure (true, reports, wanted != nullptr);
     if (wanted) print ("through the reading thread", through);
     if (wanted) print ("read by the tick thread   ", directly);

@@ -135,7 +135,7 @@ TEST_CASE ("stops by a signal, from threads and by the failsafe, rearms, edits a
 
     std::mt19937 random { 7 };
     const auto* wanted = std::getenv ("TACTUS_LIVE_SECONDS");
-    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds (wanted ? 1000 * std::atoi (wanted) : 500);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds (wanted ? 1000 * std::stoi (wanted) : 500);
     while (std::chrono::steady_clock::now() < end || stops < 10 || rearms < 10 || pushes < 10)
     {
         if (live.history().position() > 50)

@@ -414,7 +414,7 @@ int main (int count, char** arguments)
     if (count < 5) return 2;
     const std::string_view scenario = arguments[1];
     limits = { std::atof (arguments[2]), std::atof (arguments[3]), std::atof (arguments[4]) };
-    const auto seed = static_cast<unsigned> (count > 5 ? std::atoi (arguments[5]) : 0);
+    const auto seed = static_cast<unsigned> (count > 5 ? std::stoi (arguments[5]) : 0);
     RawHID.now_us = seed % 2 == 0 ? 0 : wrap - 3 * second;
     Watch watching;
     watch = &watching;
