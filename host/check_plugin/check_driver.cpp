@@ -41,7 +41,7 @@ using Driver = std::shared_ptr<const DeviceDriver>;
 constexpr int most_cpu_seconds = 120;          // a driver may spin while it waits
 constexpr unsigned longest_examination = 20;   // s; far longer than any examination takes on a busy computer
 constexpr auto longest_read = 50ms, late = 50ms, longest_write = 100ms;
-constexpr auto far_too_often = 20e3;   // calls per s that return at once
+constexpr auto far_too_often = 20e3;      // calls per s that return at once
 constexpr double first_reading_s = 5.0;   // for the first reading, which a busy computer may delay
 
 double secondsOf (Clock::duration d) { return std::chrono::duration<double> (d).count(); }
