@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tactus/run/device/device_numbers.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -37,6 +39,15 @@ inline double largestDamper (double mass, double damping, double period_s) noexc
     if (w < 1e-4) return 2.0 * mass / period_s + 4.0 / 3.0 * damping;   // else the differences lose digits
     const double a = std::exp (-w);
     return std::min (damping / ((1.0 - a) / w - a), damping / (1.0 - std::tanh (half) / half));
+}
+
+/// The same for a device whose mass and damping are known. If the first mode of its structure is below half the tick rate, the damper moves only the
+/// mass at the motor in a tick.
+inline double largestDamper (const DeviceNumbers& n, double period_s) noexcept
+{
+    double mass = n.mass->value;
+    if (n.first_mode && n.first_mode->value < 0.5 / period_s) mass -= n.end_mass ? n.end_mass->value : 0.5 * mass;
+    return largestDamper (mass, n.damping->value, period_s);
 }
 
 }   // namespace tactus::check

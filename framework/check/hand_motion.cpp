@@ -35,6 +35,27 @@ HandMotion recordMotion (std::shared_ptr<Plan> plan, std::span<const Hand> hands
     return motion;
 }
 
+HandMotion atRate (const HandMotion& motion, double rate_hz)
+{
+    const auto ticks = static_cast<double> (motion.ticks) * rate_hz / motion.rate_hz;
+    HandMotion other { .rate_hz = rate_hz, .ticks = std::max<std::size_t> (1, static_cast<std::size_t> (ticks)) };
+    for (const auto& role : motion.roles)
+    {
+        auto& to = other.roles.emplace_back (RoleMotion { .role = role.role, .layout = role.layout });
+        for (std::size_t k = 0; k < other.ticks; ++k)
+        {
+            const double tick = static_cast<double> (k) * motion.rate_hz / rate_hz;
+            const auto before = std::min (static_cast<std::size_t> (tick), role.readings.size() - 1), after = std::min (before + 1, role.readings.size() - 1);
+            auto reading = role.readings[before];
+            const double part = tick - static_cast<double> (before);
+            reading.position += part * (role.readings[after].position - reading.position);
+            reading.true_position += part * (role.readings[after].true_position - reading.true_position);
+            to.readings.push_back (std::move (reading));
+        }
+    }
+    return other;
+}
+
 Messages divergence (const HandMotion& motion, std::span<const Reach> reaches)
 {
     Messages all;

@@ -49,6 +49,9 @@ struct Hand
 /// run yet. [main thread]
 HandMotion recordMotion (std::shared_ptr<Plan>, std::span<const Hand>, std::size_t ticks);
 
+/// The same motion at another rate: each tick has the reading of the last tick before its time, and a position on the straight line to the next one.
+HandMotion atRate (const HandMotion&, double rate_hz);
+
 /// The box that the tool of a role can reach, in m.
 struct Reach
 {

@@ -95,7 +95,7 @@ private:
     }
 
     /// The largest b at which the virtual damper does not oscillate, in N s/m.
-    double largestDamper() const { return check::largestDamper (motorMass(), numbers.damping->value, period_s); }
+    double largestDamper() const { return check::largestDamper (numbers, period_s); }
 
     /// True if b breaks the condition `damping`. Then `stiffness` is judged without b, because b would break it too.
     bool isOverdamped() const { return numbers.damping && numbers.mass && ! (virtualDamping() < largestDamper()); }
@@ -204,19 +204,16 @@ private:
         c.remedy = "for a contact that is passive, whatever the hand does: " + c.remedy;
     }
 
-    static constexpr double at_rest = 1.0 + 1e-7;   // a tool that nothing holds has an eigenvalue of 1
-
-    /// The largest radius of the loop at a place, with any of the usual hands, if the response is this many times as large.
+    /// The largest radius of the loops at a place, with any of the usual hands, if the responses are this many times as large.
     std::optional<double> largestRadius (const Slope& s, double factor) const
     {
-        if (period_s > (1.0 + 1e-9) / demand.rate_hz || s.response.empty()) return std::nullopt;
-        auto response = s.response;
-        for (double& v : response)
-            v *= factor;
+        if (period_s > (1.0 + 1e-9) / demand.rate_hz || s.responses.empty()) return std::nullopt;
         double most = 0.0;
-        for (const auto& hand : usualHands())
+        for (auto response : s.responses)
         {
-            const auto radius = loopRadius (response, numbers, period_s, hand);
+            for (double& v : response)
+                v *= factor;
+            const auto radius = check::largestRadius (response, numbers, period_s);
             if (! radius) return std::nullopt;
             most = std::max (most, *radius);
         }

@@ -259,7 +259,13 @@ private:
         for (const auto& path : plan->delays())
             work.longest_delay = std::max (work.longest_delay, path.longest);
         std::ranges::copy (findDeadbeats(), std::back_inserter (work.without));
-        work.spots = chooseSpots (subject, motion, how.places, work.without);
+        if (how.at_s)
+        {
+            const double tick = std::clamp (*how.at_s * motion.rate_hz, 0.0, static_cast<double> (motion.ticks) - 1.0);
+            work.spots = { { tick, tick } };
+        }
+        else
+            work.spots = chooseSpots (subject, motion, how.places, work.without);
         auto all = measureSlopes (subject, motion, work);
         demand.linked = std::move (all.linked);
         demand.jumps = std::move (all.jumps);

@@ -28,9 +28,10 @@ struct Slope
     double lag = 0.0;                 ///< force that is missing because it comes late, integrated over time, per displacement, in N s/m
     double damping = 0.0;             ///< |b|: excess force while it settles, integrated over time, per displacement, in N s/m
     std::vector<double> by_node {};   ///< by node number: the largest response of the node's own forces, in N/m
-    /// The force that pulls back after a step of the tool in the steepest direction, along it, tick by tick, in N/m. Empty if there is none,
-    /// or if sections do not run on every tick.
-    std::vector<double> response {};
+    /// The force that pulls back after a step of the tool, along the step, tick by tick, in N/m: for a step in the steepest direction, and for
+    /// one in the direction of the largest excess, if that is another one. Empty if one of them cannot be measured, as if sections do not run
+    /// on every tick.
+    std::vector<std::vector<double>> responses {};
 };
 
 /// A matrix of slopes. How it gets its memory does not depend on the flags of the compiler, so a program may free what the library has made.
@@ -135,7 +136,8 @@ struct Demand
 /// How thoroughly a graph is measured. More points take longer.
 struct Thoroughness
 {
-    std::size_t places = 96;   ///< number of points at which slopes are measured: see chooseSpots()
+    std::size_t places = 96;         ///< number of points at which slopes are measured: see chooseSpots()
+    std::optional<double> at_s {};   ///< measure slopes only at this time of the motion, in s
 };
 
 /// Measures a graph along a motion that was recorded at the same rate. The result is a pure function of the arguments. Takes about

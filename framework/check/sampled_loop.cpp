@@ -124,4 +124,16 @@ std::optional<double> loopRadius (std::span<const double> response, const Device
     return Eigen::EigenSolver<LoopMatrix> (loop, false).eigenvalues().cwiseAbs().maxCoeff();
 }
 
+std::optional<double> largestRadius (std::span<const double> response, const DeviceNumbers& numbers, double period_s)
+{
+    double most = 0.0;
+    for (const auto& hand : usualHands())
+    {
+        const auto radius = loopRadius (response, numbers, period_s, hand);
+        if (! radius) return std::nullopt;
+        most = std::max (most, *radius);
+    }
+    return most;
+}
+
 }   // namespace tactus::check

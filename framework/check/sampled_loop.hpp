@@ -31,4 +31,10 @@ std::span<const HeldHand> usualHands() noexcept;
 /// if the response needs more than 64 ticks to settle. [any thread]
 std::optional<double> loopRadius (std::span<const double> response, const DeviceNumbers&, double period_s, const HeldHand&);
 
+/// The largest radius of the loop, without a hand and with the usual ones. Empty if loopRadius() is. [any thread]
+std::optional<double> largestRadius (std::span<const double> response, const DeviceNumbers&, double period_s);
+
+/// The largest radius of a loop that rests. A tool that nothing holds has an eigenvalue of 1.
+inline constexpr double at_rest = 1.0 + 1e-7;
+
 }   // namespace tactus::check

@@ -133,23 +133,39 @@ private:
     {
         const auto own = [&] (const MatrixXd& m) { return Matrix (m.block<3, 3> (first (role), first (role))); };
         // No matrix describes a nonlinear response, such as that of friction. So the stiffness is measured again in the steepest direction.
-        const Matrix settled = own (all.settled);
-        const Vec3 steepest = mostStretched (settled).direction;
-        double most = 0.0;
+        const Matrix settled = own (all.settled), excess = own (all.excess);
+        const Vec3 steepest = mostStretched (settled).direction, most_damped = mostStretched (excess).direction;
         for (int axis = 0; axis < 3; ++axis)
             slope.stiffness = std::max (slope.stiffness, settled.col (axis).norm());
-        if (slope.stiffness > 0.0)
-            for (const double sign : { -1.0, 1.0 })
-                if (const auto response = pair.respond (role, sign * steepest))
-                {
-                    const double now = response->of (role).norm();
-                    slope.stiffness = std::max (slope.stiffness, now);
-                    if (now < most) continue;
-                    most = now;
-                    slope.response = pair.pullBack (role, sign * steepest);
-                }
+        const bool is_steep = slope.stiffness > 0.0, is_damped = excess.norm() > 0.0;
+        const auto keep = [&] (std::vector<double> response) {
+            if (! response.empty()) slope.responses.push_back (std::move (response));
+        };
+        if (is_steep) keep (largestResponse (slope, role, steepest, [] (const Pair::Response& r) { return &r.settled; }));
+        const bool is_another = ! is_steep || std::abs (steepest.dot (most_damped)) < 1.0 - 1e-6;
+        if (is_damped && is_another) keep (largestResponse (slope, role, most_damped, [] (const Pair::Response& r) { return &r.excess; }));
+        if (slope.responses.size() < std::size_t { is_steep } + std::size_t { is_damped && is_another }) slope.responses.clear();
         slope.lag = mostStretched (own (all.late)).factor;
-        slope.damping = mostStretched (own (all.excess)).factor;
+        slope.damping = mostStretched (excess).factor;
+    }
+
+    /// The force that pulls back after a step in a direction, or in the opposite one if that has the larger part, tick by tick. The stiffness is
+    /// raised to what is found. Empty if there is no response.
+    template <typename Part>
+    std::vector<double> largestResponse (Slope& slope, std::size_t role, const Vec3& direction, Part&& part)
+    {
+        std::vector<double> found_most;
+        double most = 0.0;
+        for (const double sign : { -1.0, 1.0 })
+            if (const auto response = pair.respond (role, sign * direction))
+            {
+                slope.stiffness = std::max (slope.stiffness, response->of (role).norm());
+                const double now = part (*response)->template segment<3> (first (role)).norm();
+                if (now < most) continue;
+                most = now;
+                found_most = pair.pullBack (role, sign * direction);
+            }
+        return found_most;
     }
 
     VectorXd positionsAt (double tick) const

@@ -2,10 +2,8 @@
 #include <tactus/check/hands.hpp>
 #include <tactus/check/judge.hpp>
 #include <tactus/check/sampled_loop.hpp>
-#include <tactus/run/device/sim.hpp>
-#include <tactus/run/engine.hpp>
 
-#include "support/sketch.hpp"
+#include "onset.hpp"
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -16,6 +14,7 @@
 #include <vector>
 
 using namespace tactus;
+using namespace tactus::test;
 
 namespace
 {
@@ -29,16 +28,6 @@ graph::Graph wall (double stiffness, double rate_hz)
     s.node ("wall", "deform.plane", { { "stiffness", stiffness } }).wire ("hand.position -> wall.position").wire ("wall.force -> motor.force");
     s.graph.rate_hz = rate_hz;
     return s.graph;
-}
-
-constexpr double push = 1.0;   // N
-
-/// A tool at rest in the wall, a little off its equilibrium.
-Simulation resting (Simulation sim, double stiffness)
-{
-    sim.hand_force = { 0, 0, -push };
-    sim.position = { 0, 0, -1.02 * push / stiffness };
-    return sim;
 }
 
 /// The stiffness of the wall, in N/m, that just meets a condition: measured on a soft wall, and scaled up to the limit.
@@ -57,30 +46,10 @@ double predicted (const Simulation& sim, double rate_hz, std::string_view id)
     return 0.0;
 }
 
-/// Where a tool has been.
-struct Path
-{
-    double lowest = 1e9, highest = -1e9, rise = 0.0, fall = 0.0;   // rise and fall: the longest ways up and down
-
-    void to (double z)
-    {
-        lowest = std::min (lowest, z);
-        highest = std::max (highest, z);
-        rise = std::max (rise, z - lowest);
-        fall = std::max (fall, highest - z);
-    }
-
-    double range() const { return highest > lowest ? highest - lowest : 0.0; }
-
-    /// How far the tool swings. A tool that only creeps one way does not swing: if the force at one step of the sensor is F, a little above
-    /// the friction f_f, the tool creeps to the next step at (F - f_f)/B, however slow that is.
-    double swing() const { return std::min (rise, fall); }
-};
-
 /// A tool in a wall, which it may leave.
 struct Run
 {
-    Path halves[2];   // of the time
+    Trail halves[2];   // of the time
 
     Run (const Simulation& sim, double stiffness, double rate_hz, int ticks)
     {
@@ -110,11 +79,6 @@ double swing (const Simulation& sim, double stiffness, double rate_hz)
     const Run run (sim, stiffness, rate_hz, 60'000);
     return run.relative (run.halves[1].swing());
 }
-
-rc::Gen<double> between (double min, double max)
-{
-    return rc::gen::map (rc::gen::inRange (0, 1'000'001), [=] (int i) { return min * std::pow (max / min, 1e-6 * i); });
-}
 }   // namespace
 
 TEST_CASE ("a wall on a light damped tool starts to oscillate within 10 % of where the condition says", "[check]")
@@ -138,21 +102,9 @@ namespace
 /// A wall with virtual damping, from the last two positions.
 std::vector<double> dampedWall (double stiffness, double virtual_damping, double rate_hz) { return { stiffness + virtual_damping * rate_hz, stiffness }; }
 
-/// The ranges of the positions in the third and in the fourth quarter of 60 000 ticks. In the first half, the slow swing of a tool that bends dies
-/// away, which says nothing about the loop.
 std::array<double, 2> lateRanges (const Simulation& sim, double stiffness, double rate_hz)
 {
-    constexpr int ticks = 60'000;
-    SimulatedDevice device { resting (sim, stiffness) };
-    Engine engine { compile (wall (stiffness, rate_hz), catalogue()).plan };
-    engine.attach ("tip", device);
-    std::array<Path, 2> quarters;
-    for (int k = 0; k < ticks; ++k)
-    {
-        engine.tick();
-        if (2 * k >= ticks) quarters[4 * k >= 3 * ticks].to (engine.plan().roles()[0].state->reading.true_position.z());
-    }
-    return { quarters[0].range(), quarters[1].range() };
+    return test::lateRanges (wall (stiffness, rate_hz), resting (sim, stiffness));
 }
 
 /// The stiffness at which the sampled loop begins to swing, in N/m.
@@ -188,7 +140,7 @@ TEST_CASE ("the sampled loop of a wall begins to swing where simulations do, wit
                  << above[1] << " m\n";
         constexpr double rounding = 1e-13;   // m
         RC_ASSERT (below[1] < std::max (rounding, 0.999 * below[0]));
-        const double bounce = 0.5 * push / limit;   // m; a swing as large as this soon leaves the wall, and grows no more
+        const double bounce = 0.5 * pressing_n / limit;   // m; a swing as large as this soon leaves the wall, and grows no more
         RC_ASSERT (above[1] > std::max (rounding, std::min (0.999 * above[0], bounce)));
     });
 }
@@ -300,7 +252,7 @@ TEST_CASE ("if the force is a little above the friction, the tool creeps to the 
     const auto& late = run.halves[1];
     CHECK (late.swing() == 0.0);
     const double speed = late.range() * rate_hz / 29'999.0, felt = stiffness * sim.quantum * std::floor (late.lowest / sim.quantum + 0.5);
-    CHECK (-push - felt - sim.coulomb == Approx (sim.damping * speed));
+    CHECK (-pressing_n - felt - sim.coulomb == Approx (sim.damping * speed));
 
     const Simulation bends { .mass = 0.228, .damping = 116.5, .quantum = 9.295e-6, .delay = 2, .coulomb = 1.1455e-3, .first_mode = 31.95 };
     CHECK (swing (bends, 2.0 * bends.coulomb / bends.quantum, 3685.88) < 1e-9);
