@@ -55,6 +55,7 @@ struct Axes
     Quantity x {}, y {};
     std::vector<Series> series {};
     std::optional<HeatMap> map {};   // drawn below the series
+    Extent x_shown {}, y_shown {};   // the axes reach at least from end to end of these
 };
 
 /// Panels from top to bottom. Neighbours with the same x quantity share its range, with labels only under the last one.

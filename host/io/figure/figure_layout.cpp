@@ -31,6 +31,8 @@ Panel measured (const Axes& axes)
         }
     }
 
+    panel.x_values.include (axes.x_shown);
+    panel.y_values.include (axes.y_shown);
     const bool has_map = axes.map && ! axes.map->values.empty();
     if (has_map)
     {

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `tactus limits`.
+#include "program.hpp"
+
+#include <tactus/check/sampled_loop.hpp>
+#include <tactus/file/csv.hpp>
+#include <tactus/run/device/sim.hpp>
+#include <tactus/text/json.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+using namespace tactus;
+using namespace tactus::test;
+
+namespace
+{
+/// A wall on a device of 0.1 kg and 2 N s/m, at 1 kHz.
+std::string wallOn (const std::string& device = R"({ "driver": "sim", "mass": 0.1, "damping": 2, "position": [0, 0, "-1 mm"], "hand_force": [0, 0, "-2 N"] })")
+{
+    return R"({ "format": "tactus-graph", "version": 2, "name": "Wall", "rate_hz": 1000, "devices": { "tip": )" + device + R"( }, "nodes": {
+        "hand": { "type": "device.position", "role": "tip" }, "motor": { "type": "device.force", "role": "tip" },
+        "wall": { "type": "deform.plane", "params": { "stiffness": 2000, "damping": 1 } } },
+        "wires": ["hand.position -> wall.position", "wall.force -> motor.force"] })";
+}
+
+const DeviceNumbers arm = numbersOf (Simulation { .mass = 0.1, .damping = 2.0 });
+
+Table tableOf (std::vector<std::string> arguments, const std::string& file)
+{
+    arguments.insert (arguments.end(), { "-o", file });
+    const auto ran = runTactus (arguments);
+    INFO (ran.out << ran.err);
+    REQUIRE (ran.status == 0);
+    auto table = readTable (std::filesystem::path (file));
+    REQUIRE (table);
+    return *table;
+}
+
+/// Compares each row of a table with the exact loop of a wall.
+void compareWithLoop (const Table& table)
+{
+    const auto column = [&] (std::string_view name) { return table.column (name).value(); };
+    const auto rate = column ("rate (Hz)"), stiffness = column ("stiffness (N/m)"), damping = column ("damping (N*s/m)"), radius = column ("radius"),
+               load = column ("load (N*s/m)"), passive = column ("passive"), stable = column ("stable"), damper = column ("b < 2M/T + 4B/3"),
+               footnote = column ("sigma T < b + B");
+    for (std::size_t i = 0; i < table.rows(); ++i)
+    {
+        const double f = table.at (i, rate), k = table.at (i, stiffness), b = table.at (i, damping);
+        INFO (f << " Hz, " << k << " N/m, " << b << " N s/m");
+        const std::array response { k + b * f, k };
+        const double exact = check::largestRadius (response, arm, 1.0 / f).value();
+        CHECK (table.at (i, radius) == Approx (exact).epsilon (1e-5));
+        CHECK (table.at (i, load) == Approx (0.5 * k / f + b).epsilon (1e-4).margin (1e-9));
+        if (std::abs (exact - check::at_rest) > 1e-4) CHECK ((table.at (i, stable) == 1.0) == (exact <= check::at_rest));
+        CHECK ((table.at (i, passive) == 1.0) == (table.at (i, load) <= 2.0));
+        CHECK ((table.at (i, damper) == 1.0) == (b < 0.2 * f + 8.0 / 3.0));
+        CHECK ((table.at (i, footnote) == 1.0) == (k / f < b + 2.0));
+    }
+}
+}   // namespace
+
+TEST_CASE ("`tactus limits` finds the stiffness at which walls begin to swing, with and without virtual damping", "[check][cli]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("wall.json", wallOn());
+    for (const auto& [b, stiffest] : { std::pair { 0.0, 4.0e3 }, { 1.0, 6.0e3 }, { 5.0, 13.5e3 }, { 20.0, 36e3 } })
+    {
+        const auto out = scratch.path ("limits" + std::to_string (static_cast<int> (b)) + ".json");
+        const auto ran = runTactus ({ "limits", file, "--set", "wall.damping=" + std::to_string (b), "--steps", "2", "-o", out });
+        INFO (ran.out << ran.err);
+        REQUIRE (ran.status == 0);
+        const auto limits = Json::parse (textOf (out));
+        CHECK (limits.at ("stable").at ("stiffness").at ("to").get<double>() == Approx (stiffest).epsilon (0.02));
+        CHECK (limits.at ("damping").get<double>() == Approx (b).margin (1e-6));
+        if (b <= 1.0)
+            CHECK (limits.at ("passive").at ("stiffness").at ("to").get<double>() == Approx (2e3 * (2.0 - b)).epsilon (0.001));
+        else
+            CHECK (limits.at ("passive").at ("stiffness").is_null());
+        CHECK (limits.at ("largest_damper").get<double>() == Approx (202.68).epsilon (1e-4));
+    }
+}
+
+TEST_CASE ("`tactus limits` says at which stiffness, damping and rate a contact is passive, and where it rests", "[check][cli]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("wall.json", wallOn());
+    const auto ran = runTactus ({ "limits", file, "--set", "wall.damping=0" });
+    INFO (ran.out << ran.err);
+    CHECK (ran.status == 0);
+    CHECK (ran.out.find ("'wall' at ") != std::string::npos);
+    CHECK (ran.out.find ("stiffness 2e+03 N/m, virtual damping 0 N*s/m; passive\n") != std::string::npos);
+    CHECK (ran.out.find ("2e+03       at most 4e+03 ") != std::string::npos);
+    CHECK (ran.out.find ("0           at most 1 ") != std::string::npos);
+    CHECK (ran.out.find ("1e+03       at least 500 ") != std::string::npos);   // sigma/(2B)
+    CHECK (runTactus ({ "limits", file, "--set", "wall.stiffness=50000" }).out.find ("N*s/m; it swings\n") != std::string::npos);
+    CHECK (runTactus ({ "limits", file, "--set", "wall.stiffness=5000" }).out.find ("stable, but not passive") != std::string::npos);
+}
+
+TEST_CASE ("each point of a table of `tactus limits` is the exact loop of a wall", "[check][cli]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("wall.json", wallOn());
+    const auto drawn = tableOf ({ "limits", file, "--x", "stiffness=0:60000", "--y", "damping=0:250", "--steps", "6" }, scratch.path ("a.csv"));
+    CHECK (drawn.rows() == 49);
+    compareWithLoop (drawn);
+    const auto measured = tableOf ({ "limits", file, "--x", "wall.stiffness=100:40000", "--y", "wall.damping=0:100", "--steps", "4" }, scratch.path ("b.csv"));
+    CHECK (measured.rows() == 25);
+    CHECK (measured.at (24, measured.column ("wall.stiffness").value()) == 40000.0);
+    CHECK (measured.at (24, measured.column ("stiffness (N/m)").value()) == Approx (40000.0));
+    compareWithLoop (measured);
+    compareWithLoop (tableOf ({ "limits", file, "--x", "rate=300:4000", "--y", "stiffness=100:20000", "--steps", "4" }, scratch.path ("c.csv")));
+    compareWithLoop (tableOf ({ "limits", file, "--steps", "3" }, scratch.path ("d.csv")));
+}
+
+TEST_CASE ("`tactus limits` draws a picture of each kind", "[check][cli]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("wall.json", wallOn());
+    for (const auto& [name, start] : { std::pair { "a.png", "\x89PNG" }, { "a.svg", "<svg" }, { "a.pdf", "%PDF" } })
+    {
+        const auto ran = runTactus ({ "limits", file, "--steps", "8", "-o", scratch.path (name) });
+        INFO (name << ran.out << ran.err);
+        CHECK (ran.status == 0);
+        CHECK (textOf (scratch.path (name)).substr (0, 200).find (start) != std::string::npos);
+    }
+}
+
+TEST_CASE ("`tactus limits` refuses bad input, and says where it is and what would help", "[check][cli]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("wall.json", wallOn()), out = scratch.path ("out.png");
+    const auto refused = [&] (std::vector<std::string> more, int status, const std::string& words) {
+        more.insert (more.begin(), { "limits", file, "-o", out });
+        checkRefused (more, status, words, out);
+    };
+    const auto axis = [&] (const std::string& x, int status, const std::string& words) { refused ({ "--x", x, "--y", "damping=0:5" }, status, words); };
+    axis ("stiffness", 2, "is not a range in SI units, such as stiffness=0:5000");
+    axis ("stiffness=5:1", 2, "is not a range");
+    axis ("stiffness=nan:1", 2, "is not a range");
+    axis ("stiffness=-1:1", 2, "must be between 0 and 1e");
+    axis ("rate=100:1e6", 2, "at most 1e5 Hz");
+    axis ("damping=0:9", 2, "is already along --x");
+    axis ("wal.stiffness=0:1", 1, "did you mean 'wall'");
+    axis ("wall.stifness=0:1", 1, "did you mean 'stiffness'");
+    axis ("wall.normal=0:1", 1, "has no param 'normal' that is a number");
+    axis ("wall.stiffness=-5:100", 1, "wall.stiffness=-5");
+    refused ({ "--x", "stiffness=0:1" }, 2, "give both, or none");
+    refused ({ "--role", "tap" }, 1, "did you mean 'tip'");
+    checkRefused ({ "limits", file, "-o", scratch.path ("out.txt") }, 2, "should end in", scratch.path ("out.txt"));
+    checkRefused ({ "limits", scratch.write ("g.json", wallOn (R"({ "driver": "gesture", "path": "press" })")), "-o", out }, 1,
+                  "the mass of the device is not known", out);
+    checkRefused ({ "limits", scratch.write ("h.json", wallOn (R"({ "driver": "sim", "mass": 0.1, "damping": 2, "position": [0, 0, "50 mm"] })")), "-o", out }, 1,
+                  "limits/no_contact", out);
+}
