@@ -41,13 +41,19 @@ inline double largestDamper (double mass, double damping, double period_s) noexc
     return std::min (damping / ((1.0 - a) / w - a), damping / (1.0 - std::tanh (half) / half));
 }
 
-/// The same for a device whose mass and damping are known. If the first mode of its structure is below half the tick rate, the damper moves only the
-/// mass at the motor in a tick.
+/// The mass that a virtual damper moves in a tick, in kg, for a device whose mass is known: if the first mode of its structure is below half the tick
+/// rate, only the mass at the motor.
+inline double motorMass (const DeviceNumbers& n, double period_s) noexcept
+{
+    const double mass = n.mass->value;
+    if (! n.first_mode || n.first_mode->value >= 0.5 / period_s) return mass;
+    return mass - (n.end_mass ? n.end_mass->value : 0.5 * mass);
+}
+
+/// The same for a device whose mass and damping are known.
 inline double largestDamper (const DeviceNumbers& n, double period_s) noexcept
 {
-    double mass = n.mass->value;
-    if (n.first_mode && n.first_mode->value < 0.5 / period_s) mass -= n.end_mass ? n.end_mass->value : 0.5 * mass;
-    return largestDamper (mass, n.damping->value, period_s);
+    return largestDamper (motorMass (n, period_s), n.damping->value, period_s);
 }
 
 }   // namespace tactus::check

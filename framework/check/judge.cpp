@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "judging.hpp"
-#include "sampled_loop.hpp"
+#include "strongest_change.hpp"
 
 #include <algorithm>
 #include <array>
@@ -85,14 +85,7 @@ private:
         return most;
     }
 
-    /// The mass that a virtual damper moves in a tick, in kg: if the first mode of the structure is below half the tick rate, only the mass
-    /// at the motor.
-    double motorMass() const
-    {
-        const double mass = numbers.mass->value;
-        if (! numbers.first_mode || numbers.first_mode->value >= 0.5 / period_s) return mass;
-        return mass - (numbers.end_mass ? numbers.end_mass->value : 0.5 * mass);
-    }
+    double motorMass() const { return check::motorMass (numbers, period_s); }
 
     /// The largest b at which the virtual damper does not oscillate, in N s/m.
     double largestDamper() const { return check::largestDamper (numbers, period_s); }
@@ -150,74 +143,43 @@ private:
                            + left_out);
         if (! numbers.damping) return unknown (c, value, "damping");
 
-        const double limit = numbers.damping->value, room = limit - b;
+        const double limit = numbers.damping->value, room = limit - b, held = s->stiffness * period_s;
+        c.text += "; sigma T " + text (held, "N*s/m") + (held < b + limit ? " < " : " >= ") + "b + B " + text (b + limit, "N*s/m") + " (footnote 2)";
         std::string remedy = "a virtual damping below that of the device, or ";
         if (room > 0.0)
             remedy = "a stiffness of at most " + text (stiffestWall (room, period_s, late), "N/m") + ", a rate of at least "
                      + text ((value - b) / (room * period_s), "Hz") + ", or ";
         remedy += "a device with a damping of at least " + text (value, "N*s/m");
         if (const auto node = steepestNode (demand, s->by_node); ! node.empty()) remedy += "; the steepest node is " + node;
-        decide (c, value, limit, Strict::no, 1.0, remedy);
+        decideContact (c, value, limit, remedy);
         if (c.verdict == Verdict::broken) closeLoop (c);
     }
 
     /// A contact that is not passive may still come to rest: judges the loops of all places that are not passive, exactly.
     void closeLoop (Condition& c) const
     {
-        struct Place
-        {
-            const Slope* at;
-            double radius;
-        };
-        std::vector<Place> places;
+        std::vector<const std::vector<double>*> responses;
         for (const auto& s : role.slopes)
         {
             if (loadAt (s).total <= numbers.damping->value) continue;
-            const auto radius = largestRadius (s, 1.0);
-            if (! radius)
-            {
-                c.text += "; the sampled loop is not known at every place";
-                return;
-            }
-            places.push_back ({ &s, *radius });
+            if (s.responses.empty() || isSlow (demand, numbers)) return noLoop (c);
+            for (const auto& r : s.responses)
+                if (std::ranges::none_of (responses, [&] (const auto* known) { return isLike (*known, r); })) responses.push_back (&r);
         }
-        if (places.empty()) return;
-        std::ranges::sort (places, std::ranges::greater {}, &Place::radius);
-        if (places.front().radius > at_rest)
-        {
-            c.text += "; the sampled loop swings by itself";
-            return;
-        }
-        constexpr std::size_t closest = 4;   // places whose loops are nearest to swinging
-        places.resize (std::min (places.size(), closest));
-        const auto rests = [&] (double factor) {
-            return std::ranges::all_of (places, [&] (const Place& p) { return largestRadius (*p.at, factor).value_or (inf) <= at_rest; });
-        };
-        double low = 1.0, high = 2.0;
-        while (high < 1e3 && rests (high))
-            low = std::exchange (high, 2.0 * high);
-        for (int i = 0; i < 12; ++i)
-            (rests (0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
-        c.verdict = Verdict::stable;
-        c.may_grow = low;
-        c.text += "; not passive, but the sampled loop comes to rest without a hand and with usual ones, up to " + text (low) + " times this response";
-        c.remedy = "for a contact that is passive, whatever the hand does: " + c.remedy;
+        if (responses.empty()) return;
+        closeLoops (
+            c, responses, [&] (const auto* r) { return largestRadius (*r, numbers, period_s); },
+            [&] (const auto* r, double factor) { return comesToRest (scaled (*r, factor), numbers, period_s); });
+        if (c.verdict == Verdict::broken) return;
+        if (const auto best = strongestChange (*responses.front(), numbers, period_s); best && best->room > c.may_grow)
+            c.remedy = "largest effect on the loop: " + best->what + ", up to " + text (best->room) + " times this response; " + c.remedy;
     }
 
-    /// The largest radius of the loops at a place, with any of the usual hands, if the responses are this many times as large.
-    std::optional<double> largestRadius (const Slope& s, double factor) const
+    static std::vector<double> scaled (std::vector<double> response, double factor)
     {
-        if (period_s > (1.0 + 1e-9) / demand.rate_hz || s.responses.empty()) return std::nullopt;
-        double most = 0.0;
-        for (auto response : s.responses)
-        {
-            for (double& v : response)
-                v *= factor;
-            const auto radius = check::largestRadius (response, numbers, period_s);
-            if (! radius) return std::nullopt;
-            most = std::max (most, *radius);
-        }
-        return most;
+        for (double& v : response)
+            v *= factor;
+        return response;
     }
 
     void damping()
@@ -409,14 +371,14 @@ private:
 
 std::string_view nameOf (Verdict verdict) noexcept
 {
-    constexpr std::array<std::string_view, 6> names { "holds", "close", "stable", "broken", "unknown", "not reached" };
+    constexpr std::array<std::string_view, 8> names { "holds", "close", "passive", "stable", "unstable", "broken", "unknown", "not reached" };
     return names[static_cast<std::size_t> (verdict)];
 }
 
 double Condition::margin() const noexcept
 {
     if (! isKnown()) return 0.0;
-    if (verdict == Verdict::stable) return may_grow;
+    if (verdict == Verdict::stable || verdict == Verdict::unstable) return may_grow;
     return value > 0.0 ? limit / value : inf;
 }
 
@@ -435,7 +397,7 @@ std::vector<Condition> judge (const Demand& demand, std::span<const RoleDevice> 
 
 bool isBroken (std::span<const Condition> all) noexcept
 {
-    return std::ranges::any_of (all, [] (const Condition& c) { return c.verdict == Verdict::broken; });
+    return std::ranges::any_of (all, &Condition::isBroken);
 }
 
 }   // namespace tactus::check

@@ -24,14 +24,16 @@ namespace tactus::check
 enum class Verdict
 {
     holds,
-    close,    ///< holds, but not by the factor that the chapter recommends
-    stable,   ///< `stiffness` does not hold, so the contact is not passive; but its sampled loop comes to rest without a hand and with usual ones
-    broken,
+    close,         ///< holds, but not by the factor that the chapter recommends
+    passive,       ///< `stiffness` and `coupling` hold: the contact returns no energy, whatever the hand does
+    stable,        ///< they do not hold, but the sampled loop comes to rest without a hand and with the usual ones
+    unstable,      ///< they do not hold, and the sampled loop swings without a hand or with one of the usual ones
+    broken,        ///< does not hold; `stiffness` and `coupling`: nor is the sampled loop known
     unknown,       ///< a number of the device is not known
     not_reached,   ///< the motion did not reach the node, so nothing about it was judged
 };
 
-/// "holds", "close", "stable", "broken", "unknown" or "not reached".
+/// "holds", "close", "passive", "stable", "unstable", "broken", "unknown" or "not reached".
 std::string_view nameOf (Verdict) noexcept;
 
 /// One condition, for a role or for one node of the role.
@@ -47,11 +49,14 @@ struct Condition
     Verdict verdict = Verdict::unknown;
     std::string text {};     ///< the numbers behind the verdict, in one sentence
     std::string remedy {};   ///< what would help; empty if the condition holds
-    double may_grow = 0.0;   ///< for the verdict `stable`: how many times the response could grow before the loop swings
+    double may_grow = 0.0;   ///< for the verdicts `stable` and `unstable`: how many times the response could be as large before the loop swings
 
     bool isKnown() const noexcept { return verdict != Verdict::unknown && verdict != Verdict::not_reached; }   ///< value and limit have a meaning
 
-    /// The factor by which the value could grow: above 1 if the condition holds, 0 if it is not known, infinite if the value is 0.
+    bool isBroken() const noexcept { return verdict == Verdict::broken || verdict == Verdict::unstable; }
+
+    /// The factor by which the value could grow: above 1 if the condition holds, 0 if it is not known, infinite if the value is 0. For `stable` and
+    /// `unstable`: may_grow.
     double margin() const noexcept;
 };
 

@@ -99,6 +99,7 @@ private:
         double most = 0.0;
         const Linked* at = nullptr;
         std::size_t member = 0;
+        std::vector<double> loads;
         for (const auto& place : demand.linked)
         {
             const MatrixXd k = over.asDiagonal() * MatrixXd (hold.asDiagonal() * of (place.settled)) * over.asDiagonal();
@@ -108,6 +109,7 @@ private:
             const double held = parts.eigenvalues().cwiseAbs().maxCoeff (&worst);
             const auto scaled = [&] (const MatrixXd& m) { return norm (over.asDiagonal() * of (m) * over.asDiagonal()); };
             const double load = held + scaled (place.late) + scaled (place.excess);
+            loads.push_back (load);
             if (at != nullptr && load <= most) continue;
             most = load;
             at = &place;
@@ -118,7 +120,42 @@ private:
         auto remedy = "all stiffnesses and dampings " + text (1.0 / most) + " times as large, a rate " + text (most) + " times as high, or devices with "
                       + text (most) + " times the damping";
         if (const auto node = steepestNode (demand, at->by_node); ! node.empty()) remedy += "; the steepest node is " + node;
-        decide (c, most, 1.0, Strict::no, 1.0, remedy);
+        decideContact (c, most, 1.0, remedy);
+        if (c.verdict == Verdict::broken) closeLoop (c, loads);
+    }
+
+    /// Judges the loops of all hands together at the places that are not passive, exactly.
+    void closeLoop (Condition& c, std::span<const double> loads) const
+    {
+        if (! know (&DeviceNumbers::mass)) return noLoop (c);
+        std::vector<const DeviceNumbers*> axes;
+        for (const auto& n : numbers)
+        {
+            if (isSlow (demand, n)) return noLoop (c);
+            axes.insert (axes.end(), 3, &n);
+        }
+        std::vector<std::vector<Jacobian>> responses;
+        for (std::size_t i = 0; i < loads.size(); ++i)
+        {
+            if (loads[i] <= 1.0) continue;
+            if (demand.linked[i].responses.empty()) return noLoop (c);
+            std::vector<Jacobian> response;
+            for (const auto& m : demand.linked[i].responses)
+                response.emplace_back (of (m));
+            if (std::ranges::none_of (responses, [&] (const auto& known) { return isLike (known, response); })) responses.push_back (std::move (response));
+        }
+        const double period_s = 1.0 / demand.rate_hz;
+        std::vector<const std::vector<Jacobian>*> places;
+        for (const auto& r : responses)
+            places.push_back (&r);
+        closeLoops (
+            c, places, [&] (const auto* r) { return largestRadius (*r, axes, period_s); },
+            [&] (const auto* r, double factor) {
+                auto larger = *r;
+                for (auto& m : larger)
+                    m *= factor;
+                return comesToRest (larger, axes, period_s);
+            });
     }
 
     std::string names() const

@@ -2,9 +2,16 @@
 #pragma once
 
 #include "judge.hpp"
+#include "sampled_loop.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <functional>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 /// What judge.cpp, judge_deadbeat.cpp and judge_links.cpp share.
 namespace tactus::check::judging
@@ -37,6 +44,66 @@ inline void decide (Condition& c, double value, double limit, Strict strict, dou
     if (c.verdict == Verdict::broken || c.verdict == Verdict::close) c.remedy = remedy;
 }
 
+/// The same for `stiffness` and `coupling`: passive or broken.
+inline void decideContact (Condition& c, double value, double limit, const std::string& remedy)
+{
+    decide (c, value, limit, Strict::no, 1.0, remedy);
+    if (c.verdict == Verdict::holds) c.verdict = Verdict::passive;
+}
+
+/// True if two responses differ by less than the error of a measurement.
+template <typename Response>
+bool isLike (const Response& a, const Response& b)
+{
+    constexpr double rounding = 1e-6;   // relative
+    const auto size = [] (const auto& v) {
+        if constexpr (std::is_arithmetic_v<std::decay_t<decltype (v)>>)
+            return std::abs (v);
+        else
+            return v.norm();
+    };
+    if (a.size() != b.size()) return false;
+    double most = 0.0, apart = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k)
+    {
+        most = std::max (most, size (a[k]));
+        const auto difference = a[k] - b[k];
+        apart = std::max (apart, size (difference));
+    }
+    return apart <= rounding * most;
+}
+
+inline void noLoop (Condition& c) { c.text += "; the sampled loop is not known at every place"; }
+
+/// Judges the sampled loops of contacts that are not passive, each with a largest radius (empty if it is not known), and whether it rests if its response
+/// is several times as large. The one that is nearest to swinging comes first.
+template <typename Place, typename Radius, typename Rests>
+void closeLoops (Condition& c, std::vector<Place>& places, Radius&& radius, Rests&& rests)
+{
+    std::vector<std::pair<double, Place>> sorted;
+    for (const auto& place : places)
+    {
+        const std::optional<double> at = radius (place);
+        if (! at) return noLoop (c);
+        sorted.emplace_back (*at, place);
+    }
+    std::ranges::stable_sort (sorted, std::ranges::greater {}, &std::pair<double, Place>::first);
+    for (std::size_t i = 0; i < places.size(); ++i)
+        places[i] = sorted[i].second;
+    constexpr std::size_t closest = 4;
+    const auto some = std::min (places.size(), closest);
+    c.may_grow = roomToGrow ([&] (double factor) {
+        return std::all_of (places.begin(), places.begin() + static_cast<std::ptrdiff_t> (some), [&] (const Place& p) { return rests (p, factor); });
+    });
+    const bool swings = sorted.front().first > at_rest;
+    c.verdict = swings ? Verdict::unstable : Verdict::stable;
+    if (swings)
+        c.text += "; the sampled loop swings, and would rest with " + text (c.may_grow) + " times this response";
+    else
+        c.text += "; not passive, but the sampled loop comes to rest without a hand and with usual ones, up to " + text (c.may_grow) + " times this response";
+    c.remedy = "for a contact that is passive, whatever the hand does: " + c.remedy;
+}
+
 inline void unknown (Condition& c, double value, std::string_view missing)
 {
     c.value = value;
@@ -49,6 +116,9 @@ inline double periodOf (const Demand& demand, const DeviceNumbers& n) noexcept
     const double own = n.rate && n.rate->value > 0.0 ? 1.0 / n.rate->value : 0.0;
     return std::max (own, 1.0 / demand.rate_hz);
 }
+
+/// True if a device is slower than the graph: a force may then be held for several ticks, and the sampled loop is not known.
+inline bool isSlow (const Demand& demand, const DeviceNumbers& n) noexcept { return periodOf (demand, n) > (1.0 + 1e-9) / demand.rate_hz; }
 
 inline double delayOf (const DeviceNumbers& n) noexcept { return n.delay ? n.delay->value : 0.0; }
 

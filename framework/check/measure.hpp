@@ -43,9 +43,12 @@ using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Do
 struct Linked
 {
     double t_s = 0.0;
-    Jacobian settled {};              ///< force per displacement once the force has settled, in N/m
-    Jacobian late {};                 ///< force that is missing because it comes late, integrated over time, per displacement, in N s/m
-    Jacobian excess {};               ///< excess force while it settles, integrated over time, per displacement, in N s/m
+    Jacobian settled {};   ///< force per displacement once the force has settled, in N/m
+    Jacobian late {};      ///< force that is missing because it comes late, integrated over time, per displacement, in N s/m
+    Jacobian excess {};    ///< excess force while it settles, integrated over time, per displacement, in N s/m
+    /// The force after a step of the tools, tick by tick, in N/m; the last one lasts. Empty if it takes more than 64 ticks, or if sections do not
+    /// run on every tick.
+    std::vector<Jacobian> responses {};
     std::vector<double> by_node {};   ///< as in Slope: the largest response over all roles
     bool is_smooth = true;            ///< true if opposite displacements have opposite responses; false for friction
 };
@@ -88,6 +91,7 @@ struct Deadbeat
     std::size_t node = 0;
     std::string role;
     double mass = 0.0;                        ///< the mass that the node assumes, in kg; 0: that of the device
+    double damping = 0.0;                     ///< of this mass, in N s/m; 0: that of the device
     double stiffness = 0.0;                   ///< N/m
     double delay = 0.0;                       ///< the delay that the node assumes, in ticks
     std::int64_t shortest = 0, longest = 0;   ///< delays of the compiled paths from the role's sources to its sinks, in ticks

@@ -5,6 +5,7 @@
 #include "spots.hpp"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace tactus::check
@@ -40,6 +41,9 @@ public:
     /// The part of the last response() of a role that pulls back along the direction, tick by tick, in N/m. Empty if sections do not run on
     /// every tick: the response then depends on the tick of the shift.
     std::vector<double> pullBack (std::size_t role, const Vec3& direction) const;
+
+    /// The last response(), per metre, at each tick after the shift. Empty if sections do not run on every tick.
+    std::span<const Eigen::VectorXd> lastPath() const noexcept { return period > 1 ? std::span<const Eigen::VectorXd>() : path; }
 
     /// How the forces of all roles change, in N, if the tools of one copy move to their positions at another time of the motion, while
     /// those of the other copy stay.

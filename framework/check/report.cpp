@@ -90,7 +90,7 @@ Json toJson (const Demand& demand, std::span<const RoleDevice> devices, std::spa
     j["conditions"] = Json::array();
     for (const auto& c : conditions)
         j["conditions"].push_back (toJson (c));
-    j["broken"] = std::ranges::count (conditions, Verdict::broken, &Condition::verdict);
+    j["broken"] = std::ranges::count_if (conditions, &Condition::isBroken);
     return j;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "measure.hpp"
+
 #include <tactus/run/device/device_numbers.hpp>
 
 #include <optional>
@@ -17,9 +19,14 @@ struct HeldHand
     double stiffness = 0.0;   ///< N/m
 };
 
-/// No hand, and the fingertips of Hajian & Howe (1997, "Identification of the mechanical impedance at the human finger tip"): about 6 g,
-/// 2 to 4 N s/m and 200 to 800 N/m.
+/// No hand; the corners of the range of fingertips of Hajian & Howe (1997, "Identification of the mechanical impedance at the human finger tip"): about
+/// 6 g, 2 to 4 N s/m and 200 to 800 N/m; and an arm that holds a handle, of van Beek, Bergmann Tiest, Mugge & Kappers (2015, "Haptic perception of force
+/// magnitude and its relation to postural arm dynamics in 3D", figure 3): 0.554 kg, 6.45 N s/m and 135 N/m.
 std::span<const HeldHand> usualHands() noexcept;
+
+/// How a device and a hand move in a tick: the states after it (the position and the speed of the sensor come first), from those before and, in the last
+/// column, a force that is held. The mass and the damping of the device must be known. [any thread]
+Jacobian heldMotion (const DeviceNumbers&, double period_s, const HeldHand&);
 
 /// The loop of a device, a hand and a graph that was linearised at one place: exact between the ticks, under a force that is held.
 ///
@@ -31,10 +38,41 @@ std::span<const HeldHand> usualHands() noexcept;
 /// if the response needs more than 64 ticks to settle. [any thread]
 std::optional<double> loopRadius (std::span<const double> response, const DeviceNumbers&, double period_s, const HeldHand&);
 
+/// The same for several axes, of one device or of several, each with such a hand. `axes` are the devices of the rows and columns of the response. Empty
+/// also if the loop has more than 64 states. [any thread]
+std::optional<double> loopRadius (std::span<const Jacobian> response, std::span<const DeviceNumbers* const> axes, double period_s, const HeldHand&);
+
 /// The largest radius of the loop, without a hand and with the usual ones. Empty if loopRadius() is. [any thread]
 std::optional<double> largestRadius (std::span<const double> response, const DeviceNumbers&, double period_s);
+std::optional<double> largestRadius (std::span<const Jacobian> response, std::span<const DeviceNumbers* const> axes, double period_s);
 
 /// The largest radius of a loop that rests. A tool that nothing holds has an eigenvalue of 1.
 inline constexpr double at_rest = 1.0 + 1e-7;
+
+/// True if the loop comes to rest without a hand and with each of the usual ones; false also if loopRadius() is empty. [any thread]
+bool comesToRest (std::span<const double> response, const DeviceNumbers&, double period_s);
+bool comesToRest (std::span<const Jacobian> response, std::span<const DeviceNumbers* const> axes, double period_s);
+
+/// How many times a response could be as large before its loop swings, given whether it rests if it is so many times as large: within a thousandth.
+/// Above 1 if the loop rests, and below 1 if it swings; 0 if it swings even at a thousandth of the response. At most 1000.
+template <typename Rests>
+double roomToGrow (Rests&& rests)
+{
+    constexpr double most = 1e3;
+    double low = 1.0, high = 1.0;   // rests, swings
+    if (rests (1.0))
+        for (high = 2.0; high < most && rests (high); high *= 2.0)
+            low = high;
+    else
+    {
+        for (low = 0.5; low > 1.0 / most && ! rests (low); low *= 0.5)
+            high = low;
+        if (! (low > 1.0 / most)) return 0.0;
+    }
+    if (high >= most) return most;
+    while (high > 1.001 * low)
+        (rests (0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+    return low;
+}
 
 }   // namespace tactus::check

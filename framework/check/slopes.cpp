@@ -84,12 +84,44 @@ private:
         // So far, the matrices describe the force on the tool. In Linked, a positive number pulls the tool back.
         for (auto* m : { &all.settled, &all.late, &all.excess })
             *m = -*m;
+        shorten (all.responses);
         for (std::size_t r = 0; r < roles; ++r)
             for (std::size_t n = 0; n < pair.nodes(); ++n)
                 all.by_node[n] = std::max (all.by_node[n], found.by_role[r].back().by_node[n]);
         const double steepest = all.settled.norm();
         found.linked.push_back (std::move (all));
         return steepest;
+    }
+
+    /// Leaves out the ticks at the end at which nothing changes; all of them if the rest is too long for a loop.
+    static void shorten (std::vector<MatrixXd>& responses)
+    {
+        constexpr std::size_t longest = 64;   // ticks
+        constexpr double matters = 1e-6;      // relative
+        for (auto& m : responses)
+            m = -m;
+        double most = 0.0;
+        for (const auto& m : responses)
+            most = std::max (most, m.norm());
+        while (responses.size() > 1 && (responses[responses.size() - 2] - responses.back()).norm() <= matters * most)
+            responses.pop_back();
+        if (responses.size() > longest) responses.clear();
+    }
+
+    /// Fills in the column of a shift in the responses of all forces, tick by tick.
+    void keepPath (Linked& all, Eigen::Index column, double sign, const Pair::Response& response) const
+    {
+        const auto path = pair.lastPath();
+        if (path.size() > all.responses.size())
+            all.responses.resize (path.size(), all.responses.empty() ? MatrixXd (MatrixXd::Zero (first (roles), first (roles))) : all.responses.back());
+        for (std::size_t k = 0; k < all.responses.size() && ! path.empty(); ++k)
+            for (std::size_t r = 0; r < roles; ++r)
+            {
+                // respond() leaves out the forces of a role that do not grow in proportion to the shift.
+                const auto its = [&] (const VectorXd& v) { return v.segment<3> (first (r)); };
+                const bool counts = its (response.settled).squaredNorm() + its (response.excess).squaredNorm() + its (response.late).squaredNorm() > 0.0;
+                all.responses[k].block<3, 1> (first (r), column) = counts ? Vec3 (sign * its (path[std::min (k, path.size() - 1)])) : Vec3 (Vec3::Zero());
+            }
     }
 
     /// Shifts the tool of a role along each axis, in both directions, and fills in the columns of the role in the matrices. The
@@ -102,6 +134,7 @@ private:
         {
             const auto column = first (role) + axis;
             own[at (axis)].assign (pair.numberOfForces(), 0.0);
+            double most_felt = -1.0;
             std::array<VectorXd, 2> sides { VectorXd::Zero (first (roles)), VectorXd::Zero (first (roles)) };
             for (const double sign : { -1.0, 1.0 })
                 if (const auto response = pair.respond (role, sign * Vec3::Unit (axis)))
@@ -114,6 +147,9 @@ private:
                     keep (all.settled, response->settled);
                     keep (all.late, response->late);
                     keep (all.excess, response->excess);
+                    const double felt = response->settled.norm() * holding_s() + response->late.norm() + response->excess.norm();
+                    if (felt > most_felt) keepPath (all, column, sign, *response);
+                    most_felt = std::max (most_felt, felt);
                     own[at (axis)] = pair.ownResponses();
                     pair.raise (slope.by_node);
                     sides[sign > 0.0] = sign * response->settled;
@@ -167,6 +203,8 @@ private:
             }
         return found_most;
     }
+
+    double holding_s() const noexcept { return 0.5 / motion.rate_hz; }
 
     VectorXd positionsAt (double tick) const
     {

@@ -61,7 +61,7 @@ std::string describe (const check::Condition& c)
         line += padded (number (c.value) + " of " + (c.isKnown() ? number (c.limit) : "?") + (c.unit == "1" ? "" : " " + std::string (c.unit)), 28);
     if (c.isKnown()) line += padded ("margin " + number (c.margin()), 18);
     line += std::string (c.law) + '\n';
-    if (c.verdict == check::Verdict::holds) return line;
+    if (c.verdict == check::Verdict::holds || c.verdict == check::Verdict::passive) return line;
     line += "              " + c.text + '\n';
     if (! c.remedy.empty()) line += "              " + std::string (c.verdict == check::Verdict::unknown ? "" : "would help: ") + c.remedy + '\n';
     return line;
@@ -96,13 +96,13 @@ void print (const CheckOptions& options, const check::Demand& demand, const std:
             if (c.role == role.role)
             {
                 std::cout << describe (c);
-                is_broken = is_broken || c.verdict == check::Verdict::broken;
+                is_broken = is_broken || c.isBroken();
             }
         if (role.has_other_efforts) std::cout << "  its torques, axes and signals are not judged\n";
         if (const auto able = is_broken ? ableDevices (demand, role.role, options.judge, profiles) : ""; ! able.empty())
             std::cout << "  profiles that break no condition, as far as their numbers are known: " << able << '\n';
     }
-    const auto broken = std::ranges::count (conditions, check::Verdict::broken, &check::Condition::verdict);
+    const auto broken = std::ranges::count_if (conditions, &check::Condition::isBroken);
     std::cout << (broken == 0 ? "no condition is broken" : std::to_string (broken) + (broken == 1 ? " condition is broken" : " conditions are broken"))
               << "; not everything can be judged: try it by hand\n";
 }

@@ -135,7 +135,7 @@ std::string brokenOn (const std::vector<check::RoleDevice>& devices, const check
 {
     std::string broken;
     for (const auto& c : check::judge (demand, devices))
-        if (c.verdict == check::Verdict::broken && broken.find (c.id) == broken.npos) broken += (broken.empty() ? "" : ", ") + std::string (c.id);
+        if (c.isBroken() && broken.find (c.id) == broken.npos) broken += (broken.empty() ? "" : ", ") + std::string (c.id);
     return broken;
 }
 

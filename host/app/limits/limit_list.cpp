@@ -142,7 +142,7 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
     LimitList list;
     for (const auto& c : check::judge (demand, devices))
     {
-        const bool is_broken = c.verdict == check::Verdict::broken;
+        const bool is_broken = c.isBroken();
         if (c.verdict == check::Verdict::not_reached)
             ++list.not_reached;
         else if (c.verdict == check::Verdict::unknown)

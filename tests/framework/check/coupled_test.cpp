@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <tactus/check/sampled_loop.hpp>
+
 #include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
 
 #include "loops.hpp"
 
@@ -14,7 +17,7 @@ constexpr double T = 1e-3;   // s
 bool isJudgedUnstable (const std::vector<check::Condition>& all)
 {
     return std::ranges::any_of (all, [] (const check::Condition& c) {
-        return c.verdict == check::Verdict::broken && (c.id == "stiffness" || c.id == "coupling" || c.id == "curl" || c.id == "damping" || c.id == "jump");
+        return c.isBroken() && (c.id == "stiffness" || c.id == "coupling" || c.id == "curl" || c.id == "damping" || c.id == "jump");
     });
 }
 }   // namespace
@@ -27,6 +30,68 @@ TEST_CASE ("two hands that are stable alone but explode together break 'coupling
     const auto all = loops.conditions();
     INFO (test::describe (all));
     CHECK (test::brokenIds (all).substr (2) == ":coupling");
+}
+
+TEST_CASE ("two hands on a spring begin to swing where the sampled loop of both does, within 2 %", "[check]")
+{
+    rc::prop ("masses, dampings, delays, rates", [] {
+        const auto pick = [] (double low, double high) { return low * std::pow (high / low, 1e-6 * *rc::gen::inRange (0, 1'000'001)); };
+        Loops loops { .rate_hz = pick (1e3, 10e3), .tools = {} };
+        std::vector<DeviceNumbers> numbers;
+        for (int i = 0; i < 2; ++i)
+        {
+            const double mass = pick (0.03, 0.5);
+            loops.tools.push_back ({ .mass = mass, .damping = pick (0.01, 0.2) * mass * loops.rate_hz, .delay = *rc::gen::inRange (0, 3) });
+            numbers.push_back (numbersOf (loops.tools.back()));
+        }
+        const double soft = 10.0;   // N/m; the spring is linear, so its loop can be scaled
+        const int late = *rc::gen::inRange (0, 3);
+        loops.spring ("h0.x", "h1.x", soft, late);
+        const auto demand = loops.demand();
+        const auto& response = demand.linked.at (0).responses;
+        RC_ASSERT (response.size() == std::size_t (1 + late));
+        const std::vector<const DeviceNumbers*> axes { &numbers[0], &numbers[0], &numbers[0], &numbers[1], &numbers[1], &numbers[1] };
+        const double room = check::roomToGrow ([&] (double factor) {
+            auto larger = response;
+            for (auto& m : larger)
+                m *= 1e3 * factor;
+            return check::loopRadius (larger, axes, 1.0 / loops.rate_hz, {}).value() <= check::at_rest;
+        });
+        RC_PRE (room > 0.0 && room < 1e3);
+        const auto growth = [&] (double part) {
+            Loops real { .rate_hz = loops.rate_hz, .tools = loops.tools };
+            real.spring ("h0.x", "h1.x", part * room * 1e3 * soft, late);
+            return real.growth (60'000);
+        };
+        const double below = growth (0.98), above = growth (1.02);
+        RC_LOG() << "limit " << room * 1e3 * soft << " N/m, at 0.98: " << below << ", at 1.02: " << above << '\n';
+        RC_ASSERT (below < 1.0);
+        RC_ASSERT (above > 1.0);
+    });
+}
+
+TEST_CASE ("two hands that are not passive together are called stable if they rest, and unstable if they swing", "[check]")
+{
+    const auto verdictAt = [] (double stiffness) {
+        Loops loops { .tools = { { .mass = 0.05, .damping = 5.0 }, { .mass = 0.3, .damping = 1.0, .delay = 1 } } };
+        loops.spring ("h0.x", "h1.x", stiffness);
+        const auto all = loops.conditions();
+        const auto coupling = std::ranges::find (all, "coupling", &check::Condition::id);
+        REQUIRE (coupling != all.end());
+        INFO (test::describe (all));
+        const double growth = loops.growth (60'000);
+        CHECK ((growth < 1.0) == ! coupling->isBroken());
+        if (coupling->verdict != check::Verdict::passive)
+        {
+            Loops at_limit { .tools = loops.tools };
+            at_limit.spring ("h0.x", "h1.x", 0.98 * coupling->may_grow * stiffness);   // the usual hands make no difference here
+            CHECK (at_limit.growth (60'000) < 1.0);
+        }
+        return coupling->verdict;
+    };
+    CHECK (verdictAt (400.0) == check::Verdict::passive);
+    CHECK (verdictAt (800.0) == check::Verdict::stable);
+    CHECK (verdictAt (10e3) == check::Verdict::unstable);
 }
 
 TEST_CASE ("a spring between two hands is judged as the condition on the whole Jacobian says", "[check]")
@@ -43,9 +108,11 @@ TEST_CASE ("a spring between two hands is judged as the condition on the whole J
             const auto all = loops.conditions();
             INFO (factor << '\n'
                          << test::describe (all));
-            if (factor > 1.0 || a.delay == b.delay) CHECK (isJudgedUnstable (all) == (factor > 1.0));
+            const auto coupling = std::ranges::find (all, "coupling", &check::Condition::id);
+            if (factor > 1.0 || a.delay == b.delay) CHECK ((coupling->verdict == check::Verdict::passive) == (factor < 1.0));
             if (factor < 1.0) CHECK (loops.growth (10'000) < 1.0);
             if (factor > 1.0 && a.mass == b.mass) CHECK (loops.growth (10'000) > 1.0);
+            if (factor > 1.0 && a.mass == b.mass) CHECK (isJudgedUnstable (all));
         }
     }
 }

@@ -212,23 +212,29 @@ struct Loops
     /// Judges the loop along a slow sweep of a centimetre around the equilibrium.
     std::vector<check::Condition> conditions (double half_box = 5e-3, check::Thoroughness how = { .places = 6 }) const
     {
+        std::vector<check::RoleDevice> devices;
+        for (std::size_t i = 0; i < tools.size(); ++i)
+            devices.push_back ({ hand (i), numbersOf (tools[i]), "sim" });
+        return check::judge (demand (half_box, how), devices);
+    }
+
+    check::Demand demand (double half_box = 5e-3, check::Thoroughness how = { .places = 6 }) const
+    {
         const auto g = graph();
         const check::Subject subject { g, catalogue(), options() };
         std::vector<std::unique_ptr<check::SweepDevice>> sweeps;
         std::vector<check::Hand> hands;
-        std::vector<check::RoleDevice> devices;
         for (std::size_t i = 0; i < tools.size(); ++i)
         {
             sweeps.push_back (std::make_unique<check::SweepDevice> (Vec3 (Vec3::Constant (-half_box)), Vec3 (Vec3::Constant (half_box)),
                                                                     1.0 + 0.37 * double (i)));
             hands.push_back ({ hand (i), *sweeps.back() });
-            devices.push_back ({ hand (i), numbersOf (tools[i]), "sim" });
         }
         auto compiled = compile (g, catalogue(), options());
         INFO (test::text (compiled.messages));
         REQUIRE (compiled.plan);
         const auto motion = check::recordMotion (compiled.plan, hands, static_cast<std::size_t> (rate_hz));
-        return check::judge (check::measure (subject, motion, how), devices);
+        return check::measure (subject, motion, how);
     }
 
     /// Lets the tools go a little off their equilibrium. Returns their largest distance from it in the last quarter of the run, divided by
@@ -294,7 +300,7 @@ inline std::string brokenIds (const std::vector<check::Condition>& all)
 {
     std::string ids;
     for (const auto& c : all)
-        if (c.verdict == check::Verdict::broken) ids += (ids.empty() ? "" : " ") + c.role + ":" + std::string (c.id);
+        if (c.isBroken()) ids += (ids.empty() ? "" : " ") + c.role + ":" + std::string (c.id);
     return ids;
 }
 

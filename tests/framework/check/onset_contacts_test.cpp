@@ -3,6 +3,7 @@
 #include <tactus/check/hands.hpp>
 #include <tactus/check/judge.hpp>
 #include <tactus/check/sampled_loop.hpp>
+#include <tactus/check/strongest_change.hpp>
 
 #include "onset.hpp"
 
@@ -131,7 +132,7 @@ TEST_CASE ("a wall of 20 kN/m rests with the predictive hold and bounces without
     CHECK (lateRanges (held, pressed)[1] < 1e-12);
     CHECK (stiffnessOf (held, pressed).verdict == check::Verdict::stable);
     CHECK (lateRanges (plain, pressed)[1] > 0.5 / 20e3);
-    CHECK (stiffnessOf (plain, pressed).verdict == check::Verdict::broken);
+    CHECK (stiffnessOf (plain, pressed).verdict == check::Verdict::unstable);
 }
 
 TEST_CASE ("a pure damper that is not passive, but does not swing, is stable", "[check]")
@@ -145,13 +146,13 @@ TEST_CASE ("a pure damper that is not passive, but does not swing, is stable", "
     REQUIRE (slope.responses.size() == 1);
     CHECK (slope.responses[0][0] == Approx (50e3));
     CHECK (slope.responses[0][1] == Approx (0.0).margin (1.0));
-    CHECK (stiffnessOf (damped (0.0, 1.9, 1000.0), arm).verdict == check::Verdict::holds);
+    CHECK (stiffnessOf (damped (0.0, 1.9, 1000.0), arm).verdict == check::Verdict::passive);
     const auto stable = stiffnessOf (damped (0.0, 50.0, 1000.0), arm);
     CHECK (stable.verdict == check::Verdict::stable);
     CHECK (stable.margin() == Approx (202.68 / 50.0).epsilon (0.01));
 
     const Simulation late { .mass = 0.1, .damping = 2.0, .delay = 3, .position = { 0, 0, -0.01 } };   // so late that it swings far below 2M/T
-    CHECK (stiffnessOf (damped (0.0, 50.0, 1000.0), late).verdict == check::Verdict::broken);
+    CHECK (stiffnessOf (damped (0.0, 50.0, 1000.0), late).verdict == check::Verdict::unstable);
 }
 
 TEST_CASE ("a wall that is damped along another axis than it is stiff is judged along both", "[check]")
@@ -167,4 +168,50 @@ TEST_CASE ("a wall that is damped along another axis than it is stiff is judged 
     s = Sketch {};
     s.graph = damped (3e3, 0.0, 1000.0);
     CHECK (demandOf (s.graph, pressed).roles.at (0).slopes.at (0).responses.size() == 1);
+}
+
+TEST_CASE ("a wall that rests at the corners of the range of fingertips rests with every fingertip between them", "[check]")
+{
+    rc::prop ("walls, devices, fingertips", [] {
+        const double rate_hz = *between (500.0, 20e3), mass = *between (0.01, 1.0), b = *rc::gen::element (0.0, 1.0) * *between (1e-3, 1.5) * mass * rate_hz;
+        Simulation sim { .mass = mass, .damping = *between (1e-3, 0.5) * mass * rate_hz, .delay = *rc::gen::inRange (0, 6) };
+        if (*rc::gen::arbitrary<bool>()) sim.first_mode = *between (0.005, 0.1) * rate_hz;
+        const double k = *between (1e-3, 1.0) * mass * rate_hz * rate_hz;
+        const auto response = [&] (double factor) { return std::vector { factor * (k + b * rate_hz), factor * k }; };
+        const double limit = check::roomToGrow ([&] (double factor) { return check::comesToRest (response (factor), numbersOf (sim), 1.0 / rate_hz); });
+        const check::HeldHand hand { 6e-3, *between (2.0, 4.0), *between (200.0, 800.0) };
+        RC_ASSERT (limit == 0.0 || check::loopRadius (response (0.98 * limit), numbersOf (sim), 1.0 / rate_hz, hand).value() <= check::at_rest);
+    });
+}
+
+TEST_CASE ("the change with the largest effect on a wall does what is said of it", "[check]")
+{
+    const Simulation arm { .mass = 0.1, .damping = 2.0 };
+    const auto roomOf = [&] (const graph::Graph& graph, double stiffness) {
+        const auto demand = demandOf (graph, resting (arm, stiffness));
+        const auto& response = demand.roles.at (0).slopes.at (0).responses.at (0);
+        return check::roomToGrow ([&] (double factor) {
+            auto larger = response;
+            for (double& v : larger)
+                v *= factor;
+            return check::comesToRest (larger, numbersOf (arm), 1.0 / graph.rate_hz);
+        });
+    };
+    const auto best = [&] (double stiffness, double damping) {
+        const std::vector response { stiffness + 1e3 * damping, stiffness };
+        return check::strongestChange (response, numbersOf (arm), 1e-3).value();
+    };
+    const auto predicts = best (7e3, 1.0), faster = best (20e3, 20.0);
+    CHECK (predicts.what == "a hold.predictive");
+    CHECK (predicts.room == Approx (roomOf (predictive (7e3, 1.0, 1e3), 7e3)).epsilon (0.01));
+    CHECK (faster.what == "twice the rate");
+    CHECK (faster.room == Approx (roomOf (damped (20e3, 20.0, 2e3), 20e3)).epsilon (0.01));
+    CHECK (stiffnessOf (damped (7e3, 1.0, 1e3), resting (arm, 7e3)).remedy.find ("largest effect on the loop: a hold.predictive") == 0);
+
+    auto late = numbersOf (arm);
+    late.delay.emplace();
+    late.delay->value = 5.0;
+    const std::vector soft { 500.0 };
+    CHECK (check::strongestChange (soft, late, 1e-3).value().what.size() > 0);
+    CHECK_FALSE (check::strongestChange (soft, {}, 1e-3));
 }

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "strongest_change.hpp"
+#include "sampled_loop.hpp"
+#include "spring_and_damper.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+namespace tactus::check
+{
+
+namespace
+{
+constexpr std::size_t longest = 12;   // ticks of a response
+
+/// The response as far as it changes.
+std::vector<double> shortened (std::span<const double> response)
+{
+    constexpr double matters = 1e-6;   // relative
+    std::vector<double> all (response.begin(), response.end());
+    double most = 0.0;
+    for (const double v : all)
+        most = std::max (most, std::abs (v));
+    while (all.size() > 1 && std::abs (all[all.size() - 2] - all.back()) <= matters * most)
+        all.pop_back();
+    return all;
+}
+
+/// hold.predictive: a force of 1.5 times the last one, less half of the one before.
+std::vector<double> predicted (const std::vector<double>& response)
+{
+    auto all = response;
+    all.push_back (all.back());
+    for (std::size_t k = all.size(); k-- > 0;)
+        all[k] = 1.5 * all[k] - (k > 0 ? 0.5 * all[k - 1] : 0.0);
+    return all;
+}
+
+std::string withUnit (double v)
+{
+    char buffer[48];
+    return { buffer, static_cast<std::size_t> (std::snprintf (buffer, sizeof buffer, "%.3g N*s/m", v)) };
+}
+}   // namespace
+
+std::optional<Change> strongestChange (std::span<const double> measured, const DeviceNumbers& device, double period_s)
+{
+    if (measured.empty() || ! device.mass || ! device.damping) return std::nullopt;
+    const auto response = shortened (measured);
+    if (response.size() > longest) return std::nullopt;
+    const auto contact = springAndDamper (response, period_s);
+    const double k = contact.stiffness, b = contact.damping;
+
+    Change best;
+    const auto attempt = [&] (std::string what, const std::vector<double>& changed, const DeviceNumbers& numbers, double period) {
+        const double room = roomToGrow ([&] (double factor) {
+            auto larger = changed;
+            for (double& v : larger)
+                v *= factor;
+            return comesToRest (larger, numbers, period);
+        });
+        constexpr double clearly = 1.02;
+        if (room > clearly * best.room) best = { std::move (what), room };
+    };
+    auto changed = device;
+    if (k != 0.0) attempt ("half the stiffness", contact.response (0.5 * k, b), device, period_s);
+    if (b != 0.0)
+    {
+        attempt ("half the virtual damping", contact.response (k, 0.5 * b), device, period_s);
+        attempt ("twice the virtual damping", contact.response (k, 2.0 * b), device, period_s);
+    }
+    else
+        attempt ("a virtual damping of " + withUnit (device.damping->value), contact.response (k, device.damping->value), device, period_s);
+    attempt ("twice the rate", contact.response (k, 2.0 * b), device, 0.5 * period_s);   // the same damper responds twice as strongly, for half as long
+    attempt ("a hold.predictive", predicted (response), device, period_s);
+    if (device.delay && device.delay->value > 0.0)
+    {
+        changed.delay->value = 0.0;
+        attempt ("no delay of the device", response, changed, period_s);
+        changed = device;
+    }
+    changed.damping->value *= 2.0;
+    attempt ("a device with twice the damping", response, changed, period_s);
+    return best.room > 0.0 ? std::optional (best) : std::nullopt;
+}
+
+}   // namespace tactus::check

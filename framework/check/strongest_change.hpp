@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <tactus/run/device/device_numbers.hpp>
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace tactus::check
+{
+
+/// A change of a contact or its device, and how many times the response could then be as large before the loop swings (roomToGrow()).
+struct Change
+{
+    std::string what;   ///< such as "twice the rate"
+    double room = 0.0;
+};
+
+/// Tries some changes on the sampled loop of a contact, one at a time, and returns the one that leaves the most room: half the stiffness, more or less
+/// virtual damping, twice the rate, a hold.predictive, no delay, and a device with twice the damping. `response` is as for loopRadius(). Empty if the
+/// loop is not known, or if its response takes more than a few ticks, which would take long. [any thread]
+std::optional<Change> strongestChange (std::span<const double> response, const DeviceNumbers&, double period_s);
+
+}   // namespace tactus::check
