@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "deadbeat_loop.hpp"
 #include "judging.hpp"
 
 #include <algorithm>
@@ -71,6 +72,23 @@ struct Wall
     }
 };
 
+/// A mass that is off by more than the bounds above: judges the loop of the pressed tool exactly. The margin is the factor by which the error of the mass
+/// could grow before the loop swings.
+void closeLoop (Condition& c, const Wall& wall, const Deadbeat& node, const DeviceNumbers& numbers, double delay)
+{
+    DeadbeatPlan plan { .damping = node.damping > 0.0 ? node.damping : wall.damping, .stiffness = wall.stiffness, .delay = static_cast<std::size_t> (wall.delay) };
+    const auto rests = [&] (double factor) {
+        plan.mass = wall.mass + factor * (wall.assumed - wall.mass);
+        const auto radius = deadbeatRadius (plan, numbers, static_cast<std::size_t> (delay), wall.period_s);
+        return radius && *radius <= at_rest;
+    };
+    const bool is_stable = rests (1.0);
+    c.may_grow = roomToGrow (rests);
+    c.verdict = is_stable ? Verdict::stable : Verdict::unstable;
+    c.text += is_stable ? "; a tool that is pressed into the wall comes to rest, up to " : "; a tool that is pressed into the wall swings, and would rest with ";
+    c.text += text (c.may_grow) + " times this error of M";
+}
+
 void breaks (Condition& c, double value, double limit, std::string_view unit, const std::string& remedy)
 {
     c.verdict = Verdict::broken;
@@ -100,8 +118,11 @@ void judgeDeadbeat (const Demand& demand, const Deadbeat& node, const DeviceNumb
     c.text += "; M may be " + text (100.0 * wall.mayBeLess()) + " % smaller or " + text (100.0 * wall.mayBeMore()) + " % larger than assumed";
     const auto softer = "a stiffness of at most " + text (wall.forgiving(), "N/m") + ", at which M may be off by " + text (100.0 * usual_error) + " %";
     if (! wall.isMassRight())
-        return breaks (c, std::abs (wall.assumed - wall.mass), wall.mass * (wall.assumed > wall.mass ? wall.mayBeLess() : wall.mayBeMore()), "kg",
-                       "mass 0, which takes the mass of the device, the mass of this device, or " + softer);
+    {
+        breaks (c, std::abs (wall.assumed - wall.mass), wall.mass * (wall.assumed > wall.mass ? wall.mayBeLess() : wall.mayBeMore()), "kg",
+                "mass 0, which takes the mass of the device, the mass of this device, or " + softer);
+        return closeLoop (c, wall, node, numbers, longest);
+    }
 
     if (! numbers.quantum) return unknown (c, 0.0, "quantum");
     const double quantum = numbers.quantum->value, value = 0.5 * wall.assumed * quantum / (wall.period_s * wall.period_s);
