@@ -100,6 +100,7 @@ struct Effort
     Vec3 torque = Vec3::Zero();   ///< on the tool, in N m
     Channels axes {};             ///< in N or N m, in the order of DeviceLayout::efforts
     Channels signals {};          ///< signal outputs, channel 1 first; in N, m/s2 or 1, depending on calibration
+    double brake = 0.0;           ///< damping of the brake on the tool, in N s/m; at least 0
 };
 
 /// What is known about the mechanics of a device, at its tool.
@@ -121,6 +122,7 @@ struct DeviceLayout
     std::vector<std::string> buttons {};   ///< names by bit; "" for a button without a name
     int signal_inputs = 0, signal_outputs = 0;
     DeviceMechanics mechanics {};
+    double brake = 0.0;   ///< the largest damping of its brake on the tool, in N s/m; 0: it has none
 
     bool operator== (const DeviceLayout&) const = default;
 };

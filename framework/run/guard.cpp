@@ -114,11 +114,14 @@ bool hasChannels (const Effort& e) noexcept { return (e.axes.size() | e.signals.
 }
 
 /// What `sizes` of a guard limits, in this order, and the slew limits.
-constexpr std::array size_limits { &GuardLimits::max_force, &GuardLimits::max_torque, &GuardLimits::max_axis_effort, &GuardLimits::max_signal };
-constexpr std::array slew_limits { &GuardLimits::max_slew, &GuardLimits::max_torque_slew, &GuardLimits::max_axis_slew, &GuardLimits::max_signal_slew };
+constexpr std::array size_limits { &GuardLimits::max_force, &GuardLimits::max_torque, &GuardLimits::max_axis_effort, &GuardLimits::max_signal,
+                                   &GuardLimits::max_brake };
+constexpr std::array slew_limits { &GuardLimits::max_slew, &GuardLimits::max_torque_slew, &GuardLimits::max_axis_slew, &GuardLimits::max_signal_slew,
+                                   &GuardLimits::max_brake_slew };
 
 double orNothing (double limit) noexcept { return limit >= 0.0 ? limit : 0.0; }
 double orForever (double s) noexcept { return s >= 0.0 ? s : GuardLimits::none; }
+double orReleased (double damping) noexcept { return damping > 0.0 && isFinite (damping) ? damping : 0.0; }
 
 /// The window for a limit: infinity (the whole session) if `window` is 0; 0 if the limit is not set.
 double windowOf (double limit, double window) noexcept
@@ -170,6 +173,9 @@ GuardLimits tightest (const GuardLimits& a, const GuardLimits& b) noexcept
         .max_axis_slew = less (a.max_axis_slew, b.max_axis_slew),
         .max_signal = less (a.max_signal, b.max_signal),
         .max_signal_slew = less (a.max_signal_slew, b.max_signal_slew),
+        .max_brake = less (a.max_brake, b.max_brake),
+        .max_brake_slew = less (a.max_brake_slew, b.max_brake_slew),
+        .brake_at_stop = std::max (orReleased (a.brake_at_stop), orReleased (b.brake_at_stop)),
         .max_speed = less (a.max_speed, b.max_speed),
         .max_angular_speed = less (a.max_angular_speed, b.max_angular_speed),
         .max_axis_speed = less (a.max_axis_speed, b.max_axis_speed),
@@ -192,6 +198,7 @@ GuardLimits tightened (const GuardLimits& of_device, const GuardLimits& by) noex
 {
     auto limits = tightest (of_device, by);
     limits.workspace_scale = of_device.workspace_scale;
+    limits.brake_at_stop = of_device.brake_at_stop;
     return limits;
 }
 
@@ -200,6 +207,7 @@ void Guard::prepare (const GuardLimits& wanted, double dt_s, const DeviceLayout&
     *this = Guard();
     if (isFinite (dt_s) && dt_s > 0.0) dt = dt_s;
     limits = tightest (wanted, {});
+    if (layout.brake > 0.0) limits.max_brake = std::min (limits.max_brake, layout.brake);
     axis_of_effort = axesOf (layout);
     chooseWatches();
     enabled = 0.0;
@@ -244,14 +252,14 @@ bool Guard::tighten (const GuardLimits& wanted) noexcept
     return true;
 }
 
-/// How much force, torque, effort on an axis and signal is on the device, in the order of `sizes`.
-std::array<double, 4> Guard::onDevice() const noexcept
+/// How much force, torque, effort on an axis, signal and braking is on the device, in the order of `sizes`.
+std::array<double, 5> Guard::onDevice() const noexcept
 {
-    return { length (last.force), length (last.torque), largest (last.axes), largest (last.signals) };
+    return { length (last.force), length (last.torque), largest (last.axes), largest (last.signals), last.brake };
 }
 
 /// The limits of size that apply now, and all others once nothing on the device is above its new limit any more.
-void Guard::useSizes (const std::array<double, 4>& level) noexcept
+void Guard::useSizes (const std::array<double, 5>& level) noexcept
 {
     is_falling = false;
     for (std::size_t i = 0; i < sizes.size(); ++i)
@@ -311,7 +319,8 @@ void Guard::forget() noexcept
 bool Guard::isAtRest() const noexcept
 {
     const auto none = [] (const Channels& all) { return std::all_of (all.begin(), all.end(), [] (double v) { return v == 0.0; }); };
-    return last.force.isZero (0.0) && last.torque.isZero (0.0) && none (last.axes) && none (last.signals);
+    const bool braked = last.brake != 0.0 && last.brake != brakeAtStop();
+    return last.force.isZero (0.0) && last.torque.isZero (0.0) && none (last.axes) && none (last.signals) && ! braked;
 }
 
 void Guard::latch (Stop why, double value, Event::Part part, int channel) noexcept
@@ -446,7 +455,7 @@ bool Guard::isUsable (const Reading& reading) const noexcept
 Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading, bool is_usable) const noexcept
 {
     if (latched == Stop::emergency) return latched;
-    if (! isFinite (wanted.force, wanted.torque)) return Stop::not_finite;
+    if (! isFinite (wanted.force, wanted.torque, wanted.brake) || wanted.brake < 0.0) return Stop::not_finite;
     if (hasChannels (wanted) && ! channelsAreFinite (wanted)) return Stop::not_finite;
     if (! is_usable || ! isRecent (reading) || isFrozen()) return Stop::stale;
     if (is_starved) return Stop::starved;
@@ -522,6 +531,7 @@ double Guard::fit (Vec3& force, Vec3& torque, Channels& axes) const noexcept
 /// so what they do together keeps its direction.
 void Guard::approach (const Effort& to, double step_s) noexcept
 {
+    last.brake = approached (last.brake, std::clamp (to.brake, 0.0, limits.max_brake), stepOf (limits.max_brake_slew, step_s));
     const bool has_channels = hasChannels (last) || hasChannels (to);
     Vec3 to_force = to.force, to_torque = to.torque;
     Channels to_axes;
@@ -558,7 +568,8 @@ void Guard::approach (const Effort& to, double step_s) noexcept
 Effort Guard::crossfaded (const Effort& wanted) const noexcept
 {
     if (reason != Stop::none)
-        return { withheld * at_stop.force, withheld * at_stop.torque, mixed (withheld, at_stop.axes, 0.0, {}), mixed (withheld, at_stop.signals, 0.0, {}) };
+        return { withheld * at_stop.force, withheld * at_stop.torque, mixed (withheld, at_stop.axes, 0.0, {}), mixed (withheld, at_stop.signals, 0.0, {}),
+                 withheld * at_stop.brake + (1.0 - withheld) * brakeAtStop() };
 
     // The limits of size come first: a graph that asks for ten times the limit must not get all of it after a tenth of the ramp.
     // enabled + rest never exceeds 1, so the effort can safely return before the fade is over.
@@ -566,7 +577,8 @@ Effort Guard::crossfaded (const Effort& wanted) const noexcept
     const double size = fit (within.force, within.torque, within.axes), part = enabled * size, rest = std::min (withheld, 1.0 - enabled);
     within.signals = approached ({}, within.signals, limits.max_signal, GuardLimits::none);
     return { part * within.force + rest * at_stop.force, part * within.torque + rest * at_stop.torque,
-             mixed (part, within.axes, rest, at_stop.axes), mixed (enabled, within.signals, rest, at_stop.signals) };
+             mixed (part, within.axes, rest, at_stop.axes), mixed (enabled, within.signals, rest, at_stop.signals),
+             enabled * std::clamp (wanted.brake, 0.0, limits.max_brake) + rest * at_stop.brake + (1.0 - enabled - rest) * brakeAtStop() };
 }
 
 }   // namespace tactus

@@ -5,6 +5,7 @@
 #include <tactus/run/guard/effort_watch.hpp>
 #include <tactus/run/guard/falling_limit.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -31,6 +32,9 @@ struct GuardLimits
     double max_axis_slew = none;     ///< for each axis separately, in N/s or N m/s
     double max_signal = none;        ///< for each signal output separately, in N, m/s2 or 1, as calibrated
     double max_signal_slew = none;   ///< for each signal output separately, per s
+    double max_brake = none;         ///< damping of the brake, in N s/m; never more than the device has
+    double max_brake_slew = none;    ///< in N s/m per s
+    double brake_at_stop = 0.0;      ///< damping of the brake during a stop, in N s/m; 0: a stop releases it. Only a device and its user set it
 
     double max_speed = none;             ///< speed of the tool as measured by SpeedWatch, in m/s
     double max_angular_speed = none;     ///< the same for the rotation of the tool, in rad/s
@@ -57,7 +61,7 @@ struct GuardLimits
 /// limit and the longer window.
 GuardLimits tightest (const GuardLimits&, const GuardLimits&) noexcept;
 
-/// The limits of a device after a graph has asked for these: like tightest, but `workspace_scale` stays that of the device.
+/// The limits of a device after a graph has asked for these: like tightest, but `workspace_scale` and `brake_at_stop` stay those of the device.
 GuardLimits tightened (const GuardLimits& of_device, const GuardLimits& by) noexcept;
 
 /// The last stage before a device, one per role, always present. It passes efforts that are finite and within the limits for
@@ -71,7 +75,9 @@ GuardLimits tightened (const GuardLimits& of_device, const GuardLimits& by) noex
 ///     slew       e' + s (e - e')                     so that no part changes by more than its slew T; e': last tick
 ///
 /// One factor k and one s scale force, torque and axes, so directions are kept, and the limits of size hold on the way as well.
-/// Each signal is limited by itself.
+/// Each signal is limited by itself, and so is the brake: its damping is at least 0 and at most max_brake, which prepare() lowers to what the
+/// device has. A stop takes it to brake_at_stop, and from there it follows the ramp. A brake never pushes, so it does not count in impulse and
+/// energy.
 ///
 /// While there is a cause, `enabled` is 0 and `withheld` falls from 1 to 0 within fade_s, so a stop is never a step,
 /// even without a slew limit; with one, it takes as long as the limit requires. When the cause is gone, `enabled` rises
@@ -142,7 +148,8 @@ public:
             force,
             torque,
             axis,
-            signal
+            signal,
+            brake
         };
 
         Stop why = Stop::none;
@@ -150,7 +157,7 @@ public:
         double value = 0.0;                ///< the measured age, lost time, pressure, speed, impulse or energy, or the time without a change of position
         double limit = 0.0;                ///< the limit on this value
         double window = 0.0;               ///< window of the limit, in s; 0: the whole session
-        std::array<double, 3> wanted {};   ///< force or torque that was not a number; for an axis or signal, only the first component is used
+        std::array<double, 3> wanted {};   ///< force or torque that was not a number; for an axis, signal or brake, only the first component is used
         std::int32_t channel = 0;          ///< number of the axis or signal, from 0; if one coordinate is frozen, its number, and if all are, -1
         std::uint32_t valid = 1;           ///< 1 if the reading was valid
         ReadingFault fault {};             ///< what is wrong with the reading, if known; if it is `frozen`, `wanted` is the force or torque on the tool
@@ -194,14 +201,15 @@ public:
     /// How many times latest() has changed since prepare().
     std::uint64_t changes() const noexcept { return change_count; }
 
-    /// True while no effort is on the device, so that it can be released without a step.
+    /// True while no effort is on the device, and its brake is as during a stop, so that it can be released without a step.
     bool isAtRest() const noexcept;
 
 private:
     void forget() noexcept;
     void chooseWatches() noexcept;
-    std::array<double, 4> onDevice() const noexcept;
-    void useSizes (const std::array<double, 4>& level) noexcept;
+    double brakeAtStop() const noexcept { return std::min (limits.brake_at_stop, limits.max_brake); }
+    std::array<double, 5> onDevice() const noexcept;
+    void useSizes (const std::array<double, 5>& level) noexcept;
     void lowerSizes (double steps) noexcept;
     Channels withoutRise (const Channels& wanted, const Channels& now, std::size_t size) const noexcept;
     void passTime (double passed_s) noexcept;
@@ -228,7 +236,7 @@ private:
 
     GuardLimits limits;                     // as they apply on this tick
     GuardLimits final_limits;               // what they become, while `is_falling`
-    std::array<FallingLimit, 4> sizes {};   // of force, torque, axes and signals
+    std::array<FallingLimit, 5> sizes {};   // of force, torque, axes, signals and the brake
     bool is_falling = false;                // limits of size still fall to tighter ones
 
     double dt = fade_s;    // in s; until prepare is called, a stop takes one tick

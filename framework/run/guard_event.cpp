@@ -34,6 +34,8 @@ void nameNotFinite (Guard::Event& e, const Effort& wanted) noexcept
         nameValue (e, Part::force, wanted.force);
     else if (! isFinite (wanted.torque))
         nameValue (e, Part::torque, wanted.torque);
+    else if (! isFinite (wanted.brake) || wanted.brake < 0.0)
+        nameValue (e, Part::brake, { wanted.brake, 0.0, 0.0 });
     else if (! isFinite (wanted.axes))
         nameChannel (e, Part::axis, wanted.axes);
     else

@@ -102,6 +102,8 @@ std::string describe (const Guard::Event& event)
         return asked + "an effort on axis " + std::to_string (event.channel + 1) + no_number + inWords (event.wanted[0]);
     case Part::signal:
         return asked + "a signal on channel " + std::to_string (event.channel + 1) + no_number + inWords (event.wanted[0]);
+    case Part::brake:
+        return asked + "a damping of the brake that is not a number of at least 0: " + inWords (event.wanted[0]) + " N*s/m";
     case Part::torque:
         return asked + "a torque" + no_number + inWords (event.wanted) + " N*m";
     default:

@@ -13,6 +13,7 @@ namespace
 {
 constexpr Unit force_rate { Quantity::any, { 1, 1, -3 }, "N/s" };
 constexpr Unit torque_rate { Quantity::any, { 2, 1, -3 }, "N*m/s" };
+constexpr Unit brake_rate { Quantity::any, { 0, 1, -2 }, "N/m" };   // N s/m per s
 constexpr Unit per_second { Quantity::any, { 0, 0, -1 }, "1/s" };
 constexpr Unit angular_speed { Quantity::any, { 0, 0, -1 }, "rad/s" };
 constexpr Unit impulse { Quantity::any, { 1, 1, -1 }, "N*s" };
@@ -83,6 +84,9 @@ void readEffortLimits (ObjectReader& in, GuardLimits& limits)
     limits.max_axis_slew = either (in, "max_axis_slew", force_rate, torque_rate, some, limits.max_axis_slew);
     limits.max_signal = in.number ("max_signal", unit::gain, any, limits.max_signal);
     limits.max_signal_slew = in.number ("max_signal_slew", per_second, some, limits.max_signal_slew);
+    limits.max_brake = in.number ("max_brake", unit::damping, any, limits.max_brake);
+    limits.max_brake_slew = in.number ("max_brake_slew", brake_rate, some, limits.max_brake_slew);
+    limits.brake_at_stop = in.number ("brake_at_stop", unit::damping, any, limits.brake_at_stop);
     limits.max_speed = in.number ("max_speed", unit::speed, some, limits.max_speed);
     limits.max_angular_speed = in.number ("max_angular_speed", angular_speed, some, limits.max_angular_speed);
     limits.max_axis_speed = either (in, "max_axis_speed", unit::speed, angular_speed, some, limits.max_axis_speed);
@@ -108,7 +112,8 @@ void checkStops (const GuardLimits& limits, const std::string& where, Messages& 
     const Pair pairs[] { { "max_force", "max_slew", limits.max_force, limits.max_slew },
                          { "max_torque", "max_torque_slew", limits.max_torque, limits.max_torque_slew },
                          { "max_axis_effort", "max_axis_slew", limits.max_axis_effort, limits.max_axis_slew },
-                         { "max_signal", "max_signal_slew", limits.max_signal, limits.max_signal_slew } };
+                         { "max_signal", "max_signal_slew", limits.max_signal, limits.max_signal_slew },
+                         { "max_brake", "max_brake_slew", limits.max_brake, limits.max_brake_slew } };
     for (const auto& p : pairs)
     {
         if (p.slew == GuardLimits::none || p.most <= longest_stop_s * p.slew) continue;

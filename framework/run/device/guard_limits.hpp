@@ -15,6 +15,7 @@ namespace tactus
 ///
 ///     {"max_force": "3.3 N", "max_torque": …, "max_slew": "500 N/s", "max_torque_slew": …, "ramp": "0.2 s", "watchdog": "20 ms",
 ///      "max_axis_effort": 2.0, "max_axis_slew": 100, "max_signal": 1.0, "max_signal_slew": 50,
+///      "max_brake": "10 N*s/m", "max_brake_slew": 1000, "brake_at_stop": 0,
 ///      "max_speed": "1.5 m/s", "max_angular_speed": …, "max_axis_speed": …, "max_energy": "50 mJ", "energy_window": "1 s",
 ///      "max_impulse": "4 N*s", "max_angular_impulse": …, "max_axis_impulse": …, "impulse_window": "2 s",
 ///      "max_still": "0.5 s", "still_force": "0.5 N", "still_torque": …,

@@ -137,6 +137,16 @@ void readStructure (ObjectReader& in, Simulation& sim)
                       "add \"first_mode\", in Hz, or remove " + std::string (key));
 }
 
+void readBrake (ObjectReader& in, Simulation& sim)
+{
+    sim.brake = in.number ("brake", unit::damping, Bounds::notNegative(), sim.brake);
+    sim.brake_time = in.number ("brake_time", unit::second, Bounds::notNegative(), sim.brake_time);
+    if (in.has ("brake_time") && ! in.has ("brake"))
+        in.error ("brake_time", "device/missing", "brake_time has no effect without brake", "add \"brake\", in N*s/m, or remove brake_time");
+    if (in.has ("brake") && in.has ("first_mode"))
+        in.error ("brake", "device/out_of_range", "a simulated tool that bends has no brake", "remove first_mode, or remove brake");
+}
+
 std::unique_ptr<Device> makeSimulated (ObjectReader& in, const Folder& folder, Messages& messages, std::string& about)
 {
     Simulation sim;
@@ -147,6 +157,7 @@ std::unique_ptr<Device> makeSimulated (ObjectReader& in, const Folder& folder, M
     sim.delay = in.whole ("delay", 0, longest_delay, sim.delay);
     sim.coulomb = in.number ("coulomb", unit::newton, Bounds::notNegative(), sim.coulomb);
     readStructure (in, sim);
+    readBrake (in, sim);
     if (in.has ("hand")) sim.hand = readHand (in.object ("hand"), "/hand", folder, messages);
     sim.position = in.vector ("position", unit::metre, sim.hand.path ? sim.hand.path->at (0.0).position : Vec3 (Vec3::Zero()));
     sim.velocity = in.vector ("velocity", unit::speed, sim.velocity);
@@ -241,7 +252,7 @@ std::string optionFor (const Json& description, const std::string& role)
 
 // The keys that a simulated device can use from the description of a real one.
 constexpr std::string_view known_to_sim[] { "mass", "damping", "quantum", "force_quantum", "delay", "coulomb", "first_mode",
-                                            "first_mode_damping", "end_mass", "position", "velocity", "rotation", "hand_force", "hand",
+                                            "first_mode_damping", "end_mass", "brake", "brake_time", "position", "velocity", "rotation", "hand_force", "hand",
                                             "axes", "signal_outputs", "guard", "about", "ui" };
 }   // namespace
 

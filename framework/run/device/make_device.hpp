@@ -26,7 +26,7 @@ struct MadeDevice
 /// Makes the device that is described, or reports all problems in the description. [main thread]
 ///
 ///     {"driver": "sim", "mass": "50 g", "damping": 2.0, "quantum": "10 um", "force_quantum": "1 mN", "delay": 0,
-///      "coulomb": "40 mN", "first_mode": "30 Hz", "first_mode_damping": 0.05, "end_mass": "25 g",
+///      "coulomb": "40 mN", "brake": "20 N*s/m", "brake_time": "5 ms", "first_mode": "30 Hz", "first_mode_damping": 0.05, "end_mass": "25 g",
 ///      "position": [0, 0, "5 mm"], "velocity": [0, 0, 0], "rotation": [0, 0, 0], "hand_force": [0, 0, "-0.5 N"],
 ///      "hand": {"stiffness": 100.0, "damping": 2.0, "path": "stroke"},
 ///      "axes": {"trigger": {"mass": "50 g", "damping": 1.0, "stiffness": 0, "position": 0, "hand_force": 0}}, "signal_outputs": 0}

@@ -20,26 +20,27 @@ double stoppingTime (double mass, double damping, double speed, double brake) no
 }
 }   // namespace
 
-void RigidTool::step (const Vec3& force) noexcept
+void RigidTool::step (const Vec3& force, double brake) noexcept
 {
-    if (friction == 0.0) return whole (x, v, force);
+    const auto& tick = brake == 0.0 ? whole : HeldStep (m, b + brake, dt);
+    if (friction == 0.0) return tick (x, v, force);
     for (int i = 0; i < 3; ++i)
-        slide (x[i], v[i], force[i]);
+        slide (x[i], v[i], force[i], b + brake, tick);
 }
 
-void RigidTool::slide (double& position, double& velocity, double force) const noexcept
+void RigidTool::slide (double& position, double& velocity, double force, double damping, const HeldStep& whole_tick) const noexcept
 {
     double left = dt;
     if (velocity != 0.0)
     {
         const double way = velocity > 0.0 ? 1.0 : -1.0;
-        const double stop = stoppingTime (m, b, std::abs (velocity), friction - way * force);
-        if (! (stop < dt)) return whole (position, velocity, force - way * friction);
-        HeldStep (m, b, stop) (position, velocity, force - way * friction);
+        const double stop = stoppingTime (m, damping, std::abs (velocity), friction - way * force);
+        if (! (stop < dt)) return whole_tick (position, velocity, force - way * friction);
+        HeldStep (m, damping, stop) (position, velocity, force - way * friction);
         velocity = 0.0;
         left -= stop;
     }
-    if (std::abs (force) > friction) HeldStep (m, b, left) (position, velocity, force > 0.0 ? force - friction : force + friction);
+    if (std::abs (force) > friction) HeldStep (m, damping, left) (position, velocity, force > 0.0 ? force - friction : force + friction);
 }
 
 }   // namespace tactus

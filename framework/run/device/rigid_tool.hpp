@@ -9,7 +9,7 @@ namespace tactus
 
 /// A rigid tool with viscous damping and Coulomb friction, solved exactly while the force is held:
 ///
-///     M v' = F - B v - f_f sgn (v)
+///     M v' = F - (B + brake) v - f_f sgn (v)
 ///
 /// Each axis is solved on its own, with its own dry friction, as if it had its own motor. With friction, an axis stops at most once
 /// per tick, at a time that has a closed form, and then sticks (|F| <= f_f) or moves on in the direction of the force.
@@ -28,14 +28,14 @@ public:
         v = velocity;
     }
 
-    /// Moves the tool by one tick under a held force, in N.
-    void step (const Vec3& force) noexcept;
+    /// Moves the tool by one tick under a held force, in N, and with a brake that damps by this much, in N s/m.
+    void step (const Vec3& force, double brake = 0.0) noexcept;
 
     const Vec3& position() const noexcept { return x; }
     const Vec3& velocity() const noexcept { return v; }
 
 private:
-    void slide (double& position, double& velocity, double force) const noexcept;
+    void slide (double& position, double& velocity, double force, double damping, const HeldStep& whole_tick) const noexcept;
 
     double m, b, friction, dt;
     HeldStep whole;   // for a whole tick

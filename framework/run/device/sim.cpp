@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "sim.hpp"
 
+#include <tactus/kit/math/math.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -39,7 +42,9 @@ void SimulatedDevice::prepare (double dt_s)
     axes.clear();
     for (const auto& axis : what.axes)
         axes.push_back ({ HeldStep (axis.mass, axis.damping, dt), axis.position });
-    on_the_way.assign (static_cast<std::size_t> (what.delay), Vec3::Zero());
+    on_the_way.assign (static_cast<std::size_t> (what.delay), Sent {});
+    braking = 0.0;
+    brake_share = what.brake_time > 0.0 ? -math::expm1 (-dt / what.brake_time) : 1.0;
     oldest = 0;
     tick = 0;
 }
@@ -61,12 +66,14 @@ void SimulatedDevice::write (const Effort& guarded) noexcept
 {
     Vec3 sent = rounded (guarded.force, what.force_quantum);
     if (! isFinite (sent)) sent.setZero();
-    const Vec3 from_graph = delayed (sent), from_hand = handForce();
+    const auto [from_graph, asked] = delayed ({ sent, std::clamp (finiteOrZero (guarded.brake), 0.0, what.brake) });
+    const Vec3 from_hand = handForce();
+    braking += brake_share * (asked - braking);
 
     if (bends())
         flexible.step (from_graph, from_hand);
     else
-        rigid.step (from_graph + from_hand);
+        rigid.step (from_graph + from_hand, braking);
     for (std::size_t i = 0; i < axes.size(); ++i)
     {
         const auto& axis = what.axes[i];
@@ -78,18 +85,18 @@ void SimulatedDevice::write (const Effort& guarded) noexcept
 
 DeviceLayout SimulatedDevice::layout() const
 {
-    DeviceLayout has { .signal_outputs = what.signal_outputs, .mechanics = { what.mass, what.damping } };
+    DeviceLayout has { .signal_outputs = what.signal_outputs, .mechanics = { what.mass, what.damping }, .brake = what.brake };
     for (const auto& axis : what.axes)
         has.axes.push_back (axis.name);
     has.efforts = has.axes;
     return has;
 }
 
-Vec3 SimulatedDevice::delayed (const Vec3& force) noexcept
+SimulatedDevice::Sent SimulatedDevice::delayed (const Sent& now) noexcept
 {
-    if (on_the_way.empty()) return force;
+    if (on_the_way.empty()) return now;
 
-    const Vec3 due = std::exchange (on_the_way[oldest], force);
+    const Sent due = std::exchange (on_the_way[oldest], now);
     oldest = (oldest + 1) % on_the_way.size();
     return due;
 }

@@ -45,6 +45,8 @@ struct Simulation
     double first_mode = 0.0;            ///< first resonance of the structure, in Hz; 0: a rigid tool
     double first_mode_damping = 0.05;   ///< damping ratio of the first resonance
     double end_mass = 0.0;              ///< part of the mass that is at the tool, on the far side of the structure, in kg, < mass; 0: half of it
+    double brake = 0.0;                 ///< largest damping of a brake on a rigid tool, in N s/m; 0: no brake
+    double brake_time = 0.0;            ///< time constant with which the brake follows what it is asked for, in s
     Vec3 position = Vec3::Zero();
     Vec3 velocity = Vec3::Zero();
     Vec3 rotation = Vec3::Zero();     ///< constant; torque is accepted but has no effect
@@ -72,7 +74,8 @@ inline double endMassOf (const Simulation& sim) noexcept { return sim.end_mass >
 /// `first_mode`, motor and end are the same.
 ///
 /// On each tick, read() reports the position, rounded half up to the quantum. write() takes the guarded force, rounds it to the
-/// force quantum, and moves the tool by one tick under the force from `delay` ticks ago (0 at first) and that of the hand. The
+/// force quantum, and moves the tool by one tick under the force from `delay` ticks ago (0 at first) and that of the hand. The brake
+/// damps by what it was asked for `delay` ticks ago, at most `brake`, with the lag of its coil (brake_time). The
 /// hand's force is not delayed, because the hand is at the tool. It is computed from the true motion at the tick.
 ///
 /// Good to know
@@ -102,7 +105,13 @@ private:
         double x, v = 0.0;
     };
 
-    Vec3 delayed (const Vec3& force) noexcept;
+    struct Sent
+    {
+        Vec3 force = Vec3::Zero();   // N
+        double brake = 0.0;          // N s/m
+    };
+
+    Sent delayed (const Sent&) noexcept;
     Vec3 handForce() const noexcept;
 
     bool bends() const noexcept { return what.first_mode > 0.0; }
@@ -115,7 +124,9 @@ private:
     RigidTool rigid { 1.0, 0.0, 0.0, dt };
     FlexibleTool flexible;          // used instead of `rigid` if there is a first mode
     std::vector<MovingAxis> axes;   // in the order of what.axes
-    std::vector<Vec3> on_the_way;   // forces of the last `delay` ticks
+    std::vector<Sent> on_the_way;   // what was sent in the last `delay` ticks
+    double braking = 0.0;           // damping of the brake, in N s/m
+    double brake_share = 1.0;       // how much of the way to what it was asked for the brake goes in a tick
     std::size_t oldest = 0;
     std::int64_t tick = 0;
 };

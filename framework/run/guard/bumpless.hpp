@@ -45,8 +45,8 @@ private:
         if (now == 0)
         {
             difference = { last.force - wanted.force, last.torque - wanted.torque, sum (last.axes, -1.0, wanted.axes),
-                           sum (last.signals, -1.0, wanted.signals) };
-            if (! isFinite (difference.force, difference.torque, difference.axes, difference.signals))
+                           sum (last.signals, -1.0, wanted.signals), last.brake - wanted.brake };
+            if (! isFinite (difference.force, difference.torque, difference.axes, difference.signals, difference.brake))
             {
                 now = length;
                 return last = wanted;
@@ -57,7 +57,7 @@ private:
         const double w = 0.5 + 0.5 * math::cos (pi * now / length);
         ++now;
         last = { wanted.force + w * difference.force, wanted.torque + w * difference.torque, sum (wanted.axes, w, difference.axes),
-                 sum (wanted.signals, w, difference.signals) };
+                 sum (wanted.signals, w, difference.signals), wanted.brake + w * difference.brake };
         return last;
     }
 

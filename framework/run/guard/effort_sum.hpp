@@ -32,6 +32,7 @@ inline Effort sumOfEfforts (std::span<const Effort> efforts, double* numbers) no
         all.force[c] = sum ([c] (const Effort& e) { return e.force[c]; });
         all.torque[c] = sum ([c] (const Effort& e) { return e.torque[c]; });
     }
+    all.brake = sum ([] (const Effort& e) { return e.brake; });
     for (int i = 0; i < axes; ++i)
         all.axes.set (i, sum ([i] (const Effort& e) { return e.axes[i]; }));
     for (int i = 0; i < signals; ++i)

@@ -56,7 +56,7 @@ Json toJson (const std::map<std::string, GuardLimits>& guards)
     return json;
 }
 
-/// Leaves out devices of which nothing is known: no axes, efforts, buttons or signals, no mass and no damping of the tool.
+/// Leaves out devices of which nothing is known: no axes, efforts, buttons, signals or brake, no mass and no damping of the tool.
 Json toJson (const std::map<std::string, DeviceLayout>& devices)
 {
     auto json = Json::object();
@@ -68,7 +68,8 @@ Json toJson (const std::map<std::string, DeviceLayout>& devices)
                            { "signal_inputs", has.signal_inputs },
                            { "signal_outputs", has.signal_outputs },
                            { "mass", toLog (has.mechanics.mass) },
-                           { "damping", toLog (has.mechanics.damping) } };
+                           { "damping", toLog (has.mechanics.damping) },
+                           { "brake", toLog (has.brake) } };
     return json;
 }
 

@@ -102,6 +102,7 @@ public:
                 { "signal_outputs", JsonKind::any, count (device.signal_outputs) },
                 { "mass", JsonKind::any, [this, &device] (Json& v, const std::string& place) { number (v, place, device.mechanics.mass); } },
                 { "damping", JsonKind::any, [this, &device] (Json& v, const std::string& place) { number (v, place, device.mechanics.damping); } },
+                { "brake", JsonKind::any, [this, &device] (Json& v, const std::string& place) { number (v, place, device.brake); } },
             };
             if (const auto place = where + "/" + pointerPart (role); fields.isKind (has, JsonKind::object, place)) read (has, place, keys);
         }

@@ -31,6 +31,9 @@ constexpr Row guard_rows[] {
     { "max_axis_slew", &force_rate, not_negative, &torque_rate },
     { "max_signal", &unit::gain },
     { "max_signal_slew", &unit::per_second },
+    { "max_brake", &unit::damping },
+    { "max_brake_slew", &unit::stiffness },
+    { "brake_at_stop", &unit::damping },
     { "max_speed", &unit::speed },
     { "max_angular_speed", &unit::per_second },
     { "max_axis_speed", &unit::speed, not_negative, &unit::per_second },
@@ -57,6 +60,8 @@ constexpr Row sim_rows[] {
     { "first_mode", &unit::hertz },
     { "first_mode_damping", &unit::gain, { 0.0, 1.0 } },
     { "end_mass", &unit::kilogram },
+    { "brake", &unit::damping },
+    { "brake_time", &unit::second },
 };
 
 constexpr Row axis_rows[] {

@@ -85,8 +85,9 @@ rc::Gen<Tick> anyTick()
     const auto rarely = rc::gen::map (rc::gen::inRange (0, 12), [] (int i) { return i == 0; });
     const auto age = rc::gen::weightedOneOf<double> ({ { 20, rc::gen::just (0.0) }, { 1, rc::gen::element (0.004, 0.1, endless, not_a_number, -1.0) } });
 
-    const auto wanted = rc::gen::map (rc::gen::tuple (vectorOf (anyNumber()), vectorOf (anyNumber()), channelsOf (anyNumber()), channelsOf (anyNumber())),
-                                      [] (const auto& t) { return Effort { std::get<0> (t), std::get<1> (t), std::get<2> (t), std::get<3> (t) }; });
+    const auto brake = rc::gen::weightedOneOf<double> ({ { 20, rc::gen::map (anyFinite(), [] (double v) { return std::abs (v); }) }, { 1, anyNumber() } });
+    const auto wanted = rc::gen::map (rc::gen::tuple (vectorOf (anyNumber()), vectorOf (anyNumber()), channelsOf (anyNumber()), channelsOf (anyNumber()), brake),
+                                      [] (const auto& t) { return Effort { std::get<0> (t), std::get<1> (t), std::get<2> (t), std::get<3> (t), std::get<4> (t) }; });
     const auto near_place = rc::gen::map (rc::gen::inRange (-100, 101), [] (int i) { return 1e-5 * i; });
     const auto places = vectorOf (rc::gen::weightedOneOf<double> ({ { 20, near_place }, { 1, anyNumber() } }));
     const auto buttons = rc::gen::map (rc::gen::inRange (0, 20), [] (int i) { return i < 18 ? 1u : 0u; });
@@ -172,6 +173,7 @@ TEST_CASE ("guard: without limits, a finite effort passes through bit for bit, r
                       RC_ASSERT (sameBits (now.torque, tick.wanted.torque));
                       RC_ASSERT (sameBits (now.axes, tick.wanted.axes));
                       RC_ASSERT (sameBits (now.signals, tick.wanted.signals));
+                      RC_ASSERT (now.brake == tick.wanted.brake);
                   });
               });
 }
@@ -182,7 +184,7 @@ TEST_CASE ("guard: a value that is not a number never reaches a device", "[frame
               [] {
                   auto guard = guardWith (*anyLimits());
                   play (guard, anyRun(),
-                        [] (const Tick&, const Effort&, const Effort& now) { RC_ASSERT (isFinite (now.force, now.torque, now.axes, now.signals)); });
+                        [] (const Tick&, const Effort&, const Effort& now) { RC_ASSERT (isFinite (now.force, now.torque, now.axes, now.signals, now.brake)); });
               });
 
     rc::prop ("any limits, and any time between two ticks: none, less than none, or not a number",
@@ -192,7 +194,7 @@ TEST_CASE ("guard: a value that is not a number never reaches a device", "[frame
                   {
                       const double passed = *rc::gen::element (0.0, 0.0, dt, 5e-324, -1.0, endless, not_a_number);
                       const auto& now = guard (tick.wanted, tick.reading, passed);
-                      RC_ASSERT (isFinite (now.force, now.torque, now.axes, now.signals));
+                      RC_ASSERT (isFinite (now.force, now.torque, now.axes, now.signals, now.brake));
                   }
               });
 
@@ -202,7 +204,7 @@ TEST_CASE ("guard: a value that is not a number never reaches a device", "[frame
                   Guard guard;
                   guard.prepare ({ *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild }, *wild);
                   play (guard, anyRun(), [&] (const Tick&, const Effort&, const Effort& now) {
-                      RC_ASSERT (isFinite (now.force, now.torque, now.axes, now.signals));
+                      RC_ASSERT (isFinite (now.force, now.torque, now.axes, now.signals, now.brake));
                       RC_ASSERT_FALSE (describe (guard.latest()).empty());
                   });
               });
