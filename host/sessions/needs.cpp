@@ -65,6 +65,8 @@ void add (DeviceParts& parts, const plan::Flat& flat, int index)
         parts.force = parts.force || isWired (Role::input, "force");
         parts.torque = parts.torque || isWired (Role::input, "torque");
     }
+    else if (id == "device.brake")
+        parts.brake = true;
     else if (id == "device.pressure")
         parts.pressure = parts.pressure || isWired (Role::output, "force");
     else if (id == "device.truth")
@@ -146,7 +148,15 @@ std::optional<DeviceParts> partsOf (const Json& description, const std::filesyst
     }
     const auto made = makeDevice (description, folder);
     if (! made.device) return std::nullopt;
-    return DeviceParts { .position = true, .rotation = true, .pressure = true, .force = true, .torque = true, .truth = true, .others = made.device->layout() };
+    const auto layout = made.device->layout();
+    return DeviceParts { .position = true,
+                         .rotation = true,
+                         .pressure = true,
+                         .force = true,
+                         .torque = true,
+                         .brake = layout.brake > 0.0,
+                         .truth = true,
+                         .others = layout };
 }
 
 std::string describe (const DeviceParts& p)
@@ -165,6 +175,7 @@ std::string describe (const DeviceParts& p)
     if (p.pressure) say ("pressure");
     if (p.force) say ("force");
     if (p.torque) say ("torque");
+    if (p.brake) say ("brake");
     if (p.truth) say ("truth");
     named ("axis", p.others.axes);
     named ("effort", p.others.efforts);
@@ -188,6 +199,7 @@ std::vector<std::string> lackingOf (const DeviceParts& needed, const DeviceParts
     tool (needed.pressure, there.pressure, "pressure");
     tool (needed.force, there.force, "force");
     tool (needed.torque, there.torque, "torque");
+    tool (needed.brake, there.brake, "brake");
     tool (needed.truth, there.truth, "ground truth: only a simulated device has it");
     for (const auto& name : needed.others.axes)
         say (lacking ("axis", "axes", name, there.others.axes));

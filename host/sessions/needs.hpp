@@ -21,7 +21,7 @@ namespace tactus::host
 struct DeviceParts
 {
     bool position = false, rotation = false, pressure = false;   ///< inputs
-    bool force = false, torque = false;                          ///< outputs
+    bool force = false, torque = false, brake = false;           ///< outputs
     bool truth = false;                                          ///< ground truth, which only a simulated device has
     DeviceLayout others {};                                      ///< parts with names, and channels up to the highest number
 

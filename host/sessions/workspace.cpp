@@ -33,6 +33,9 @@ Workspace readWorkspace (const Json& json, std::string where, Messages& messages
 GuardLimits inWorkspace (GuardLimits limits, const Workspace& w) noexcept
 {
     limits.workspace_scale *= w.scale;
+    limits.max_brake /= w.scale;
+    limits.max_brake_slew /= w.scale;
+    limits.brake_at_stop /= w.scale;
     return limits;
 }
 
@@ -41,7 +44,16 @@ DeviceLayout WorkspaceDevice::layout() const
     auto has = device->layout();
     has.mechanics.mass /= workspace.scale;
     has.mechanics.damping /= workspace.scale;
+    has.brake /= workspace.scale;
     return has;
+}
+
+void WorkspaceDevice::write (const Effort& guarded) noexcept
+{
+    if (guarded.brake == 0.0) return device->write (guarded);
+    Effort scaled = guarded;
+    scaled.brake *= workspace.scale;   // the same force at the speed of the device
+    device->write (scaled);
 }
 
 Reading WorkspaceDevice::read() noexcept

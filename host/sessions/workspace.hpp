@@ -44,10 +44,10 @@ class WorkspaceDevice final : public Device
 public:
     WorkspaceDevice (std::unique_ptr<Device> d, const Workspace& w) : device (std::move (d)), workspace (w) {}
 
-    void prepare (double dt_s) override { device->prepare (dt_s); }                     // [main thread]
-    Reading read() noexcept override;                                                   // [tick thread]
-    void write (const Effort& guarded) noexcept override { device->write (guarded); }   // [tick thread]
-    void withhold() noexcept override { device->withhold(); }                           // [tick thread]
+    void prepare (double dt_s) override { device->prepare (dt_s); }   // [main thread]
+    Reading read() noexcept override;                                 // [tick thread]
+    void write (const Effort& guarded) noexcept override;             // [tick thread]
+    void withhold() noexcept override { device->withhold(); }         // [tick thread]
     void limitSignals (double max, double max_slew) override { device->limitSignals (max, max_slew); }
     void limitSlews (double force, double torque, double axis) override { device->limitSlews (force, torque, axis); }
     DeviceLayout layout() const override;

@@ -59,10 +59,11 @@ TEST_CASE ("a graph needs exactly the wired parts of its nodes", "[sessions]")
         .node ("coil", "device.signal_out", Json::object(), { { "channel", 3 } })
         .node ("less", "device.signal_out", Json::object(), { { "channel", 1 } })
         .node ("pull", "device.effort", Json::object(), { { "axis", "grip" } })
-        .node ("truth", "device.truth");
+        .node ("truth", "device.truth")
+        .node ("brake", "device.brake");
     needs = needsOf (*parts.compile().plan);
     REQUIRE (needs.size() == 1);
-    CHECK (describe (needs.front().parts) == "truth, axis 'grip', effort 'grip', button 'fire', signal outputs 1 to 3");
+    CHECK (describe (needs.front().parts) == "brake, truth, axis 'grip', effort 'grip', button 'fire', signal outputs 1 to 3");
 
     for (auto& n : parts.graph.root.nodes)
         n.bypass = n.name != "grip";
@@ -78,16 +79,17 @@ TEST_CASE ("the parts that a device lacks according to its description match the
         .node ("pull", "device.effort", Json::object(), { { "axis", "triger" } })
         .node ("held", "device.button", Json::object(), { { "button", "fire" } })
         .node ("coil", "device.signal_out", Json::object(), { { "channel", 3 } })
-        .node ("pickup", "device.signal_in", Json::object(), { { "channel", 2 } });
+        .node ("pickup", "device.signal_in", Json::object(), { { "channel", 2 } })
+        .node ("brake", "device.brake");
     const auto plan = s.compile().plan;
     const auto needed = needsOf (*plan).front().parts;
     for (const DeviceLayout& has :
          { DeviceLayout {}, DeviceLayout { .axes = { "grap" }, .efforts = { "trigger" }, .buttons = { "a", "b" }, .signal_inputs = 1, .signal_outputs = 3 },
-           DeviceLayout { .axes = { "grip" }, .efforts = { "triger" }, .buttons = { "fire" }, .signal_inputs = 2, .signal_outputs = 3 } })
+           DeviceLayout { .axes = { "grip" }, .efforts = { "triger" }, .buttons = { "fire" }, .signal_inputs = 2, .signal_outputs = 3, .brake = 5.0 } })
     {
         plan->roles().front().state->layout = has;
         const auto said = missingParts (*plan);
-        const auto lacking = lackingOf (needed, { .others = has });
+        const auto lacking = lackingOf (needed, { .brake = has.brake > 0.0, .others = has });
         CHECK (lacking.size() == said.size());
         for (const auto& m : said)
             CHECK (std::ranges::any_of (lacking, [&] (const std::string& l) { return m.text.find (l) != std::string::npos; }));

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 using namespace tactus;
@@ -185,6 +186,22 @@ TEST_CASE ("a workspace is read with units, and a bad one is refused", "[session
     CHECK (messages.front().id == id);
     CHECK (messages.front().where.starts_with ("/roles/stylus/workspace"));
     CHECK (w.scale == 1.0);
+}
+
+TEST_CASE ("a brake in a workspace takes the same force at the same motion of the device", "[sessions][brake]")
+{
+    SimulatedDevice plain ({ .mass = 0.1, .damping = 0.0, .brake = 6.0, .velocity = { 1, 0, 0 } });
+    auto owned = std::make_unique<SimulatedDevice> (Simulation { .mass = 0.1, .damping = 0.0, .brake = 6.0, .velocity = { 1, 0, 0 } });
+    auto* tool = owned.get();
+    WorkspaceDevice scaled { std::move (owned), Workspace { .scale = 3.0 } };
+    CHECK (scaled.layout().brake == 2.0);
+    CHECK (inWorkspace ({ .max_brake = 6.0, .brake_at_stop = 3.0 }, { .scale = 3.0 }).max_brake == 2.0);
+    CHECK (inWorkspace ({ .max_brake = 6.0, .brake_at_stop = 3.0 }, { .scale = 3.0 }).brake_at_stop == 1.0);
+    plain.prepare (dt);
+    scaled.prepare (dt);
+    plain.write ({ .brake = 4.5 });
+    scaled.write ({ .brake = 1.5 });   // the tool of the graph moves three times as far
+    CHECK (tool->read().true_velocity.x() == plain.read().true_velocity.x());
 }
 
 TEST_CASE ("a device in a workspace gets the signal limits of its guard, as the guard reads them", "[sessions][safety]")
