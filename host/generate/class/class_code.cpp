@@ -112,6 +112,7 @@ std::string layoutOf (const DeviceLayout& l)
     if (l.signal_outputs != 0) all.push_back (".signal_outputs = " + std::to_string (l.signal_outputs));
     if (l.mechanics != DeviceMechanics {})
         all.push_back (".mechanics = { .mass = " + literal (l.mechanics.mass) + ", .damping = " + literal (l.mechanics.damping) + " }");
+    if (l.brake != 0.0) all.push_back (".brake = " + literal (l.brake));
     return all.empty() ? "{}" : "{ " + listed (all) + " }";
 }
 

@@ -107,6 +107,7 @@ private:
         addChannels (inputs, in + ".signals", state.reading.signals, state.layout.signal_inputs, true);
         addVector (outputs, out + ".force", state.applied.force);
         addVector (outputs, out + ".torque", state.applied.torque);
+        if (state.layout.brake > 0.0) outputs.push_back ({ out + ".brake", [&applied = state.applied] { return applied.brake; } });
         addChannels (outputs, out + ".axes", state.applied.axes, static_cast<int> (state.layout.efforts.size()), false);
         addChannels (outputs, out + ".signals", state.applied.signals, state.layout.signal_outputs, false);
     }
@@ -226,7 +227,7 @@ private:
 
 double sizeOf (const Effort& e)
 {
-    double size = std::max (e.force.norm(), e.torque.norm());
+    double size = std::max ({ e.force.norm(), e.torque.norm(), e.brake });
     for (const auto* channels : { &e.axes, &e.signals })
         for (const double v : *channels)
             size = std::max (size, std::abs (v));

@@ -235,6 +235,16 @@ private:
 }   // namespace tactus::board
 )";
 
+constexpr const char* brake_numbers = R"(
+// The brake of the device, whose damping is at least 0. Tactus cannot drive it: reports of Tactus ask for none.
+const int brake = 10;
+const double counts_per_damping = 12;   // per N s/m
+)";
+
+constexpr const char* drive_brake = R"(    const double braking = effort.brake * counts_per_damping;
+    analogWrite (brake, static_cast<int> (braking < 255 ? braking : 255));
+)";
+
 constexpr const char* sketch = R"(// SPDX-License-Identifier: MIT
 // The board plays the graph by itself, at the rate of the patch. 1000 times a second it reports to Tactus by RawHID. From the first report of
 // Tactus on, Tactus alone drives the motors. When Tactus lets go, or is silent for 20 ms, the board rests, until Tactus drives it again, the
@@ -254,7 +264,7 @@ const int sensors[] = { A0, A1, A2 }, motors[] = { 3, 5, 6 }, directions[] = { 7
 const int middle = 2048;
 const tactus::Fine metres_per_count = 0.1 / 4096;
 const double counts_per_newton = 50;
-
+@BRAKE@
 static tactus::Position readPosition()
 {
     tactus::Position p;
@@ -271,7 +281,7 @@ static void drive (const tactus::Effort& effort)
         digitalWrite (directions[c], duty < 0 ? LOW : HIGH);
         analogWrite (motors[c], static_cast<int> (duty < 0 ? (duty > -255 ? -duty : 255) : (duty < 255 ? duty : 255)));
     }
-}
+@DRIVE_BRAKE@}
 
 static tactus::board::Authority authority (graph.@ROLE@);
 static tactus::board::State state;
@@ -285,7 +295,7 @@ void setup()
         pinMode (motors[c], OUTPUT);
         pinMode (directions[c], OUTPUT);
     }
-    pinMode (arm_button, INPUT_PULLUP);
+@SETUP_BRAKE@    pinMode (arm_button, INPUT_PULLUP);
     graph.@ROLE@.tighten ({ .max_force = 3.0, .max_slew = 500.0, .ramp = 0.5 });   // N, N/s, and s until the full force
     graph.prepare (1e6 / period_us);
     state.is_homed = true;   // analog sensors know the position from power-on
@@ -328,6 +338,8 @@ void loop()
 std::vector<std::pair<std::string, std::string>> arduinoFiles (const Exported& e)
 {
     const auto period = static_cast<long> (1e6 / e.wiring.plan.rateHz() + 0.999999);
+    const bool brakes = e.roles.front().layout.brake > 0.0;
+    const auto ifBraked = [brakes] (const char* text) { return std::string (brakes ? text : ""); };
     const std::vector<std::pair<std::string, std::string>> marks { { "@C@", e.class_name },
                                                                    { "@S@", e.stem },
                                                                    { "@TOOL@", e.program },
@@ -335,7 +347,10 @@ std::vector<std::pair<std::string, std::string>> arduinoFiles (const Exported& e
                                                                    { "@ABOUT@", comment (e.graph.about) },
                                                                    { "@PERIOD@", std::to_string (period) },
                                                                    { "@ROLE@", e.wiring.role_names.front() },
-                                                                   { "@PORT@", e.wiring.role_ports.front() } };
+                                                                   { "@PORT@", e.wiring.role_ports.front() },
+                                                                   { "@BRAKE@", ifBraked (brake_numbers) },
+                                                                   { "@SETUP_BRAKE@", ifBraked ("    pinMode (brake, OUTPUT);\n") },
+                                                                   { "@DRIVE_BRAKE@", ifBraked (drive_brake) } };
     const auto code = [&e] (const std::string& text) { return e.is_single ? inSinglePrecision (text) : text; };
     return { { "library.properties", filled (properties, marks) },
              { "src/tactus_board.hpp", code (board) },

@@ -52,6 +52,7 @@ std::string roleStructs (const Exported& e)
                 + cChannels ("signals", static_cast<std::size_t> (layout.signal_inputs), "signal inputs")
                 + "} " + name + "_reading;\n\n/* What this device should apply. */\ntypedef struct " + name + "_effort\n{\n"
                 + "    double force[3];    /* on the tool, N */\n    double torque[3];   /* on the tool, N m */\n"
+                + (layout.brake > 0.0 ? "    double brake;       /* damping of the brake, N s/m */\n" : "")
                 + cChannels ("axes", layout.efforts.size(), "N or N m")
                 + cChannels ("signals", static_cast<std::size_t> (layout.signal_outputs), "signal outputs")
                 + "} " + name + "_effort;\n\n";
@@ -197,6 +198,7 @@ std::string writeOutputs (const Exported& e)
         for (const auto* name : effort_vectors)
             for (int c = 0; c < 3; ++c)
                 text += "    " + to + name + "[" + std::to_string (c) + "] = " + from + name + "[" + std::to_string (c) + "];\n";
+        if (e.roles[i].layout.brake > 0.0) text += "    " + to + "brake = " + from + "brake;\n";
         if (! e.roles[i].layout.efforts.empty()) text += "    get (" + from + "axes, " + to + "axes);\n";
         if (e.roles[i].layout.signal_outputs > 0) text += "    get (" + from + "signals, " + to + "signals);\n";
     }

@@ -90,6 +90,7 @@ void addRoleOutputs (Variables& all, const Exported& e, std::size_t i)
     for (const auto& [name, unit] : { std::pair { "force", "N" }, { "torque", "N*m" } })
         for (const char c : { 'x', 'y', 'z' })
             addOutput (all, "out." + role + "." + name + "." + c, out + name + "." + c + "()", unit, "on the tool, after the guard");
+    if (e.roles[i].layout.brake > 0.0) addOutput (all, "out." + role + ".brake", out + "brake", "N*s/m", "damping of the brake, after the guard");
     for (std::size_t a = 0; a < e.roles[i].layout.efforts.size(); ++a)
         addOutput (all, "out." + role + ".axes." + std::to_string (a), out + "axes[" + std::to_string (a) + "]", "", e.roles[i].layout.efforts[a]);
     for (int s = 0; s < e.roles[i].layout.signal_outputs; ++s)
@@ -107,6 +108,9 @@ std::string unitOf (double GuardLimits::*limit)
         { &L::max_torque_slew, "N*m/s" },
         { &L::ramp, "s" },
         { &L::watchdog, "s" },
+        { &L::max_brake, "N*s/m" },
+        { &L::max_brake_slew, "N/m" },
+        { &L::brake_at_stop, "N*s/m" },
         { &L::max_speed, "m/s" },
         { &L::max_angular_speed, "rad/s" },
         { &L::max_impulse, "N*s" },
