@@ -74,6 +74,7 @@ public:
         std::copy_n (e.torque.data(), 3, to.torque);
         to.axis_count = copy (e.axes, to.axes);
         to.signal_count = copy (e.signals, to.signals);
+        to.brake = e.brake;
         efforts.store (to);
     }
 

@@ -6,6 +6,7 @@
 #include <tactus/run/device/guard_limits.hpp>
 #include <tactus/run/turn.hpp>
 #include <tactus/text/json.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <span>
 
@@ -172,7 +173,12 @@ tactus_result tactus_run_pushed_device (tactus_run* r, const char* role, const t
                                      .efforts = list (options.efforts, options.effort_count),
                                      .buttons = list (options.buttons, options.button_count),
                                      .signal_inputs = options.signal_inputs,
-                                     .signal_outputs = options.signal_outputs };
+                                     .signal_outputs = options.signal_outputs,
+                                     .brake = options.brake };
+        if (! tactus::isFinite (parts.brake) || parts.brake < 0.0)
+            return failed (messages, Message::error ("api/value", "/devices/" + text (role) + "/brake",
+                                                     "the largest damping of a brake is a number of at least 0, not " + tactus::numberText (parts.brake),
+                                                     "give it in N s/m, or 0 for a device without a brake"));
         Messages found;
         tactus::GuardLimits limits;
         if (options.guard != nullptr)

@@ -301,11 +301,12 @@ typedef struct tactus_effort
     double torque[3]; /**< on the tool, N m */
     uint32_t axis_count, signal_count;
     double axes[TACTUS_CHANNELS], signals[TACTUS_CHANNELS];
+    double brake; /**< damping of the brake on the tool, N s/m; 0 for a device without one, and for one that a driver in a plugin drives */
 } tactus_effort;
 
-#define TACTUS_EFFORT                                                                        \
-    {                                                                                        \
-        sizeof (tactus_effort), { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, 0, 0, { 0.0 }, { 0.0 } \
+#define TACTUS_EFFORT                                                                             \
+    {                                                                                             \
+        sizeof (tactus_effort), { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, 0, 0, { 0.0 }, { 0.0 }, 0.0 \
     }
 
 /** What your device has, beyond a tool that moves and can be pushed. Everything may be 0 or NULL. */
@@ -321,11 +322,12 @@ typedef struct tactus_device_options
     int32_t signal_inputs, signal_outputs;
     const char* guard; /**< JSON with the limits of docs/safety.md: {"max_force": "3 N", …}. Its "watchdog" replaces that of 50 ms, also by a longer
                             one; the guard that a graph asks for only tightens */
+    double brake;      /**< the largest damping of its brake on the tool, N s/m, which also limits tactus_effort::brake; 0: it has none */
 } tactus_device_options;
 
-#define TACTUS_DEVICE_OPTIONS                                     \
-    {                                                             \
-        sizeof (tactus_device_options), 0, 0, 0, 0, 0, 0, 0, 0, 0 \
+#define TACTUS_DEVICE_OPTIONS                                          \
+    {                                                                  \
+        sizeof (tactus_device_options), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0 \
     }
 
 /** Your own device: you push readings and take efforts. Until the first reading, the effort is zero. When readings stop for longer than the watchdog

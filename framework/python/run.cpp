@@ -144,6 +144,7 @@ void PythonRun::pushedDevice (const std::string& role, const std::string& text)
     options.button_count = button_names.size();
     options.signal_inputs = has.at ("signal_inputs").get<int>();
     options.signal_outputs = has.at ("signal_outputs").get<int>();
+    options.brake = has.at ("brake").get<double>();
     if (! has.at ("guard").is_null()) options.guard = guard.c_str();
     call ("take a device", [&] (auto* m) { return tactus_run_pushed_device (run.get(), role.c_str(), &options, m); });
 }
@@ -205,6 +206,7 @@ py::dict PythonRun::take (const std::string& role) const
     all["torque"] = array (effort.torque, 3);
     all["axes"] = array (effort.axes, effort.axis_count);
     all["signals"] = array (effort.signals, effort.signal_count);
+    all["brake"] = effort.brake;
     return all;
 }
 

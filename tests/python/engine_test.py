@@ -143,6 +143,18 @@ class OwnDevices(TestCase):
         self.fails("device/unknown_key", tactus.Engine, graph, devices={"pen": {"driver": "sim", "weight": 3}})
 
 
+class Brakes(TestCase):
+    def test_a_brake_gets_its_damping_within_what_the_device_has(self):
+        graph = tactus.Graph(rate=1000)
+        graph.add_node("amount", "signal.constant", {"value": 7})
+        graph.add_node("brake", "device.brake", role="pen")
+        graph.connect("amount.out", "brake.damping")
+        engine = tactus.Engine(graph, devices={"pen": tactus.PushedDevice(brake=5.0)})
+        engine.push("pen", (0, 0, 0))
+        engine.step()
+        self.assertEqual(engine.take("pen").brake, 5.0)
+
+
 class Live(TestCase):
     def test_a_live_run_has_the_bits_of_the_render(self):
         graph = tactus.Graph(GRAPHS / "dry_wood.json")

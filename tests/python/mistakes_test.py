@@ -120,6 +120,7 @@ MISTAKES = [
     ("a guard in the wrong unit", lambda: pushed(guard={"max_force": "3 m"}), "device/unit", "max_force"),
     ("a guard with a typing error", lambda: pushed(guard={"max_forc": "3 N"}), "device/unknown_key", "max_forc"),
     ("too many signals", lambda: pushed(signal_inputs=1000), "argument/value", "signal_inputs"),
+    ("a brake below 0", lambda: pushed(brake=-1.0), "argument/value", "brake"),
     ("a buffer of less than nothing", lambda: engine().start(buffer=-1), "argument/value", "buffer"),
     # Sessions
     ("a session of a preset with a typing error", lambda: tactus.play("dry_wod"), "file/unreadable", "dry_wod"),

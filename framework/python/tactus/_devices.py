@@ -19,7 +19,8 @@ class PushedDevice(NamedTuple):
     longer than the guard's watchdog, the effort is zero.
 
     axes: names of the axes whose positions it reads. efforts: names of the axes that its motors push. buttons: names of its buttons. guard:
-    limits as in docs/safety.md: {"max_force": "3 N", "watchdog": "20 ms"}."""
+    limits as in docs/safety.md: {"max_force": "3 N", "watchdog": "20 ms"}. brake: the largest damping of its brake on the tool, N s/m; 0: it
+    has none."""
 
     axes: Sequence[str] = ()
     efforts: Sequence[str] = ()
@@ -27,16 +28,18 @@ class PushedDevice(NamedTuple):
     signal_inputs: int = 0
     signal_outputs: int = 0
     guard: Optional[Mapping[str, Any]] = None
+    brake: float = 0.0
 
 
 class Effort(NamedTuple):
     """What a device should apply, after the guard. force (3,), on the tool, N. torque (3,), on the tool, N m. axes, N or N m, in the order
-    of PushedDevice.efforts. signals: the signal outputs, channel 1 first."""
+    of PushedDevice.efforts. signals: the signal outputs, channel 1 first. brake: damping of the brake on the tool, N s/m, at least 0."""
 
     force: Array
     torque: Array
     axes: Array
     signals: Array
+    brake: float
 
 
 def described(role: str, device: PushedDevice) -> Dict[str, Any]:
@@ -48,8 +51,9 @@ def described(role: str, device: PushedDevice) -> Dict[str, Any]:
             fail("argument/value", f"{at}.{key}", f"there are {len(some)} names", f"give at most {_CHANNELS}")
     counts = {key: _checks.whole(f"{at}.{key}", getattr(device, key), "give a number of signals, from 0", high=_CHANNELS)
               for key in ("signal_inputs", "signal_outputs")}
+    brake = _checks.number(f"{at}.brake", device.brake, "give the largest damping in N s/m, or 0 for a device without a brake", low=0.0)
     guard = device.guard if device.guard is None else _checks.mapping(f"{at}.guard", device.guard, "{'max_force': '3 N'}")
-    return {**names, **counts, "guard": json.loads(to_json(guard, f"{at}.guard"))}
+    return {**names, **counts, "brake": brake, "guard": json.loads(to_json(guard, f"{at}.guard"))}
 
 
 def explain_push(role: Any, position: Any, rotation: Any, pressure: Any, buttons: Any, axes: Any, signals: Any, age: Any,
