@@ -69,3 +69,20 @@ TEST_CASE ("figure: the restitution of an impact falls with speed as Hunt and Cr
     for (const auto& [name, v] : { std::pair { "slow", 0.5 }, { "middle", 1.0 }, { "fast", 2.0 } })
         test::renderFigure ("restitution", std::string ("restitution_") + name, thrownAt (scratch, v));
 }
+
+TEST_CASE ("chapter: with the minus of eq. (10) as printed, and v into the wall, a tool comes back faster than it came", "[figures]")
+{
+    // m = k = 1 and a first speed of 1, so lambda v is lambda. The closed form has -lambda in place of lambda.
+    for (const auto& [lambda_v, e] : { std::pair { 0.1, 1.07147 }, std::pair { 0.3, 1.25157 } })
+    {
+        constexpr double h = 1e-5;
+        double d = 0.0, v = 1.0;
+        do
+        {
+            v -= 0.5 * h * d * (1.0 - lambda_v * v);
+            d += h * v;
+            v -= 0.5 * h * d * (1.0 - lambda_v * v);
+        } while (d > 0.0);
+        CHECK (-v == Approx (e).epsilon (1e-3));
+    }
+}
