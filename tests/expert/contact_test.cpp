@@ -119,21 +119,18 @@ TEST_CASE ("expert 6: sliding across an edge from a soft to a stiff triangle cau
         const auto surface = flesh (dice, mu, true);
         const double depth = dice.uniform (0.2e-3, 2e-3), turn = dice.uniform (0.0, 2.0 * M_PI), off = dice.uniform (-3e-3, 3e-3);
         const Vec3 way { std::cos (turn), std::sin (turn), 0 }, from { -off * way.y(), off * way.x(), -depth };
-        // Where the path leads uphill, the contact holds on beyond its bound, like one that is caught on an edge. It lets go with a
-        // step.
-        bool is_caught = false;
         const auto steepest = [&] (int n) {
             Rig rig = skin (surface, true);
             double most = 0.0;
             Vec3 before = Vec3::Zero();
+            rig.input ("position", from - 0.012 * way + 0.01 * Vec3::UnitZ());
+            rig.tick();
             for (int k = 0; k <= n; ++k)
             {
                 const double s = 2.0 * k / n - 1.0;
                 rig.input ("position", from + 0.012 * s * way);
                 rig.tick();
-                const Vec3 force = rig.vector ("force"), d = from + 0.012 * s * way - rig.vector ("contact"), normal = rig.vector ("normal");
-                const double in = -d.dot (normal);
-                is_caught = is_caught || (in > 0.0 && (d + in * normal).norm() > 1.01 * mu * in);
+                const Vec3 force = rig.vector ("force");
                 if (s > -0.6) most = std::max (most, (force - before).norm());   // by now the contact is dragged along
                 before = force;
             }
@@ -149,8 +146,7 @@ TEST_CASE ("expert 6: sliding across an edge from a soft to a stiff triangle cau
             finer = fine <= 0.35 * coarse;
             coarse = fine;
         }
-        RC_CLASSIFY (is_caught);
-        RC_ASSERT (finer || is_caught);
+        RC_ASSERT (finer);
     });
 
     rc::prop ("any closed path: without friction it costs no energy, with enough friction it costs some", [] (unsigned seed) {
@@ -168,6 +164,11 @@ TEST_CASE ("expert 6: sliding across an edge from a soft to a stiff triangle cau
             {
                 const double s = 2.0 * M_PI * k / n;
                 const Vec3 next { size[0] * std::sin (waves[0] * s), size[1] * std::cos (waves[1] * s + phase), depth * (lift - std::cos (waves[2] * s)) };
+                if (k == 0)
+                {
+                    rig.input ("position", next + 0.01 * Vec3::UnitZ());   // the tool comes from outside
+                    rig.tick();
+                }
                 rig.input ("position", next);
                 rig.tick();
                 const Vec3 force = rig.vector ("force");

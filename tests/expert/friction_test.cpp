@@ -85,8 +85,7 @@ TEST_CASE ("expert 1: a tool that is leaned on for a minute does not drift", "[e
 
 TEST_CASE ("expert 2: every node gives a finite and steady response to a tool at rest", "[expert]")
 {
-    // A node whose force depends on position alone gives identical bits for a repeated sample. A node with memory comes to
-    // rest, and so does deform.surface, which slips once per tick until it is within its bound.
+    // A node whose force depends on position alone gives identical bits for a repeated sample. A node with memory comes to rest.
     // hold.deadbeat estimates the force of the hand, smoothed over 10 ms; after that, its two planned forces differ only by rounding.
     constexpr std::string_view timeless[] { "friction.elasto_plastic", "cut.blade", "cut.scissors", "texture.grating" };
 

@@ -12,32 +12,36 @@ namespace tactus
 
 namespace
 {
-std::vector<std::array<bool, 3>> rimOf (const Mesh& mesh)
+/// By triangle, then corner: another triangle that has the edge opposite that corner; -1: none.
+std::vector<std::array<int, 3>> neighboursOf (const Mesh& mesh)
 {
-    using Edge = std::pair<int, int>;
-    const auto edge = [] (const std::array<int, 3>& corners, std::size_t opposite) {
-        return Edge (std::minmax (corners[(opposite + 1) % 3], corners[(opposite + 2) % 3]));
+    struct Side
+    {
+        std::pair<int, int> ends;
+        int triangle, corner;
     };
-    std::vector<std::array<bool, 3>> rim (mesh.triangles.size());
-    std::vector<Edge> sides;   // of all triangles, sorted
+    std::vector<Side> sides;
     sides.reserve (3 * mesh.triangles.size());
-    for (const auto& corners : mesh.triangles)
-        for (std::size_t i = 0; i < 3; ++i)
-            sides.push_back (edge (corners, i));
-    std::ranges::sort (sides);
-    for (std::size_t t = 0; t < rim.size(); ++t)
-        for (std::size_t i = 0; i < 3; ++i)
+    for (int t = 0; t < mesh.size(); ++t)
+        for (int i = 0; i < 3; ++i)
         {
-            const auto next = std::ranges::upper_bound (sides, edge (mesh.triangles[t], i));
-            rim[t][i] = next - sides.begin() == 1 || next[-1] != next[-2];   // the same edge is in the list only once
+            const auto& corners = mesh.triangles[at (t)];
+            sides.push_back ({ std::minmax (corners[at ((i + 1) % 3)], corners[at ((i + 2) % 3)]), t, i });
         }
-    return rim;
+    std::ranges::stable_sort (sides, {}, &Side::ends);
+    std::vector<std::array<int, 3>> neighbours (mesh.triangles.size(), { -1, -1, -1 });
+    for (std::size_t i = 1; i < sides.size(); ++i)
+    {
+        const Side &a = sides[i - 1], &b = sides[i];
+        if (a.ends != b.ends) continue;
+        neighbours[at (b.triangle)][at (b.corner)] = a.triangle;
+        if (auto& other = neighbours[at (a.triangle)][at (a.corner)]; other < 0) other = b.triangle;
+    }
+    return neighbours;
 }
-
-bool hasRim (const std::array<bool, 3>& edges) noexcept { return edges[0] || edges[1] || edges[2]; }
 }   // namespace
 
-MeshWalk::MeshWalk (Mesh m) : body (std::move (m)), rim (rimOf (body)), first (body.points.size() + 1, 0), sharing (3 * body.triangles.size())
+MeshWalk::MeshWalk (Mesh m) : body (std::move (m)), neighbours (neighboursOf (body)), first (body.points.size() + 1, 0), sharing (3 * body.triangles.size())
 {
     double size = 0.0;
     for (const auto& point : body.points)
@@ -64,8 +68,6 @@ MeshWalk::MeshWalk (Mesh m) : body (std::move (m)), rim (rimOf (body)), first (b
     for (int t = 0; t < body.size(); ++t)
         for (const int c : body.triangles[at (t)])
             sharing[at (next[at (c)]++)] = t;
-
-    is_open = std::ranges::any_of (rim, hasRim);
 }
 
 /// Everything within a distance of p.
@@ -123,7 +125,7 @@ Spot MeshWalk::nearestOfAll (const Vec3& p, int guess) const noexcept
     return best.triangle < 0 ? spotOn (0, p) : best;
 }
 
-Spot MeshWalk::nearestAmong (int from, const Vec3& p, const Vec3* way) const noexcept
+Spot MeshWalk::nearest (int from, const Vec3& p) const noexcept
 {
     constexpr int most = 1000;                  // most steps of a walk: more than a hand needs in a tick on any mesh
     constexpr double nearer = margin (1e-12);   // relative margin: at a common edge, two triangles are equally near except for rounding
@@ -142,7 +144,6 @@ Spot MeshWalk::nearestAmong (int from, const Vec3& p, const Vec3* way) const noe
             {
                 const int neighbour = sharing[at (i)];
                 if (neighbour == here.triangle || reach.misses (boxes[at (neighbour)])) continue;
-                if (way && ! (areaNormal (cornersOf (body, neighbour)).dot (*way) < 0.0)) continue;
                 const Spot there = spotOn (neighbour, p);
                 if (const double distance2 = (there.on.point - p).squaredNorm(); distance2 < least)
                 {
@@ -158,7 +159,7 @@ Spot MeshWalk::nearestAmong (int from, const Vec3& p, const Vec3* way) const noe
     return here;
 }
 
-int MeshWalk::entered (const Vec3& from, const Vec3& to) const noexcept
+Spot MeshWalk::entered (const Vec3& from, const Vec3& to) const noexcept
 {
     constexpr double slack = margin (1e-9);   // relative; far larger than the rounding error of a weight
     const Vec3 way = to - from;
@@ -188,41 +189,23 @@ int MeshWalk::entered (const Vec3& from, const Vec3& to) const noexcept
         soonest = share;
         found = t;
     }
-    return found;
+    return found < 0 ? Spot {} : spotOn (found, from + soonest * way);
 }
 
-bool MeshWalk::isBeyondRim (const Spot& spot, const Vec3& p) const noexcept
+Spot MeshWalk::across (const Spot& spot, int corner) const noexcept
 {
-    constexpr double further = 0.7071;   // cos 45 degrees: p is farther out than it is up or down
-    const Vec3 away = p - spot.on.point;
-    const auto passes = [&] (int triangle) {
-        for (int i = 0; i < 3; ++i)
-        {
-            if (! rim[at (triangle)][at (i)]) continue;
-            const Vec3& a = body.corner (triangle, (i + 1) % 3);
-            const Vec3& b = body.corner (triangle, (i + 2) % 3);
-            const Vec3 along = b - a, inward = body.corner (triangle, i) - a;
-            if (along.cross (spot.on.point - a).norm() > margin (1e-9) * along.squaredNorm()) continue;   // the spot is not on this edge
-            const Vec3 outward = -direction (inward - along * (inward.dot (along) / along.squaredNorm()));
-            const Vec3 up = direction (along.cross (inward));
-            if (outward.dot (away) > 0.0 && (away - up.dot (away) * up).norm() > further * away.norm()) return true;
-        }
-        return false;
-    };
-
-    const auto& weights = spot.on.weights;
+    Spot there { beside (spot.triangle, corner), { { 0.0, 0.0, 0.0 }, spot.on.point } };
+    const auto &from = body.triangles[at (spot.triangle)], &to = body.triangles[at (there.triangle)];
     for (std::size_t i = 0; i < 3; ++i)
-        if (weights[i] == 1.0)
-        {
-            const auto corner = at (body.triangles[at (spot.triangle)][i]);
-            return std::any_of (sharing.begin() + first[corner], sharing.begin() + first[corner + 1], passes);
-        }
-    return std::ranges::count (weights, 0.0) > 0 && passes (spot.triangle);
+        for (std::size_t j = 0; j < 3; ++j)
+            if (static_cast<int> (i) != corner && from[i] == to[j]) there.on.weights[j] = spot.on.weights[i];
+    return there;
 }
 
 bool isInsideOut (const Mesh& mesh)
 {
-    if (std::ranges::any_of (rimOf (mesh), hasRim)) return false;
+    for (const auto& beside : neighboursOf (mesh))
+        if (std::ranges::min (beside) < 0) return false;
     double volume = 0.0;
     for (int t = 0; t < mesh.size(); ++t)
         volume += mesh.corner (t, 0).dot (mesh.corner (t, 1).cross (mesh.corner (t, 2)));

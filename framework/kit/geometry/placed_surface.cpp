@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "placed_surface.hpp"
+#include <tactus/kit/math/math.hpp>
 
 #include <utility>
 
@@ -23,6 +24,13 @@ Mat3 frameInto (const Vec3& z)
     frame << Vec3::UnitX().transpose(), -Vec3::UnitY().transpose(), -Vec3::UnitZ().transpose();
     return z.isZero (0.0) ? frame : Mat3 { frame * shortestRotation (-Vec3::UnitZ(), z).toRotationMatrix().transpose() };
 }
+
+/// The part of the way to a point at right angles to an edge.
+Vec3 awayFrom (const Vec3& start, const Vec3& edge, const Vec3& point)
+{
+    const Vec3 way = point - start;
+    return way - way.dot (edge) / edge.squaredNorm() * edge;
+}
 }   // namespace
 
 PlacedSurface::PlacedSurface (std::shared_ptr<const Surface> s, double scale, const Vec3& origin, const Vec3& rotation)
@@ -31,7 +39,7 @@ PlacedSurface::PlacedSurface (std::shared_ptr<const Surface> s, double scale, co
     const auto points = mesh_walk.mesh().points.size(), triangles = mesh_walk.mesh().triangles.size();
     frames.reserve (points);
     squared.reserve (std::max (points, frames.size()));
-    feet.reserve (triangles);
+    elements.reserve (triangles);
     even.reserve (triangles);
     if (frames.empty())
         for (const auto& n : normalsOf (mesh_walk.mesh()))
@@ -45,11 +53,20 @@ PlacedSurface::PlacedSurface (std::shared_ptr<const Surface> s, double scale, co
     for (int t = 0; t < mesh_walk.mesh().size(); ++t)
     {
         const auto corners = cornersOf (mesh_walk.mesh(), t);
-        auto& foot = feet.emplace_back();
-        for (std::size_t i = 0; i < 3; ++i)
+        auto& element = elements.emplace_back();
+        for (int i = 0; i < 3; ++i)
         {
-            const Vec3 edge = corners[(i + 2) % 3] - corners[(i + 1) % 3], centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
-            foot[i] = std::clamp (edge.dot (centroid - corners[(i + 1) % 3]) / edge.squaredNorm(), 0.0, 1.0);
+            const Vec3 &first = corners[at ((i + 1) % 3)], &second = corners[at ((i + 2) % 3)], edge = second - first;
+            const Vec3 centroid = (corners[0] + corners[1] + corners[2]) / 3.0, rise = awayFrom (first, edge, corners[at (i)]);
+            element.feet[at (i)] = std::clamp (edge.dot (centroid - first) / edge.squaredNorm(), 0.0, 1.0);
+            const int beside = mesh_walk.beside (t, i);
+            if (beside < 0) continue;
+            Vec3 sum = direction (rise);
+            for (const Vec3& corner : cornersOf (mesh_walk.mesh(), beside))
+                if (corner != first && corner != second) sum += direction (awayFrom (first, edge, corner));
+            if (sum.norm() < margin (1e-9)) continue;      // level
+            constexpr double gentle = 0.2, narrow = 0.4;   // of a slope; of a triangle
+            element.roundings[at (i)] = { .rise = -0.5 * rise.norm() * sum, .width = std::clamp (gentle / std::max (0.5 * sum.norm(), gentle), narrow, 1.0) };
         }
     }
     if (frames.size() != mesh_walk.mesh().points.size()) return;

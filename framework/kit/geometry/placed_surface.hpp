@@ -31,17 +31,18 @@ public:
     {
         std::vector<Share> shares;   ///< the first `count` are used
         int count = 0;
-        bool smooth = false;   ///< the response is interpolated with smooth weights instead of barycentric ones
     };
 
-    /// The response of the curves to a tool at p whose contact point is at a spot.
+    /// The response of the curves to a tool whose foot is at a spot.
     struct ContactSample
     {
-        Mat3 frame = Mat3::Identity();       ///< rows u^x, u^y, u^z
-        Vec3 d = Vec3::Zero();               ///< deflection along these axes, m
-        Vec3 f = Vec3::Zero();               ///< force along these axes, N
-        std::array<double, 3> energies {};   ///< sum_nu F_i^nu of each corner, J
-        double energy = 0.0;                 ///< stored energy, J
+        Mat3 frame = Mat3::Identity();      ///< rows u^x, u^y, u^z
+        Vec3 place = Vec3::Zero();          ///< the spot on the rounded body, m
+        Eigen::Vector2d off { 0.0, 0.0 };   ///< the tool's distance from the line along u^z through the place, along u^x and u^y; 0 at a foot, m
+        Vec3 d = Vec3::Zero();              ///< sideways stretch along u^x and u^y, and depth, m
+        Vec3 f = Vec3::Zero();              ///< force along these axes, N
+        Vec3 rise = Vec3::Zero();           ///< gradient of the depth in the tool's position, with the spot fixed
+        double energy = 0.0;                ///< stored energy, J
     };
 
     const MeshWalk& walk() const noexcept { return mesh_walk; }
@@ -52,15 +53,33 @@ public:
     /// the number of tools - 1; a fraction blends two tools. [any thread]
     void choose (double number, const Spot&, Tool& tool) const noexcept;
 
-    ContactSample feel (const Spot&, const Vec3& p, const Tool&) const noexcept;                 // [any thread]
-    double ratio (const Spot&, double depth, const Tool&) const noexcept;                        ///< mu_c: largest sideways deflection of the contact / its depth
-    Vec3 slope (const Spot&, const ContactSample&, const Vec3& p, const Tool&) const noexcept;   ///< dU/dc for a contact point that follows the tool, in N
+    Mat3 frameAt (const Spot&, const Tool&) const noexcept;   // [any thread]
+
+    /// Where a spot is if the body is rounded off between its edges, so that a foot crosses an edge without a turn. [any thread]
+    Vec3 placeOf (const Spot&) const noexcept;
+
+    /// What a tool at p feels with its foot at a spot, stretched from an anchor; null: not stretched. [any thread]
+    ContactSample feel (const Spot&, const Vec3& p, const Vec3* anchor, const Tool&) const noexcept;
+
+    double ratio (const Spot&, double depth, const Tool&) const noexcept;   ///< mu_c: largest sideways stretch of the contact / its depth
 
 private:
     using Weights = std::array<double, 3>;
 
+    /// How the body is rounded off beside an edge of a triangle.
+    struct Rounding
+    {
+        Vec3 rise { 0.0, 0.0, 0.0 };   // out of the body, per barycentric weight; 0 if both triangles are level, or at the rim
+        double width = 1.0;            // barycentric
+    };
+    struct Element
+    {
+        Weights feet;                        // by corner: where the foot of the centroid is on the edge opposite the corner, 0 to 1
+        std::array<Rounding, 3> roundings;   // by corner: beside the edge opposite the corner
+    };
+
+    Weights weightsAt (const Spot& spot) const noexcept { return smoothWeights (spot.on.weights, elements[at (spot.triangle)].feet); }
     Mat3 frameAt (const Spot&, const Weights&, const Tool&) const noexcept;
-    std::array<Vec3, 3> gradientsAt (const Spot&, const Tool&) const noexcept;
     double shareOf (int shape, int tool, const Spot&) const noexcept;
     void add (ContactSample&, const Spot&, const Weights&, int shape, double amount) const noexcept;
     const std::array<int, 3>& cornersAt (const Spot& spot) const noexcept { return mesh_walk.mesh().triangles[at (spot.triangle)]; }
@@ -68,7 +87,7 @@ private:
     std::shared_ptr<const Surface> surface;
     MeshWalk mesh_walk;
     std::vector<Mat3> frames, squared;   // by node, or by shape, then node: the frames as given; the same frames made orthonormal
-    std::vector<Weights> feet;           // by triangle, then corner: where the foot of the centroid is on the edge opposite the corner, 0 to 1
+    std::vector<Element> elements;       // by triangle
     std::vector<bool> even;              // by triangle: true if its corners have the same frame; empty if the shapes have their own frames
 };
 
@@ -119,18 +138,46 @@ inline double PlacedSurface::shareOf (int shape, int tool, const Spot& spot) con
     return sum;
 }
 
-inline PlacedSurface::ContactSample PlacedSurface::feel (const Spot& spot, const Vec3& p, const Tool& tool) const noexcept
+inline PlacedSurface::ContactSample PlacedSurface::feel (const Spot& spot, const Vec3& p, const Vec3* anchor, const Tool& tool) const noexcept
 {
     ContactSample felt;
-    const Weights n = tool.smooth ? smoothWeights (spot.on.weights, feet[at (spot.triangle)]) : spot.on.weights;
+    const Weights n = weightsAt (spot);
     felt.frame = frameAt (spot, n, tool);
-    felt.d = felt.frame * (p - spot.on.point);
+    felt.place = placeOf (spot);
+    const Vec3 away = felt.frame * (p - felt.place);
+    felt.off = away.head<2>();
+    felt.d.z() = away.z();
+    felt.rise = felt.frame.row (2).transpose();
+    const Vec3 normal = areaNormal (cornersOf (mesh_walk.mesh(), spot.triangle));
+    if (const double facing = normal.dot (felt.rise); felt.place != spot.on.point && facing < 0.0)
+    {
+        // The rounding fades out towards the triangle, so that nothing is felt above it.
+        const double w = normal.dot (p - spot.on.point) / facing, b = away.z() - w, bb = 4.0 * b * b, all = w * w + bb;   // w: depth below the triangle
+        if (! (all > 0.0)) return felt;
+        const Vec3 across = normal / facing - felt.rise;
+        felt.d.z() = w + b * w * w / all;
+        felt.rise += across + 2.0 * b * bb * w / (all * all) * (felt.rise + across) - w * w * (w * w - bb) / (all * all) * across;
+    }
+    if (anchor) felt.d.head<2>() = (felt.frame * (felt.place - *anchor)).head<2>();
     for (int i = 0; i < tool.count; ++i)
         add (felt, spot, n, tool.shares[at (i)].shape, tool.shares[at (i)].amount);
-    for (std::size_t i = 0; i < 3; ++i)
-        felt.energy += n[i] * felt.energies[i];
     return felt;
 }
+
+inline Vec3 PlacedSurface::placeOf (const Spot& spot) const noexcept
+{
+    const auto& l = spot.on.weights;
+    const auto& roundings = elements[at (spot.triangle)].roundings;
+    const Weights near { l[1] * l[1] * l[2] * l[2], l[2] * l[2] * l[0] * l[0], l[0] * l[0] * l[1] * l[1] };   // the edges, by how near they are
+    const double all = near[0] + near[1] + near[2];
+    Vec3 place = spot.on.point;
+    if (! (all > 0.0)) return place;
+    for (std::size_t i = 0; i < 3; ++i)
+        if (const double inside = 1.0 - l[i] / roundings[i].width; inside > 0.0) place += near[i] / all * l[i] * inside * inside * roundings[i].rise;
+    return place;
+}
+
+inline Mat3 PlacedSurface::frameAt (const Spot& spot, const Tool& tool) const noexcept { return frameAt (spot, weightsAt (spot), tool); }
 
 /// Eq. (5). On a triangle whose corners have the same frame, such as a flat patch, nothing is interpolated. If the shapes have their
 /// own frames, these are also interpolated by the shares of the shapes.
@@ -153,31 +200,23 @@ inline Mat3 PlacedSurface::frameAt (const Spot& spot, const Weights& n, const To
     return detail::orthonormal (sum);
 }
 
-/// Eq. (6) and (9): adds the share of one shape to the forces and energies.
+/// Eq. (6) and (9): adds the share of one shape to the forces and the energy.
 inline void PlacedSurface::add (ContactSample& felt, const Spot& spot, const Weights& n, int shape, double amount) const noexcept
 {
     const auto& curves = surface->curves[at (shape)];
     const auto& corners = cornersAt (spot);
     const bool alike = curves.size() == 1;
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < (alike ? 1 : 3); ++i)
     {
         const double share = alike ? amount : amount * n[i];
         const Surface::Curves& of = curves[alike ? 0 : at (corners[i])];
-        double energy = 0.0;
         for (int axis = 0; axis < 3; ++axis)
         {
             const double d = axis < 2 ? std::abs (felt.d[axis]) : felt.d[axis];
             const auto [force, stored] = of[at (axis)].at (d);
             felt.f[axis] += share * (felt.d[axis] < 0.0 ? -force : force);
-            energy += stored;
+            felt.energy += share * stored;
         }
-        if (alike)
-        {
-            for (double& all : felt.energies)
-                all += amount * energy;
-            return;
-        }
-        felt.energies[i] += amount * energy;
     }
 }
 
@@ -187,10 +226,11 @@ inline double PlacedSurface::ratio (const Spot& spot, double depth, const Tool& 
     if (mu.empty()) return 0.0;
     if (mu.size() == 1) return mu[0](depth);
     const auto& corners = cornersAt (spot);
+    const Weights n = weightsAt (spot);
     const auto interpolated = [&] (std::size_t first) {
         double sum = 0.0;
         for (std::size_t i = 0; i < 3; ++i)
-            sum += spot.on.weights[i] * mu[first + at (corners[i])](depth);
+            sum += n[i] * mu[first + at (corners[i])](depth);
         return sum;
     };
     const auto nodes = mesh_walk.mesh().points.size();
@@ -200,51 +240,6 @@ inline double PlacedSurface::ratio (const Spot& spot, double depth, const Tool& 
     for (int i = 0; i < tool.count; ++i)
         sum += tool.shares[at (i)].amount * interpolated (at (tool.shares[at (i)].shape) * nodes);
     return sum;
-}
-
-/// The gradients of the weights of the corners.
-inline std::array<Vec3, 3> PlacedSurface::gradientsAt (const Spot& spot, const Tool& tool) const noexcept
-{
-    const auto corners = cornersOf (mesh_walk.mesh(), spot.triangle);
-    const auto barycentric = gradientsOf (corners);
-    if (! tool.smooth) return barycentric;
-
-    constexpr double h = 1e-5;   // step of the central difference, in barycentric coordinates
-    std::array<Vec3, 3> sum { Vec3::Zero(), Vec3::Zero(), Vec3::Zero() };
-    for (std::size_t k = 1; k < 3; ++k)   // changes coordinate k, and coordinate 0 by the opposite amount
-    {
-        Weights more = spot.on.weights, less = more;
-        more[k] += h;
-        more[0] -= h;
-        less[k] -= h;
-        less[0] += h;
-        const auto after = smoothWeights (more, feet[at (spot.triangle)]), before = smoothWeights (less, feet[at (spot.triangle)]);
-        for (std::size_t i = 0; i < 3; ++i)
-            sum[i] += (after[i] - before[i]) / (2.0 * h) * barycentric[k];
-    }
-    return sum;
-}
-
-/// The slope over the triangle; or, where a crease or the rim holds the contact point, along that edge.
-inline Vec3 PlacedSurface::slope (const Spot& spot, const ContactSample& felt, const Vec3& p, const Tool& tool) const noexcept
-{
-    const auto& [triangle, on] = spot;
-    const auto corners = cornersOf (mesh_walk.mesh(), triangle);
-    const auto gradients = gradientsAt (spot, tool);
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 0; i < 3; ++i)
-        sum += felt.energies[i] * gradients[i];
-
-    const Vec3 away = p - on.point, normal = direction (areaNormal (corners));
-    const Vec3 sideways = away - away.dot (normal) * normal;
-    if (sideways.norm() <= margin (1e-9) * away.norm()) return sum;
-    for (std::size_t i = 0; i < 3; ++i)
-        if (on.weights[i] == 0.0 && on.weights[(i + 1) % 3] > 0.0 && on.weights[(i + 2) % 3] > 0.0)
-        {
-            const Vec3 edge = direction (corners[(i + 2) % 3] - corners[(i + 1) % 3]);
-            return edge.dot (sum) * edge;
-        }
-    return Vec3::Zero();
 }
 
 }   // namespace tactus

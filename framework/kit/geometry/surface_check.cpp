@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "surface_check.hpp"
 #include "mesh_walk.hpp"
-#include <tactus/kit/math/math.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 namespace tactus
@@ -13,22 +11,6 @@ namespace tactus
 
 namespace
 {
-constexpr double level = 1.0 - margin (1e-12);   // the cosine of the largest angle that counts as 0
-
-/// The cosine of the largest angle between a frame and the normal of a triangle at its node.
-double mostTilted (const Surface& s)
-{
-    double least = 1.0;
-    for (int t = 0; t < s.mesh->size(); ++t)
-    {
-        const Vec3 up = direction (areaNormal (cornersOf (*s.mesh, t)));
-        for (const int c : s.mesh->triangles[at (t)])
-            for (std::size_t i = at (c); i < s.frames.size(); i += s.mesh->points.size())
-                least = std::min (least, -up.dot (Vec3 (s.frames[i].row (2).transpose())));
-    }
-    return least;
-}
-
 std::string badWeights (const Surface& s)
 {
     constexpr double rounding = 1e-6;
@@ -73,27 +55,6 @@ std::string wrongSide (const Surface& s)
     for (std::size_t i = 0; i < s.frames.size(); ++i)
         if (s.frames[i].row (2).dot (normals[i % normals.size()].transpose()) > 0.0) return sentence (i % normals.size());
     return {};
-}
-
-bool isFlat (const Surface& s)
-{
-    const Vec3 up = direction (areaNormal (cornersOf (*s.mesh, 0)));
-    for (int t = 1; t < s.mesh->size(); ++t)
-        if (up.dot (direction (areaNormal (cornersOf (*s.mesh, t)))) < level) return false;
-    return true;
-}
-
-bool isPatchThatLeans (const Surface& s) { return ! s.frames.empty() && isFlat (s) && mostTilted (s) < level; }
-
-std::string leaning (const Surface& s)
-{
-    constexpr double much = 0.9962;   // cos 5 degrees
-    if (! isPatchThatLeans (s)) return {};
-    const double least = mostTilted (s);
-    if (least > much) return {};
-    const auto degrees = std::lround (math::acos (std::clamp (least, -1.0, 1.0)) * 180.0 / std::numbers::pi);
-    return "the body is flat, but its frames are tilted by up to " + std::to_string (degrees)
-           + " degrees: without friction, a closed path may generate energy. Leave the frames out, or make them level";
 }
 
 }   // namespace tactus

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "surface_contact.hpp"
-#include "downhill.hpp"
-#include <tactus/kit/math/math.hpp>
 
 #include <algorithm>
-#include <limits>
+#include <array>
+#include <cmath>
+#include <optional>
 
 namespace tactus
 {
@@ -13,37 +13,99 @@ using ContactSample = PlacedSurface::ContactSample;
 
 namespace
 {
-/// The part of the deflection at right angles to the inward normal.
-Vec3 across (const ContactSample& felt) noexcept { return (felt.d.x() * felt.frame.row (0) + felt.d.y() * felt.frame.row (1)).transpose(); }
+using Mat2 = Eigen::Matrix2d;
+using Vec2 = Eigen::Vector2d;
 
-/// How far the bristle lets the contact point follow the tool.
-Vec3 dragged (const ContactSample& felt, const Spot& spot, const Bristle& bristle, const Vec3& from) noexcept
+constexpr double h = 2e-6;   // step of the central differences, in barycentric coordinates
+
+/// A spot with coordinate 1 or 2 changed, and coordinate 0 by the opposite amount. It may be slightly outside of its triangle.
+Spot beside (const PlacedSurface& body, const Spot& spot, std::size_t k, double change) noexcept
 {
-    const Vec3 pulled = across (felt);
-    if (! (bristle.d_max > 0.0)) return pulled;   // holds nothing
-
-    ContactSample earlier;
-    earlier.frame = felt.frame;
-    earlier.d = felt.frame * (from - spot.on.point);
-    Vec3 d = across (earlier);
-    const Vec3 dp = pulled - d;
-    const bool lets_go = bristle.letGo (d);
-    const auto step = bristle.stretch (d, dp);
-    return lets_go || step.slips ? Vec3 { pulled - step.d } : Vec3::Zero();   // without a slip, rounding must not move the contact point
+    const auto corners = cornersOf (body.walk().mesh(), spot.triangle);
+    Spot there = spot;
+    there.on.weights[k] += change;
+    there.on.weights[0] -= change;
+    there.on.point += change * (corners[k] - corners[0]);
+    return there;
 }
-}   // namespace
 
-namespace
+void placeAt (const PlacedSurface& body, Spot& spot) noexcept
 {
-/// How far the contact point may move while the tool moves, in m.
-double reach (const ContactSample& felt, const SurfacePath& path) noexcept
+    const auto corners = cornersOf (body.walk().mesh(), spot.triangle);
+    spot.on.point = spot.on.weights[0] * corners[0] + spot.on.weights[1] * corners[1] + spot.on.weights[2] * corners[2];
+}
+
+Vec2 offAt (const PlacedSurface& body, const PlacedSurface::Tool& tool, const Spot& spot, const Vec3& p) noexcept
 {
-    constexpr double follows = 2.0;   // relative to the move of the tool; above 1, because on a curved body the contact point is farther out
-    if (path.free) return std::numeric_limits<double>::infinity();
-    if (path.to == path.from) return 0.0;
-    const double depth = felt.d.z(), stretch = math::hypot (felt.d.x(), felt.d.y());
-    const double leaves = depth > 0.0 ? stretch / depth : std::numeric_limits<double>::infinity();   // this factor lets the stretch shrink with the depth
-    return follows * (path.to - path.from).norm() * std::max (1.0, leaves);
+    return (body.frameAt (spot, tool) * (p - body.placeOf (spot))).head<2>();
+}
+
+struct Found
+{
+    std::optional<Spot> foot {};
+    bool left = false;
+};
+
+/// Newton's method, from triangle to triangle. There is no foot beyond the radius of curvature.
+Found footOf (const PlacedSurface& body, const PlacedSurface::Tool& tool, Spot spot, const Vec3& p) noexcept
+{
+    constexpr int most = 200;   // steps
+    constexpr double short_step = margin (1e-12);
+    int crossed = 0;   // edges since the last step of some length
+    for (int i = 0; i < most; ++i)
+    {
+        const Mat3 frame = body.frameAt (spot, tool);
+        const auto corners = cornersOf (body.walk().mesh(), spot.triangle);
+        Mat2 slopes, level;
+        for (std::size_t k = 1; k < 3; ++k)
+        {
+            slopes.col (static_cast<int> (k) - 1) = (offAt (body, tool, beside (body, spot, k, h), p) - offAt (body, tool, beside (body, spot, k, -h), p)) / (2.0 * h);
+            level.col (static_cast<int> (k) - 1) = -(frame * (corners[k] - corners[0])).head<2>();
+        }
+        const Mat2 ahead = level.inverse() * slopes;   // how far the tool moves per move of the foot
+        if (! (ahead.determinant() > 0.0 && ahead.trace() > 0.0)) return {};
+        const Vec2 change = -(slopes.inverse() * (frame * (p - body.placeOf (spot))).head<2>());
+        const std::array<double, 3> steps { -change.x() - change.y(), change.x(), change.y() };
+        if (std::abs (steps[0]) + std::abs (steps[1]) + std::abs (steps[2]) <= short_step) return { .foot = spot };
+
+        double share = 1.0;
+        int edge = -1;
+        for (int k = 0; k < 3; ++k)
+            if (const double weight = spot.on.weights[at (k)]; weight + share * steps[at (k)] < 0.0)
+            {
+                share = std::max (0.0, weight / -steps[at (k)]);
+                edge = k;
+            }
+        for (std::size_t k = 0; k < 3; ++k)
+            spot.on.weights[k] = std::max (0.0, spot.on.weights[k] + share * steps[k]);
+        crossed = share > short_step ? 0 : crossed + 1;
+        if (edge >= 0)
+        {
+            spot.on.weights[at (edge)] = 0.0;
+            const bool at_rim = body.walk().beside (spot.triangle, edge) < 0;
+            if (at_rim && share <= short_step) return { .left = true };
+            if (crossed > 20) return {};   // more than the triangles around a corner: both sides of an edge point across it
+            if (! at_rim) spot = body.walk().across (spot, edge);
+        }
+        placeAt (body, spot);
+    }
+    return {};
+}
+
+const Vec3* anchorOf (const SurfaceTouch& touch) noexcept { return touch.frictionless ? nullptr : &touch.anchor; }
+
+/// Puts the anchor where the stretch from the foot is s, along u^x and u^y. Its height falls in the same ratio, so that a short slip changes
+/// little: an anchor that has stuck on a curved body is above or below the plane of the foot.
+void stretch (SurfaceSample& sample, const Vec2& s) noexcept
+{
+    const Vec3 before = sample.felt.frame * (sample.felt.place - sample.touch.anchor);
+    const double length = before.head<2>().norm(), height = length > 0.0 ? before.z() * std::min (1.0, s.norm() / length) : 0.0;
+    sample.touch.anchor = sample.felt.place - sample.felt.frame.transpose() * Vec3 (s.x(), s.y(), height);
+}
+
+SurfaceSample sampled (const PlacedSurface& body, const PlacedSurface::Tool& tool, const SurfaceTouch& touch, const Vec3& p) noexcept
+{
+    return { touch, body.feel (touch.foot, p, anchorOf (touch), tool) };
 }
 
 Bristle scaled (const Bristle& unit, double bound) noexcept
@@ -55,113 +117,154 @@ Bristle scaled (const Bristle& unit, double bound) noexcept
     return bristle;
 }
 
-/// The energy that a move of the contact point loses, computed with the tool at one point of its path, given as a share of the path. If this
-/// point is the middle of the part of the path on which the contact point moves, the energy equals the integral along the path, to third
-/// order in its length. At the end of the path, the energy would be too large: the spring is stretched too far there, by half of the move.
-class Loss
+/// The stretch that the bristle leaves, if the contact slips.
+std::optional<Vec2> slipped (const PlacedSurface& body, const PlacedSurface::Tool& tool, const SurfaceSample& now, const Spot& before, const Bristle& unit) noexcept
+{
+    const Vec2 pulled = now.felt.d.head<2>();
+    const double bound = std::max (0.0, body.ratio (now.touch.foot, now.felt.d.z(), tool) * now.felt.d.z());
+    if (! (bound > 0.0)) return pulled.isZero (0.0) ? std::nullopt : std::optional<Vec2> (Vec2::Zero());
+    const Bristle bristle = scaled (unit, bound);
+    const Vec2 earlier = (now.felt.frame * (body.placeOf (before) - now.touch.anchor)).head<2>();
+    Vec3 d (earlier.x(), earlier.y(), 0.0);
+    const Vec3 dp (pulled.x() - d.x(), pulled.y() - d.y(), 0.0);
+    const bool lets_go = bristle.letGo (d);
+    const auto step = bristle.stretch (d, dp);
+    if (! lets_go && ! step.slips) return {};
+    return step.d.head<2>();
+}
+
+/// What a contact feels on its way.
+class Way
 {
 public:
-    Loss (const PlacedSurface& b, const PlacedSurface::Tool& t, const Spot& s, const SurfacePath& p) noexcept : body (b), tool (t), start (s), path (p) {}
+    Way (const PlacedSurface& b, const PlacedSurface::Tool& t, const Vec3& f, const Vec3& e) noexcept : body (b), tool (t), from (f), to (e) {}
 
-    void write (SurfaceStep& step) const noexcept
+    Vec3 at (double share) const noexcept { return share < 1.0 ? Vec3 { from + share * (to - from) } : to; }
+    SurfaceSample follow (const SurfaceTouch& touch, double share) const noexcept { return followed (body, tool, touch, from, at (share)); }
+
+    /// Where the tool is taken to be when the anchor moves: in the middle of the part of the way on which it moves. At the end of the way the
+    /// springs are stretched too far, by half of the move, so the loss would grow with the length of the ticks.
+    void lose (SurfaceStep& step, const SurfaceTouch& start, const SurfaceSample& pulled) const noexcept
     {
-        step.lost = at (1.0, step.spot);
-        const double way = (path.to - path.from).norm(), moved = (step.spot.on.point - start.on.point).norm();
-        if (step.ends || ! (moved > 0.0) || ! (way > 0.0)) return;
-        double low = 1.0 - 0.5 * std::min (1.0, moved / way), gain = -at (low, step.spot);
-        if (gain <= 0.0)
+        const Vec3 dc = step.after.touch.anchor - start.anchor, dr = pulled.felt.place - body.placeOf (start.foot);
+        const double forward = dc.dot (dr), back = forward > 0.0 ? std::min (1.0, 0.5 * dc.squaredNorm() / forward) : 0.0;
+        for (const double less : { 1e-9, 1e-4, 1e-2, 0.1, 1.0 })   // nearer to the end if need be
         {
-            step.share = low;
-            step.lost = -gain;
-            return;
+            step.share = 1.0 - back * (1.0 - less);
+            const SurfaceTouch slipped { .foot = pulled.touch.foot, .anchor = step.after.touch.anchor };
+            step.lost = follow (start, step.share).felt.energy - followed (body, tool, slipped, to, at (step.share)).felt.energy;
+            if (step.lost >= 0.0) return;
         }
-        // Computed with the tool there, the move would gain energy. This happens in slides without friction, because they lose
-        // none. So find the smallest share without a gain; the loss grows almost linearly with the share.
-        constexpr int most = 3;
-        for (int i = 0; i < most && step.lost > 0.0; ++i)
-        {
-            const double share = low + (step.share - low) * std::min (1.0, 1.001 * gain / (gain + step.lost)), lost = at (share, step.spot);
-            if (lost >= 0.0)
-            {
-                step.share = share;
-                step.lost = lost;
-            }
-            else
-            {
-                low = share;
-                gain = -lost;
-            }
-        }
+        step.lost = 0.0;   // it was negative by rounding
     }
 
 private:
-    double at (double share, const Spot& end) const noexcept
-    {
-        const Vec3 p = share < 1.0 ? Vec3 { path.from + share * (path.to - path.from) } : path.to;
-        return body.feel (start, p, tool).energy - body.feel (end, p, tool).energy;
-    }
-
     const PlacedSurface& body;
     const PlacedSurface::Tool& tool;
-    const Spot& start;
-    const SurfacePath& path;
+    const Vec3 &from, &to;
 };
 }   // namespace
 
-SurfaceStep stickOn (const PlacedSurface& body, const PlacedSurface::Tool& tool, const Spot& spot, const Bristle& unit, const SurfacePath& path) noexcept
+SurfaceSample followed (const PlacedSurface& body, const PlacedSurface::Tool& tool, const SurfaceTouch& touch, const Vec3& from, const Vec3& to) noexcept
 {
-    // Relative; after a slip, the stretch exceeds the bound by more than this only if something holds the contact point back.
-    constexpr double past_rim = 1e-3;
-    constexpr int most = 16;        // applications of eq. (7); each leaves about a hundredth of the distance to the bound
-    constexpr double near = 1e-5;   // relative to the bound; a contact point this near to its bound is not moved again
-    SurfaceStep step { .spot = spot, .felt = body.feel (spot, path.to, tool) };
-    const Downhill downhill (body, path.to, tool);
-    double left = reach (step.felt, path);
-    for (int i = 0; i < (path.once ? 1 : most) && left > 0.0 && step.felt.d.z() > 0.0; ++i)
+    constexpr double farthest = 8.0;   // the largest move of a foot, relative to that of its tool, that is not a jump
+    if (to == from) return sampled (body, tool, touch, to);
+    const auto [foot, left] = footOf (body, tool, touch.foot, to);
+    SurfaceTouch there = touch;
+    there.held = ! foot || touch.held || (foot->on.point - touch.foot.on.point).norm() > farthest * (to - from).norm();
+    if (! there.held) there.foot = *foot;
+    SurfaceSample sample = sampled (body, tool, there, to);
+    sample.left = left;
+    return sample;
+}
+
+Vec3 forceOf (const PlacedSurface& body, const PlacedSurface::Tool& tool, const SurfaceSample& sample, const Vec3& p) noexcept
+{
+    const auto& [touch, felt, left] = sample;
+    const Vec3 along = -felt.f.z() * felt.rise;
+    if (touch.held) return along;
+    Mat2 slopes;
+    Vec2 energy;
+    for (std::size_t k = 1; k < 3; ++k)
     {
-        const double depth = step.felt.d.z();
-        const Bristle bristle = scaled (unit, std::max (0.0, body.ratio (step.spot, depth, tool) * depth));
-        if (i == 0) left += bristle.d_stick - bristle.d_max;
-        Vec3 drag = dragged (step.felt, step.spot, bristle, i == 0 ? path.from : path.to);
-        if (drag.isZero (0.0)) break;
-        const double length = drag.norm();
-        if (i > 0 && length <= near * bristle.d_max) break;
-        const bool is_cut = length > left;   // a step that is cut has no meaningful end, so the contact point must not pass a minimum of U
-        if (is_cut) drag *= left / length;
-        const Vec3 before = step.spot.on.point;
-        const bool moves = downhill.along (drag, step.spot, step.felt, is_cut ? Downhill::Reach::lowest : Downhill::Reach::whole);
-        step.slips = step.slips || moves;
-        left -= (step.spot.on.point - before).norm();
-        step.ends = across (step.felt).norm() > bristle.d_stick * (1.0 + past_rim) && body.walk().isBeyondRim (step.spot, path.to);
-        if (! moves || step.ends) break;
+        const auto more = body.feel (beside (body, touch.foot, k, h), p, anchorOf (touch), tool);
+        const auto less = body.feel (beside (body, touch.foot, k, -h), p, anchorOf (touch), tool);
+        slopes.col (static_cast<int> (k) - 1) = (more.off - less.off) / (2.0 * h);
+        energy[static_cast<int> (k) - 1] = (more.energy - less.energy) / (2.0 * h);
     }
-    step.ends = step.ends || ! (step.felt.d.z() > 0.0);
-    if (step.slips) Loss (body, tool, spot, path).write (step);
+    return along + felt.frame.topRows<2>().transpose() * (slopes.transpose().inverse() * energy);
+}
+
+SurfaceStep stepped (const PlacedSurface& body, const PlacedSurface::Tool& tool, const SurfaceTouch& start, const Bristle& unit, const Vec3& from, const Vec3& to) noexcept
+{
+    const Way way (body, tool, from, to);
+    SurfaceStep step { .after = way.follow (start, 1.0), .slips = start.frictionless };
+    if (to == from) return step;
+    if (step.after.left)   // over the rim
+    {
+        step.share = 0.0;
+        step.lost = sampled (body, tool, start, from).felt.energy;
+        step.ends = true;
+        return step;
+    }
+    if (step.after.touch.held)
+        if (const auto foot = footOf (body, tool, start.foot, to).foot)   // far away; the stretch is carried along
+        {
+            const Vec3 d = step.after.felt.d;
+            const Vec3 anchor = body.placeOf (*foot) - body.frameAt (*foot, tool).transpose() * Vec3 (d.x(), d.y(), 0.0);
+            SurfaceSample there = sampled (body, tool, { .foot = *foot, .anchor = anchor, .frictionless = start.frictionless }, to);
+            if (! (there.felt.d.z() > 0.0)) there.felt.energy = 0.0;
+            if (there.felt.energy <= step.after.felt.energy)
+            {
+                step.lost = step.after.felt.energy - there.felt.energy;
+                step.after = there;
+            }
+        }
+    const bool jumped = step.lost > 0.0 || step.after.touch.held;
+    if (! (step.after.felt.d.z() > 0.0))
+    {
+        step.ends = true;
+        if (step.lost > 0.0) return step;
+        const double before = sampled (body, tool, start, from).felt.d.z();
+        step.share = before > 0.0 ? before / (before - step.after.felt.d.z()) : 0.0;
+        step.lost = way.follow (start, step.share).felt.energy;
+        return step;
+    }
+    if (start.frictionless) return step;
+    const SurfaceSample pulled = step.after;
+    auto s = slipped (body, tool, pulled, start.foot, unit);
+    if (! s) return step;
+    step.slips = true;
+    const auto slip = [&] {
+        stretch (step.after, *s);
+        step.after.felt = sampled (body, tool, step.after.touch, to).felt;
+    };
+    slip();
+    const double kept = pulled.felt.d.head<2>().norm();
+    if (step.after.felt.energy > pulled.felt.energy && kept > 0.0)
+    {
+        s = pulled.felt.d.head<2>() * std::min (1.0, s->norm() / kept);   // a law that yields on the way back may leave more than there is
+        slip();
+    }
+    if (jumped)
+        step.lost += std::max (0.0, pulled.felt.energy - step.after.felt.energy);
+    else
+        way.lose (step, start, pulled);
     return step;
 }
 
-SurfaceStep slideOn (const PlacedSurface& body, const PlacedSurface::Tool& tool, const Spot& spot, const SurfacePath& path) noexcept
+SurfaceTouch touched (const PlacedSurface& body, const PlacedSurface::Tool& tool, const Spot& entered, bool frictionless) noexcept
 {
-    SurfaceStep step { .spot = spot, .felt = body.feel (spot, path.to, tool), .slips = true };
-    const double farthest = reach (step.felt, path);
-    if (farthest > 0.0)
-    {
-        const Downhill downhill (body, path.to, tool);
-        const Vec3 inward = step.felt.frame.row (2).transpose(), move = path.to - path.from;
-        downhill.along (path.free ? across (step.felt) : Vec3 { move - inward.dot (move) * inward }, step.spot, step.felt);
-        downhill.settle (step.spot, step.felt, farthest - (step.spot.on.point - spot.on.point).norm());
-    }
-    step.ends = ! (step.felt.d.z() > 0.0) || body.walk().isBeyondRim (step.spot, path.to);
-    if (farthest > 0.0) Loss (body, tool, spot, path).write (step);
-    return step;
+    const Spot foot = footOf (body, tool, entered, entered.on.point).foot.value_or (entered);
+    return { .foot = foot, .anchor = body.placeOf (foot), .frictionless = frictionless };
 }
 
-SurfaceStep projectOn (const PlacedSurface& body, const PlacedSurface::Tool& tool, const Spot& spot, const Vec3& to) noexcept
+SurfaceSample begun (const PlacedSurface& body, const PlacedSurface::Tool& tool, const Spot& near, bool frictionless, const Vec3& p) noexcept
 {
-    SurfaceStep step { .spot = body.walk().nearest (spot.triangle, to), .slips = true };
-    step.felt = body.feel (step.spot, to, tool);
-    step.ends = ! (step.felt.d.z() > 0.0) || body.walk().isBeyondRim (step.spot, to);
-    return step;
+    const auto foot = footOf (body, tool, near, p).foot;
+    if (! foot) return {};
+    const SurfaceSample there = sampled (body, tool, { .foot = *foot, .anchor = body.placeOf (*foot), .frictionless = frictionless }, p);
+    return there.felt.d.z() > 0.0 ? there : SurfaceSample {};
 }
 
 }   // namespace tactus

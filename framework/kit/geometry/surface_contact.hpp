@@ -7,38 +7,48 @@
 namespace tactus
 {
 
-/// A straight move of the tool, and how its contact point may move during it.
-struct SurfacePath
+/// The contact of a tool with a surface, as nodes/deform/surface.hpp defines it: its foot, and the anchor that its sideways stretch is counted
+/// from.
+struct SurfaceTouch
 {
-    Vec3 from, to;
-    bool free = false;   ///< the contact point may move any distance, as when a contact begins
-    bool once = false;   ///< eq. (7) is applied once, instead of until the contact point is within its bound
+    Spot foot {};   ///< no triangle while apart
+    Vec3 anchor = Vec3::Zero();
+    bool frictionless = false;   ///< the anchor is the foot
+    bool held = false;           ///< the tool has no foot near the last one, so the contact keeps the last one
 };
 
-// If the next minimum of U is far from a contact point, the force would step if the contact point went all the way at once. So in one move it
-// goes at most twice as far as the tool, or farther if the contact would otherwise still be stretched when the tool leaves; a collapse of
-// stick-slip comes on top. If the tool does not move, neither does the contact point.
+/// A contact, and what the tool feels there.
+struct SurfaceSample
+{
+    SurfaceTouch touch {};
+    PlacedSurface::ContactSample felt {};
+    bool left = false;   ///< the foot has passed the rim of an open mesh
+};
 
-/// What a step of the tool does to its contact point.
+/// A contact with its foot moved along while its tool goes from one point to another. The foot moves without a jump, or it is held. [any thread]
+SurfaceSample followed (const PlacedSurface&, const PlacedSurface::Tool&, const SurfaceTouch&, const Vec3& from, const Vec3& to) noexcept;
+
+/// The force on the tool, minus the gradient of the stored energy with respect to its position, with the anchor fixed. [any thread]
+Vec3 forceOf (const PlacedSurface&, const PlacedSurface::Tool&, const SurfaceSample&, const Vec3& p) noexcept;
+
+/// What a step of the tool does to its contact.
 struct SurfaceStep
 {
-    Spot spot {};
-    PlacedSurface::ContactSample felt {};   ///< what the tool feels at the spot
-    double share = 1.0;                     ///< where on its path the tool is taken to be when the contact point moves: 0 at the start, 1 at the end
-    double lost = 0.0;                      ///< energy that the move of the contact point dissipates with the tool there, J; never negative
+    SurfaceSample after {};
+    double share = 1.0;   ///< where on its path the tool is taken to be when the anchor moves: 0 at the start, 1 at the end
+    double lost = 0.0;    ///< energy that the move of the anchor dissipates with the tool there, J; never negative
     bool slips = false;
     bool ends = false;   ///< the tool has left the surface
 };
 
-/// Moves a contact point that sticks within its bound, eq. (7), and yields as the bristle does. The bristle has a d_max of 1, and
-/// its lengths are scaled by the bound. [any thread]
-SurfaceStep stickOn (const PlacedSurface&, const PlacedSurface::Tool&, const Spot&, const Bristle&, const SurfacePath&) noexcept;
+/// Moves a contact along with its tool. The anchor sticks within its bound, eq. (7), and yields as the bristle does. The bristle has a d_max of
+/// 1, and its lengths are scaled by the bound. [any thread]
+SurfaceStep stepped (const PlacedSurface&, const PlacedSurface::Tool&, const SurfaceTouch&, const Bristle&, const Vec3& from, const Vec3& to) noexcept;
 
-/// Moves a contact point that slides down to a local minimum of the stored energy. [any thread]
-SurfaceStep slideOn (const PlacedSurface&, const PlacedSurface::Tool&, const Spot&, const SurfacePath&) noexcept;
+/// A contact that begins where the tool enters the body. [any thread]
+SurfaceTouch touched (const PlacedSurface&, const PlacedSurface::Tool&, const Spot& entered, bool frictionless) noexcept;
 
-/// Moves a contact point that follows the tool as its projection. The change of the stored energy by this move is the work of the
-/// force PlacedSurface::slope(). [any thread]
-SurfaceStep projectOn (const PlacedSurface&, const PlacedSurface::Tool&, const Spot&, const Vec3& to) noexcept;
+/// A contact at the foot of a tool, without stretch. No triangle if there is no foot, or if the tool is outside. [any thread]
+SurfaceSample begun (const PlacedSurface&, const PlacedSurface::Tool&, const Spot& near, bool frictionless, const Vec3& p) noexcept;
 
 }   // namespace tactus

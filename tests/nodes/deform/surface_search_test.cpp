@@ -124,20 +124,6 @@ TEST_CASE ("surface: past the rim of an open mesh there is nothing to touch", "[
     }
 }
 
-TEST_CASE ("surface: a closed body has no rim", "[nodes][deform]")
-{
-    rc::prop ("points inside and outside a ball", [] (unsigned seed) {
-        std::mt19937 dice (seed);
-        std::normal_distribution<double> bell;
-        const MeshWalk walk { ball (0.03, 2) };
-        for (int k = 0; k < 50; ++k)
-        {
-            const Vec3 p = 0.03 * Vec3 (bell (dice), bell (dice), bell (dice));
-            RC_ASSERT (! walk.isBeyondRim (walk.nearestOfAll (p), p));
-        }
-    });
-}
-
 TEST_CASE ("surface: a path around the rim and up through the surface generates no energy", "[nodes][deform]")
 {
     for (const auto friction : { Frictions::bound, Frictions::frictionless })
@@ -175,4 +161,21 @@ TEST_CASE ("surface: a tool that was inside when the first search ended feels th
         move (-0.001 + 1e-4 * k);
     CHECK (before > 8.0);
     CHECK (steepest < 0.11);
+}
+
+TEST_CASE ("surface: a tool that starts inside gets no energy, with a search of any length", "[nodes][deform][energy]")
+{
+    for (const int search_ticks : { 0, 8 })
+    {
+        auto node = made (body (ball (0.03, 3), { { curves (400.0, 1000.0) } }, { { .number = 0.5 } }));
+        node.settings.search_ticks = search_ticks;
+        node.prepare ({ .rate_hz = 1000.0 });
+        for (int k = 0; k <= 100; ++k)
+        {
+            const auto out = node.tick ({ .position = Vec3 (0.002, 0.001, 0.022 + 0.0002 * k) });   // from 8 mm deep to 12 mm outside
+            CHECK (out.force.isZero (0.0));
+            CHECK (out.stored_energy == 0.0);
+        }
+        CHECK (node.tick ({ .position = Vec3 (0.002, 0.001, 0.028) }).state > 0.0);
+    }
 }

@@ -51,6 +51,16 @@ TEST_CASE ("surface: a tool that jumps through a thin plate is still pushed back
     CHECK (beside.tick ({ .position = Vec3 (0.025, 0.002, 0.0) }).state == 0.0);   // passes through an edge of the plate and out again
 }
 
+TEST_CASE ("surface: a tool that jumps through the middle of a ball and out again does not touch it", "[nodes][deform]")
+{
+    auto node = made (body (ball (0.03, 3), { { curves (500.0, 1000.0) } }, { { .number = 0.5 } }));
+    node.tick ({ .position = Vec3 (0.001, 0.002, 0.05) });
+    CHECK (node.tick ({ .position = Vec3 (-0.001, -0.002, -0.04) }).state == 0.0);
+    const auto out = node.tick ({ .position = Vec3 (-0.001, -0.002, -0.028) });
+    CHECK (out.state > 0.0);
+    CHECK (out.force.z() < -1.0);
+}
+
 TEST_CASE ("surface: fast or slow, a tool that goes into a plate is pushed back in the same direction", "[nodes][deform]")
 {
     rc::prop ("straight paths from above into the plate", [] (unsigned seed) {
@@ -94,13 +104,13 @@ TEST_CASE ("mesh walk: a line into a box crosses one triangle of the side that i
         const MeshWalk walk { box ({ 0.04, 0.04, 0.02 }, 1 + static_cast<int> (seed % 4)) };
         const Vec3 inside (0.0199 * one (dice), 0.0199 * one (dice), 0.0099 * one (dice));
         const Vec3 outside = 0.1 * Vec3 (bell (dice), bell (dice), bell (dice)).normalized();
-        const int found = walk.entered (outside, inside);
-        RC_ASSERT (found >= 0);
-        const auto corners = cornersOf (walk.mesh(), found);
+        const Spot found = walk.entered (outside, inside);
+        RC_ASSERT (found.triangle >= 0);
+        const auto corners = cornersOf (walk.mesh(), found.triangle);
         const Vec3 normal = areaNormal (corners), way = inside - outside;
         RC_ASSERT (normal.dot (way) < 0.0);
         const Vec3 there = outside + way * (normal.dot (corners[0] - outside) / normal.dot (way));
-        RC_ASSERT ((walk.spotOn (found, there).on.point - there).norm() < 1e-9);
-        RC_ASSERT (walk.entered (inside, outside) < 0);
+        RC_ASSERT ((found.on.point - there).norm() < 1e-9);
+        RC_ASSERT (walk.entered (inside, outside).triangle < 0);
     });
 }

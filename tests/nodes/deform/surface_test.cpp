@@ -55,6 +55,7 @@ TEST_CASE ("surface: tools are mixed, and the mix is latched", "[nodes][deform]"
     auto node = made (body (flat(), { { curves (100.0, 1000.0) }, { curves (100.0, 3000.0) }, { curves (100.0, 100.0) } }, { { .number = 0.5 } }));
     const auto press = [&] (double tool, double depth) { return node.tick ({ .position = Vec3 (0.02, 0.01, -depth), .tool = tool }).resistance; };
 
+    press (0.25, -1e-3);
     CHECK (press (0.25, 1e-3) == Approx (1.5));
     CHECK (press (2.0, 1e-3) == Approx (1.5));   // during contact, the mix does not change
     press (2.0, -1e-3);
@@ -90,7 +91,7 @@ TEST_CASE ("surface: a closed path that sticks gives and takes nothing, whatever
             most = std::max (most, std::abs (hand.work));
         }
         RC_ASSERT (std::abs (hand.out.stored_energy - before) <= 1e-12 * std::max (1.0, before));
-        RC_ASSERT (std::abs (hand.work) <= 1e-6 * (most + before) + 1e-12);
+        RC_ASSERT (std::abs (hand.work) <= 1e-5 * (most + before) + 1e-12);   // the rule of the trapezoids
     });
 }
 
@@ -145,7 +146,7 @@ TEST_CASE ("surface: without friction, moving from soft to stiff and back costs 
             const double x = 0.02 + 0.012 * std::sin (phi + a), y = 0.02 + 0.012 * std::sin (2.0 * phi + b);
             return Vec3 (x, y, -0.0015 - 0.001 * std::sin (phi + c));
         };
-        hand.p = at (0.0);
+        hand.to (at (0.0) + 0.01 * Vec3::UnitZ());
         hand.to (at (0.0));
         hand.work = 0.0;
         double most = 0.0;
@@ -173,6 +174,7 @@ TEST_CASE ("surface: without friction, the force does not step where a slide cro
         const auto largestStep = [&] (int steps) {
             auto node = made (surface);
             double most = 0.0;
+            node.tick ({ .position = from + 0.01 * Vec3::UnitZ() });
             Vec3 force = node.tick ({ .position = from }).force;
             for (int k = 1; k <= steps; ++k)
             {
@@ -185,7 +187,7 @@ TEST_CASE ("surface: without friction, the force does not step where a slide cro
         };
         const double coarse = largestStep (500);
         RC_ASSERT (coarse < 0.05);
-        RC_ASSERT (largestStep (2000) < 0.3 * coarse);   // a real step would stay as large on a finer path
+        RC_ASSERT (largestStep (8000) < 0.2 * coarse);   // a real step would stay as large on a finer path
     });
 }
 
@@ -195,10 +197,11 @@ TEST_CASE ("surface: the force does not step where a slide crosses an edge", "[n
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         const auto mesh = grid (4, 0.04, [&] (double x, double y) { return 0.001 * std::sin (100.0 * x + y * 70.0); });
-        auto node = made (uneven (mesh, seed, 1.0));   // with less friction the contact point catches where U rises, and then snaps
+        auto node = made (uneven (mesh, seed, 0.5 * (1.1 + one (dice))));
         const Vec3 from (0.004, 0.02 + 0.012 * one (dice), -0.003), to (0.036, 0.02 + 0.012 * one (dice), -0.003);
         constexpr int steps = 8000;
         std::vector<double> inside, across;
+        node.tick ({ .position = from + 0.01 * Vec3::UnitZ() });
         Vec3 force = node.tick ({ .position = from }).force;
         double triangle = -2.0;
         for (int k = 1; k <= steps; ++k)
@@ -221,6 +224,7 @@ TEST_CASE ("surface: a slipping tool drags its contact behind, by mu times the d
     for (const auto& ratio : { Ratio { .number = 0.7 }, law })
     {
         auto node = made (body (flat(), { { curves (400.0, 1000.0) } }, { ratio }));
+        node.tick ({ .position = Vec3 (0.005, 0.02, 0.001) });
         node.tick ({ .position = Vec3 (0.005, 0.02, -0.002) });
         ElasticSurface::Outputs out;
         for (int k = 0; k < 1000; ++k)
@@ -234,6 +238,7 @@ TEST_CASE ("surface: a slipping tool drags its contact behind, by mu times the d
 TEST_CASE ("surface: a fault gives 0, and the next touch starts fresh", "[nodes][deform]")
 {
     auto node = made (body (flat(), { { curves (400.0, 1000.0) } }, { { .number = 0.5 } }));
+    node.tick ({ .position = Vec3 (0.02, 0.02, 0.001) });
     node.tick ({ .position = Vec3 (0.02, 0.02, -0.002) });
     node.tick ({ .position = Vec3 (0.025, 0.02, -0.002) });
     for (const auto& in : { ElasticSurface::Inputs { .position = Vec3 (0.02, not_a_number, 0.0) },
@@ -261,6 +266,7 @@ TEST_CASE ("surface: scale, origin and rotation place the mesh", "[nodes][deform
     node.settings.origin = Vec3 (0.1, 0.0, 0.0);
     node.settings.rotation = Vec3 (0.0, std::numbers::pi / 2.0, 0.0);   // up becomes +x
     node.prepare ({ .rate_hz = 1000.0 });
+    node.tick ({ .position = Vec3 (0.101, 0.02, -0.02) });
     const auto out = node.tick ({ .position = Vec3 (0.099, 0.02, -0.02) });
     CHECK (out.state == 1.0);
     CHECK (out.force.isApprox (Vec3 (1.0, 0.0, 0.0), 1e-9));
@@ -297,19 +303,22 @@ TEST_CASE ("surface: a new instance on the same mesh keeps the contact", "[nodes
 {
     const auto mesh = std::make_shared<const Mesh> (flat());
     auto old = made (std::make_shared<const Surface> (Surface { mesh, {}, { { curves (400.0, 1000.0) } }, { { .number = 0.5 } } }));
+    old.tick ({ .position = Vec3 (0.02, 0.02, 0.001) });
     old.tick ({ .position = Vec3 (0.02, 0.02, -0.002) });
     auto stiffer = made (std::make_shared<const Surface> (Surface { mesh, {}, { { curves (400.0, 2000.0) } }, { { .number = 0.5 } } }));
     stiffer.adopt (old);
     const auto out = stiffer.tick ({ .position = Vec3 (0.0205, 0.02, -0.002) });
     CHECK (out.state == 1.0);
-    CHECK (out.force.isApprox (Vec3 (-0.2, 0.0, 4.0), 1e-12));
+    CHECK (out.force.isApprox (Vec3 (-0.2, 0.0, 4.0), 1e-9));
 
     auto other = made (body (flat(), { { curves (400.0, 1000.0) } }, { { .number = 0.5 } }));
     other.adopt (old);
+    CHECK (other.tick ({ .position = Vec3 (0.0205, 0.02, -0.002) }).force.isZero (0.0));
+    other.tick ({ .position = Vec3 (0.0205, 0.02, 0.001) });
     CHECK (other.tick ({ .position = Vec3 (0.0205, 0.02, -0.002) }).force.isApprox (Vec3 (0.0, 0.0, 2.0), 1e-12));
 }
 
-TEST_CASE ("surface: a surface that faces the wrong way, pulls, or has tilted frames is reported", "[nodes][deform]")
+TEST_CASE ("surface: a surface that faces the wrong way or pulls is reported, one with tilted frames is not", "[nodes][deform]")
 {
     const std::vector<std::vector<Surface::Curves>> tools { { curves (400.0, 1000.0) } };
     auto inside_out = ball (0.03, 2);
@@ -327,8 +336,8 @@ TEST_CASE ("surface: a surface that faces the wrong way, pulls, or has tilted fr
     auto leaning = upward;
     leaning.frames.assign (4, Vec3 (1, -1, -1).asDiagonal() * Eigen::AngleAxisd (0.2, Vec3::UnitX()).toRotationMatrix());
     const auto measured = made (std::make_shared<const Surface> (leaning), Frictions::frictionless);
-    CHECK (measured.warning ({}).find ("tilted by up to 11 degrees") != std::string::npos);
-    CHECK_FALSE (measured.claims().passive);
+    CHECK (measured.warning ({}).empty());
+    CHECK (measured.claims().passive);
     CHECK (made (std::make_shared<const Surface> (leaning)).claims().passive);
     CHECK (made (uneven (flat(), 3, 0.0)).warning ({}).empty());   // no friction: no warning, although the nodes differ
 }
