@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Small random surfaces, and strokes of a tool over them."""
+"""Small random surfaces, and strokes of a tool over them.
+
+Bumps are low against the depth at which the foot of a tool would jump: the reference
+follows no jumps.
+"""
 
 import draw
 import vec
@@ -10,7 +14,7 @@ SIZE = 0.04
 def grid(rng, bumpy):
     """A patch of triangles that face up, flat or a height field."""
     across, along = rng.randint(1, 3), rng.randint(1, 3)
-    height = rng.uniform(0.0, 0.004) if bumpy else 0.0
+    height = rng.uniform(0.0, 0.001) if bumpy else 0.0
     nodes = [(SIZE * i / across, SIZE * j / along, rng.uniform(-height, height))
              for j in range(along + 1) for i in range(across + 1)]
     triangles = []
@@ -21,16 +25,6 @@ def grid(rng, bumpy):
             triangles += ([[a, b, c], [a, c, d]] if draw.chance(rng, 0.5)
                           else [[a, b, d], [b, c, d]])
     return nodes, triangles, [(0.0, 0.0, -1.0)] * len(nodes)
-
-
-def octahedron(rng):
-    """A slightly distorted closed body with eight faces."""
-    reach = [0.5 * SIZE * rng.uniform(0.8, 1.2) for _ in range(6)]
-    nodes = [(reach[0], 0.0, 0.0), (-reach[1], 0.0, 0.0), (0.0, reach[2], 0.0),
-             (0.0, -reach[3], 0.0), (0.0, 0.0, reach[4]), (0.0, 0.0, -reach[5])]
-    triangles = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4],
-                 [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]]
-    return nodes, triangles, [vec.scale(-1.0, vec.unit(x)) for x in nodes]
 
 
 def tilted(rng, inward):
@@ -82,18 +76,14 @@ def placement(rng):
             "scale": rng.choice((1.0, 1e-3))}
 
 
-def path(rng, rows, closed):
+def path(rng, rows):
     """Positions inside and outside the body, before the body is placed."""
-    if closed:
-        xs = [draw.stroke(rng, rows, 0.3 * SIZE) for _ in range(3)]
-    else:
-        wide = draw.spread(rng, 0.01, 0.35) * SIZE
-        middle = rng.uniform(0.3, 0.7) * SIZE
-        xs = [[middle + x for x in draw.stroke(rng, rows, wide)]
-              for _ in range(2)]
-        xs.append([x - 1.5e-3 for x in draw.stroke(rng, rows, 3e-3)])
+    wide = draw.spread(rng, 0.01, 0.35) * SIZE
+    middle = rng.uniform(0.3, 0.7) * SIZE
+    xs = [[middle + x for x in draw.stroke(rng, rows, wide)] for _ in range(2)]
+    xs.append([x - 1.5e-3 for x in draw.stroke(rng, rows, 3e-3)])
     if draw.chance(rng, 0.5):
-        for x, far in zip(xs, (0.3, 0.3, 0.3 if closed else 0.05)):
+        for x, far in zip(xs, (0.3, 0.3, 0.05)):
             far *= SIZE
             jumps = draw.steps_in(rng, rows, far, 3)
             x[:] = [a + max(-far, min(far, b)) for a, b in zip(x, jumps)]
@@ -103,18 +93,16 @@ def path(rng, rows, closed):
 
 def body(rng, rows):
     """Settings for a random surface, and tool positions."""
-    closed = draw.chance(rng, 0.3)
-    nodes, triangles, inward = (octahedron(rng) if closed
-                                else grid(rng, draw.chance(rng, 0.6)))
+    nodes, triangles, inward = grid(rng, draw.chance(rng, 0.6))
     placed = placement(rng)
     size = placed.get("scale", 1.0)
     turn = vec.rotation(tuple(placed.get("rotation", (0.0, 0.0, 0.0))))
     origin = tuple(placed.get("origin", (0.0, 0.0, 0.0)))
     surface = {"nodes": [list(vec.scale(1.0 / size, x)) for x in nodes],
                "triangles": triangles, "frames": frames(rng, inward),
-               "curves": [curves(rng, len(nodes), 8e-3 if closed else 3e-3)
+               "curves": [curves(rng, len(nodes), 3e-3)
                           for _ in range(3)],
                "mu": [friction_of(rng) for _ in nodes]}
     positions = [vec.add(origin, vec.times(turn, p))
-                 for p in path(rng, rows, closed)]
+                 for p in path(rng, rows)]
     return {"surface": surface, **placed}, positions
