@@ -123,7 +123,9 @@ void addCurve (const Command& app)
             .check (within (1, 1000));
         one.addOption ("-o,--out", options->preset, "Also write a preset, a graph file in which a finger strokes this body");
         one.addOption ("--plot", options->plot, "Draw the curve into this PNG file");
-        one.footer ("The tool is rigid, and the depth is small compared with its size. E* = E / (1 - nu^2). The printed lines are settings of nodes,\n"
+        one.footer ("The tool is rigid, and the depth is small compared with its size. E* = E / (1 - nu^2). The sideways curve has the shape of the one\n"
+                    "along the normal, so that drag over push is mu at every depth; it is not that of Cattaneo and Mindlin, which is stiffest at\n"
+                    "first. The printed lines are settings of nodes,\n"
                     "in SI units, ready to be pasted into a graph file.\n\n"
                     "Examples:\n  tactus curve "
                     + std::string (shape.name) + " --young \"10 kPa\" " + shape.option + " \"" + shape.example + "\" -o body.json");

@@ -40,7 +40,8 @@ private:
     static Law power (double k, double n) noexcept { return { .kind = Law::Kind::power, .a = k, .b = n }; }
 };
 
-/// The sideways curve with which drag over push is mu at every depth: f^x (e) = mu f^z (e / mu_c). mu_c must be above 0. [any thread]
+/// The sideways curve with which drag over push is mu at every depth: f^x (e) = mu f^z (e / mu_c). mu_c must be above 0. Below mu_c times the
+/// depth it is not the curve of Cattaneo and Mindlin, which is stiffest at first and depends on the depth. [any thread]
 inline Law acrossOf (const Law& along, double mu, double mu_c)
 {
     Law across = along;
