@@ -5,6 +5,7 @@
 #include <tactus/kit/geometry/placed_surface.hpp>
 #include <tactus/kit/geometry/surface_check.hpp>
 #include <tactus/kit/geometry/surface_contact.hpp>
+#include <tactus/kit/geometry/tool_faces.hpp>
 #include <tactus/kit/math/math.hpp>
 #include <tactus/kit/threads/async_query.hpp>
 #include <tactus/node/node.hpp>
@@ -96,15 +97,23 @@ struct ElasticSurface
         frictionless
     };
 
+    enum class Blend
+    {
+        latched,
+        follows
+    };
+
     struct Inputs
     {
         Vec3 position = Vec3::Zero();
         double tool = 0.0;
+        Vec3 turn = Vec3::Zero();
     };
 
     struct Params
     {
         Friction friction = Friction::bound;
+        Blend blend = Blend::latched;
         Bristle::Adhesion adhesion = Bristle::Adhesion::stick;
         double static_ratio = 1.0;
         double break_away = 0.7;
@@ -123,6 +132,7 @@ struct ElasticSurface
     struct Outputs
     {
         Vec3 force = Vec3::Zero();
+        Vec3 torque = Vec3::Zero();
         double resistance = 0.0;
         double depth = 0.0;
         Vec3 normal = Vec3::Zero();
@@ -143,12 +153,15 @@ struct ElasticSurface
     };
 
     static constexpr std::string_view friction_names[] { "bound", "frictionless" };
+    static constexpr std::string_view blend_names[] { "latched", "follows" };
     static constexpr std::string_view adhesion_names[] { "stick", "dupont", "ramp", "dahl", "curve" };
 
     static constexpr std::tuple ports {
         input (&Inputs::position, "position", unit::metre, "tool position p"),
         input (&Inputs::tool, "tool", unit::count, "number of the tool, 0…n-1; a fraction blends two tools; read at the start of a contact"),
+        input (&Inputs::turn, "turn", Unit { Quantity::any, { 0, 0, 0 }, "1/rad" }, "gradient of tool when the tool turns, from deform.tool; only for blend follows"),
         choice (&Params::friction, "friction", friction_names, "the contact point sticks within a bound, or follows freely"),
+        choice (&Params::blend, "blend", blend_names, "the tool stays the one of the first touch, or follows its number; the hand then pays with torque"),
         choice (&Params::adhesion, "adhesion", adhesion_names, "how the contact point yields within the bound, Fig. 2; only for friction bound"),
         param (&Params::static_ratio, "static_ratio", unit::gain, "d_stick / d_max, d_max = mu_c w; above 1: stick-slip",
                { .hard = { 1, inf }, .usual = { 1, 5 } }),
@@ -161,6 +174,7 @@ struct ElasticSurface
                  { .hard = { 0, 1000 }, .usual = { 0, 40 } }),
         setting (&Settings::adhesion_curve, "adhesion_curve", unit::gain, unit::gain, "zeta d_max as a curve over |d| / d_max; only for adhesion curve"),
         output (&Outputs::force, "force", unit::newton, "force on the tool"),
+        output (&Outputs::torque, "torque", unit::torque, "torque on the tool, - dU / d tool times turn; only for blend follows"),
         output (&Outputs::resistance, "resistance", unit::newton, "force of the springs along the normal, f^z"),
         output (&Outputs::depth, "depth", unit::metre, "depth below the foot, w; 0 while apart"),
         output (&Outputs::normal, "normal", unit::count, "direction out of the body at the foot, -u^z"),
@@ -215,7 +229,7 @@ struct ElasticSurface
     {
         dt = setup.dt_s();
         body = std::make_shared<const PlacedSurface> (settings.surface, settings.scale, settings.origin, settings.rotation);
-        tool = body->noTool();
+        tool = trial = body->noTool();
         slippery = isSlippery();
         touch = {};
         near = {};
@@ -239,6 +253,8 @@ struct ElasticSurface
             touch = old.touch;
             tool = old.tool;
             adhesion = old.adhesion;
+            blend = old.blend;
+            began = old.began;
             contact = old.contact;
         }
         near = old.near;
@@ -258,17 +274,19 @@ struct ElasticSurface
 
     Outputs tick (const Inputs& in) noexcept
     {
-        if (! isFinite (in.position, in.tool)) return fault();
+        if (! isFinite (in.position, in.tool, in.turn)) return fault();
         const auto& p = in.position;
         const auto found = search.answer (p, ! isTouching());
         const bool touched = isTouching();
         slips = false;
+        if (touched && blend == Blend::follows) body->choose (in.tool, began, tool);
         const SurfaceSample felt = touched ? move (last.position, p) : open (in, found);
 
         Outputs out { .normal = Vec3::UnitZ(), .contact = p, .dissipated_energy = dissipated };
         if (isTouching())
         {
             report (felt, p, out);
+            if (blend == Blend::follows) out.torque = -slopeOfTool (in.tool, p) * in.turn;
             if (! touched && last.known) out.hit = std::max (0.0, finiteOrZero ((out.depth - last.depth) / dt));
             last.depth = out.depth;
         }
@@ -341,6 +359,8 @@ private:
         touch = there;
         contact = there.foot;
         adhesion = params.adhesion;
+        blend = params.blend;
+        began = there.foot;
     }
 
     SurfaceSample move (const Vec3& from, const Vec3& to) noexcept
@@ -368,6 +388,17 @@ private:
         out.triangle = static_cast<double> (contact.triangle);
         out.stored_energy = felt.felt.energy;
         out.state = slips || touch.frictionless ? 2.0 : 1.0;
+    }
+
+    /// dU / d tool, J, with the anchor where it is.
+    double slopeOfTool (double number, const Vec3& p) noexcept
+    {
+        const auto& s = *settings.surface;
+        const auto tools = static_cast<double> (s.weights.empty() ? s.curves.size() : s.weights.size());
+        return toolSlope (number, tools - 1.0, [&] (double n) {
+            body->choose (n, began, trial);
+            return followed (*body, trial, touch, p, p).felt.energy;
+        });
     }
 
     Outputs fault() noexcept
@@ -407,7 +438,10 @@ private:
     std::shared_ptr<const PlacedSurface> body;
     PatchSearch search;
     SurfaceTouch touch;
-    PlacedSurface::Tool tool;        // latched while touching
+    PlacedSurface::Tool tool;        // latched while touching, or follows
+    PlacedSurface::Tool trial;       // room to try another tool
+    Blend blend {};                  // latched while touching
+    Spot began;                      // where the contact began
     Bristle::Adhesion adhesion {};   // the same
     Spot contact;                    // the point of the mesh nearest to the anchor
     bool slippery = false;           // mu is 0 everywhere

@@ -59,6 +59,7 @@ struct DeformTool
     struct Outputs
     {
         double tool = 0.0;
+        Vec3 turn = Vec3::Zero();
     };
 
     static constexpr Info info {
@@ -74,6 +75,7 @@ struct DeformTool
         input (&Inputs::normal, "normal", unit::gain, "direction out of the body; any length but 0"),
         setting (&Settings::faces, "faces", unit::count, "faces, edges and tips of the tool, 1 to 8"),
         output (&Outputs::tool, "tool", unit::count, "number of the tool that touches, for deform.surface"),
+        output (&Outputs::turn, "turn", Unit { Quantity::any, { 0, 0, 0 }, "1/rad" }, "gradient of tool when the tool turns, about the axes of the world"),
     };
 
     Params params;
@@ -104,7 +106,8 @@ struct DeformTool
     Outputs tick (const Inputs& in) noexcept
     {
         if (! isFinite (in.rotation, in.normal)) return {};
-        return { .tool = tiltOf (faces, rotationMatrix (in.rotation), -direction (in.normal)).tool };
+        const auto tilt = tiltOf (faces, rotationMatrix (in.rotation), -direction (in.normal));
+        return { .tool = tilt.tool, .turn = tilt.turn };
     }
 
 private:
