@@ -54,14 +54,14 @@ bool comesToRest (std::span<const double> response, const DeviceNumbers&, double
 bool comesToRest (std::span<const Jacobian> response, std::span<const DeviceNumbers* const> axes, double period_s);
 
 /// How many times a response could be as large before its loop swings, given whether it rests if it is so many times as large: within a thousandth.
-/// Above 1 if the loop rests, and below 1 if it swings; 0 if it swings even at a thousandth of the response. At most 1000.
+/// Above 1 if the loop rests, and below 1 if it swings; 0 if it swings even at a thousandth of the response. At most 1024.
 template <typename Rests>
 double roomToGrow (Rests&& rests)
 {
-    constexpr double most = 1e3;
+    constexpr double most = 1024.0;
     double low = 1.0, high = 1.0;   // rests, swings
     if (rests (1.0))
-        for (high = 2.0; high < most && rests (high); high *= 2.0)
+        for (high = 2.0; high <= most && rests (high); high *= 2.0)
             low = high;
     else
     {
@@ -69,7 +69,7 @@ double roomToGrow (Rests&& rests)
             high = low;
         if (! (low > 1.0 / most)) return 0.0;
     }
-    if (high >= most) return most;
+    if (high > most) return most;
     while (high > 1.001 * low)
         (rests (0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
     return low;

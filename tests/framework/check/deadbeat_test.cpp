@@ -88,7 +88,7 @@ struct Trial
         return check::deadbeatRadius (plan (off), numbersOf (device()), static_cast<std::size_t> (delay), 1.0 / rate_hz).value();
     }
 
-    /// Lets a tool rest in the wall with the right mass. Then the wall moves by a tenth of the depth, and the mass is wrong by a fraction. Returns how far
+    /// Lets a tool rest in the wall with the right mass. Then the wall moves by a thousandth of the depth, and the mass is wrong by a fraction. Returns how far
     /// the tool swings in the third and in the fourth quarter of the time, in units of the depth.
     std::pair<double, double> swings (double off) const
     {
@@ -113,7 +113,7 @@ struct Trial
             if (k == 0)
             {
                 wall.params.mass *= 1.0 + off;
-                wall.params.offset = 0.1 * rest;
+                wall.params.offset = 1e-3 * rest;
             }
             if (2 * k >= ticks)
             {
