@@ -80,18 +80,22 @@ TEST_CASE ("surface: a closed path that sticks gives and takes nothing, whatever
         RC_ASSERT (hand.out.state == 1.0);
         const Vec3 centre = hand.p;
         const double before = hand.out.stored_energy;
-        hand.work = 0.0;
-
         double most = 0.0;
         const double a = 0.004 * one (dice), b = 0.003 * one (dice), c = 0.002 * one (dice);
-        for (int k = 1; k <= 4000; ++k)
-        {
-            const double phi = 2.0 * std::numbers::pi * k / 4000;
-            hand.to (centre + Vec3 (a * std::sin (phi), b * std::sin (2.0 * phi), c * (1.0 - std::cos (phi))));
-            most = std::max (most, std::abs (hand.work));
-        }
+        const auto around = [&] (int steps) {
+            hand.work = 0.0;
+            for (int k = 1; k <= steps; ++k)
+            {
+                const double phi = 2.0 * std::numbers::pi * k / steps;
+                hand.to (centre + Vec3 (a * std::sin (phi), b * std::sin (2.0 * phi), c * (1.0 - std::cos (phi))));
+                most = std::max (most, std::abs (hand.work));
+            }
+            return std::abs (hand.work);
+        };
+        // The rule of the trapezoids has an error where the foot passes a node. A real error would remain, however fine the steps are.
+        const double coarse = around (4000), limit = 1e-6 * (most + before) + 1e-12;
         RC_ASSERT (std::abs (hand.out.stored_energy - before) <= 1e-12 * std::max (1.0, before));
-        RC_ASSERT (std::abs (hand.work) <= 1e-5 * (most + before) + 1e-12);   // the rule of the trapezoids
+        RC_ASSERT ((coarse <= limit || around (64'000) <= limit));
     });
 }
 
