@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #ifdef __SSE2__
@@ -138,6 +140,36 @@ T sum (T* values, int n) noexcept
     T total = values[0];
     for (int i = 1; i < n; ++i)
         total += values[i];
+    return withOneNan (total);
+}
+
+/// A value of a sum, and which one it is.
+struct Placed
+{
+    double value;
+    std::uint32_t term;
+};
+
+/// The same sum of n values that are almost in order, as those of moving contacts are if they come in the order of the tick before. Sorts them. A
+/// value that has to move far costs as much as sorting all.
+inline double sumInOrder (Placed* values, std::size_t n) noexcept
+{
+    for (std::size_t i = 0; i < n; ++i)
+        if (! (values[i].value == values[i].value)) return std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t i = 1, moves_left = 4 * n; i < n; ++i)
+    {
+        const auto value = values[i];
+        auto at = i;
+        for (; at > 0 && value.value < values[at - 1].value && moves_left > 0; --at, --moves_left)
+            values[at] = values[at - 1];
+        values[at] = value;
+        if (moves_left > 0) continue;
+        std::sort (values, values + n, [] (const Placed& a, const Placed& b) { return a.value < b.value; });
+        break;
+    }
+    double total = values[0].value;
+    for (std::size_t i = 1; i < n; ++i)
+        total += values[i].value;
     return withOneNan (total);
 }
 

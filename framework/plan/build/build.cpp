@@ -345,7 +345,8 @@ private:
         auto& s = storage->sums.emplace_back();
         for (const auto& d : all)
             if (is_meant (d)) s.terms.push_back (d.term);
-        s.scratch.resize (s.terms.size());
+        for (std::size_t i = 0; i < s.terms.size(); ++i)
+            s.sorted.push_back ({ 0.0, static_cast<std::uint32_t> (i) });
         bodyOf (node).addSum (s, node, storage->vector_sums);
         return &s.out;
     }

@@ -39,7 +39,7 @@ struct Sum
     static constexpr std::size_t fewest_terms = 0;
 
     std::vector<Term> terms;
-    std::vector<double> scratch;   // for the values to add; same size as `terms`
+    std::vector<Placed> sorted;   // the terms in the order of the last tick, if there are more than a network sorts
     double out = 0.0;
 
     /// The sum of exactly n terms; of any number if n is 0.
@@ -52,9 +52,9 @@ struct Sum
         (std::make_index_sequence<n>());
         else
         {
-            for (std::size_t i = 0; i < terms.size(); ++i)
-                scratch[i] = value (i);
-            out = sum (scratch.data(), static_cast<int> (terms.size()));
+            for (auto& s : sorted)
+                s.value = value (s.term);
+            out = sorted.empty() ? 0.0 : sumInOrder (sorted.data(), sorted.size());
         }
     }
 

@@ -61,6 +61,32 @@ TEST_CASE ("a sum of wires has the bits of the sum in order of value, whatever t
     });
 }
 
+TEST_CASE ("a sum that starts from the order of the last tick has the same bits, however the values move", "[plan][property]")
+{
+    rc::prop ("values that creep and jump", [] {
+        const auto n = *rc::gen::inRange<std::size_t> (1, 40);
+        auto values = *rc::gen::container<std::vector<double>> (n, anyNumber());
+        std::vector<plan::Placed> placed;
+        for (std::size_t i = 0; i < n; ++i)
+            placed.push_back ({ 0.0, static_cast<std::uint32_t> (i) });
+        for (int tick = 0; tick < 10; ++tick)
+        {
+            for (auto& p : placed)
+                p.value = values[p.term];
+            RC_ASSERT (bits (plan::sumInOrder (placed.data(), n)) == bits (inOrder (values)));
+            const auto first = *rc::gen::inRange<std::size_t> (0, n), jumps = *rc::gen::element<std::size_t> (0, 1, n);
+            for (auto& v : values)
+                v *= 1.01;
+            for (std::size_t k = 0; k < jumps; ++k)
+                values[(first + k) % n] = *anyNumber();
+        }
+        std::vector<bool> seen (n);
+        for (const auto& p : placed)
+            seen[p.term] = true;
+        RC_ASSERT (std::ranges::all_of (seen, [] (bool s) { return s; }));
+    });
+}
+
 TEST_CASE ("every order of three and of four special values has the same sum, to the bit", "[plan]")
 {
     constexpr double inf = std::numeric_limits<double>::infinity();
