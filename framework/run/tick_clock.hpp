@@ -52,30 +52,43 @@ public:
     virtual double now() const noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
 };
 
-/// Ticks at deadlines that are one period apart, however long the previous tick took. It sleeps until shortly before the deadline
-/// and then spins, because waking up takes about 20 to 50 us. It does not spin longer, since the kernel stops a SCHED_FIFO thread
-/// for 50 ms each second if it never sleeps. Missed ticks are not caught up in a burst; the deadlines start again from the
-/// current time.
+/// Ticks at deadlines that are one period apart, however long the previous tick took. Missed ticks are not caught up in a burst; the
+/// deadlines start again from the current time.
 class AbsoluteTimer final : public TickClock
 {
 public:
-    explicit AbsoluteTimer (double period_s) : period (toDuration (period_s)), spin (std::min (toDuration (50e-6), period / 5)) {}
+    /// A thread wakes up 10 to 100 us after the time it asked for.
+    enum class Wait
+    {
+        punctual,   ///< sleeps until shortly before the deadline, then spins. For motors
+        idle        ///< sleeps until the deadline, and is late by the time of waking up. A fraction of the processor time; for simulated devices
+    };
+
+    explicit AbsoluteTimer (double period_s, Wait w = Wait::punctual) : period (toDuration (period_s)), wait (w) {}
 
     void drive (Ticked& ticked) noexcept override
     {
         deadline = Clock::now();
-        while (ticked.tick (wait()))
+        while (ticked.tick (waited()))
             deadline += period;
     }
 
 private:
     using Clock = std::chrono::steady_clock;
 
+    /// The longest spin. The kernel stops a SCHED_FIFO thread for 50 ms each second if it never sleeps.
+    Clock::duration longestSpin() const noexcept { return std::min (toDuration (50e-6), period / 5); }
+
     /// Waits for the deadline. Returns how late it is, in s.
-    double wait() noexcept
+    double waited() noexcept
     {
         auto at = Clock::now();
-        if (deadline - spin > at) std::this_thread::sleep_until (deadline - spin);
+        const auto until = deadline - (wait == Wait::punctual ? std::min (wakeup.expected(), longestSpin()) : Clock::duration {});
+        if (until > at)
+        {
+            std::this_thread::sleep_until (until);
+            wakeup.note (Clock::now() - until);
+        }
         while ((at = Clock::now()) < deadline)
             ;
         const auto late = at - deadline;
@@ -83,7 +96,22 @@ private:
         return std::chrono::duration<double> (late).count();
     }
 
-    Clock::duration period, spin;
+    /// How long the thread takes to wake up: more than nearly all of the latest times.
+    class Wakeup
+    {
+    public:
+        Clock::duration expected() const noexcept { return longest; }
+
+        /// Rises to a longer time at once, and sinks by a hundredth of the difference to a shorter one.
+        void note (Clock::duration took) noexcept { longest += took > longest ? took - longest : (took - longest) / 100; }
+
+    private:
+        Clock::duration longest = toDuration (50e-6);
+    };
+
+    Clock::duration period;
+    Wait wait;
+    Wakeup wakeup {};
     Clock::time_point deadline;
 };
 

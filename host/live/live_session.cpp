@@ -109,7 +109,7 @@ Result<> LiveSession::log (const std::filesystem::path& file, std::string progra
     return running->startLog (file, std::move (program), std::move (sets), playing);
 }
 
-/// The clock of the run: the sound card, a device, or a timer.
+/// The clock of the run: the sound card, a device, or a timer. Simulated devices do not notice that a timer is a little late.
 TickClock& LiveSession::clock()
 {
     if (hardware.sound() != nullptr)
@@ -120,7 +120,7 @@ TickClock& LiveSession::clock()
             device_clock = real.present != nullptr ? std::make_unique<RunClock> (*real.present, rate()) : std::make_unique<RunClock> (*real.awaited, rate());
             return *device_clock;
         }
-    return timer.emplace (1.0 / rate());
+    return timer.emplace (1.0 / rate(), drivesDevice() ? AbsoluteTimer::Wait::punctual : AbsoluteTimer::Wait::idle);
 }
 
 std::vector<std::string> LiveSession::start (const Start& how)

@@ -26,7 +26,7 @@ struct Each final : Ticked
 TEST_CASE ("an absolute timer never begins a tick early, and does not catch up on missed ticks", "[runtime]")
 {
     constexpr double period = 1e-3;
-    AbsoluteTimer timer { period };
+    AbsoluteTimer timer { period, GENERATE (AbsoluteTimer::Wait::punctual, AbsoluteTimer::Wait::idle) };
     const double begin = timer.now();
     double least = begin;   // the deadline is this or later, however long the clock's reads are apart
     int k = 0;
@@ -63,7 +63,7 @@ TEST_CASE ("a free run ticks until a tick returns that it was the last one", "[r
 
 TEST_CASE ("ticks of a timer and of a free run take no locks, and neither does the wait between them", "[runtime][clocks]")
 {
-    AbsoluteTimer timer { 1e-3 };
+    AbsoluteTimer timer { 1e-3, GENERATE (AbsoluteTimer::Wait::punctual, AbsoluteTimer::Wait::idle) };
     test::checkThatTicksLockNothing (timer, nullptr, 200, [] { std::this_thread::sleep_for (std::chrono::milliseconds (1)); });
     FreeRun free;
     test::checkThatTicksLockNothing (free, nullptr, 2000, [] { std::this_thread::yield(); });
