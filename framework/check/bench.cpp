@@ -7,7 +7,7 @@
 namespace tactus::check
 {
 
-Bench::Bench (const Subject& subject, const HandMotion& motion)
+Bench::Bench (const Subject& subject, const HandMotion& motion) : stop (subject.stop)
 {
     auto options = subject.options;
     options.rate_hz = motion.rate_hz;
@@ -47,14 +47,22 @@ void Bench::shift (std::size_t role, const Vec3& by) noexcept
     tool.now.true_position = tool.true_home + by;
 }
 
-void Bench::tick() noexcept
+void Bench::silence (const std::vector<std::size_t>& nodes)
 {
+    silent.assign (nodes.empty() ? 0 : plan().flat().nodes.size(), false);
+    for (const auto n : nodes)
+        silent[n] = true;
+}
+
+void Bench::tick()
+{
+    if (stop.stop_requested()) throw Stopped {};
     if (silent.empty()) return engine->tick();
     engine->tick ([this] (Plan& plan) noexcept {
         plan.tick ([&] (std::size_t record, auto step) noexcept {
             step();
             const auto node = plan.owners()[record];
-            if (std::ranges::count (silent, node) == 0) return;
+            if (! silent[static_cast<std::size_t> (node)]) return;
             const auto& instance = plan.instances()[node];
             if (plan.records()[record].outputs == instance.outputs) plan.flat().nodes[node].type->initialiseOutputs (instance.outputs);
         });

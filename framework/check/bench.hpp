@@ -27,9 +27,10 @@ public:
     void shift (std::size_t role, const Vec3& by) noexcept;
 
     /// From now on, the outputs of these nodes are 0, their value at the start. [main thread]
-    void silence (std::vector<std::size_t> nodes) { silent = std::move (nodes); }
+    void silence (const std::vector<std::size_t>& nodes);
 
-    void tick() noexcept;
+    /// Throws Stopped if the subject is stopped.
+    void tick();
 
     const Vec3& force (std::size_t role) const noexcept { return plan().roles()[role].state->applied.force; }   ///< on the tool, in N
     const Vec3& position (std::size_t role) const noexcept { return tools[role]->home; }                        ///< of the tool, without the shift, in m
@@ -52,7 +53,8 @@ private:
     std::shared_ptr<Plan> its_plan;
     std::vector<std::unique_ptr<Placed>> tools;   // in the order of the plan's roles
     std::unique_ptr<Engine> engine;
-    std::vector<std::size_t> silent;
+    std::stop_token stop;
+    std::vector<bool> silent;   // by node; empty if none is
 };
 
 /// The forces that a node computes: all its outputs in N.

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ struct Subject
     const graph::Graph& graph;
     const Catalogue& catalogue;
     CompileOptions options {};   ///< the rate, the assets, the values that take precedence over the file
+    std::stop_token stop {};     ///< for measure(): once it is requested, measure() throws Stopped within a tick of the graph
+};
+
+/// Thrown by measure() because its Subject was stopped.
+struct Stopped final
+{
 };
 
 /// What the device of a role reported on each tick.

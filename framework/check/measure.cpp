@@ -26,7 +26,7 @@ template <typename AfterTick>
 Forces forcesAlong (const Subject& subject, const HandMotion& motion, std::vector<std::size_t> without, AfterTick&& after)
 {
     Bench bench { subject, motion };
-    bench.silence (std::move (without));
+    bench.silence (without);
     Forces forces (motion.roles.size());
     for (std::size_t k = 0; k < motion.ticks; ++k)
     {

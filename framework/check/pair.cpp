@@ -148,13 +148,13 @@ VectorXd Pair::changeAt (double tick)
     return difference() - offset;
 }
 
-void Pair::step() noexcept
+void Pair::step()
 {
     still.tick();
     nudged.tick();
 }
 
-void Pair::wait (std::size_t ticks) noexcept
+void Pair::wait (std::size_t ticks)
 {
     for (std::size_t j = 0; j < ticks; ++j)
         step();

@@ -80,8 +80,8 @@ private:
     Response respondTo (double size, std::size_t role, const Vec3& direction);
     std::optional<Response> respondOnce (std::size_t role, const Vec3& direction);
     Response summary() const;
-    void step() noexcept;
-    void wait (std::size_t ticks) noexcept;
+    void step();
+    void wait (std::size_t ticks);
     bool hasSettled() const;
     Eigen::VectorXd difference() const;
     void note (std::vector<double>& all) const noexcept;

@@ -201,11 +201,12 @@ Messages LimitList::messages (const graph::Graph& g) const
     return all;
 }
 
-LimitList limitsOf (const LimitJob& job, const Catalogue& catalogue, FileAssets& assets)
+LimitList limitsOf (const LimitJob& job, const Catalogue& catalogue, FileAssets& assets, std::stop_token stop)
 {
     const check::Subject subject { job.graph,
                                    catalogue,
-                                   { .rate_hz = job.rate_hz, .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } } };
+                                   { .rate_hz = job.rate_hz, .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } },
+                                   std::move (stop) };
     const auto compiled = compile (subject.graph, subject.catalogue, subject.options);
     if (hasErrors (compiled.messages) || ! compiled.plan) return {};
 
@@ -220,8 +221,15 @@ LimitList limitsOf (const LimitJob& job, const Catalogue& catalogue, FileAssets&
     const auto recorded = check::recordMotion (subject, hands, job.graph.folder);
     if (hasErrors (recorded.messages)) return {};
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
-    const auto demand = check::measure (subject, recorded.motion, thoroughness (took.count(), recorded.motion.ticks, job.roles.size()));
-    return listOf (demand, devices, *compiled.plan);
+    try
+    {
+        const auto demand = check::measure (subject, recorded.motion, thoroughness (took.count(), recorded.motion.ticks, job.roles.size()));
+        return listOf (demand, devices, *compiled.plan);
+    }
+    catch (const check::Stopped&)
+    {
+        return {};
+    }
 }
 
 }   // namespace tactus::host

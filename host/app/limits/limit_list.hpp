@@ -9,6 +9,7 @@
 #include <tactus/graph/graph.hpp>
 
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -66,7 +67,8 @@ struct LimitList
     bool operator== (const LimitList&) const = default;
 };
 
-/// Measures the graph and judges its conditions. Takes a tenth of a second to a few seconds. [any thread that owns the assets]
-LimitList limitsOf (const LimitJob&, const Catalogue&, FileAssets&);
+/// Measures the graph and judges its conditions. Takes a tenth of a second to a few seconds. The list is empty if it is stopped before.
+/// [any thread that owns the assets]
+LimitList limitsOf (const LimitJob&, const Catalogue&, FileAssets&, std::stop_token = {});
 
 }   // namespace tactus::host

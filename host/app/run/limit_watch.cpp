@@ -27,6 +27,7 @@ LimitWatch::LimitWatch (Document& d, const DeviceSetup& s, const LiveRun& l, con
 LimitWatch::~LimitWatch()
 {
     document.remove (*this);
+    closing.request_stop();
     stopThread (-1);
 }
 
@@ -112,7 +113,7 @@ void LimitWatch::run()
             continue;
         }
         CheckResult result { order->document, {}, {} };
-        auto list = caught ({}, [&] { return limitsOf (order->job, order->types, assets); });
+        auto list = caught ({}, [&] { return limitsOf (order->job, order->types, assets, closing.get_token()); });
         if (list)
             result.list = std::move (*list);
         else

@@ -74,6 +74,7 @@ private:
     bool is_busy = false;
     int attended = 0;
 
+    std::stop_source closing;
     std::mutex lock;   // guards the members below
     std::optional<CheckRequest> ordered;
     std::optional<CheckResult> done;
