@@ -76,8 +76,9 @@ void TakePanel::listPorts()
         shown_port = suggested.empty() ? first : suggested.front();
     }
     ports.clear (juce::dontSendNotification);
+    auto& menu = *ports.getRootMenu();   // ComboBox::addItem compares each item with all others
     for (std::size_t i = 0; i < names.size(); ++i)
-        ports.addItem (juce::String (printableName (names[i])), static_cast<int> (i) + 1);
+        menu.addItem (static_cast<int> (i) + 1, juce::String (printableName (names[i])));
     const auto at = std::ranges::find (names, shown_port);
     if (at != names.end()) ports.setSelectedItemIndex (static_cast<int> (at - names.begin()), juce::dontSendNotification);
 }
