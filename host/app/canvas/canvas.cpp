@@ -55,6 +55,7 @@ void Canvas::documentChanged()
 void Canvas::rebuild()
 {
     const auto& look = lookOf (*this);
+    ++scenes_made;
     shown = std::make_unique<Scene> (document.graph(), patch(), catalogue, curves,
                                      [&look] (const std::string& text, float size, bool bold) { return look.font (size, bold).getStringWidthFloat (text); });
     repaint();

@@ -42,6 +42,7 @@ public:
     CanvasCommands& commands() noexcept { return edits; }
     const CanvasCommands& commands() const noexcept { return edits; }
     const Scene& scene() const noexcept { return *shown; }
+    std::uint64_t sceneNumber() const noexcept { return scenes_made; }   ///< another number for each scene; never 0
     View& view() noexcept { return window; }
     const View& view() const noexcept { return window; }
     Highlights& highlighted() noexcept { return highlights; }
@@ -174,6 +175,7 @@ private:
     const Catalogue& catalogue;
     NodeCurves curves;
     std::unique_ptr<Scene> shown;
+    std::uint64_t scenes_made = 0;
     View window;
     Highlights highlights;
     Breadcrumbs entered;

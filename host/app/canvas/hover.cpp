@@ -100,18 +100,24 @@ void Canvas::showLive (LiveState live)
     repaintChanged (before);
 }
 
-/// Wires and the card change many times a second while a graph runs, so only they are painted again if nothing else has changed.
+/// Lamps, wires and the card change many times a second while a graph runs, so only they are painted again if nothing else has changed.
 void Canvas::repaintChanged (const LiveState& before)
 {
     const auto& now = highlights.live;
-    if (now.states != before.states || now.costs != before.costs || now.problems != before.problems || now.limits != before.limits) return repaint();
+    if (now.costs != before.costs || now.problems != before.problems || now.limits != before.limits) return repaint();
     const auto differs = [] (const auto& a, const auto& b, graph::Id id) {
         const auto at_a = a.find (id), at_b = b.find (id);
         return (at_a == a.end()) != (at_b == b.end()) || (at_a != a.end() && at_a->second != at_b->second);
     };
+    const auto repaintAround = [this] (juce::Rectangle<float> area) {
+        constexpr float glow = 8.0f;
+        repaint (area.expanded (glow).transformedBy (window.transform()).getSmallestIntegerContainer());
+    };
+    if (now.states != before.states)
+        for (const auto& n : shown->nodes())
+            if (differs (now.states, before.states, n.id)) repaintAround (n.bounds().withHeight (Box::header_height));
     for (const auto& w : shown->wires())
-        if (differs (now.levels, before.levels, w.id) || differs (now.hits, before.hits, w.id))
-            repaint (boundsOf (w).transformedBy (window.transform()).getSmallestIntegerContainer());
+        if (differs (now.levels, before.levels, w.id) || differs (now.hits, before.hits, w.id)) repaintAround (w.path().getBounds());
     for (const auto* card : { &now.card, &before.card })
         if (*card && now.card != before.card) repaint (boundsOf (**card, window.toPixels ((*card)->where.at), getLocalBounds()).expanded (4));
 }

@@ -285,9 +285,33 @@ void paintGrid (juce::Graphics& g, const View& view, juce::Rectangle<int> area, 
             g.fillRect (x, y, 1.5f, 1.5f);
 }
 
+namespace
+{
+/// What a stroke of a path shows in an area, as straight lines: the same ones as those into which JUCE divides the path before it strokes it.
+juce::Path partIn (juce::Rectangle<float> area, const juce::Path& path, float scale)
+{
+    juce::Path part;
+    juce::Point<float> end;
+    for (juce::PathFlatteningIterator line (path, {}, juce::Path::defaultToleranceForMeasurement / scale); line.next();)
+    {
+        const juce::Point<float> a { line.x1, line.y1 }, b { line.x2, line.y2 };
+        if (! area.intersects (juce::Rectangle<float> (a, b).expanded (1.0f))) continue;
+        if (part.isEmpty() || a != end) part.startNewSubPath (a);
+        part.lineTo (b);
+        end = b;
+    }
+    return part;
+}
+}   // namespace
+
 void paintWire (juce::Graphics& g, const SceneWire& w, const Theme& theme, bool selected, bool hovered, int level)
 {
-    const auto path = w.path();
+    constexpr float widest = 12.0f;   // of a stroke
+    auto path = w.path();
+    const auto seen = g.getClipBounds().toFloat().expanded (widest);
+    const bool is_dashed = w.add || ! w.enabled;   // dashes are counted from the start of the wire
+    if (! is_dashed && ! seen.contains (path.getBounds())) path = partIn (seen, path, g.getInternalContext().getPhysicalPixelScaleFactor());
+    if (path.isEmpty()) return;
     const float thickness = w.width == 3 ? 3.0f : 1.5f;
     if (level > 0)   // a glow, so that the wire itself keeps its contrast at rest
     {
@@ -301,11 +325,7 @@ void paintWire (juce::Graphics& g, const SceneWire& w, const Theme& theme, bool 
         g.strokePath (path, juce::PathStrokeType (thickness + 4.0f));
     }
     g.setColour (theme.of (w.quantity).withMultipliedAlpha (w.enabled ? 1.0f : 0.35f));
-    if (w.enabled && ! w.add)
-    {
-        g.strokePath (path, juce::PathStrokeType (thickness));
-        return;
-    }
+    if (! is_dashed) return g.strokePath (path, juce::PathStrokeType (thickness));
     juce::Path dashed;
     const float dashes[] { w.add ? 8.0f : 3.0f, 4.0f };
     juce::PathStrokeType (thickness).createDashedStroke (dashed, path, dashes, 2);

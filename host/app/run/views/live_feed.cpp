@@ -55,33 +55,54 @@ void LiveFeed::refresh()
     canvas.showLive (std::move (live));
 }
 
-void LiveFeed::showStates (LiveState& live)
+/// Collected once for each scene, because a large one has thousands of names.
+const LiveFeed::Watched& LiveFeed::watched()
 {
-    std::vector<std::string> ports;
-    const auto watch = [&] (const std::string& port) {
+    if (of_scene.scene == canvas.sceneNumber()) return of_scene;
+    of_scene = { .scene = canvas.sceneNumber() };
+    std::map<std::string, std::size_t> ports, sources;
+    const auto watch = [&] (graph::Id id, const std::string& port, bool is_hit) {
         const auto full_name = canvas.address (port);
-        if (ports.size() < most_ports && std::ranges::count (ports, full_name) == 0) ports.push_back (full_name);
-        const auto traces = probes.of (full_name);
-        return traces.size() == 1 && traces[0]->begin() < traces[0]->end() ? traces[0] : nullptr;
+        if (of_scene.ports.size() == most_ports && ! ports.contains (full_name)) return;
+        const auto [known, is_new] = ports.try_emplace (full_name, of_scene.ports.size());
+        if (is_new) of_scene.ports.push_back (full_name);
+        of_scene.items.push_back ({ id, known->second, is_hit });
     };
     for (const auto& n : canvas.scene().nodes())
-        if (n.face->find (Role::output, "state") != nullptr && ! n.bypass)
-            if (const auto trace = watch (n.name + ".state"); trace && live_run.isRunning())
-                if (const double state = trace->at (trace->end() - 1); std::isfinite (state)) live.states[n.id] = static_cast<int> (state);
-
+        if (n.face->find (Role::output, "state") != nullptr && ! n.bypass) watch (n.id, n.name + ".state", false);
     for (const auto& w : canvas.scene().wires())
-        if (w.quantity == Quantity::hit && w.start >= 0)
-            if (const auto trace = watch (canvas.scene().nodes()[static_cast<std::size_t> (w.start)].name + '.' + w.out))
+    {
+        if (w.quantity == Quantity::hit && w.start >= 0) watch (w.id, canvas.scene().nodes()[static_cast<std::size_t> (w.start)].name + '.' + w.out, true);
+        if (! w.enabled || w.source.empty() || (sources.size() == most_sources && ! sources.contains (w.source))) continue;
+        const auto [known, is_new] = sources.try_emplace (w.source, sources.size());
+        if (is_new) of_scene.sources.push_back (canvas.address (w.source));
+        of_scene.wires.push_back ({ w.id, known->second });
+    }
+    return of_scene;
+}
+
+void LiveFeed::showStates (LiveState& live)
+{
+    const auto& now = watched();
+    for (const auto& item : now.items)
+    {
+        const auto traces = probes.of (now.ports[item.port]);
+        if (traces.size() != 1 || traces[0]->begin() >= traces[0]->end()) continue;
+        const auto& trace = *traces[0];
+        if (! item.is_hit)
+        {
+            if (const double state = trace.at (trace.end() - 1); live_run.isRunning() && std::isfinite (state)) live.states[item.id] = static_cast<int> (state);
+            continue;
+        }
+        const auto span = static_cast<std::uint64_t> (hit_travels_s * trace.rate());
+        for (auto tick = trace.end(); tick-- > trace.begin() && trace.end() - tick < span;)
+            if (trace.at (tick) > 0.0)
             {
-                const auto span = static_cast<std::uint64_t> (hit_travels_s * trace->rate());
-                for (auto tick = trace->end(); tick-- > trace->begin() && trace->end() - tick < span;)
-                    if (trace->at (tick) > 0.0)
-                    {
-                        live.hits[w.id] = static_cast<double> (trace->end() - tick) / static_cast<double> (span);
-                        break;
-                    }
+                live.hits[item.id] = static_cast<double> (trace.end() - tick) / static_cast<double> (span);
+                break;
             }
-    probes.want (std::move (ports));
+    }
+    probes.want (now.ports);
 }
 
 /// A level changes once the activity is clearly in another step, so that no wire flickers between two of them.
@@ -89,15 +110,19 @@ void LiveFeed::showActivity (LiveState& live)
 {
     std::map<graph::Id, int> now;
     if (live_run.isRunning())
-        for (const auto& w : canvas.scene().wires())
+    {
+        std::vector<double> levels;
+        for (const auto& source : watched().sources)
+            levels.push_back (LiveState::most_level * live_run.portFeed().level (source));
+        for (const auto& w : watched().wires)
         {
-            if (! w.enabled || w.source.empty()) continue;
-            const double exact = LiveState::most_level * live_run.portFeed().level (canvas.address (w.source));
+            const double exact = levels[w.port];
             const auto before = shown_levels.find (w.id);
             const int was = before == shown_levels.end() ? 0 : before->second;
             constexpr double clear = 0.65;
             if (const int level = std::abs (exact - was) > clear ? static_cast<int> (std::lround (exact)) : was; level > 0) now[w.id] = level;
         }
+    }
     shown_levels = now;
     live.levels = std::move (now);
 }

@@ -26,6 +26,21 @@ public:
     const LimitWatch* limits = nullptr;   ///< whose list to show; null for none
 
 private:
+    /// What it watches of a scene.
+    struct Watched
+    {
+        struct Item
+        {
+            graph::Id id = 0;       // of a node or a wire
+            std::size_t port = 0;   // index in a list of ports
+            bool is_hit = false;    // else the state of a node
+        };
+        std::uint64_t scene = 0;   // its number
+        std::vector<std::string> ports {}, sources {};
+        std::vector<Item> items {}, wires {};   // items at ports, wires at sources
+    };
+
+    const Watched& watched();
     void showStates (LiveState&);
     void showActivity (LiveState&);
     void showCard (LiveState&);
@@ -45,6 +60,7 @@ private:
     std::map<graph::Id, double> latest_costs;
     int since_costs = refreshes_per_cost;
 
+    Watched of_scene;
     std::map<graph::Id, int> shown_levels;
     PointedPort pointed;     // since when: `rested`
     std::string asked_for;   // a port that had a card, and that no wire of the patch starts from
