@@ -34,6 +34,7 @@ TraceColumns columnsOf (const Trace&, double from, double to, std::size_t at_mos
 
 /// The extent of a trace over a range of ticks.
 Extent extentOf (const Trace&, double from, double to);
+Extent extentOf (const Trace&, std::uint64_t from, std::uint64_t to);
 
 /// The latest tick before a limit at which a trace crosses the trigger level on the selected edge, after it was on the other side by
 /// at least the hysteresis. A gap resets the trigger.
