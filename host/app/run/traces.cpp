@@ -48,8 +48,9 @@ std::vector<std::string> Traces::ports() const
 std::vector<std::shared_ptr<const Trace>> Traces::of (const std::string& port) const
 {
     std::vector<std::shared_ptr<const Trace>> found;
-    for (const auto& [name, trace] : by_name)
-        if (isPartOf (name, port)) found.push_back (trace);
+    const auto stem = port.substr (0, port.find_first_of ("[/."));   // with which the names of all components of the port begin
+    for (auto at = by_name.lower_bound (stem); at != by_name.end() && at->first.starts_with (stem); ++at)
+        if (isPartOf (at->first, port)) found.push_back (at->second);
     return found;
 }
 
