@@ -8,6 +8,7 @@ import json
 import os
 import pathlib
 import signal
+import subprocess
 import sys
 import tempfile
 import time
@@ -35,8 +36,11 @@ def large(pairs):
 class Window(Walk):
     def __init__(self, host, *arguments):
         super().__init__(str(host), None, "1280x720", "dark")
-        self.start("--osc", "off", *map(str, arguments))
-        time.sleep(2.0)
+        # Without --places, which costs more than the window at rest.
+        self.program = subprocess.Popen([self.host, "--osc", "off", *map(str, arguments)], env=self.environment)
+        self.wait(lambda: subprocess.run(["xdotool", "search", "--onlyvisible", "--class", "tactus"], env=self.environment, capture_output=True,
+                                         check=False).stdout, "the window")
+        time.sleep(3.0)
 
     def seconds(self):
         fields = pathlib.Path(f"/proc/{self.program.pid}/stat").read_text().rsplit(")", 1)[1].split()
