@@ -4,6 +4,7 @@
 #include "run_options.hpp"
 
 #include <tactus/node/catalogue.hpp>
+#include <tactus/node/claims_passive.hpp>
 #include <tactus/node/datasheet_json.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/json.hpp>
@@ -65,22 +66,13 @@ void print (const std::vector<std::vector<std::string>>& rows)
     }
 }
 
-/// What the node claims with its default params and settings.
-bool isPassive (const NodeType& t)
-{
-    if (t.claims == nullptr) return false;
-    const auto node = t.make();
-    if (t.prepare != nullptr) t.prepare (node.get(), {});
-    return t.claims (node.get()).passive;
-}
-
 void printDatasheet (const NodeType& t)
 {
     // A plugin wrote these texts.
     std::cout << t.info.id << ": " << printable (t.info.name) << "\n"
               << printable (t.info.summary) << "\nSource: " << printable (t.info.source) << "\n";
     if (! t.origin.empty()) std::cout << "Plugin: " << printableName (t.origin) << "\n";
-    if (isPassive (t)) std::cout << "Passive: it generates no energy over any closed path (claimed for its default params)\n";
+    if (claimsPassive (t)) std::cout << "Passive: it generates no energy over any closed path (claimed for its default params)\n";
 
     const auto section = [] (const char* title, const std::vector<PortSheet>& ports, bool with_default) {
         if (ports.empty()) return;

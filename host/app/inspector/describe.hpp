@@ -4,6 +4,7 @@
 #include "rows.hpp"
 
 #include <host/app/inspector/settings/setting_editor.hpp>
+#include <host/app/limits/limit_list.hpp>
 #include <host/app/model/patch.hpp>
 #include <tactus/text/message.hpp>
 
@@ -18,7 +19,8 @@ struct InspectorContext
     std::string patch;   ///< "" is the graph itself
     Refusal refused;
     EditorContext editors;
-    std::function<Messages()> messages;   ///< returns the messages about the current graph; may be null
+    std::function<Messages()> messages;                                               ///< returns the messages about the current graph; may be null
+    std::function<std::vector<ContactLimit> (const std::string& node)> contacts {};   ///< the contacts whose steepest node this is; may be null
 
     const graph::Patch* in() const { return findPatch (document.graph(), patch); }
 

@@ -3,12 +3,14 @@
 #include "header.hpp"
 
 #include <host/app/inspector/blocks/formula_block.hpp>
+#include <host/app/inspector/blocks/limit_block.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/model/node_doc.hpp>
 #include <host/app/model/readable.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoint_text.hpp>
+#include <tactus/node/claims_passive.hpp>
 
 #include <cmath>
 
@@ -119,10 +121,14 @@ void describeNode (const InspectorContext& at, const graph::Node& node, bool hel
     const auto face = faceOf (at.document.graph(), *at.in(), node, at.catalogue);
     column.add (nodeHeader (at, node, help, toggleHelp));
     if (face.type != nullptr) column.add (fromUtf8 (face.type->info.summary), TextBlock::Kind::text);
+    if (face.type != nullptr && claimsPassive (*face.type))
+        column.add (TRANS ("Passive with its default parameters: it generates no energy over any closed path."), TextBlock::Kind::small);
     if (face.kind == Face::Kind::placeholder)
         column.add (TRANS ("Unknown node type. The node keeps its parameters and wires; its outputs are 0."), TextBlock::Kind::text);
     if (face.kind == Face::Kind::subgraph) column.add (TRANS ("A subgraph. Double-click it on the canvas to enter."), TextBlock::Kind::text);
     column.add (remark ([at, name = node.name] { return problemsOf (at, name); }));
+    if (at.contacts && at.patch.empty())
+        column.add (std::make_unique<LimitBlock> ([contacts = at.contacts, name = node.name] { return contacts (name); }));
     if (help)
     {
         listPorts (face.inputs, TRANS ("Inputs"), column);

@@ -6,6 +6,7 @@
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>
+#include <iterator>
 
 namespace tactus::host
 {
@@ -32,6 +33,13 @@ void Inspector::inspect (const std::string& p, std::set<graph::Id> s)
     rebuild();
 }
 
+void Inspector::showLimits (const std::vector<ContactLimit>& now)
+{
+    if (now == contacts) return;
+    contacts = now;
+    rebuild();
+}
+
 void Inspector::setHelp (bool on)
 {
     help = on;
@@ -45,7 +53,12 @@ InspectorContext Inspector::inspected()
     };
     const auto folder = [this] { return document.graph().folder; };
     const auto messages = [this] { return messagesNow ? messagesNow() : Messages {}; };
-    return { document, catalogue, patch, refused, EditorContext { files, folder, refused }, messages };
+    const auto contactsOf = [this] (const std::string& node) {
+        std::vector<ContactLimit> its;
+        std::ranges::copy_if (contacts, std::back_inserter (its), [&] (const ContactLimit& c) { return c.node == node || c.node.starts_with (node + '/'); });
+        return its;
+    };
+    return { document, catalogue, patch, refused, EditorContext { files, folder, refused }, messages, contactsOf };
 }
 
 Inspector::SelectedItems Inspector::selected (const InspectorContext& at) const

@@ -137,11 +137,19 @@ check::Thoroughness thoroughness (double recorded_for_s, std::size_t ticks, std:
     return t;
 }
 
+std::string nameOf (const std::vector<check::RoleDevice>& devices, const std::string& role)
+{
+    const auto device = std::ranges::find (devices, role, &check::RoleDevice::role);
+    return device != devices.end() ? device->name : TRANS ("unknown device").toStdString();
+}
+
 LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevice>& devices, const Plan& plan)
 {
     LimitList list;
     for (const auto& c : check::judge (demand, devices))
     {
+        if (c.id == "stiffness" && c.isKnown() && c.value > 0.0)
+            list.contacts.push_back ({ steepestOf (demand, c.role), nameOf (devices, c.role), c.limit / c.value, c.may_grow });
         const bool is_broken = c.isBroken();
         if (c.verdict == check::Verdict::not_reached)
             ++list.not_reached;
@@ -151,8 +159,7 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
             ++list.held;
         else
         {
-            const auto device = std::ranges::find (devices, c.role, &check::RoleDevice::role);
-            auto text = textOf (c, device != devices.end() ? device->name : TRANS ("unknown device").toStdString(), is_broken);
+            auto text = textOf (c, nameOf (devices, c.role), is_broken);
             list.limits.push_back ({ is_broken, std::string (c.id), nodesOf (c, demand, plan), std::move (text), c.remedy });
         }
     }

@@ -51,12 +51,24 @@ struct Limit
     bool operator== (const Limit&) const = default;
 };
 
+/// How steep the steepest contact of a role may become, in multiples of what it is now.
+struct ContactLimit
+{
+    std::string node;     ///< path of the steepest node
+    std::string device;   ///< name of the role's device
+    double passive_up_to = 0.0;
+    double stable_up_to = 0.0;   ///< without a hand and with the usual ones; 0 if it is not known, because the contact is passive
+
+    bool operator== (const ContactLimit&) const = default;
+};
+
 /// The result of a check. Conditions that are not in `limits` hold with some margin, or cannot be judged.
 struct LimitList
 {
     static constexpr double near = 1.2;   ///< a condition with a margin below this (Condition::margin) is near its limit
 
-    std::vector<Limit> limits {};        ///< broken ones first
+    std::vector<Limit> limits {};   ///< broken ones first
+    std::vector<ContactLimit> contacts {};
     std::size_t held = 0, unknown = 0;   ///< how many other conditions hold, and how many cannot be judged
     std::size_t not_reached = 0;         ///< how many nodes the path of the hand does not reach, so that nothing about them is judged
     bool is_checked = false;             ///< false if the graph has not been checked, has errors, or drives no device

@@ -224,6 +224,7 @@ void MainView::showProblems()
     problems.show (all);
     bottom.rename (problems, count == 0 ? TRANS ("Problems") : filled (TRANS ("Problems %1"), count), is_error);
     strip.limitLight().show (limits.list());
+    inspector.showLimits (limits.list().contacts);
 }
 
 void MainView::documentChanged()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rig.hpp"
 
+#include <host/app/inspector/blocks/limit_block.hpp>
 #include <host/app/inspector/blocks/plot_block.hpp>
 #include <host/app/inspector/blocks/table_row.hpp>
 #include <host/app/model/controlled_param.hpp>
@@ -438,4 +439,25 @@ TEST_CASE ("a law is plotted as one line across the plot", "[inspector]")
                 break;
             }
     CHECK (columns > 150);
+}
+
+TEST_CASE ("the inspector says how steep the contact of the selected node may become", "[app][inspector][limits]")
+{
+    InspectorRig rig { "granite_wall.json" };
+    rig.select ("wall");
+    const auto block = [&] {
+        const auto all = rig.all<LimitBlock>();
+        REQUIRE (all.size() == 1);
+        return all.front();
+    };
+    CHECK (block()->getHeight() == 0);
+    rig.inspector->showLimits ({ { "wall", "Simulated", 1.5, 0.0 }, { "other", "Simulated", 0.5, 2.0 } });
+    const int one = block()->getHeight();
+    CHECK (one > 0);
+    rig.inspector->showLimits ({ { "wall", "Simulated", 1.5, 0.0 }, { "wall/inner", "Simulated", 0.5, 2.0 } });
+    CHECK (block()->getHeight() > one);
+    CHECK (LimitBlock::textOf ({ "wall", "A", 0.5, 2.0 }).startsWith ("Stable on A with usual hands, and up to 2 times as steep"));
+    CHECK (LimitBlock::textOf ({ "wall", "A", 0.5, 0.75 }).startsWith ("It swings on A"));
+    rig.inspector->showLimits ({});
+    CHECK (block()->getHeight() == 0);
 }

@@ -180,7 +180,18 @@ TEST_CASE ("the lights follow edits, devices and the graph that is open", "[app]
     CHECK (watch.messages().empty());
 }
 
-TEST_CASE ("closing waits for a running check, and a series of edits ends with a check of the last one", "[app][limits]")
+TEST_CASE ("the steepest contact of a role has its limits, in multiples of what it is", "[app][limits]")
+{
+    const auto passive = checked (wall ("\"damping\": 2")), stable = checked (wall ("\"damping\": 0.4"));
+    REQUIRE (passive.contacts.size() == 1);
+    CHECK (passive.contacts[0].node == "wall");
+    CHECK (passive.contacts[0].passive_up_to == Approx (2.0 / 0.5).epsilon (0.01));
+    REQUIRE (stable.contacts.size() == 1);
+    CHECK (stable.contacts[0].passive_up_to == Approx (0.4 / 0.5).epsilon (0.01));
+    CHECK (stable.contacts[0].stable_up_to >= stable.contacts[0].passive_up_to);
+}
+
+TEST_CASE ("closing stops a running check, and a series of edits ends with a check of the last one", "[app][limits]")
 {
     CanvasRig rig { wall ("\"damping\": 1") };
     DeviceSetup setup;
