@@ -29,7 +29,7 @@ std::string similarFile (const fs::path& path)
     std::vector<std::string> names;
     std::error_code failed;
     for (fs::directory_iterator entry (path.has_parent_path() ? path.parent_path() : ".", failed), end; ! failed && entry != end; entry.increment (failed))
-        if (entry->path().extension() == ".json" && names.size() < 1000) names.push_back (entry->path().filename().string());
+        if (entry->path().extension().string() == ".json" && names.size() < 1000) names.push_back (entry->path().filename().string());
     return std::string (closestMatch (path.filename().string(), std::vector<std::string_view> (names.begin(), names.end())));
 }
 

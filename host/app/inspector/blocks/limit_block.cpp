@@ -13,7 +13,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr int heading = 26, bar_height = 10, gap = 6;
+constexpr int heading = 26, bar_height = 10, bar_gap = 6;
 
 juce::TextLayout layoutOf (const ContactLimit& c, const Look& look, int width)
 {
@@ -56,7 +56,7 @@ int LimitBlock::heightFor (int width)
 {
     int height = shown.empty() ? 0 : heading;
     for (const auto& c : shown)
-        height += bar_height + 2 * gap + static_cast<int> (std::ceil (layoutOf (c, lookOf (*this), width).getHeight()));
+        height += bar_height + 2 * bar_gap + static_cast<int> (std::ceil (layoutOf (c, lookOf (*this), width).getHeight()));
     return height;
 }
 
@@ -85,11 +85,11 @@ void LimitBlock::paint (juce::Graphics& g)
         part (stable, end, is_known ? theme.stop.withAlpha (0.7f) : theme.hairline);
         g.setColour (theme.text);
         g.fillRect (juce::Rectangle<float> (2.0f, bar.getHeight() + 6.0f).withCentre ({ at (1.0), bar.getCentreY() }));
-        area.removeFromTop (gap);
+        area.removeFromTop (bar_gap);
         const auto text = layoutOf (c, look, area.getWidth());
         const auto height = static_cast<int> (std::ceil (text.getHeight()));
         text.draw (g, area.removeFromTop (height).toFloat());
-        area.removeFromTop (gap);
+        area.removeFromTop (bar_gap);
     }
 }
 
