@@ -83,14 +83,14 @@ struct DeformTool
 
     std::string problem() const
     {
-        const auto& faces = settings.faces;
-        if (faces.empty() || faces.size() > most_faces) return "faces needs from 1 to " + std::to_string (most_faces) + " faces";
-        for (std::size_t i = 0; i < faces.size(); ++i)
+        const auto& given = settings.faces;
+        if (given.empty() || given.size() > most_faces) return "faces needs from 1 to " + std::to_string (most_faces) + " faces";
+        for (std::size_t i = 0; i < given.size(); ++i)
         {
-            if (direction (faces[i].direction).isZero (0.0)) return "face " + std::to_string (i + 1) + " has no direction";
+            if (direction (given[i].direction).isZero (0.0)) return "face " + std::to_string (i + 1) + " has no direction";
             for (std::size_t j = 0; j < i; ++j)
-                if (direction (faces[i].direction).cross (direction (faces[j].direction)).norm() < smallest_angle
-                    && faces[i].direction.dot (faces[j].direction) > 0.0)
+                if (direction (given[i].direction).cross (direction (given[j].direction)).norm() < smallest_angle
+                    && given[i].direction.dot (given[j].direction) > 0.0)
                     return "faces " + std::to_string (j + 1) + " and " + std::to_string (i + 1) + " look in the same direction";
         }
         return "";

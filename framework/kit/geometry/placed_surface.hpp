@@ -36,13 +36,13 @@ public:
     /// The response of the curves to a tool whose foot is at a spot.
     struct ContactSample
     {
-        Mat3 frame = Mat3::Identity();      ///< rows u^x, u^y, u^z
-        Vec3 place = Vec3::Zero();          ///< the spot on the rounded body, m
-        Eigen::Vector2d off { 0.0, 0.0 };   ///< the tool's distance from the line along u^z through the place, along u^x and u^y; 0 at a foot, m
-        Vec3 d = Vec3::Zero();              ///< sideways stretch along u^x and u^y, and depth, m
-        Vec3 f = Vec3::Zero();              ///< force along these axes, N
-        Vec3 rise = Vec3::Zero();           ///< gradient of the depth in the tool's position, with the spot fixed
-        double energy = 0.0;                ///< stored energy, J
+        Mat3 frame = Mat3::Identity();                                    ///< rows u^x, u^y, u^z
+        Vec3 place = Vec3::Zero();                                        ///< the spot on the rounded body, m
+        Eigen::Matrix<double, 2, 1, Eigen::DontAlign> off { 0.0, 0.0 };   ///< the tool beside u^z through the place, along u^x and u^y; 0 at a foot, m
+        Vec3 d = Vec3::Zero();                                            ///< sideways stretch along u^x and u^y, and depth, m
+        Vec3 f = Vec3::Zero();                                            ///< force along these axes, N
+        Vec3 rise = Vec3::Zero();                                         ///< gradient of the depth in the tool's position, with the spot fixed
+        double energy = 0.0;                                              ///< stored energy, J
     };
 
     const MeshWalk& walk() const noexcept { return mesh_walk; }

@@ -306,7 +306,7 @@ TEST_CASE ("exported code keeps every limit of the guard, and lets C only tighte
         if (limit == &tactus::GuardLimits::workspace_scale) continue;   // not a limit: sessions set it
         const std::string name (key);
         const bool is_slew = name.find ("slew") != name.npos;
-        const bool is_longest = name == "ramp" || name == "impulse_window" || name == "energy_window" || name == "dead_man_pressure";
+        const bool is_longest = name == "ramp" || name == "impulse_window" || name == "energy_window" || name == "dead_man_pressure" || name == "brake_at_stop";
         value += 0.125;
         const double here = is_slew ? 100.0 * value : value, tight = is_longest ? 2.0 * here : 0.5 * here, loose = is_longest ? 0.5 * here : 2.0 * here;
         guard += "\"" + name + "\": " + tactus::numberText (here) + ", ";
