@@ -142,8 +142,7 @@ std::optional<graph::Command> group (const graph::Graph& g, const std::string& n
 graph::Command addNode (const graph::Graph& g, const std::string& patch, const std::string& type, juce::Point<float> at, graph::Id& made)
 {
     graph::Node node;
-    const auto cut = type.find_last_of (".:");
-    node.name = freeName (patchOf (g, patch), {}, type.substr (cut == std::string::npos ? 0 : cut + 1));
+    node.name = freeName (patchOf (g, patch), {}, usualName (type));
     node.type = type;
     node.extra["ui"] = Json { { "at", toJson (at) } };
     made = node.id;

@@ -39,6 +39,7 @@ public:
     ~Canvas() override;
 
     Document& edited() noexcept { return document; }
+    const Catalogue& types() const noexcept { return catalogue; }
     CanvasCommands& commands() noexcept { return edits; }
     const CanvasCommands& commands() const noexcept { return edits; }
     const Scene& scene() const noexcept { return *shown; }

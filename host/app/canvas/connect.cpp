@@ -2,6 +2,7 @@
 // The canvas commands that add nodes and connect ports.
 #include "canvas.hpp"
 
+#include <host/app/model/obvious_wires.hpp>
 #include <host/app/model/wire_rules.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -79,7 +80,12 @@ void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& requ
         const ScenePort own { node, &p };
         const auto &from = is_output ? other : own, &to = is_output ? own : other;
         if (! checkWire (from.end(), to.end())) continue;
+        const bool has_more = is_output && (other.port->id == "position" || other.port->id == "resistance");
+        const auto name = node->name;
         perform (connect (document.graph(), canvas.patch(), { *from.node, *from.port }, { *to.node, *to.port }), graph::Step::joined);
+        if (has_more)
+            if (auto wires = wiring::obviousWires (document.graph(), canvas.patch(), name, canvas.types()); ! wires.commands.empty())
+                perform (std::move (wires), graph::Step::joined);
         return;
     }
 }

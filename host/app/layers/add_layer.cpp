@@ -13,33 +13,6 @@ namespace tactus::host
 
 namespace
 {
-constexpr int z_component = 2;   // the component along which a mixer of vectors gets scalar layers
-
-/// An output that can be a layer.
-struct LayerOutput
-{
-    std::string port;
-    bool is_vector = false;
-};
-
-/// The output of a type that can be a layer of a mixer: for a mixer of vectors, preferably a vector.
-std::optional<LayerOutput> layerOutput (const NodeType& type, bool vectors)
-{
-    if (type.info.id == clip_type) return LayerOutput { "value", false };
-    const auto force = [&] (int width) {
-        const auto at = std::ranges::find_if (type.outputs, [width] (const PortSheet& o) {
-            const bool is_force = o.unit.kind == UnitRule::Kind::fixed && o.unit.unit.quantity == Quantity::force;
-            return is_force && o.width == width && ! o.list;
-        });
-        return at == type.outputs.end() ? nullptr : &*at;
-    };
-    if (const auto* o = vectors ? force (3) : nullptr) return LayerOutput { std::string (o->id), true };
-    if (const auto* o = force (1)) return LayerOutput { std::string (o->id), false };
-    return {};
-}
-
-bool isTexture (std::string_view type) { return type.starts_with ("texture."); }
-
 /// Values of a new layer that differ from the defaults of its type: values that are easy to feel, and that break no limit of a typical
 /// device.
 Json firstParams (std::string_view type)
@@ -48,46 +21,6 @@ Json firstParams (std::string_view type)
     if (type == clip_type) params["gain"] = "0.2 N";
     if (type == "texture.noise") params["gain"] = 0.1;   // at 1, its noise changes so fast with speed and depth that a typical device buzzes
     return params;
-}
-
-/// The inputs of a new layer that are wired. A clip has one for each way to play it; a hit is the first of them.
-bool isWired (const NodeType& type, const PortSheet& input) { return type.info.id != clip_type || input.id == "hit"; }
-
-/// The speed of the tool, from a new node. Empty if the patch has no position.
-std::optional<graph::Endpoint> speedOfTool (const graph::Graph& g, const MixerPlace& at, const std::set<std::string>& excluded, const Catalogue& catalogue,
-                                            graph::Batch& batch)
-{
-    const auto& patch = *mixing::patchOf (g, at.patch);
-    const auto* type = catalogue.find ("motion.velocity");
-    auto position = type == nullptr ? std::nullopt : mixing::sourceFor (type->inputs.front(), g, patch, excluded, catalogue);
-    if (! position) return std::nullopt;
-    graph::Node velocity;
-    velocity.name = freeName (patch, {}, "velocity");
-    velocity.type = "motion.velocity";
-    const auto name = velocity.name;
-    batch.commands.push_back (graph::AddNode { at.patch, std::move (velocity) });
-    batch.commands.push_back (graph::AddWire { at.patch, mixing::wire (*std::move (position), mixing::endOf (name, type->inputs.front().id)) });
-    return mixing::endOf (name, "speed");
-}
-
-/// Wires the inputs of a new node as far as the patch has sources for them. Returns what is missing.
-std::string wireInputs (const NodeType& type, const std::string& name, const graph::Graph& g, const MixerPlace& at, const std::set<std::string>& excluded,
-                        const Catalogue& catalogue, graph::Batch& batch)
-{
-    std::string missing;
-    for (const auto& input : type.inputs)
-    {
-        if (! isWired (type, input)) continue;
-        auto from = mixing::sourceFor (input, g, *mixing::patchOf (g, at.patch), excluded, catalogue);
-        if (! from && input.id == "speed") from = speedOfTool (g, at, excluded, catalogue, batch);
-        if (from)
-            batch.commands.push_back (graph::AddWire { at.patch, mixing::wire (std::move (*from), mixing::endOf (name, input.id)) });
-        else if (missing.empty() && ! (input.width == 3 && input.id == "normal"))   // without one, it is up
-            missing = filled (TRANS ("Wire something into %1: %2"), name + '.' + std::string (input.id), input.about).toStdString();
-    }
-    if (type.info.id == clip_type)
-        missing = filled (TRANS ("Choose a clip for %1 in the inspector"), name).toStdString() + (missing.empty() ? "" : ". " + missing);
-    return missing;
 }
 }   // namespace
 
@@ -107,8 +40,8 @@ std::vector<const NodeType*> layerTypes (const Catalogue& catalogue, bool vector
     std::vector<const NodeType*> all;
     for (const auto& t : catalogue)
     {
-        const bool is_layer = isTexture (t.info.id) || t.info.id.starts_with ("vibration.") || (vectors && t.info.id.starts_with ("friction."));
-        if (is_layer && layerOutput (t, vectors)) all.push_back (&t);
+        const bool is_layer = wiring::isTexture (t.info.id) || t.info.id.starts_with ("vibration.") || (vectors && t.info.id.starts_with ("friction."));
+        if (is_layer && wiring::forceOutput (t, vectors)) all.push_back (&t);
     }
     return all;
 }
@@ -132,7 +65,7 @@ Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const 
     if (! fills) batch.commands.push_back (graph::SetSetting { at.patch, at.node, "inputs", Json (layers + 1) });
     if (type.empty()) return AddedLayer { std::move (batch), {}, {} };
     const auto* sheet = catalogue.find (type);
-    const auto output = sheet == nullptr ? std::nullopt : layerOutput (*sheet, at.vectors);
+    const auto output = sheet == nullptr ? std::nullopt : wiring::forceOutput (*sheet, at.vectors);
     if (! output) return Message::error ("mixer/type", {}, filled (TRANS ("%1 has no force output that fits, so it cannot be a layer"), type).toStdString());
 
     graph::Node node;
@@ -144,12 +77,15 @@ Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const 
     const auto id = node.id;
     batch.name = filled (TRANS ("add the layer %1"), name).toStdString();
     batch.commands.push_back (graph::AddNode { at.patch, std::move (node) });
-    const auto later = mixing::downstreamOf (*patch, at.node);
-    auto missing = clip.empty() ? wireInputs (*sheet, name, g, at, later, catalogue, batch) : std::string();
-    auto out = mixing::endOf (name, output->port);
-    if (isTexture (type)) out = mixing::gated (std::move (out), output->is_vector, g, at, later, catalogue, batch);   // or it would be felt in the air
-    const int component = at.vectors && ! output->is_vector ? z_component : -1;
-    batch.commands.push_back (graph::AddWire { at.patch, mixing::wire (std::move (out), mixing::endOf (at.node, "in", place, component)) });
+    const auto later = wiring::downstreamOf (*patch, at.node);
+    auto missing = clip.empty() ? wiring::wireInputs (*sheet, name, g, at.patch, later, catalogue, batch) : std::string();
+    if (type == clip_type && clip.empty())
+        missing = filled (TRANS ("Choose a clip for %1 in the inspector"), name).toStdString() + (missing.empty() ? "" : ". " + missing);
+    auto out = wiring::endOf (name, output->port);
+    if (wiring::isTexture (type))   // or it would be felt in the air
+        out = wiring::gated (std::move (out), output->is_vector, g, at.patch, later, catalogue, batch);
+    const int component = at.vectors && ! output->is_vector ? wiring::z_component : -1;
+    batch.commands.push_back (graph::AddWire { at.patch, wiring::wire (std::move (out), wiring::endOf (at.node, "in", place, component)) });
     batch.commands.push_back (graph::SetSetting { at.patch, at.node, "names", Json (mixing::namesWith (*mixer, place + 1, name)) });
     return AddedLayer { std::move (batch), std::move (missing), id };
 }
@@ -169,7 +105,7 @@ bool isGated (const graph::Graph& g, const MixerPlace& at, int layer)
 {
     const auto* patch = mixing::patchOf (g, at.patch);
     const auto* w = wireInto (g, at, layer);
-    return patch != nullptr && w != nullptr && mixing::gateOf (*patch, *w) != nullptr;
+    return patch != nullptr && w != nullptr && wiring::gateOf (*patch, *w) != nullptr;
 }
 
 Result<graph::Command> setGate (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, int layer, bool on)
@@ -180,7 +116,7 @@ Result<graph::Command> setGate (const graph::Graph& g, const MixerPlace& at, con
     if (w == nullptr)
         return Message::error ("mixer/empty", {}, TRANS ("nothing is wired into this layer").toStdString(),
                                TRANS ("wire something into it first").toStdString());
-    const auto* product = mixing::gateOf (*patch, *w);
+    const auto* product = wiring::gateOf (*patch, *w);
     if (on == (product != nullptr)) return graph::Command (graph::Batch { NEEDS_TRANS ("gate a layer"), {} });
 
     graph::Batch batch { on ? NEEDS_TRANS ("gate a layer by contact") : NEEDS_TRANS ("open the gate of a layer"), {} };
@@ -188,7 +124,7 @@ Result<graph::Command> setGate (const graph::Graph& g, const MixerPlace& at, con
     if (on)
     {
         const bool is_vector = at.vectors && w->to.component < 0;
-        changed.from = mixing::gated (w->from, is_vector, g, at, mixing::downstreamOf (*patch, at.node), catalogue, batch);
+        changed.from = wiring::gated (w->from, is_vector, g, at.patch, wiring::downstreamOf (*patch, at.node), catalogue, batch);
         if (changed.from == w->from)
             return Message::error ("mixer/no_contact", {}, TRANS ("nothing in this patch says how deep the tool presses").toStdString(),
                                    TRANS ("add a surface, such as deform.plane").toStdString());

@@ -48,7 +48,7 @@ Stream scalarsInto (const graph::Patch& patch, const graph::Node& sink)
 /// The wires into the force of a device, if one of them carries a vector that is more than a scalar along one axis.
 Stream vectorsInto (const graph::Patch& patch, const graph::Node& sink)
 {
-    Stream stream { mixing::endOf (sink.name, "force"), {} };
+    Stream stream { wiring::endOf (sink.name, "force"), {} };
     bool has_vector = false;
     for (const auto& w : patch.wires)
     {
@@ -89,7 +89,7 @@ Stream streamOf (const graph::Patch& patch, const graph::Node*& motor, bool& vec
     if (found.wires.empty() && motor != nullptr && motor->type == "device.force")   // an empty mixer before it
     {
         vectors = true;
-        found.to = mixing::endOf (motor->name, "force");
+        found.to = wiring::endOf (motor->name, "force");
     }
     return found;
 }
@@ -151,10 +151,10 @@ Result<AddedMixer> addMixer (const graph::Graph& g, const Catalogue&)
     for (std::size_t i = 0; i < stream.wires.size(); ++i)
     {
         auto to = *stream.wires[i];
-        to.to = mixing::endOf (place.node, "in", static_cast<int> (i), vectors ? to.to.component : -1);
+        to.to = wiring::endOf (place.node, "in", static_cast<int> (i), vectors ? to.to.component : -1);
         batch.commands.push_back (graph::ChangeWire { {}, stream.wires[i]->id, std::move (to) });
     }
-    batch.commands.push_back (graph::AddWire { {}, mixing::wire (mixing::endOf (place.node, "out"), stream.to) });
+    batch.commands.push_back (graph::AddWire { {}, wiring::wire (wiring::endOf (place.node, "out"), stream.to) });
     const auto description = is_first ? filled (TRANS ("Adds a mixer before %1."), motor->name)
                                       : filled (TRANS ("Inserts a mixer between %1 and %2."), mixing::joined (names), graph::toText (stream.to));
     return AddedMixer { std::move (batch), description.toStdString(), place };

@@ -43,7 +43,7 @@ MixerPlace placeOf (const graph::Node& bus, const MixerPlace& at)
 void wireSend (const graph::Wire& layer, bool is_vector, const MixerPlace& bus, int place, graph::Batch& batch)
 {
     const auto add = [&] (graph::Endpoint from, int component) {
-        batch.commands.push_back (graph::AddWire { bus.patch, mixing::wire (std::move (from), mixing::endOf (bus.node, "in", place, component)) });
+        batch.commands.push_back (graph::AddWire { bus.patch, wiring::wire (std::move (from), wiring::endOf (bus.node, "in", place, component)) });
     };
     if (is_vector == bus.vectors) return add (layer.from, -1);
     if (bus.vectors) return add (layer.from, 2);
@@ -88,7 +88,7 @@ Result<graph::Command> sendInto (const graph::Graph& g, const MixerPlace& at, co
     const auto place = placeOf (bus, at);
     batch.commands.push_back (graph::AddNode { at.patch, std::move (bus) });
     wireSend (*w, is_vector, place, 0, batch);
-    batch.commands.push_back (graph::AddWire { at.patch, mixing::wire (mixing::endOf (place.node, "out"), mixing::endOf (sink.name, inputOf (sink))) });
+    batch.commands.push_back (graph::AddWire { at.patch, wiring::wire (wiring::endOf (place.node, "out"), wiring::endOf (sink.name, inputOf (sink))) });
     return graph::Command (std::move (batch));
 }
 }   // namespace
@@ -98,7 +98,7 @@ std::vector<SendTarget> sendTargets (const graph::Graph& g, const MixerPlace& at
     std::vector<SendTarget> all;
     const auto* patch = mixing::patchOf (g, at.patch);
     if (patch == nullptr) return all;
-    const auto driven = mixing::downstreamOf (*patch, at.node);
+    const auto driven = wiring::downstreamOf (*patch, at.node);
     for (const auto& n : patch->nodes)
         if (! inputOf (n).empty() && ! driven.contains (n.name)) all.push_back ({ n.name, n.role.empty() ? n.name : n.role });
     return all;

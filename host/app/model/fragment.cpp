@@ -47,6 +47,14 @@ std::optional<juce::Point<double>> cornerOf (const std::string& text)
     return corner;
 }
 
+std::string usualName (const std::string& type)
+{
+    if (type == "device.position") return "hand";   // as in the presets
+    if (type == "device.force") return "motor";
+    const auto cut = type.find_last_of (".:");
+    return type.substr (cut == std::string::npos ? 0 : cut + 1);
+}
+
 std::string freeName (const graph::Patch& patch, const std::set<std::string>& also_taken, const std::string& wanted)
 {
     const auto taken = [&] (const std::string& name) { return patch.find (name) != nullptr || also_taken.contains (name); };

@@ -24,6 +24,9 @@ Result<graph::Command> paste (const graph::Graph&, const std::string& patch, con
 /// The upper left corner of the nodes in copied text. Empty if no node has a position.
 std::optional<juce::Point<double>> cornerOf (const std::string& text);
 
+/// What a new node of this type is called if nothing else is.
+std::string usualName (const std::string& type);
+
 /// Returns `wanted` if it is free, else the same name with the next free number, such as "drag_2".
 std::string freeName (const graph::Patch&, const std::set<std::string>& also_taken, const std::string& wanted);
 

@@ -2,6 +2,7 @@
 #include "fixes.hpp"
 
 #include <host/app/canvas/actions.hpp>
+#include <host/app/model/obvious_wires.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/node/catalogue.hpp>
@@ -60,8 +61,8 @@ std::string likelyType (const std::string& unknown)
     return std::string (ids[static_cast<std::size_t> (std::ranges::find (ends, end) - ends.begin())]);
 }
 
-/// A node of this type next to the others: on their left if it is a hand, on their right if it is a motor.
-Fix add (const graph::Graph& g, const std::string& type, const juce::String& label, bool on_the_left)
+/// A node of this type next to the others, with its wires: on their left if it is a hand, on their right if it is a motor.
+Fix add (const graph::Graph& g, const std::string& type, const juce::String& label, const char* step, bool on_the_left)
 {
     constexpr float distance = 240.0f;
     std::optional<juce::Point<float>> place;
@@ -70,7 +71,19 @@ Fix add (const graph::Graph& g, const std::string& type, const juce::String& lab
             if (! place || (on_the_left ? at->x < place->x : at->x > place->x)) place = juce::Point<double> (at->x, at->y).toFloat();
     const auto beside = place ? *place + juce::Point<float> (on_the_left ? -distance : distance, 0.0f) : juce::Point<float>();
     graph::Id made = 0;
-    return { label.toStdString(), addNode (g, {}, type, beside, made) };
+    graph::Batch all { step, { addNode (g, {}, type, beside, made) } };
+    auto with = g;
+    if (graph::apply (with, all))
+        all.commands.push_back (wiring::obviousWires (with, {}, std::ranges::find (with.root.nodes, made, &graph::Node::id)->name, catalogue()));
+    return { label.toStdString(), std::move (all) };
+}
+
+/// The wires that a node lacks. Empty if it is not clear which.
+std::optional<Fix> wireUp (const graph::Graph& g, const ProblemLocation& at, const juce::String& label)
+{
+    auto wires = wiring::obviousWires (g, at.patch, at.node, catalogue());
+    if (wires.commands.empty()) return std::nullopt;
+    return Fix { label.toStdString(), std::move (wires) };
 }
 }   // namespace
 
@@ -109,8 +122,10 @@ std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
         return Fix { TRANS ("Delay wire by a tick").toStdString(),
                      graph::Batch { NEEDS_TRANS ("break loop"), { graph::ChangeWire { location.patch, location.id, std::move (delayed) } } } };
     }
-    if (m.id == "graph/no_hand") return add (g, "device.position", TRANS ("Add a hand"), true);
-    if (m.id == "graph/no_motor") return add (g, "device.force", TRANS ("Add a motor"), false);
+    if (m.id == "graph/no_hand") return add (g, "device.position", TRANS ("Add a hand"), NEEDS_TRANS ("add a hand"), true);
+    if (m.id == "graph/no_motor") return add (g, "device.force", TRANS ("Add a motor"), NEEDS_TRANS ("add a motor"), false);
+    if (m.id == "graph/hand_unwired" || m.id == "graph/motor_unwired" || m.id == "node/no_input")
+        return wireUp (g, location, filled (TRANS ("Wire %1"), location.node));
     if (m.severity != Message::Severity::error) return std::nullopt;
     const auto& [patch, id, node, param, role] = location;
     if (wire != nullptr)

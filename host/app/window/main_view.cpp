@@ -230,11 +230,12 @@ void MainView::showProblems()
 void MainView::documentChanged()
 {
     status.clearNotice();
-    missing = missingEnds (edited.graph());
+    missing = unfelt (edited.graph(), catalogue);
     std::vector<std::string> probed;
     for (const auto& scope : scopes.scopes().scopes)
         std::ranges::copy (scope->ports, std::back_inserter (probed));
-    std::ranges::copy (plan::unheardNodes (edited.graph(), catalogue, probed), std::back_inserter (missing));
+    const auto isSaid = [said = missing] (const Message& m) { return std::ranges::count (said, m.where, &Message::where) > 0; };
+    std::ranges::remove_copy_if (plan::unheardNodes (edited.graph(), catalogue, probed), std::back_inserter (missing), isSaid);
     if (edited.identity() != shown_identity)
     {
         shown_identity = edited.identity();

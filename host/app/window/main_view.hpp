@@ -16,8 +16,8 @@
 #include <host/app/inspector/inspector.hpp>
 #include <host/app/layers/layers_panel.hpp>
 #include <host/app/presets/browser.hpp>
-#include <host/app/problems/missing_ends.hpp>
 #include <host/app/problems/problem_list.hpp>
+#include <host/app/problems/unfelt.hpp>
 #include <host/app/run/limit_watch.hpp>
 #include <host/app/run/live_nodes.hpp>
 #include <host/app/run/osc_server.hpp>

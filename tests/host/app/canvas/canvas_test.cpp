@@ -101,6 +101,40 @@ TEST_CASE ("dropping a wire on empty canvas requests a node, which is then conne
     CHECK (rig.document.history().names().size() == 1);   // one step
 }
 
+TEST_CASE ("a node that is dropped from a position or a resistance gets its other obvious wires in the same step", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto before = rig.text();
+    const auto [node, port, type] = GENERATE (std::tuple { "hand", "position", "friction.anisotropic" }, std::tuple { "board", "resistance", "friction.anisotropic" },
+                                              std::tuple { "hand", "position", "texture.height_map" }, std::tuple { "board", "resistance", "texture.noise" },
+                                              std::tuple { "hand", "position", "vector.length" });
+    CAPTURE (node, port, type);
+    rig.hand().drag (rig.port (node, Role::output, port), rig.nowhere());
+    REQUIRE (rig.request);
+    rig.canvas->commands().addNodeAt (type, *rig.request);
+    CHECK (rig.document.history().names().size() == 1);
+    if (type == std::string ("friction.anisotropic"))
+    {
+        CHECK (rig.hasWire ("hand.position -> anisotropic.position"));
+        CHECK (rig.hasWire ("board.resistance -> anisotropic.normal_force"));
+        CHECK (rig.hasWire ("anisotropic.force -> motor.force"));
+    }
+    if (type == std::string ("texture.height_map"))
+    {
+        CHECK (rig.hasWire ("touch.gain -> height_map_felt.gain"));   // not in the air
+        CHECK (rig.hasWire ("height_map_felt.out -> motor.force"));
+    }
+    if (type == std::string ("texture.noise"))
+    {
+        CHECK (rig.hasWire ("hand.position -> velocity.position"));
+        CHECK (rig.hasWire ("velocity.speed -> noise.speed"));
+        CHECK (rig.hasWire ("noise_felt.out -> motor.force.z"));
+    }
+    if (type == std::string ("vector.length")) CHECK (rig.graph().root.wires.size() == 11);   // nothing about it is obvious
+    rig.hand().key ("ctrl + z");
+    CHECK (rig.text() == before);
+}
+
 TEST_CASE ("a node can be inserted into a wire", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };

@@ -250,3 +250,20 @@ TEST_CASE ("if the motors are inside a subgraph, the message says where to add a
     const auto added = addMixer (loadGraph (TACTUS_SOURCE_DIR "/graphs/two_fingers.json").graph, catalogue());
     CHECK (added.error().id == "mixer/in_subgraph");
 }
+
+TEST_CASE ("a layer never takes a force along the surface\\, or of another effect\\, as its load", "[layers]")
+{
+    auto graph = readGraph (R"({"format":"tactus-graph","version":2,"devices":{"pen":{"driver":"sim"}},"nodes":{"hand":{"type":"device.position","role":"pen"},
+        "grain":{"type":"texture.grating"},"ring":{"type":"vibration.modal"},"motor":{"type":"device.force","role":"pen"}},
+        "wires":["hand.position -> grain.position","grain.force -> motor.force","ring.value -> motor.force.z"]})")
+                     .graph;
+    const auto mixer = addMixer (graph, catalogue());
+    REQUIRE (mixer);
+    REQUIRE (graph::apply (graph, mixer->command));
+    const auto layer = addLayer (graph, mixer->place, catalogue(), "texture.noise");
+    REQUIRE (layer);
+    CHECK (layer->missing.find ("noise.normal_force") != std::string::npos);
+    REQUIRE (graph::apply (graph, layer->command));
+    for (const auto& w : graph.root.wires)
+        CHECK (w.to.port != "normal_force");
+}

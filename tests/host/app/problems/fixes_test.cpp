@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/problems/fixes.hpp>
-#include <host/app/problems/missing_ends.hpp>
+#include <host/app/problems/unfelt.hpp>
 
 #include <tactus/file/graph_file.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/compile.hpp>
 
@@ -28,6 +29,13 @@ Messages errorsOf (const graph::Graph& g)
     auto messages = compile (g, catalogue(), {}).messages;
     std::erase_if (messages, [] (const Message& m) { return m.severity != Message::Severity::error; });
     return messages;
+}
+
+Messages unfeltIn (const graph::Graph& g) { return unfelt (g, catalogue()); }
+
+bool hasWire (const graph::Graph& g, const std::string& text)
+{
+    return std::ranges::any_of (g.root.wires, [&] (const graph::Wire& w) { return graph::toText (w.from) + " -> " + graph::toText (w.to) == text; });
 }
 
 /// Applies fixes until none is offered. Returns the remaining errors.
@@ -105,31 +113,90 @@ TEST_CASE ("an unknown type becomes the one that was probably meant", "[app][pro
     if (std::string (meant.second) == "deform.plane") CHECK (g.root.find ("a")->params["stiffness"] == "300 N/m");
 }
 
-TEST_CASE ("a graph without a hand or a motor says so, and a click adds them with a device", "[app][problems]")
+TEST_CASE ("a graph without a hand or a motor says so\\, and a click adds them with a device\\, the names of the presets and their wires", "[app][problems]")
 {
-    CHECK (missingEnds (graphOf (R"("nodes":{},"wires":[])")).empty());
-    auto g = graphOf (R"("nodes":{"wall":{"type":"deform.plane","ui":{"at":[100,40]}}},"wires":[])");
-    auto missing = missingEnds (g);
-    REQUIRE (missing.size() == 2);
-    for (const auto& m : missing)
+    CHECK (unfeltIn (graphOf (R"("nodes":{},"wires":[])")).empty());
+    auto g = graphOf (R"("nodes":{"wall":{"type":"deform.plane","ui":{"at":[100,40]}},"rub":{"type":"friction.elasto_plastic","ui":{"at":[100,240]}},
+        "ridges":{"type":"texture.grating","ui":{"at":[100,440]}},"waves":{"type":"texture.grating","ui":{"at":[100,640]}}},
+        "wires":["wall.resistance -> rub.normal_force"])");
+    auto missing = unfeltIn (g);
+    REQUIRE (missing.size() >= 2);
+    CHECK (missing[0].id == "graph/no_hand");
+    CHECK (missing[1].id == "graph/no_motor");
+    for (const auto& m : { missing[0], missing[1] })
         REQUIRE (graph::apply (g, fixOf (g, m)->command).has_value());
-    CHECK (missingEnds (g).empty());
+    CHECK (unfeltIn (g).empty());
     CHECK (errorsOf (g).empty());
     REQUIRE (g.devices.size() == 1);
-    const auto x = [&] (const char* type) { return std::ranges::find (g.root.nodes, type, &graph::Node::type)->extra["ui"]["at"][0].get<double>(); };
-    CHECK (x ("device.position") < 100.0);
-    CHECK (x ("device.force") > 100.0);
-    CHECK (missingEnds (graphOf (R"("nodes":{"pad":{"type":"graph:pad"}},"wires":[],"graphs":{"pad":{"nodes":{
-        "hand":{"type":"device.position"},"buzz":{"type":"device.signal_out"}},"wires":[]}})"))
+    const auto x = [&] (const char* name) { return g.root.find (name)->extra.at ("ui").at ("at")[0].get<double>(); };
+    CHECK (x ("hand") < 100.0);
+    CHECK (x ("motor") > 100.0);
+    for (const auto* node : { "wall", "rub", "ridges", "waves" })
+        CHECK (hasWire (g, std::string ("hand.position -> ") + node + ".position"));
+    CHECK (hasWire (g, "wall.force -> motor.force"));
+    CHECK (hasWire (g, "rub.force -> motor.force"));
+    CHECK (hasWire (g, "ridges_felt.out -> motor.force"));   // not in the air
+    CHECK (hasWire (g, "waves_felt.out -> motor.force"));
+    CHECK (std::ranges::count (g.root.nodes, "contact.window", &graph::Node::type) == 1);
+    CHECK (unfeltIn (graphOf (R"("nodes":{"pad":{"type":"graph:pad"}},"wires":[],"graphs":{"pad":{"nodes":{
+        "hand":{"type":"device.position"},"wall":{"type":"deform.plane"},"motor":{"type":"device.force"}},
+        "wires":["hand.position -> wall.position","wall.force -> motor.force"]}})"))
                .empty());
 }
 
-TEST_CASE ("no preset lacks a hand or a motor", "[app][problems]")
+TEST_CASE ("what is there but cannot be felt is a problem\\, and a click wires it", "[app][problems]")
+{
+    const auto idsOf = [] (const graph::Graph& g) {
+        std::vector<std::string> ids;
+        for (const auto& m : unfeltIn (g))
+            ids.push_back (m.id);
+        return ids;
+    };
+    const std::string ends = R"("hand":{"type":"device.position"},"motor":{"type":"device.force"},"wall":{"type":"deform.plane"})";
+    SECTION ("a hand and a motor without wires")
+    {
+        auto g = graphOf (R"("nodes":{)" + ends + R"(},"wires":[])");
+        CHECK (idsOf (g) == std::vector<std::string> { "graph/hand_unwired", "graph/motor_unwired" });
+        CHECK (locationOf (g, unfeltIn (g)[1]).node == "motor");
+        CHECK (fixOf (g, unfeltIn (g)[0])->label == "Wire hand");
+        while (! unfeltIn (g).empty())
+            REQUIRE (graph::apply (g, fixOf (g, unfeltIn (g)[0])->command).has_value());
+        CHECK (hasWire (g, "hand.position -> wall.position"));
+        CHECK (hasWire (g, "wall.force -> motor.force"));
+    }
+    SECTION ("an effect that does not know where the tool is")
+    {
+        auto g = graphOf (R"("nodes":{)" + ends + R"(,"ridges":{"type":"texture.grating"}},
+            "wires":["hand.position -> wall.position","wall.force -> motor.force","ridges.force -> motor.force"])");
+        CHECK (idsOf (g) == std::vector<std::string> { "node/no_input" });
+        REQUIRE (graph::apply (g, fixOf (g, unfeltIn (g)[0])->command).has_value());
+        CHECK (hasWire (g, "hand.position -> ridges.position"));
+        CHECK (unfeltIn (g).empty());
+    }
+    SECTION ("an empty layer and a clip without a file")
+    {
+        auto g = graphOf (R"("nodes":{)" + ends + R"(,"buzz":{"type":"signal.clip"},"desk":{"type":"layer.mix_vectors","settings":{"inputs":3}}},
+            "wires":["hand.position -> wall.position","wall.force -> desk.in[0]","buzz.value -> desk.in[2].z","desk.out -> motor.force"])");
+        CHECK (idsOf (g) == std::vector<std::string> { "clip/no_file", "layer/empty" });
+        CHECK (unfeltIn (g)[1].text == "nothing is wired into layer 2 of 'desk'");
+        CHECK (locationOf (g, unfeltIn (g)[0]).node == "buzz");
+    }
+    SECTION ("inside a subgraph, ports that are exposed or named from outside are wired")
+    {
+        const auto g = graphOf (R"("nodes":{"hand":{"type":"device.position"},"pad":{"type":"graph:pad"},"motor":{"type":"device.force"}},
+            "wires":["hand.position -> pad.position","pad.force -> motor.force"],
+            "graphs":{"pad":{"nodes":{"wall":{"type":"deform.plane"}},"wires":[],
+                "expose":{"inputs":{"position":"wall.position"},"outputs":{"force":"wall.force"}}}})");
+        CHECK (unfeltIn (g).empty());
+    }
+}
+
+TEST_CASE ("every preset can be felt as a whole", "[app][problems]")
 {
     for (const auto& entry : std::filesystem::directory_iterator (TACTUS_SOURCE_DIR "/graphs"))
         if (entry.path().extension() == ".json")
         {
             CAPTURE (entry.path().string());
-            CHECK (missingEnds (loadGraph (entry.path()).graph).empty());
+            CHECK (unfeltIn (loadGraph (entry.path()).graph).empty());
         }
 }
