@@ -18,14 +18,13 @@ struct PaletteEntry
     bool isTitle() const noexcept { return type.empty(); }
 };
 
-/// Finds the node types of the catalogue and the subgraphs of a graph. Every word of the query must occur in an entry: preferably in
-/// its id or name, then in its keywords, then in its summary, ports, units or quantities. If no entry has them all, mistyped and
-/// shortened words ("gratng", "elpl") are tried. Each result has a port for every wire end in `fits`: one end for a dropped wire, two
-/// for inserting into a wire. Without a query, all entries come in groups: the types in `recent`, then the families.
+/// Finds the node types of the catalogue and the subgraphs of a graph, as text/find.hpp says, by their names and ids, the names that new nodes of
+/// them get, their keywords, and their summaries, ports, units and quantities. Each result has a port for every wire end in `fits`: one end for a
+/// dropped wire, two for inserting into a wire. Without a query, all entries come in groups: the types in `recent`, then the families.
 std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::Graph&, const Catalogue&, const std::vector<WireEnd>& fits,
                                          const std::vector<std::string>& recent = {});
 
-/// The entries that contain all words of the query, in the given order.
+/// The entries that fit the query, the best first.
 std::vector<PaletteEntry> matching (const std::vector<PaletteEntry>&, const std::string& query);
 
 }   // namespace tactus::host

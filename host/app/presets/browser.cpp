@@ -5,6 +5,8 @@
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>
+#include <iterator>
+#include <span>
 #include <utility>
 
 namespace tactus::host
@@ -12,7 +14,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr int row_height = 36, star_width = 28, play_width = 28, most_recent_shown = 4;
+constexpr int row_height = 36, star_width = 28, play_width = 28;
 constexpr int low = 420;                               // pixels; a lower panel shows a compact layout
 constexpr int two_lines = 44, picture_and_text = 88;   // heights of the description of a preset
 
@@ -65,10 +67,21 @@ void PresetBrowser::reload()
 {
     presets = presetsIn (folder, catalogue);
     own = presetsIn (own_folder, catalogue);
-    recent.clear();
+    // The latest come first, also those from other folders.
+    std::vector<Preset> latest;
     std::error_code failed;
     for (const auto& file : settings.recent)
-        if (recent.size() < most_recent_shown && std::filesystem::is_regular_file (file, failed)) recent.push_back (presetOf (file, catalogue));
+    {
+        const auto at = std::ranges::find (own, file, &Preset::file);
+        if (at != own.end())
+        {
+            latest.push_back (std::move (*at));
+            own.erase (at);
+        }
+        else if (std::filesystem::is_regular_file (file, failed))
+            latest.push_back (presetOf (file, catalogue));
+    }
+    own.insert (own.begin(), std::make_move_iterator (latest.begin()), std::make_move_iterator (latest.end()));
     update();
 }
 
@@ -97,24 +110,6 @@ void PresetBrowser::update()
     const auto text = query.getText().toStdString();
     found = matching (presets, text, chips.chosen());
     found_own = matching (own, text, chips.chosen());
-    shown.clear();
-    const auto section = [this] (const juce::String& heading, const std::vector<Preset>& all, bool is_own, auto&& isWanted) {
-        bool has_heading = false;
-        for (const auto& p : all)
-        {
-            if (! isWanted (p)) continue;
-            if (! std::exchange (has_heading, true)) shown.push_back ({ heading, nullptr, false });
-            shown.push_back ({ {}, &p, is_own });
-        }
-    };
-    const auto isFavourite = [this] (const Preset& p) { return settings.isFavourite (p.file); };
-    const auto isAny = [] (const Preset&) { return true; };
-    if (text.empty() && chips.chosen().empty()) section (TRANS ("Recent"), recent, true, isAny);
-    section (TRANS ("Favourites"), found, false, isFavourite);
-    section (TRANS ("My graphs"), found_own, true, isAny);
-    section (TRANS ("Presets"), found, false, [&] (const Preset& p) { return ! isFavourite (p); });
-    if (std::ranges::count (shown, nullptr, &Row::preset) == 1) shown.erase (shown.begin());   // a single section needs no heading
-
     auto all = found;
     all.insert (all.end(), found_own.begin(), found_own.end());
     std::vector<std::string> tags;
@@ -123,12 +118,46 @@ void PresetBrowser::update()
     for (const auto& tag : chips.chosen())
         if (std::ranges::count (tags, tag) == 0) tags.push_back (tag);
     chips.show (std::move (tags));
+    list.setVerticalPosition (0.0);
+    resized();
+    repaint();
+}
+
+/// What is typed is looked for everywhere, and the best comes first. Otherwise, own graphs leave room for presets.
+void PresetBrowser::fillRows()
+{
+    shown.clear();
+    if (const auto text = query.getText().toStdString(); ! text.empty())
+    {
+        best = own;
+        best.insert (best.end(), presets.begin(), presets.end());
+        best = matching (best, text, chips.chosen());
+        for (const auto& p : best)
+            shown.push_back ({ {}, &p, std::ranges::count (own, p.file, &Preset::file) > 0 });
+    }
+    else
+    {
+        const auto isFavourite = [this] (const Preset& p) { return settings.isFavourite (p.file); };
+        const auto add = [this] (const juce::String& heading, bool is_own, std::size_t most, auto&& isWanted) {
+            std::vector<const Preset*> wanted;
+            for (const auto& p : is_own ? found_own : found)
+                if (isWanted (p)) wanted.push_back (&p);
+            const auto count = std::min (most, wanted.size());
+            if (count > 0) shown.push_back ({ count < wanted.size() ? heading + filled (TRANS (": %1 of %2"), count, wanted.size()) : heading, nullptr, is_own });
+            for (const auto* p : std::span (wanted).first (count))
+                shown.push_back ({ {}, p, is_own });
+        };
+        const auto room = static_cast<std::size_t> (std::max (1, list.getHeight() / row_height / 2 - 1));   // the other half is for presets
+        has_more_own = found_own.size() > room;
+        add (TRANS ("My graphs"), true, shows_all_own ? found_own.size() : room, [] (const Preset&) { return true; });
+        add (TRANS ("Favourites"), false, found.size(), isFavourite);
+        add (TRANS ("Presets"), false, found.size(), [&] (const Preset& p) { return ! isFavourite (p); });
+        if (std::ranges::count (shown, nullptr, &Row::preset) == 1) shown.erase (shown.begin());   // a single section needs no heading
+    }
     hovered = -1;
     list.deselectAllRows();
     list.updateContent();
     list.repaint();
-    resized();
-    repaint();
 }
 
 const PresetBrowser::Row* PresetBrowser::rowAt (int row) const
@@ -161,7 +190,13 @@ void PresetBrowser::openRow (int row)
 void PresetBrowser::listBoxItemClicked (int row, const juce::MouseEvent& e)
 {
     const auto* r = rowAt (row);
-    if (r == nullptr || r->preset == nullptr) return;
+    if (r == nullptr) return;
+    if (r->preset == nullptr)
+    {
+        if (! r->is_own) return;
+        shows_all_own = ! shows_all_own;
+        return fillRows();
+    }
     const auto part = partAt (*r, e.getEventRelativeTo (&list).x);
     if (part == Part::name) return openRow (row);
     if (part == Part::preview) return;   // handled by mouseDown
@@ -176,7 +211,7 @@ const Preset* PresetBrowser::described() const
 {
     for (const int row : { hovered, list.getSelectedRow() })
         if (const auto* r = rowAt (row); r != nullptr && r->preset != nullptr) return r->preset;
-    for (const auto* all : { &presets, &own, &recent })
+    for (const auto* all : { &presets, &own })
         for (const auto& p : *all)
             if (p.file == open) return &p;
     return nullptr;
@@ -237,6 +272,7 @@ void PresetBrowser::resized()
     footer = area.removeFromBottom (below);
     area.removeFromBottom (4);
     list.setBounds (area);
+    fillRows();
 }
 
 void PresetBrowser::paint (juce::Graphics& g)
@@ -315,6 +351,11 @@ void PresetBrowser::paintListBoxItem (int row, juce::Graphics& g, int w, int h, 
         g.setColour (theme.dim);
         g.setFont (look.font (11.0f, true));
         g.drawText (r->heading, area.reduced (8, 4), juce::Justification::bottomLeft, false);
+        if (r->is_own && has_more_own)
+        {
+            g.setColour (theme.accent);
+            g.drawText (shows_all_own ? TRANS ("fewer") : TRANS ("all"), area.reduced (8, 4), juce::Justification::bottomRight, false);
+        }
         return;
     }
     const auto& p = *r->preset;

@@ -12,7 +12,7 @@
 namespace tactus::host
 {
 
-/// Lists the presets and the user's own graphs, with a description and a force plot. A click opens one.
+/// Lists the user's own graphs, the latest first, and the presets, with a description and a force plot. A click opens one.
 class PresetBrowser final : public juce::Component, private juce::ListBoxModel
 {
 public:
@@ -32,7 +32,7 @@ public:
     const std::vector<Preset>& shipped() const noexcept { return presets; }
     void search (const juce::String&);   ///< as if the user had typed the text
 
-    /// A row of the list: a heading or a preset.
+    /// A row of the list: a heading or a preset. A click on the heading of own graphs shows all of them, or fewer.
     struct Row
     {
         juce::String heading;
@@ -58,6 +58,7 @@ private:
     void selectedRowsChanged (int) override { repaint(); }
 
     void update();
+    void fillRows();
     void openRow (int row);
     const Row* rowAt (int) const;
 
@@ -78,8 +79,9 @@ private:
     PictureStore& pictures;
     const std::filesystem::path folder, own_folder;
     std::filesystem::path open;
-    std::vector<Preset> presets, own, recent;   // all presets in the folders
-    std::vector<Preset> found, found_own;       // the presets that match the search
+    std::vector<Preset> presets, own;             // all presets in the folders; own ones also from elsewhere, the latest first
+    std::vector<Preset> found, found_own, best;   // those that match the search; `best` are both, while words are typed
+    bool shows_all_own = false, has_more_own = false;
     std::vector<Row> shown;
     int hovered = -1, pictures_done = 0;
     bool is_previewing = false;

@@ -2,6 +2,8 @@
 #include "preset_list.hpp"
 
 #include <host/app/text/filled.hpp>
+#include <host/app/text/find.hpp>
+#include <host/platform/home_folder.hpp>
 
 #include <tactus/file/graph_file.hpp>
 
@@ -9,7 +11,6 @@
 #include <functional>
 #include <iterator>
 #include <map>
-#include <sstream>
 
 #include <juce_core/juce_core.h>
 
@@ -26,15 +27,13 @@ bool claimsToBeAGraph (const fs::path& file)
     const auto messages = loadGraph (file).messages;
     return std::ranges::count (messages, "file/not_a_graph", &Message::id) == 0;
 }
-
-std::string lowered (const std::string& text) { return juce::String (text).toLowerCase().toStdString(); }
 }   // namespace
 
 Preset presetOf (const fs::path& file, const Catalogue& catalogue)
 {
     const auto loaded = loadGraph (file);
     const auto& graph = loaded.graph;
-    Preset p { file, graph.name, graph.about, graph.tags, {}, {}, {} };
+    Preset p { file, graph.name, graph.about, graph.tags, {}, {}, {}, ! graph.graphs.empty() };
     const auto error = std::ranges::find (loaded.messages, Message::Severity::error, &Message::severity);
     if (error != loaded.messages.end()) p.problem = error->text;
     if (p.name.empty()) p.name = file.stem().string();
@@ -77,15 +76,18 @@ std::vector<Preset> matching (const std::vector<Preset>& presets, const std::str
         const auto isMissing = [&] (const std::string& t) { return std::ranges::count (p.tags, t) == 0; };
         return std::ranges::any_of (tags, isMissing);
     });
-    std::istringstream words { lowered (query) };
-    for (std::string word; words >> word;)
-        std::erase_if (found, [&] (const Preset& p) {
-            std::string all = p.name + ' ' + p.about;
-            for (const auto& t : p.tags)
-                all += ' ' + t;
-            return lowered (all).find (word) == std::string::npos;
-        });
-    return found;
+    std::vector<Findable> searched;
+    for (const auto& p : found)
+    {
+        std::string all_tags;
+        for (const auto& t : p.tags)
+            all_tags += t + ' ';
+        searched.push_back ({ p.name, p.file.stem().string(), std::move (all_tags), p.about + (p.has_subgraphs ? " subgraph" : "") });
+    }
+    std::vector<Preset> sorted;
+    for (const auto i : bestMatches (searched, query))
+        sorted.push_back (std::move (found[i]));
+    return sorted;
 }
 
 std::vector<std::pair<std::string, int>> tagsOf (const std::vector<Preset>& presets)

@@ -22,6 +22,7 @@ struct Preset
     std::set<std::string> types;             ///< node types that the preset uses
     std::vector<std::string> placeholders;   ///< types missing from the catalogue
     std::string problem;                     ///< why the preset cannot be read; empty if it can
+    bool has_subgraphs = false;
 };
 
 /// Reads one preset. If that fails, `problem` says why. [main thread]
@@ -33,7 +34,7 @@ std::vector<Preset> presetsIn (const std::filesystem::path& folder, const Catalo
 /// The folder of the user's own graphs: TACTUS_GRAPHS in the environment, or Documents/Tactus. It may not exist yet.
 std::filesystem::path ownFolder();
 
-/// The presets with all words of the query in their name, tags or description, and with all of the tags.
+/// The presets that fit the query by their name, tags or description (text/find.hpp), the best first, and have all of the tags.
 std::vector<Preset> matching (const std::vector<Preset>&, const std::string& query, const std::set<std::string>& tags = {});
 
 /// All tags with the number of presets that have them, most frequent first.
