@@ -4,6 +4,9 @@
 #include <tactus/text/ownership.hpp>
 
 #include <cstdlib>
+#include <fstream>
+#include <string>
+#include <string_view>
 
 #if ! defined(_WIN32)
 #include <pwd.h>
@@ -23,21 +26,28 @@ fs::path fromEnvironment (const char* name)
     return told != nullptr ? fs::path (told) : fs::path();
 }
 
-fs::path configurations()
+#if ! defined(_WIN32)
+fs::path folderOfUser()
 {
-#if defined(_WIN32)
-    return fromEnvironment ("APPDATA");
-#else
     auto home = fromEnvironment ("HOME");
     if (! home.is_absolute()) home.clear();   // it would be in the folder of whatever graph is played
     if (home.empty())
         if (const auto* user = ::getpwuid (::getuid()); user != nullptr && user->pw_dir != nullptr) home = user->pw_dir;
-    if (home.empty()) return {};
-#if defined(__APPLE__)
-    return home / "Library";
-#else
-    return home / ".config";
+    return home;
+}
 #endif
+
+fs::path configurations()
+{
+#if defined(_WIN32)
+    return fromEnvironment ("APPDATA");
+#elif defined(__APPLE__)
+    const auto home = folderOfUser();
+    return home.empty() ? home : home / "Library";
+#else
+    if (auto told = fromEnvironment ("XDG_CONFIG_HOME"); told.is_absolute()) return told;
+    const auto home = folderOfUser();
+    return home.empty() ? home : home / ".config";
 #endif
 }
 
@@ -53,6 +63,26 @@ std::filesystem::path homeFolder()
 {
     const auto folder = usualHome();
     return folder.empty() || whoElseCanChange (folder).empty() ? folder : fs::path();
+}
+
+std::filesystem::path documentsFolder()
+{
+#if defined(_WIN32) || defined(__APPLE__)
+    return {};
+#else
+    if (auto told = fromEnvironment ("XDG_DOCUMENTS_DIR"); told.is_absolute()) return told;
+    const auto home = folderOfUser();
+    std::ifstream listed (configurations() / "user-dirs.dirs");
+    for (std::string line; std::getline (listed, line);)   // XDG_DOCUMENTS_DIR="$HOME/Papers"
+    {
+        constexpr std::string_view key = "XDG_DOCUMENTS_DIR=\"", of_home = "$HOME/";
+        if (! line.starts_with (key) || line.size() <= key.size() || line.back() != '"') continue;
+        const auto told = line.substr (key.size(), line.size() - key.size() - 1);
+        const fs::path folder = told.starts_with (of_home) ? home / told.substr (of_home.size()) : fs::path (told);
+        if (folder.is_absolute()) return folder;
+    }
+    return home.empty() ? home : home / "Documents";
+#endif
 }
 
 std::optional<Message> homeTrouble()

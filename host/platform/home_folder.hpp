@@ -10,9 +10,13 @@ namespace tactus::host
 {
 
 /// The folder for settings, sessions and crash recovery: TACTUS_HOME in the environment, or the system's usual place
-/// (~/.config/Tactus, ~/Library/Tactus, %APPDATA%\Tactus). It may not exist. Empty if the user's home is unknown, or if another user
+/// (Tactus in XDG_CONFIG_HOME or ~/.config, ~/Library/Tactus, %APPDATA%\Tactus). It may not exist. Empty if the user's home is unknown, or if another user
 /// can change what is in the folder. [main thread]
 std::filesystem::path homeFolder();
+
+/// The user's documents on Linux: XDG_DOCUMENTS_DIR in the environment or in user-dirs.dirs, or ~/Documents. It may not exist. Empty on other
+/// systems, or if the user's home is unknown. [main thread]
+std::filesystem::path documentsFolder();
 
 /// Why an existing folder is not used, if another user can change what is in it. Id: home/foreign. [main thread]
 std::optional<Message> homeTrouble();

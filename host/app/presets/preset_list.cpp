@@ -66,6 +66,7 @@ fs::path ownFolder()
 {
     const auto given = juce::SystemStats::getEnvironmentVariable ("TACTUS_GRAPHS", {});
     if (given.isNotEmpty()) return given.toStdString();
+    if (const auto documents = documentsFolder(); ! documents.empty()) return documents / "Tactus";
     return juce::File::getSpecialLocation (juce::File::userDocumentsDirectory).getChildFile ("Tactus").getFullPathName().toStdString();
 }
 

@@ -31,7 +31,7 @@ Preset presetOf (const std::filesystem::path& file, const Catalogue&);
 /// Lists the presets of a folder by name. Skips files that are not graphs; damaged graphs are listed with their problem. [main thread]
 std::vector<Preset> presetsIn (const std::filesystem::path& folder, const Catalogue&);
 
-/// The folder of the user's own graphs: TACTUS_GRAPHS in the environment, or Documents/Tactus. It may not exist yet.
+/// The folder of the user's own graphs: TACTUS_GRAPHS in the environment, or Tactus in the user's documents. It may not exist yet.
 std::filesystem::path ownFolder();
 
 /// The presets that fit the query by their name, tags or description (text/find.hpp), the best first, and have all of the tags.

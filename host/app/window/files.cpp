@@ -36,6 +36,19 @@ juce::String errorList (const Messages& messages, const fs::path& file)
     return list;
 }
 
+/// The name of a file for a graph with this name: "dry_wood" for "Dry wood".
+std::string stemFor (const std::string& name)
+{
+    return juce::File::createLegalFileName (juce::String (name)).toLowerCase().replaceCharacter (' ', '_').toStdString();
+}
+
+/// The name of a graph in a file with this name: "Dry wood" for "dry_wood".
+std::string nameFor (const std::string& stem)
+{
+    const auto words = fromUtf8 (stem).replaceCharacter ('_', ' ').trim();
+    return (words.substring (0, 1).toUpperCase() + words.substring (1)).toStdString();
+}
+
 juce::String autosaveFailed (const Message& why) { return filled (TRANS ("Autosave failed: %1. Save often."), fromUtf8 (why.text)); }
 }   // namespace
 
@@ -166,15 +179,13 @@ void Files::save (std::function<void()> then)
 
 void Files::saveAs (std::function<void()> then)
 {
-    auto called = juce::File::createLegalFileName (juce::String (document.graph().name)).toLowerCase().replaceCharacter (' ', '_');
-    if (called.isEmpty()) called = "untitled";
-    const auto folder = ownFolder();
-    if (document.file().empty())
-    {
-        std::error_code failed;
-        fs::create_directories (folder, failed);
-    }
-    const auto begin = document.file().empty() ? folder / (called.toStdString() + ".json") : document.file();
+    const auto& now = document.file();
+    const auto called = stemFor (document.graph().name);
+    const auto folder = now.empty() ? ownFolder() : now.parent_path();
+    std::error_code failed;
+    if (now.empty()) fs::create_directories (folder, failed);
+    const auto usual = now.empty() ? fs::path ("untitled.json") : now.filename();
+    const auto begin = folder / (called.empty() ? usual : fs::path (called + ".json"));
     callbacks.choose (true, begin, [this, then = std::move (then)] (const fs::path& chosen) {
         auto file = chosen;
         if (file.extension() != ".json") file += ".json";
@@ -185,6 +196,14 @@ void Files::saveAs (std::function<void()> then)
 void Files::saveElsewhere (const juce::String& why, const std::function<void()>& then)
 {
     question.ask (TRANS ("The graph was not saved"), why, { { TRANS ("Save as ..."), [this, then] { saveAs (then); } }, { TRANS ("Cancel"), {} } });
+/// Gives the graph the name that its new file has. Returns false if it has this name already.
+bool Files::rename (const fs::path& file)
+{
+    const auto stem = file.stem().string();
+    if (file == document.file() || stemFor (document.graph().name) == stemFor (stem)) return false;
+    return document.perform (graph::Batch { filled (TRANS ("call the graph %1"), nameFor (stem)).toStdString(), { graph::SetHeader { .name = nameFor (stem) } } });
+}
+
 }
 
 void Files::saveTo (const fs::path& file, const std::function<void()>& then)
@@ -197,7 +216,9 @@ void Files::saveTo (const fs::path& file, const std::function<void()>& then)
     const auto messages = document.save (file);
     if (! messages.empty()) return saveElsewhere (errorList (messages, file).trimEnd(), then);
     autosave();
+    const bool is_renamed = rename (file);
     settings.noteRecent (file);
+    if (! messages.empty() && is_renamed) document.undo();
     callbacks.onSettings();
     if (not_carried.empty())
         callbacks.notify (filled (TRANS ("Saved %1"), file.string()));

@@ -70,6 +70,7 @@ private:
     void saveElsewhere (const juce::String& why, const std::function<void()>& then);
     void saveTo (const std::filesystem::path&, const std::function<void()>& then);
     void askAboutNext();
+    bool rename (const std::filesystem::path&);
     void restoreNext (bool runs);
     std::string name() const;
 

@@ -247,7 +247,8 @@ void MainView::documentChanged()
     }
     if (edited.history().position() > 0) welcome.setVisible (false);
     std::vector<juce::String> trail { edited.graph().name.empty() ? TRANS ("Untitled graph") : juce::String (printableName (edited.graph().name)) };
-    if (onTitle) onTitle (trail.front() + (edited.isChanged() ? " (" + TRANS ("edited") + ")" : juce::String()));
+    const auto saved = top.savedText();
+    if (onTitle) onTitle (trail.front() + (saved.isEmpty() ? saved : " (" + saved + ")"));
     for (const auto& [node, subgraph] : patching.breadcrumbs())
         trail.emplace_back (printableName (node));
     const auto instance = patching.instance();

@@ -17,6 +17,13 @@ constexpr int ticks_before_saving = 15;   // timer ticks; half a second, so that
 
 bool MainView::keyPressed (const juce::KeyPress& key)
 {
+    // A dialog for files or a menu, which is inside this window, has had the key. Its buttons may still want it.
+    if (juce::Component::getNumCurrentlyModalComponents() > 0)
+    {
+        const bool stops = key.getKeyCode() == juce::KeyPress::escapeKey && playback.current().isWanted() && (key.getModifiers().isShiftDown() || escStops());
+        if (stops) stopBy (key);
+        return stops;
+    }
     if (key.getKeyCode() == juce::KeyPress::escapeKey)
     {
         escape (key);

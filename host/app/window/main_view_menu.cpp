@@ -26,6 +26,18 @@ juce::String folderText (const std::filesystem::path& file)
     return folder == home || folder.startsWith (home + "/") ? "~" + folder.substring (home.length()) : folder;
 }
 
+/// The field of a dialog for files in which the name is typed.
+juce::TextEditor* nameField (juce::Component& in)
+{
+    for (auto* child : in.getChildren())
+    {
+        if (auto* field = dynamic_cast<juce::TextEditor*> (child)) return field;
+        if (dynamic_cast<juce::ComboBox*> (child) != nullptr) continue;   // the folder
+        if (auto* found = nameField (*child)) return found;
+    }
+    return nullptr;
+}
+
 /// The title of a dialog and the files that it shows. What is saved follows from the proposed name.
 std::pair<juce::String, juce::String> wordsFor (bool saves, const std::filesystem::path& begin)
 {
@@ -135,9 +147,10 @@ void MainView::askForRecording()
 void MainView::launchChooser (const juce::String& title, const juce::String& patterns, const juce::File& begin, int how,
                               std::function<void (const std::filesystem::path&)> chosen)
 {
-    // Never a dialog of the desktop: that is another program, so its window would keep Esc from stopping the forces.
+    // Never a dialog of the desktop: that is another program, so its window would keep Esc from stopping the forces. It is inside this window, so
+    // it has the keyboard at once, whatever the window manager does.
     constexpr bool of_the_desktop = false;
-    chooser = std::make_unique<juce::FileChooser> (title, begin, patterns, of_the_desktop);
+    chooser = std::make_unique<juce::FileChooser> (title, begin, patterns, of_the_desktop, false, this);
     chooser->launchAsync (how, [this, chosen = std::move (chosen)] (const juce::FileChooser& c) {
         takeFocus (patching);
         // Later, when the dialog is gone: it gives the focus back, which what `chosen` opens needs.
@@ -146,6 +159,12 @@ void MainView::launchChooser (const juce::String& title, const juce::String& pat
                 if (safe != nullptr) chosen (path);
             });
     });
+    auto* dialog = dynamic_cast<juce::FileChooserDialogBox*> (getCurrentlyModalComponent());
+    auto* name = dialog == nullptr ? nullptr : nameField (*dialog);
+    if (name == nullptr) return;
+    name->onEscapeKey = [dialog] { dialog->exitModalState (0); };   // the field would keep the key
+    takeFocus (*name);
+    name->selectAll();
 }
 
 }   // namespace tactus::host

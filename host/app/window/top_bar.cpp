@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "top_bar.hpp"
 
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/text/filled.hpp>
+#include <tactus/text/quote.hpp>
 
 namespace tactus::host
 {
@@ -179,9 +181,10 @@ std::vector<juce::Rectangle<float>> TopBar::places() const
     std::vector<juce::Rectangle<float>> all;
     const auto font = lookOf (*this).font (14.0f, true);
     float x = 16.0f;
+    const float for_saved = std::min (200.0f, lookOf (*this).font (12.0f).getStringWidthFloat (savedText())) + 14.0f;
     for (const auto& name : trail)
     {
-        const float width = std::min (font.getStringWidthFloat (name), std::max (0.0f, static_cast<float> (room) - x - 60.0f));
+        const float width = std::min (font.getStringWidthFloat (name), std::max (0.0f, static_cast<float> (room) - x - for_saved));
         all.push_back ({ x, 0.0f, width, static_cast<float> (getHeight()) });
         x += width + 28.0f;
     }
@@ -212,10 +215,16 @@ void TopBar::paint (juce::Graphics& g)
     g.setFont (look.font (12.0f));
     g.setColour (theme.dim);
     g.drawText (captionText(), caption, juce::Justification::centredRight, false);
-    if (! document.isChanged() || all.empty()) return;
-    g.setFont (look.font (12.0f));
-    g.setColour (theme.dim);
-    g.drawText (TRANS ("edited"), all.back().withX (all.back().getRight() + 14.0f).withWidth (60.0f), juce::Justification::centredLeft, false);
+    if (all.empty()) return;
+    const float x = all.back().getRight() + 14.0f;
+    g.drawText (savedText(), all.back().withX (x).withRight (static_cast<float> (room)), juce::Justification::centredLeft, true);
+}
+
+juce::String TopBar::savedText() const
+{
+    const auto file = fromUtf8 (printableName (document.file().filename().string()));
+    const auto is_edited = document.isChanged() ? TRANS ("edited") : juce::String();
+    return file + (file.isEmpty() || is_edited.isEmpty() ? "" : ", ") + is_edited;
 }
 
 void TopBar::mouseMove (const juce::MouseEvent& e)

@@ -35,6 +35,9 @@ public:
     /// Call after each change of the document or the trail.
     void show (std::vector<juce::String> trail, std::optional<Instance> = {});
 
+    /// Where the graph is saved, and whether it was edited since then: "oak.json, edited". Empty for a new graph.
+    juce::String savedText() const;
+
     std::function<void (std::size_t depth)> onLeave;
     std::function<void (int number)> onRecall, onStore;   ///< receive the number of a snapshot, from 1
     std::function<void (int instance)> onInstance;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/presets/force_picture.hpp>
 #include <host/app/presets/preset_list.hpp>
+#include <host/platform/home_folder.hpp>
 
 #include "support/temporary_folder.hpp"
 
@@ -26,6 +27,39 @@ TEST_CASE ("presets are found by words of their name, tags and description, igno
     CHECK (matching (some(), "Wood grain").size() == 1);
     CHECK (matching (some(), "  ").size() == 3);
     CHECK (matching (some(), "steel").empty());
+}
+
+TEST_CASE ("own graphs are in the documents of the user\\, and settings in the configurations\\, where XDG says they are")
+{
+    const TemporaryFolder home;
+    const auto isFor = [&] (std::initializer_list<std::pair<const char*, std::string>> variables, const std::filesystem::path& graphs, const std::string& settings) {
+        std::vector<std::pair<const char*, std::string>> before;
+        for (const auto* name : { "HOME", "TACTUS_HOME", "TACTUS_GRAPHS", "XDG_CONFIG_HOME", "XDG_DOCUMENTS_DIR" })
+        {
+            if (const auto* old = std::getenv (name)) before.emplace_back (name, old);
+            unsetenv (name);
+        }
+        setenv ("HOME", home.path().c_str(), 1);
+        for (const auto& [name, value] : variables)
+            setenv (name, value.c_str(), 1);
+        CHECK (ownFolder() == graphs);
+        CHECK (homeFolder() == std::filesystem::path (settings));
+        for (const auto& [name, value] : variables)
+            unsetenv (name);
+        for (const auto& [name, value] : before)
+            setenv (name, value.c_str(), 1);
+    };
+    const auto usual = (home / ".config/Tactus").string();
+    isFor ({}, home / "Documents/Tactus", usual);
+    isFor ({ { "XDG_DOCUMENTS_DIR", "/srv/papers" } }, "/srv/papers/Tactus", usual);
+    isFor ({ { "XDG_CONFIG_HOME", "relative" } }, home / "Documents/Tactus", usual);   // is ignored, as the standard says
+    std::filesystem::create_directories (home / ".config");
+    home.write (".config/user-dirs.dirs", "# of this user\nXDG_MUSIC_DIR=\"$HOME/Music\"\nXDG_DOCUMENTS_DIR=\"$HOME/Dokumente\"\n");
+    isFor ({}, home / "Dokumente/Tactus", usual);
+    std::filesystem::create_directories (home / "etc");
+    home.write ("etc/user-dirs.dirs", "XDG_DOCUMENTS_DIR=\"/srv/shared\"\n");
+    isFor ({ { "XDG_CONFIG_HOME", (home / "etc").string() } }, "/srv/shared/Tactus", (home / "etc/Tactus").string());
+    isFor ({ { "TACTUS_GRAPHS", "/elsewhere" }, { "TACTUS_HOME", (home / "own").string() } }, "/elsewhere", (home / "own").string());
 }
 
 TEST_CASE ("each tag narrows the search")

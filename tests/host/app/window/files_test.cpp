@@ -443,6 +443,6 @@ TEST_CASE ("an opened clip becomes an unsaved graph that plays the clip, and a d
     std::ofstream (d.folder / "broken.haptic") << "{}";
     d.files->open (d.folder / "broken.haptic");
     CHECK (d.question.title() == "Cannot open broken.haptic");
-    CHECK (d.document.graph().name == "zip");
+    CHECK (d.document.graph().name == "Mine");   // as its file
     d.question.cancel();
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a person does to reach a goal, action by action: each click, drag, typed word and key is one.
+#include "host/app/support/seen_text.hpp"
 #include "host/app/support/window_rig.hpp"
 
 #include <tactus/file/graph_file.hpp>
 
 #include <iostream>
+#include <set>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -16,7 +18,6 @@ struct Person
 {
     WindowRig w;
     int actions = 0;
-    std::filesystem::path file = w.home / "mine.json";   // the name that is typed into the dialog for files
 
     explicit Person (bool safe) : w ({}, 1280, 720, safe) {}
 
@@ -99,13 +100,13 @@ struct Person
         key ("return");
     }
 
-    /// The dialog for files takes a typed name and Enter.
-    void answerFiles()
+    /// Lets the window work until this is so.
+    template <typename F>
+    void await (F&& isSo)
     {
-        w.view->chooseFile = [this] (bool, const std::filesystem::path&, const std::function<void (const std::filesystem::path&)>& chosen) {
-            actions += 2;
-            chosen (file);
-        };
+        for (int i = 0; i < 1000 && ! isSo(); ++i)
+            WindowRig::settle (10);
+        REQUIRE (isSo());
     }
 
     juce::Component* titled (const juce::String& title) { return find (*w.view, title); }
@@ -141,33 +142,42 @@ Vec3 forceAt (const graph::Graph& g, double z)
 }
 }   // namespace
 
-TEST_CASE ("a person builds plane\\, friction\\, a gated grating and a knob\\, and saves\\, in 25 actions", "[app][person]")
+TEST_CASE ("a person builds plane\\, friction\\, a gated grating and a knob\\, and saves\\, in 18 actions", "[app][person]")
 {
     Person p { true };
-    p.answerFiles();
+    setenv ("TACTUS_GRAPHS", p.w.home.path().c_str(), 1);
     p.key ("ctrl + n");
     p.key ("spacebar");
     p.type ("plane");
     p.key ("return");
-    p.extend (p.port ("plane", Role::input, "position"), p.near ("plane", { -12.0f, 0.0f }), "hand");
-    p.extend (p.port ("plane", Role::output, "force"), p.near ("plane", { 12.0f, 0.0f }), "motor");
-    p.extend (p.port ("position", Role::output, "position"), p.near ("plane", { 0.0f, 12.0f }), "friction");
-    const auto friction = p.w.graph().root.nodes.back().name;
-    p.drag (p.port ("plane", Role::output, "resistance"), p.port (friction, Role::input, "normal_force"));
-    p.drag (p.port (friction, Role::output, "force"), p.port ("force", Role::input, "force"));
+    p.await ([&] { return WindowRig::tabIn (*p.w.view, *p.w.stage, "Problems 2").has_value(); });   // nothing can be felt yet
+    p.click ("Problems 2");
+    p.click ("Add a hand");
+    p.click ("Add a motor");
+    p.extend (p.port ("hand", Role::output, "position"), p.near ("hand", { 0.0f, 12.0f }), "friction");   // wires itself
     p.click ("Layers");
     p.click ("+ Texture");
     REQUIRE (p.canvas().selection() == tactus::host::Selection { p.w.graph().root.find ("grating")->id });   // what was added is selected
+    const auto isAsked = [] { return juce::Component::getNumCurrentlyModalComponents() > 0; };
     p.click (p.titled ("Amplitude"), juce::ModifierKeys::rightButtonModifier);
+    p.await (isAsked);
     p.key ("cursor down");
     p.key ("return");
+    p.await ([&] { return p.w.graph().controls.size() == 1 && ! isAsked(); });
     p.key ("ctrl + s");
+    p.await (isAsked);
+    p.type ("rough board");   // the dialog waits for a name
+    p.key ("return");
+    const auto file = p.w.home / "rough board.json";
+    p.await ([&] { return std::filesystem::exists (file); });
+    unsetenv ("TACTUS_GRAPHS");
     INFO (p.actions << " actions");
-    CHECK (p.actions <= 25);
+    CHECK (p.actions <= 18);
     std::cout << "plane, friction, gated grating, knob, saved: " << p.actions << " actions\n";
 
-    const auto saved = loadGraph (p.file);
+    const auto saved = loadGraph (file);
     REQUIRE_FALSE (hasErrors (saved.messages));
+    CHECK (saved.graph.name == "Rough board");
     auto g = saved.graph;
     REQUIRE (g.controls.size() == 1);
     CHECK (g.controls[0].to.front().path == "grating.amplitude");
@@ -212,4 +222,54 @@ TEST_CASE ("a person finds a preset and loads it in three actions", "[app][perso
     p.key ("return");
     CHECK (p.w.graph().name == "Liver");
     CHECK (p.actions == 3);
+}
+
+TEST_CASE ("a person types a name and Return\\, and gets what has this name", "[app][person]")
+{
+    Person p { true };
+    p.click (p.titled ("Search presets"));
+    p.type ("soft pad");
+    p.key ("return");
+    CHECK (p.w.graph().name == "Soft pad");
+    p.key ("ctrl + n");
+    for (const auto& [word, type] : { std::pair { "hand", "device.position" }, std::pair { "motor", "device.force" }, std::pair { "contact", "contact.window" } })
+    {
+        p.key ("spacebar");
+        p.type (word);
+        p.key ("return");
+        CHECK (p.w.graph().root.nodes.back().type == type);
+    }
+}
+
+TEST_CASE ("presets are in view in a low window\\, whatever the user has opened and saved\\, and nothing is listed twice", "[app][person]")
+{
+    const TemporaryFolder mine;
+    for (int i = 0; i < 9; ++i)
+        std::filesystem::copy_file (TACTUS_SOURCE_DIR "/graphs/soft_pad.json", mine / ("pad_" + std::to_string (i) + ".json"));
+    setenv ("TACTUS_GRAPHS", mine.path().c_str(), 1);
+    {
+        Person p { true };
+        for (const auto* file : { "pad_3.json", "pad_7.json", "pad_3.json" })
+            p.w.view->open (mine / file);
+        const auto rows = [&] { return p.w.view->browser().rows(); };
+        CHECK (rows()[1].preset->file == mine / "pad_3.json");   // the latest
+        const auto isInView = [&] {
+            for (const auto& t : tactus::host::test::readTexts (p.w.view->browser()))
+                if (t.text == "Aluminium bar") return true;
+            return false;
+        };
+        CHECK (isInView());
+        const auto before = rows().size();
+        const auto* list = dynamic_cast<juce::ListBox*> (p.titled ("Presets")->getChildComponent (2));
+        REQUIRE (list != nullptr);
+        const auto heading = list->getRowPosition (0, true).getCentre();
+        p.w.stage->click (p.w.stage->getLocalPoint (list, heading).toFloat());
+        WindowRig::settle();
+        CHECK (rows().size() > before);
+        std::set<std::filesystem::path> files;
+        for (const auto& r : rows())
+            if (r.preset != nullptr) CHECK (files.insert (r.preset->file).second);
+        CHECK (files.contains (mine / "pad_8.json"));
+    }
+    unsetenv ("TACTUS_GRAPHS");
 }

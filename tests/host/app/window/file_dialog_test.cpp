@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/seen_text.hpp"
+#include "host/app/support/window_rig.hpp"
+
+#include <tactus/file/graph_file.hpp>
+
+#include <catch2/catch.hpp>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+bool isSeen (WindowRig& w, const juce::String& text)
+{
+    return std::ranges::any_of (tactus::host::test::readTexts (*w.view), [&] (const auto& t) { return t.text == text; });
+}
+
+template <typename F>
+bool waitFor (F&& isSo)
+{
+    for (int i = 0; i < 1000 && ! isSo(); ++i)
+        WindowRig::settle (10);
+    return isSo();
+}
+
+bool isDialogOpen() { return juce::Component::getNumCurrentlyModalComponents() > 0; }
+}   // namespace
+
+TEST_CASE ("Ctrl+S, a name and Return save\\, and the graph\\, the header and the title have the name of the file", "[app][files]")
+{
+    const TemporaryFolder mine;
+    setenv ("TACTUS_GRAPHS", mine.path().c_str(), 1);
+    {
+        WindowRig w;
+        juce::String title;
+        w.view->onTitle = [&] (const juce::String& t) { title = t; };
+        w.key ("ctrl + n");
+        w.key ("ctrl + s");
+        REQUIRE (isDialogOpen());
+        const auto* name = dynamic_cast<juce::TextEditor*> (WindowRig::focused());
+        REQUIRE (name != nullptr);
+        CHECK (name->getText() == "untitled.json");
+        CHECK (name->getHighlightedText() == name->getText());
+        w.stage->type ("my board");
+        CHECK (name->getText() == "my board");
+        CHECK (w.graph().root.nodes.empty());   // the canvas gets no key
+        w.key ("return");
+        REQUIRE (waitFor ([&] { return std::filesystem::exists (mine / "my board.json"); }));
+        CHECK_FALSE (isDialogOpen());
+        CHECK (w.graph().name == "My board");
+        CHECK (loadGraph (mine / "my board.json").graph.name == "My board");
+        CHECK (title == "My board (my board.json)");
+        CHECK (isSeen (w, "my board.json"));
+
+        SECTION ("a new name of the graph is proposed as the name of a new file, and Esc closes the dialog")
+        {
+            w.view->document().perform (graph::SetHeader { .name = "Old oak" });
+            CHECK (title == "Old oak (my board.json, edited)");
+            w.key ("ctrl + shift + s");
+            REQUIRE (isDialogOpen());
+            CHECK (dynamic_cast<juce::TextEditor&> (*WindowRig::focused()).getText() == "old_oak.json");
+            w.key ("escape");
+            CHECK (waitFor ([] { return ! isDialogOpen(); }));
+            CHECK (w.graph().name == "Old oak");
+            w.key ("ctrl + shift + s");
+            w.key ("return");
+            CHECK (waitFor ([&] { return std::filesystem::exists (mine / "old_oak.json"); }));
+            CHECK (w.graph().name == "Old oak");   // as before: the names agree
+        }
+        SECTION ("saving again asks nothing and renames nothing")
+        {
+            w.view->document().perform (graph::SetHeader { .name = "Old oak" });
+            w.key ("ctrl + s");
+            CHECK_FALSE (isDialogOpen());
+            CHECK (loadGraph (mine / "my board.json").graph.name == "Old oak");
+        }
+    }
+    unsetenv ("TACTUS_GRAPHS");
+}
