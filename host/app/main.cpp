@@ -11,6 +11,7 @@
 #include <tactus/text/caught.hpp>
 #include <tactus/text/quote.hpp>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace tactus::host
@@ -29,7 +30,8 @@ public:
         content = view.get();
         setContentOwned (view.release(), false);
         setResizable (true, false);
-        setResizeLimits (960, 600, 32000, 32000);
+        const auto screen = usable();
+        setResizeLimits (std::min (960, screen.getWidth()), std::min (600, screen.getHeight()), 32000, 32000);
         fitToScreen();
         setVisible (true);
         content->begin (how);
@@ -40,10 +42,21 @@ public:
     MainView& view() noexcept { return *content; }
     void closeButtonPressed() override { juce::JUCEApplication::getInstance()->systemRequestedQuit(); }
 
+    /// The window manager tells only after a while how large the title bar is. Call it until then.
+    void makeRoomForFrame()
+    {
+        const auto frame = has_frame || getPeer() == nullptr ? juce::ComponentPeer::OptionalBorderSize {} : getPeer()->getFrameSizeIfPresent();
+        if (! frame || *frame == juce::BorderSize<int> {}) return;
+        has_frame = true;
+        if (getBounds() == usable()) setBounds (frame->subtractedFrom (usable()));   // not yet moved by the user
+    }
+
 private:
-    void fitToScreen() { setBounds (juce::Desktop::getInstance().getDisplays().getPrimaryDisplay()->userArea); }
+    static juce::Rectangle<int> usable() { return juce::Desktop::getInstance().getDisplays().getPrimaryDisplay()->userArea; }
+    void fitToScreen() { setBounds (usable()); }
 
     MainView* content;
+    bool has_frame = false;
 };
 
 class App final : public juce::JUCEApplication, private juce::Timer
@@ -139,6 +152,7 @@ private:
 
     void timerCallback() override
     {
+        window->makeRoomForFrame();
         if (! places_file.empty()) writePlaces();
         if (! stopRequested()) return;
         stopTimer();

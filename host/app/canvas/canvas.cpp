@@ -104,16 +104,6 @@ void Canvas::toggleMap()
 
 juce::String Canvas::getTooltip() { return drag ? juce::String() : tooltipAt (getMouseXYRelative().toFloat()); }
 
-juce::String Canvas::tooltipAt (juce::Point<float> pixel) const
-{
-    constexpr float reach = 4.0f;   // pixels
-    const auto at = window.toCanvas (pixel);
-    for (const auto& [id, limit] : highlights.live.limits)
-        if (const auto* node = shown->find (id); node != nullptr && limitLightOf (*node, window.zoom).expanded (reach / window.zoom).contains (at))
-            return fromUtf8 (limit.text);
-    return {};
-}
-
 void Canvas::paint (juce::Graphics& g)
 {
     const auto& look = lookOf (*this);

@@ -89,7 +89,7 @@ public:
     const PointedPort& pointed() const noexcept { return pointed_at; }
 
     juce::String getTooltip() override;                        ///< tooltipAt the pointer
-    juce::String tooltipAt (juce::Point<float> pixel) const;   ///< the text of the limit light at this pixel of the canvas; empty if there is none
+    juce::String tooltipAt (juce::Point<float> pixel) const;   ///< about the limit light, or, while nothing runs, the port at this pixel; else empty
 
     std::function<void()> onSelection, onBreadcrumbs;
     std::function<void()> onEditParams;                 ///< the parameters of the selected node get the keyboard focus

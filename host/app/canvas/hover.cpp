@@ -12,16 +12,26 @@ namespace tactus::host
 namespace
 {
 std::string nameOf (const FacePort& port) { return readableName (port) == port.id ? port.id : nameWithId (port.id); }
+
+/// "drag.force  [N]  force on the tool"
+juce::String portText (const SceneNode& node, const FacePort& port)
+{
+    const auto unit = port.unit.kind == UnitRule::Kind::fixed ? port.unit.unit : unitOf (node.quantityOf (port));
+    return fromUtf8 (node.name + "." + port.id + "  [" + std::string (unit.symbol) + "]  " + port.about);
+}
+
+/// The port whose socket or label is at a place.
+const Socket* socketOf (const SceneNode& node, juce::Point<float> at)
+{
+    const auto found = std::ranges::find_if (node.box.sockets, [&] (const Socket& s) { return s.row.translated (node.at.x, node.at.y).contains (at); });
+    return found == node.box.sockets.end() ? nullptr : &*found;
+}
 }   // namespace
 
 Canvas::Hover Canvas::hoverAt (juce::Point<float> at) const
 {
     if (const auto s = shown->socketAt (at, socket_reach / window.zoom))
-    {
-        const auto& port = *s.socket->port;
-        const auto unit = port.unit.kind == UnitRule::Kind::fixed ? port.unit.unit : unitOf (s.node->quantityOf (port));
-        return { s.node->id, s.node->name + "." + port.id + "  [" + std::string (unit.symbol) + "]  " + port.about, juce::MouseCursor::CrosshairCursor };
-    }
+        return { s.node->id, portText (*s.node, *s.socket->port), juce::MouseCursor::CrosshairCursor };
     if (const auto* node = shown->nodeAt (at))
     {
         const auto* socket = node->paramAt (at);
@@ -36,6 +46,20 @@ Canvas::Hover Canvas::hoverAt (juce::Point<float> at) const
     if (! note) return {};
     const auto shape = shown->isCorner (*note, at) ? juce::MouseCursor::BottomRightCornerResizeCursor : juce::MouseCursor::NormalCursor;
     return { 0, TRANS ("Note: drag to move, drag the corner to resize, double-click to edit"), shape };
+}
+
+juce::String Canvas::tooltipAt (juce::Point<float> pixel) const
+{
+    constexpr float reach = 4.0f;   // pixels
+    const auto at = window.toCanvas (pixel);
+    for (const auto& [id, limit] : highlights.live.limits)
+        if (const auto* node = shown->find (id); node != nullptr && limitLightOf (*node, window.zoom).expanded (reach / window.zoom).contains (at))
+            return fromUtf8 (limit.text);
+    if (highlights.live.runs) return {};   // a card shows what the port carries
+    if (const auto s = shown->socketAt (at, socket_reach / window.zoom)) return portText (*s.node, *s.socket->port);
+    const auto* node = shown->nodeAt (at);
+    const auto* socket = node == nullptr ? nullptr : socketOf (*node, at);
+    return socket == nullptr ? juce::String() : portText (*node, *socket->port);
 }
 
 void Canvas::mouseMove (const juce::MouseEvent& e)
@@ -70,9 +94,7 @@ PointedPort Canvas::portAt (juce::Point<float> at) const
         const auto* wire = shown->wireAt (at, wire_reach / window.zoom);
         return wire == nullptr ? PointedPort {} : PointedPort { address (wire->source), at, Side::below };
     }
-    const auto* socket = found.socket;
-    for (const auto& s : node->box.sockets)
-        if (socket == nullptr && s.row.translated (node->at.x, node->at.y).contains (at)) socket = &s;
+    const auto* socket = found ? found.socket : socketOf (*node, at);
     if (socket == nullptr || socket->port->isChoice() || node->face->kind == Face::Kind::placeholder) return {};
     if (const auto& port = *socket->port; port.role == Role::param)   // the value of an unwired param is in its row
     {

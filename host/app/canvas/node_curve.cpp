@@ -2,7 +2,11 @@
 #include "node_curve.hpp"
 #include "trial_node.hpp"
 
+#include <host/app/model/clip_graph.hpp>
+#include <host/app/model/file_path.hpp>
 #include <host/app/model/param_now.hpp>
+#include <host/io/clip_io.hpp>
+#include <tactus/kit/signal/clip_score.hpp>
 #include <tactus/node/node_fault.hpp>
 #include <tactus/plan/settings.hpp>
 
@@ -83,6 +87,30 @@ std::optional<PlotData> curveInSettings (const graph::Graph& graph, const std::s
         if (plot.x.size() > 1 || (plot.kind == PlotData::Kind::stems && ! plot.x.empty())) return plot;
     }
     return std::nullopt;
+}
+
+/// The envelope of a clip over its time: the largest amplitude in each part.
+std::optional<PlotData> envelopeOf (const graph::Graph& graph, const graph::Node& node)
+{
+    const auto written = node.settings.find ("clip");
+    if (node.type != clip_type || written == node.settings.end() || ! written->is_string() || written->asString().empty()) return std::nullopt;
+    const auto file = loadClip (resolved (written->asString(), graph.folder));
+    if (! file) return std::nullopt;
+    const ClipScore score (file->clip);
+    std::vector<ClipScore::Cursor> cursors (file->clip.tracks.size());
+    constexpr int samples_per_point = 64;
+    const double step = score.duration() / (curve_points * samples_per_point);
+    if (! (step > 0.0)) return std::nullopt;
+    PlotData plot { .x_unit = "s", .y_unit = "1" };
+    for (int i = 0; i < curve_points; ++i)
+    {
+        double most = 0.0;
+        for (int k = 0; k < samples_per_point; ++k)
+            most = std::max (most, std::abs (score ((i * samples_per_point + k) * step, 0.0, cursors.data()).amplitude));
+        plot.x.push_back (i * samples_per_point * step);
+        plot.y.push_back (most);
+    }
+    return plot;
 }
 
 const PortSheet* outputOf (const NodeType& type, Quantity quantity, int width)
@@ -198,7 +226,8 @@ std::optional<PlotData> answerOf (const graph::Graph& graph, const std::string& 
 std::shared_ptr<const PlotData> curveOf (const graph::Graph& graph, const std::string& patch, const graph::Node& node, const Face& face)
 {
     if (face.kind != Face::Kind::node || face.type == nullptr) return nullptr;
-    auto plot = curveInSettings (graph, patch, node, face);
+    auto plot = envelopeOf (graph, node);
+    if (! plot) plot = curveInSettings (graph, patch, node, face);
     if (! plot) plot = answerOf (graph, patch, node, face);
     if (! plot || ! std::ranges::all_of (plot->y, [] (double y) { return std::isfinite (y); })) return nullptr;
     return std::make_shared<const PlotData> (std::move (*plot));

@@ -15,6 +15,7 @@ namespace tactus::host
 /// plugins have one, too:
 ///  - a law, or a curve that is in use, as the settings give it;
 ///  - the modes of what rings, as stems;
+///  - the envelope of a clip;
 ///  - ridges and friction: the force along a stroke, from a node of the same type and values that is ticked here and not in the run;
 ///  - an output that depends on nothing but the one input: the output over the input, unless it is a straight line.
 std::shared_ptr<const PlotData> curveOf (const graph::Graph&, const std::string& patch, const graph::Node&, const Face&);

@@ -17,6 +17,7 @@ struct LiveState
 {
     static constexpr int most_level = 4;
 
+    bool runs = false;
     std::map<graph::Id, int> states;             ///< the state of each node that reports one
     std::map<graph::Id, double> costs;           ///< the cost of each node, as a fraction of a tick; empty while costs are hidden
     std::map<graph::Id, double> hits;            ///< position of a hit along its wire, 0…1

@@ -48,6 +48,43 @@ Remark describeRole (const Document& d, const std::string& role)
     return r;
 }
 
+/// A value as text: a list without its brackets and quotation marks, "0 mm, 0 mm, -1 mm".
+juce::String textOf (const Json& value)
+{
+    if (! value.is_array()) return editText (value);
+    juce::StringArray parts;
+    for (const auto& v : value)
+        parts.add (editText (v));
+    return parts.joinIntoString (", ");
+}
+
+/// What was typed for a value. Several parts with commas between them are a list.
+Json valueOf (const juce::String& text)
+{
+    const auto one = parseText (text);
+    if (! one.is_string() || ! text.containsChar (',')) return one;
+    auto list = Json::array();
+    for (const auto& part : juce::StringArray::fromTokens (text, ",", {}))
+        list.push_back (parseText (part));
+    return list;
+}
+
+/// Sets a value of the description of a role, or removes it, with the object around it if that becomes empty.
+void setValue (Document& document, const std::string& role, const std::string& path, const std::optional<Json>& value)
+{
+    auto all = descriptionOf (document, role);
+    if (all.is_null()) all = Json::object();
+    const JsonPointer at (path);
+    if (value)
+        all[at] = *value;
+    else if (all.contains (at))
+    {
+        all.at (at.parent()).erase (at.parts().back());
+        if (! at.parent().parts().empty() && all.at (at.parent()).empty()) all.at (at.parent().parent()).erase (at.parent().parts().back());
+    }
+    document.perform (graph::SetDevice { role, std::move (all) });
+}
+
 const char* const driver_help = NEEDS_TRANS ("sim: a simulated tool in a hand; trace: a recording; gesture: a motion computed from a formula; "
                                              "real devices are chosen in the Devices panel");
 
@@ -57,14 +94,9 @@ void addValue (Document& document, const std::string& role, const std::string& p
     const auto get = [&document, role, path] {
         const auto all = descriptionOf (document, role);
         const auto pointer = JsonPointer (path);
-        return all.contains (pointer) ? editText (all.at (pointer)) : juce::String();
+        return all.contains (pointer) ? textOf (all.at (pointer)) : juce::String();
     };
-    const auto set = [&document, role, path] (const Json& value) {
-        auto all = descriptionOf (document, role);
-        if (all.is_null()) all = Json::object();
-        all[JsonPointer (path)] = value;
-        document.perform (graph::SetDevice { role, std::move (all) });
-    };
+    const auto set = [&document, role, path] (const std::optional<Json>& value) { setValue (document, role, path, value); };
     const auto label = juce::String (path.substr (1)).replaceCharacter ('/', ' ');
     if (path == "/driver")
         column.add (choiceRow (
@@ -73,8 +105,8 @@ void addValue (Document& document, const std::string& role, const std::string& p
             juce::translate (driver_help)));
     else
         column.add (textRow (
-            label, get, [set] (const juce::String& t) { set (parseText (t)); },
-            TRANS ("A number, with or without a unit. Takes effect when the device restarts.")));
+            label, get, [set] (const juce::String& t) { set (t.trim().isEmpty() ? std::nullopt : std::optional (valueOf (t))); },
+            TRANS ("A number, with or without a unit, or several with commas. Leave empty to remove it. Takes effect when the device restarts.")));
 }
 }   // namespace
 
@@ -108,14 +140,13 @@ void describeDevice (const InspectorContext& at, const graph::Node& node, Column
     for (const auto& path : paths)
         addValue (document, role, path, column);
     column.add (textRow (
-        TRANS ("description"), [&document, role] { return editText (descriptionOf (document, role)); },
+        TRANS ("add value"), [] { return juce::String(); },
         [&document, role, refused = at.refused] (const juce::String& t) {
-        auto value = parseText (t);
-        if (value.is_object())
-            document.perform (graph::SetDevice { role, std::move (value) });
-        else
-            refused (TRANS ("A description must be an object: {\"driver\": \"sim\", \"mass\": \"50 g\"}")); },
-        TRANS ("The whole description as JSON. Other keys can be added here."), 5));
+        if (t.trim().isEmpty()) return;
+        const auto path = t.upToFirstOccurrenceOf ("=", false, false).trim().replaceCharacter (' ', '/');
+        if (! t.contains ("=") || path.isEmpty()) return refused (TRANS ("Write what and how much: mass = 50 g, or hand stiffness = 600 N/m"));
+        setValue (document, role, '/' + path.toStdString(), valueOf (t.fromFirstOccurrenceOf ("=", false, false))); },
+        TRANS ("Adds a value to the description of the device: mass = 50 g, or hand stiffness = 600 N/m")));
 }
 
 }   // namespace tactus::host

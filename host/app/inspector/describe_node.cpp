@@ -65,6 +65,9 @@ void listPorts (const std::vector<FacePort>& ports, const juce::String& title, C
 void describeSubgraphNode (const InspectorContext& at, const graph::Node& node, Column& column)
 {
     column.add (TRANS ("Instances and rate"), TextBlock::Kind::heading);
+    column.add (TRANS ("count: how many copies of the subgraph run side by side, such as one per finger or thread. every: they run only on every n-th tick, "
+                       "for slow parts that cost much. times: they run n times per tick, for sounds that are faster than the rate."),
+                TextBlock::Kind::small);
     const auto addInteger = [&] (const char* key, const juce::String& about) {
         const auto sheet = sheetOfNumber (key, unit::count, lasting (about), { .hard = { 1, 1e6 }, .usual = { 1, 16 } }, 1.0);
         column.add (numberRow (key, sheet, bindingOf<graph::SetNodeKey> (at, node.name, key, &graph::Node::extra).asInteger(), at.refused));
@@ -74,6 +77,9 @@ void describeSubgraphNode (const InspectorContext& at, const graph::Node& node, 
     addInteger ("times", TRANS ("the node runs n times per tick; allowed only without feedback to the hand"));
 
     column.add (TRANS ("Overrides"), TextBlock::Kind::heading);
+    column.add (TRANS ("An override gives a parameter inside the subgraph another value, for this node only; other nodes with the same subgraph keep theirs. "
+                       "[3]/drag.mu is the parameter of one instance."),
+                TextBlock::Kind::small);
     const auto set = [&document = at.document, patch = at.patch, name = node.name] (const std::string& path, const juce::String& t) {
         auto value = t.trim().isEmpty() ? std::nullopt : std::optional (parseText (t));
         document.perform (graph::SetOverride { patch, name, path, std::move (value) });

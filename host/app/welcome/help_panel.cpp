@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 namespace tactus::host
@@ -85,40 +86,62 @@ juce::String about (const PortSheet& p)
     return parts.joinIntoString ("; ");
 }
 
-/// A line about a port: its name, unit and description.
+/// How wide the column of the names is that the lines of a help text share. Each line widens it by its own name.
+struct NameColumn
+{
+    float widest = 0.0f;
+
+    int in (int whole) const { return std::min (static_cast<int> (std::ceil (widest)) + 20, whole * 2 / 5); }
+};
+
+/// A line about a port or a key: its name at the left, and beside it its unit and description.
 class PortLine final : public Block
 {
 public:
-    PortLine (juce::String n, juce::String d, juce::String s) : name (std::move (n)), details (std::move (d)), sentence (std::move (s))
+    PortLine (std::shared_ptr<NameColumn> c, juce::String n, juce::String d, juce::String s)
+        : names (std::move (c)), name (std::move (n)), details (std::move (d)), sentence (std::move (s))
     {
         setInterceptsMouseClicks (false, false);
+        names->widest = std::max (names->widest, lookOf (*this).font (13.0f, true).getStringWidthFloat (name));
     }
 
-    int heightFor (int w) override { return static_cast<int> (std::ceil (layout (w).getHeight())) + 8; }
-    void paint (juce::Graphics& g) override { layout (getWidth()).draw (g, getLocalBounds().toFloat()); }
+    int heightFor (int w) override { return static_cast<int> (std::ceil (std::max (nameIn (w).getHeight(), textIn (w).getHeight()))) + 8; }
+
+    void paint (juce::Graphics& g) override
+    {
+        const auto area = getLocalBounds().toFloat();
+        nameIn (getWidth()).draw (g, area);
+        textIn (getWidth()).draw (g, area.withTrimmedLeft (static_cast<float> (names->in (getWidth()))));
+    }
 
 private:
-    juce::TextLayout layout (int w) const
+    juce::TextLayout nameIn (int w) const
+    {
+        const auto& look = lookOf (*this);
+        return wrapText (name, look.font (13.0f, true), look.theme().text, static_cast<float> (names->in (w) - 12));
+    }
+
+    juce::TextLayout textIn (int w) const
     {
         const auto& look = lookOf (*this);
         juce::AttributedString s;
-        s.append (name, look.font (13.0f, true), look.theme().text);
-        if (details.isNotEmpty()) s.append ("   " + details, look.font (12.0f), look.theme().dim);
-        if (sentence.isNotEmpty()) s.append ("\n" + sentence, look.font (13.0f), look.theme().text);
+        if (details.isNotEmpty()) s.append (details, look.font (12.0f), look.theme().dim);
+        if (sentence.isNotEmpty()) s.append ((details.isEmpty() ? "" : "\n") + sentence, look.font (13.0f), look.theme().text);
         juce::TextLayout l;
-        l.createLayout (s, static_cast<float> (w));
+        l.createLayout (s, static_cast<float> (w - names->in (w)));
         return l;
     }
 
+    std::shared_ptr<NameColumn> names;
     juce::String name, details, sentence;
 };
 
-void addPorts (Column& column, const juce::String& heading, const std::vector<PortSheet>& ports)
+void addPorts (Column& column, const std::shared_ptr<NameColumn>& names, const juce::String& heading, const std::vector<PortSheet>& ports)
 {
     if (ports.empty()) return;
     column.add (heading, TextBlock::Kind::heading);
     for (const auto& p : ports)
-        column.add (std::make_unique<PortLine> (text (nameWithId (p.id)) + (p.list ? "[0], [1] ..." : ""), about (p), text (p.about)));
+        column.add (std::make_unique<PortLine> (names, text (nameWithId (p.id)) + (p.list ? "[0], [1] ..." : ""), about (p), text (p.about)));
 }
 
 using Keys = std::pair<const char*, const char*>;
@@ -208,15 +231,16 @@ void HelpPanel::showNode (const std::string& type)
         const auto doc = docOf (node->info.id);
         const auto source = std::ranges::find_if (doc, [] (const DocPart& p) { return p.text.starts_with ("Source:"); });
         addDoc (*made, { doc.begin(), source });
-        addPorts (*made, TRANS ("Inputs"), node->inputs);
-        addPorts (*made, TRANS ("Parameters"), node->params);
+        const auto names = std::make_shared<NameColumn>();
+        addPorts (*made, names, TRANS ("Inputs"), node->inputs);
+        addPorts (*made, names, TRANS ("Parameters"), node->params);
         if (! node->settings.empty())
         {
             made->add (TRANS ("Settings, fixed during a run"), TextBlock::Kind::heading);
             for (const auto& s : node->settings)
-                made->add (std::make_unique<PortLine> (text (nameWithId (s.id)), text (tactus::name (s.kind)), text (s.about)));
+                made->add (std::make_unique<PortLine> (names, text (nameWithId (s.id)), text (tactus::name (s.kind)), text (s.about)));
         }
-        addPorts (*made, TRANS ("Outputs"), node->outputs);
+        addPorts (*made, names, TRANS ("Outputs"), node->outputs);
         addDoc (*made, { source, doc.end() });
     }
     shown_type = type;
@@ -229,20 +253,24 @@ void HelpPanel::showKeys()
 {
     auto made = std::make_unique<Column>();
     made->add (TRANS ("Keyboard shortcuts"), TextBlock::Kind::title);
+    const auto names = std::make_shared<NameColumn>();
+    const auto add = [&] (const juce::String& key, const char* does) {
+        made->add (std::make_unique<PortLine> (names, key, juce::String(), juce::translate (does)));
+    };
     for (const auto& [key, does] : key_list)
-        made->add (std::make_unique<PortLine> (juce::translate (key), juce::translate (does), juce::String()));
+        add (juce::translate (key), does);
     made->add (TRANS ("On the canvas"), TextBlock::Kind::heading);
     for (const auto& c : canvasCommands())
     {
-        juce::StringArray names;
+        juce::StringArray of_command;
         for (const auto& k : juce::StringArray::fromTokens (c.keys, "|", {}))
-            names.add (keyText (k));
-        if (names.isEmpty()) names.add (TRANS ("menu"));
-        made->add (std::make_unique<PortLine> (names.joinIntoString (", "), juce::translate (c.name), juce::String()));
+            of_command.add (keyText (k));
+        if (of_command.isEmpty()) of_command.add (TRANS ("menu"));
+        add (of_command.joinIntoString (", "), c.name);
     }
     made->add (TRANS ("Mouse"), TextBlock::Kind::heading);
     for (const auto& [way, does] : mouse_list)
-        made->add (std::make_unique<PortLine> (juce::translate (way), juce::translate (does), juce::String()));
+        add (juce::translate (way), does);
     made->add (TRANS ("Select a node and press F1 to read what it does."), TextBlock::Kind::small);
     shown_type.clear();
     example.setVisible (false);

@@ -3,6 +3,7 @@
 
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/text/filled.hpp>
+#include <tactus/kit/signal/clip_score.hpp>
 #include <tactus/text/number_text.hpp>
 
 #include <algorithm>
@@ -60,7 +61,14 @@ FileText describeFile (const std::string& written, SettingSheet::Kind kind, cons
                      });
     case SettingSheet::Kind::table:
         return read (assets.table (path),
-                     [] (const auto& g) { return FileText { filled (TRANS ("%1 rows of %2 numbers"), g->rows, g->columns).toStdString() }; });
+                     [] (const auto& g) {
+                         const auto made = clipOf (*g);
+                         if (! made.problem.empty() || g->values.empty())
+                             return FileText { filled (TRANS ("%1 rows of %2 numbers"), g->rows, g->columns).toStdString() };
+                         const auto tracks = made.clip.tracks.size();
+                         const auto text = tracks == 1 ? TRANS ("%1 s long, %2 track") : TRANS ("%1 s long, %2 tracks");
+                         return FileText { filled (text, shortText (ClipScore (made.clip).duration()), tracks).toStdString() };
+                     });
     default:
         return read (assets.mesh (path), [] (const auto& m) { return describe (*m); });
     }

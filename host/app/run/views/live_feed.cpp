@@ -45,6 +45,7 @@ std::vector<std::string> LiveFeed::portsNow() const
 void LiveFeed::refresh()
 {
     LiveState live;
+    live.runs = live_run.isRunning();
     live_run.portFeed().refresh();
     showStates (live);
     showActivity (live);

@@ -213,8 +213,16 @@ void SafetyStrip::mouseUp (const juce::MouseEvent& e)
     if (shown.has_errors && state_place.contains (e.getPosition()) && onProblems) onProblems();
 }
 
+juce::String SafetyStrip::tooltipAt (juce::Point<int> at) const
+{
+    for (const auto& [place, meaning] : meanings)
+        if (place.contains (at)) return meaning;
+    return {};
+}
+
 void SafetyStrip::paint (juce::Graphics& g)
 {
+    meanings.clear();
     const auto& look = lookOf (*this);
     const auto& theme = look.theme();
     g.fillAll (theme.panel);
@@ -229,28 +237,40 @@ void SafetyStrip::paint (juce::Graphics& g)
     area.removeFromLeft (22.0f);
 
     constexpr float gap = 24.0f;
-    const auto add = [&] (const juce::String& text, float least, juce::Colour colour, bool bold = false) {
+    const auto add = [&] (const juce::String& text, float least, juce::Colour colour, const juce::String& meaning, bool bold = false) {
         const auto font = look.font (13.0f, bold);
         g.setFont (font);
         g.setColour (colour);
         const float width = std::max (least, font.getStringWidthFloat (text) + 4.0f);
-        g.drawText (text, area.removeFromLeft (std::min (width, area.getWidth())), juce::Justification::centredLeft, true);
+        const auto place = area.removeFromLeft (std::min (width, area.getWidth()));
+        g.drawText (text, place, juce::Justification::centredLeft, true);
+        if (text.isNotEmpty()) meanings.emplace_back (place.toNearestInt(), meaning);
         area.removeFromLeft (std::min (gap, area.getWidth()));
     };
     state_place = area.withWidth (look.font (13.0f, true).getStringWidthFloat (shown.state) + 4.0f).toNearestInt();
-    add (shown.state, 140.0f, theme.text, true);
+    add (shown.state, 140.0f, theme.text, TRANS ("Whether the graph runs, at how many ticks per second, and what ticks it"), true);
     if (shown.has_errors) g.fillRect (state_place.withTop (state_place.getCentreY() + 8).withHeight (1).withTrimmedRight (4));   // a link
-    add (shown.guard, 80.0f, colourFor (shown.warned ? theme.warning : theme.dim));
+    add (shown.guard, 80.0f, colourFor (shown.warned ? theme.warning : theme.dim),
+         TRANS ("The guard stands between the graph and the motors. It limits force, and stops the motors if speed, impulse or energy exceed the limits of the "
+                "device. Ready: it has not had to stop anything."));
     constexpr float force_width = 200.0f;
     if (shown.force.isNotEmpty() && area.getWidth() > force_width)
     {
         g.setFont (look.font (13.0f));
         g.setColour (theme.text);
-        drawNumber (g, shown.force, area.removeFromLeft (force_width));
+        const auto place = area.removeFromLeft (force_width);
+        drawNumber (g, shown.force, place);
+        meanings.emplace_back (place.toNearestInt(), TRANS ("The force on the tool now, and the largest since the start"));
         area.removeFromLeft (gap);
     }
-    for (const auto& text : { shown.misses, shown.delay, shown.walls })   // left out rather than cut off
-        if (look.font (13.0f).getStringWidthFloat (text) + 4.0f <= area.getWidth()) add (text, 0.0f, theme.dim);
+    const std::pair<juce::String, juce::String> rest[] {
+        { shown.misses, TRANS ("Ticks that were not finished in time since the start. A few are not felt; many mean that the computer is too slow for the rate. "
+                               "C shows what each node costs.") },
+        { shown.delay, TRANS ("How many ticks pass from a movement of the hand to its effect on the motor. Each tick of delay makes a stiff wall less stable.") },
+        { shown.walls, TRANS ("The largest stiffness that a wall can have with this delay and the damping of the device. A stiffer one vibrates or kicks.") },
+    };
+    for (const auto& [text, meaning] : rest)   // left out rather than cut off
+        if (look.font (13.0f).getStringWidthFloat (text) + 4.0f <= area.getWidth()) add (text, 0.0f, theme.dim, meaning);
 }
 
 }   // namespace tactus::host

@@ -10,7 +10,7 @@ namespace tactus::host
 
 /// The strip at the top of the window, which is always visible: the state of the run, whether it is fused, its guards, the current and peak force, missed
 /// ticks, the delay with the stiffness that it allows, the light of the limits, and the STOP button.
-class SafetyStrip final : public juce::Component
+class SafetyStrip final : public juce::Component, public juce::TooltipClient
 {
 public:
     static constexpr int height = 44;
@@ -33,6 +33,8 @@ public:
 
     void paint (juce::Graphics&) override;
     void resized() override;
+    juce::String getTooltip() override { return tooltipAt (getMouseXYRelative()); }
+    juce::String tooltipAt (juce::Point<int>) const;   ///< what the part that is painted there means
     void mouseMove (const juce::MouseEvent&) override;
     void mouseUp (const juce::MouseEvent&) override;
 
@@ -52,7 +54,8 @@ private:
 
     Playback& playback;
     Status shown;
-    juce::Rectangle<int> state_place;   // where the state is painted
+    juce::Rectangle<int> state_place;                                      // where the state is painted
+    std::vector<std::pair<juce::Rectangle<int>, juce::String>> meanings;   // of the parts, where they are painted
     std::unique_ptr<StopButton> button, rearm;
     LimitLight limits;
 };

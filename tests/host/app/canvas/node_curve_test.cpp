@@ -4,6 +4,8 @@
 #include "support/sketch.hpp"
 
 #include <host/app/canvas/node_curve.hpp>
+#include <host/io/clip_io.hpp>
+#include <tactus/kit/signal/clip_score.hpp>
 #include <tactus/node/node_fault.hpp>
 
 #include <catch2/catch.hpp>
@@ -38,6 +40,22 @@ double at (const PlotData& plot, double x)
     return plot.y[i - 1] + (plot.y[i] - plot.y[i - 1]) * (x - plot.x[i - 1]) / (plot.x[i] - plot.x[i - 1]);
 }
 }   // namespace
+
+TEST_CASE ("a clip shows its envelope over its time", "[app][curve]")
+{
+    const auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/heartbeat.json").graph;
+    const auto node = std::ranges::find (g.root.nodes, "signal.clip", &graph::Node::type);
+    REQUIRE (node != g.root.nodes.end());
+    const auto curve = curveOf (g, {}, *node, faceOf (g, g.root, *node, catalogue()));
+    REQUIRE (curve != nullptr);
+    const auto clip = loadClip (std::filesystem::path (g.folder) / "assets/heartbeat.haptic");
+    REQUIRE (clip);
+    CHECK (curve->x.back() == Approx (ClipScore (clip->clip).duration()).epsilon (0.02));
+    CHECK (std::ranges::max (curve->y) > 0.5);
+    CHECK (std::ranges::max (curve->y) <= 1.0);
+    CHECK (std::ranges::min (curve->y) < 0.05);   // the pause
+    CHECK (curveOfOne ("signal.clip") == nullptr);
+}
 
 TEST_CASE ("the curve of a grating is its force over three ridges, whatever its direction", "[app][canvas][curve]")
 {

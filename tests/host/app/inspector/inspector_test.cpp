@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/seen_text.hpp"
 #include "rig.hpp"
 
 #include <host/app/inspector/blocks/limit_block.hpp>
@@ -340,6 +341,42 @@ TEST_CASE ("a law keeps about the same stiffness when its kind changes, and is p
     REQUIRE (k != nullptr);
     k->type ("2000");
     CHECK (rig.node ("blow").settings["stiffness"]["power"][0] == 2000.0);
+}
+
+TEST_CASE ("the description of a device is shown value by value\\, not as JSON\\, and values can be added and removed", "[inspector]")
+{
+    InspectorRig rig ("dry_wood.json");
+    rig.select ("motor");
+    for (const auto* field : rig.all<juce::TextEditor>())
+        CHECK_FALSE (field->getText().containsAnyOf ("{}[]\""));
+    const auto device = [&] { return rig.document->graph().devices[0].second; };
+    CHECK (rig.in<TextField> ("hand offset")->getText() == "0 mm, 0 mm, -1 mm");
+    write (rig.in<TextField> ("hand offset"), "0 mm, 2 mm, -1 mm");
+    CHECK (device()["hand"]["offset"] == Json::array ({ "0 mm", "2 mm", "-1 mm" }));
+    write (rig.in<TextField> ("add value"), "hand start = 0.5");
+    CHECK (device()["hand"]["start"] == 0.5);
+    write (rig.in<TextField> ("hand start"), "");
+    CHECK_FALSE (device()["hand"].contains ("start"));
+    write (rig.in<TextField> ("add value"), "nonsense");
+    CHECK (rig.hints.back().find ("mass = 50 g") != std::string::npos);
+    CHECK (device()["hand"].contains ("stiffness"));
+}
+
+TEST_CASE ("the inspector of a subgraph explains count\\, every\\, times and overrides", "[inspector]")
+{
+    InspectorRig rig ("layered_cloth.json");
+    const auto subgraph = std::ranges::find_if (rig.document->graph().root.nodes, [] (const auto& n) { return n.type.starts_with ("graph:"); });
+    REQUIRE (subgraph != rig.document->graph().root.nodes.end());
+    rig.select (subgraph->name);
+    rig.inspector->setSize (304, 3000);
+    juce::String all;
+    for (const auto& t : host::test::readTexts (*rig.inspector))
+        all << t.text << ' ';
+    for (const auto* word : { "count: how many copies", "every: they run only", "times: they run n times", "An override gives" })
+    {
+        INFO (word);
+        CHECK (all.contains (word));
+    }
 }
 
 TEST_CASE ("roles, devices and the graph's header can be edited", "[inspector]")

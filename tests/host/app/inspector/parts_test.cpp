@@ -22,6 +22,7 @@ TEST_CASE ("a file is described, or its problem reported", "[inspector]")
     const auto image = describeFile ("assets/leather.png", SettingSheet::Kind::image, folder, assets);
     CHECK (image.picture != nullptr);
     CHECK (image.text.find ("pixels") != std::string::npos);
+    CHECK (describeFile ("assets/heartbeat.haptic", SettingSheet::Kind::table, folder, assets).text.find (" s long, 1 track") != std::string::npos);
     CHECK (describeFile ("assets/none.png", SettingSheet::Kind::image, folder, assets).is_problem);
     CHECK (describeFile ("assets/leather.py", SettingSheet::Kind::signal, folder, assets).is_problem);
     CHECK_FALSE (describeFile ("", SettingSheet::Kind::image, folder, assets).is_problem);
