@@ -78,7 +78,7 @@ const std::vector<FitKindInfo>& fitKinds()
           "friction",
           "Friction",
           "How a tool sticks and slides: friction.elasto_plastic",
-          { column ("position", "m", true, along, "position along the stroke"),
+          { column ("position", "m", true, { "x", "displacement", "travel", bareName (integrated_position) }, "position along the stroke"),
             column ("force", "N", true, { "friction", "friction_force", "drag" }, "friction force along the stroke"),
             column ("load", "N", false, { "normal", "normal_force", "push" }, "normal force") } },
         { FitKind::modes,

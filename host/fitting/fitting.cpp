@@ -232,6 +232,9 @@ Result<FittedGraph> fitRecording (FitKind kind, const Table& table, const std::s
     auto made = fitted (kind, *columns, file, settings, course);
     if (! made) return Message::error (made.error().id, file, made.error().text, made.error().remedy);
     made->preset.name = std::filesystem::path (file).stem().string();
+    const auto along = findColumn (table, infoOf (kind).columns.front(), settings.columns);
+    if (along && table.columns[*along] == integrated_position)
+        made->report.notes.emplace_back ("the position was not recorded: it is the integral of the velocity over the time");
     return made;
 }
 

@@ -70,6 +70,32 @@ Message inFile (Message message, const std::string& name, const RecordedText& pl
     if (line >= 1 && line <= plain.lines.size()) message.where = name + ":" + std::to_string (plain.lines[line - 1]);
     return message;
 }
+
+/// Adds integrated_position where the names of the columns leave no doubt. A speed has no direction, so it does not do.
+void integrate (Table& table)
+{
+    const auto find = [&] (const char* unit, std::vector<std::string> names) { return findColumn (table, { names.front(), unit, true, names, {} }); };
+    const auto valuesIn = [&] (std::size_t i, const char* unit) {
+        return columnOf (table, {}, { table.columns[i], unit, true, { bareName (table.columns[i]) }, {} });
+    };
+    const auto t = find ("s", { "t", "time" }), v = find ("m/s", { "velocity", "v" });
+    const bool is_stroke = find ("N", { "friction", "friction_force", "drag" }) || (find ("N", { "force" }) && find ("N", { "load", "normal", "normal_force" }));
+    if (! t || ! v || ! is_stroke || find ("m", { "position", "x", "displacement", "travel", "depth" })) return;
+    const auto time = valuesIn (*t, "s"), velocity = valuesIn (*v, "m/s");
+    if (! time || ! velocity) return;
+    const auto rows = table.rows(), width = table.columns.size();
+    std::vector<double> values;
+    values.reserve (rows * (width + 1));
+    double x = 0.0;
+    for (std::size_t r = 0; r < rows; ++r)
+    {
+        if (r > 0) x += 0.5 * ((*velocity)[r] + (*velocity)[r - 1]) * ((*time)[r] - (*time)[r - 1]);
+        values.insert (values.end(), table.values.begin() + static_cast<std::ptrdiff_t> (r * width), table.values.begin() + static_cast<std::ptrdiff_t> ((r + 1) * width));
+        values.push_back (x);
+    }
+    table.columns.emplace_back (integrated_position);
+    table.values = std::move (values);
+}
 }   // namespace
 
 Result<Table> readRecording (const std::filesystem::path& path)
@@ -78,9 +104,9 @@ Result<Table> readRecording (const std::filesystem::path& path)
     const auto text = readFile (path);
     if (! text) return readTable (path);   // for its message
     const auto plain = tableIn (*text);
-    if (! plain) return readTable (*text, name);
-    auto table = readTable (plain->text, name);
-    if (! table) return inFile (table.error(), name, *plain);
+    auto table = readTable (plain ? plain->text : *text, name);
+    if (! table) return plain ? inFile (table.error(), name, *plain) : table.error();
+    integrate (*table);
     return table;
 }
 

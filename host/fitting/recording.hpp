@@ -30,8 +30,12 @@ struct ColumnChoice
     std::map<std::string, double> units {};        ///< what 1 means, in SI
 };
 
+/// The column that readRecording adds.
+inline constexpr const char* integrated_position = "position by integration";
+
 /// Reads numbers under a header row, separated by commas, semicolons, tabs or spaces. The header may start with #, lines about the measurement may
-/// stand above it, and rows may end with empty fields: see tableIn.
+/// stand above it, and rows may end with empty fields: see tableIn. If strokes were recorded as time, velocity and friction without a position, the
+/// table also gets `integrated_position`, in m, from the start.
 /// Errors: those of readTable. [any thread]
 Result<Table> readRecording (const std::filesystem::path&);
 

@@ -217,10 +217,7 @@ void FitPanel::showResult()
 
 void FitPanel::acceptAsGraph()
 {
-    if (! result) return;
-    const auto made = *result;
-    close();
-    if (onOpenGraph) onOpenGraph (made);
+    if (result && onOpenGraph) onOpenGraph (*result);
 }
 
 void FitPanel::acceptIntoGraph()

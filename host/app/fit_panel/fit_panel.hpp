@@ -39,7 +39,8 @@ public:
     void acceptAsGraph();
     void acceptIntoGraph();
 
-    std::function<void (const FittedGraph&)> onOpenGraph, onInsert;
+    std::function<void (const FittedGraph&)> onOpenGraph;   ///< opens a fit, and closes the panel once the graph is open: the user may yet cancel
+    std::function<void (const FittedGraph&)> onInsert;      ///< called when the panel has closed
 
     void paint (juce::Graphics&) override;
     void resized() override;

@@ -106,9 +106,12 @@ void Files::create()
     });
 }
 
-void Files::openGraph (graph::Graph g, const std::string& step)
+void Files::openGraph (graph::Graph g, const std::string& step, std::function<void()> then)
 {
-    whenSaved (TRANS ("Save changes to '%1' before opening another graph?"), [this, g = std::move (g), step] { show (g, {}, step, true, false); });
+    whenSaved (TRANS ("Save changes to '%1' before opening another graph?"), [this, g = std::move (g), step, then = std::move (then)] {
+        show (g, {}, step, true, false);
+        if (then) then();
+    });
 }
 
 void Files::load (const fs::path& file, Document::Source source, bool by_pointer)
@@ -193,9 +196,6 @@ void Files::saveAs (std::function<void()> then)
     });
 }
 
-void Files::saveElsewhere (const juce::String& why, const std::function<void()>& then)
-{
-    question.ask (TRANS ("The graph was not saved"), why, { { TRANS ("Save as ..."), [this, then] { saveAs (then); } }, { TRANS ("Cancel"), {} } });
 /// Gives the graph the name that its new file has. Returns false if it has this name already.
 bool Files::rename (const fs::path& file)
 {
@@ -204,6 +204,9 @@ bool Files::rename (const fs::path& file)
     return document.perform (graph::Batch { filled (TRANS ("call the graph %1"), nameFor (stem)).toStdString(), { graph::SetHeader { .name = nameFor (stem) } } });
 }
 
+void Files::saveElsewhere (const juce::String& why, const std::function<void()>& then)
+{
+    question.ask (TRANS ("The graph was not saved"), why, { { TRANS ("Save as ..."), [this, then] { saveAs (then); } }, { TRANS ("Cancel"), {} } });
 }
 
 void Files::saveTo (const fs::path& file, const std::function<void()>& then)
@@ -213,12 +216,12 @@ void Files::saveTo (const fs::path& file, const std::function<void()>& then)
     if (is_shipped && file != document.file() && fs::exists (file, failed))
         return saveElsewhere (filled (TRANS ("%1 ships with Tactus. Choose another name or folder."), file.filename().string()), then);
     const auto not_carried = carryFiles (document.graph(), file.parent_path());
+    const bool is_renamed = rename (file);
     const auto messages = document.save (file);
+    if (! messages.empty() && is_renamed) document.undo();
     if (! messages.empty()) return saveElsewhere (errorList (messages, file).trimEnd(), then);
     autosave();
-    const bool is_renamed = rename (file);
     settings.noteRecent (file);
-    if (! messages.empty() && is_renamed) document.undo();
     callbacks.onSettings();
     if (not_carried.empty())
         callbacks.notify (filled (TRANS ("Saved %1"), file.string()));

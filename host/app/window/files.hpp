@@ -40,7 +40,8 @@ public:
     void open();                                ///< asks the user for the file
     void open (const std::filesystem::path&);   ///< opens a graph, or makes a graph that plays a clip
     void openCopy (const std::filesystem::path& preset, bool by_pointer);
-    void openGraph (graph::Graph, const std::string& step);   ///< opens a graph that has no file
+    /// Opens a graph that has no file; `then` is called once it is open.
+    void openGraph (graph::Graph, const std::string& step, std::function<void()> then = {});
     void save (std::function<void()> then = {});
     void saveAs (std::function<void()> then = {});
 
@@ -69,8 +70,8 @@ private:
     void refuse (const std::filesystem::path&, const Messages&);   ///< a dialog that says why the file cannot be opened
     void saveElsewhere (const juce::String& why, const std::function<void()>& then);
     void saveTo (const std::filesystem::path&, const std::function<void()>& then);
-    void askAboutNext();
     bool rename (const std::filesystem::path&);
+    void askAboutNext();
     void restoreNext (bool runs);
     std::string name() const;
 

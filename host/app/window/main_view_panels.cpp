@@ -63,7 +63,10 @@ void MainView::feel (const std::filesystem::path& preset)
 
 void MainView::fitRecordingIn (const std::filesystem::path& file) { fitting.open (file); }
 
-void MainView::openFitted (const FittedGraph& made) { files.openGraph (made.preset, filled (TRANS ("fit %1"), made.preset.name).toStdString()); }
+void MainView::openFitted (const FittedGraph& made)
+{
+    files.openGraph (made.preset, filled (TRANS ("fit %1"), made.preset.name).toStdString(), [this] { fitting.close(); });
+}
 
 void MainView::insertFitted (const FittedGraph& made)
 {

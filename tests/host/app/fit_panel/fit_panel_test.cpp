@@ -93,6 +93,39 @@ TEST_CASE ("fit panel: a recording opens with the kind that its columns suggest,
     CHECK (drag->params.at ("mu").get<double>() == Approx (0.4).epsilon (0.02));
 }
 
+TEST_CASE ("fit panel: time\\, velocity\\, normal force and friction are strokes\\, whose position is integrated\\, and that is said", "[app][fit]")
+{
+    FitRig rig;
+    Random random { 5 };
+    std::ostringstream text;
+    text << "Time,Velocity [mm/s],Normal,Friction\n";
+    double x = 0.0, d = 0.0, before = 0.0;
+    for (int i = 0; i < 1200; ++i)
+    {
+        const double v = i % 400 < 200 ? 5.0 : -5.0;
+        if (i > 0) x += 0.5 * (v + before) * 1e-6;
+        if (i > 0) d = std::clamp (d + 0.5 * (v + before) * 1e-6, -1e-4, 1e-4);
+        before = v;
+        text << 1e-3 * i << "," << v << ",2," << -0.8 * d / 1e-4 + 0.02 * random.normal() << "\n";
+    }
+    rig.view.fitRecordingIn (rig.write ("strokes.csv", text.str()));
+    CHECK (rig.panel().kind() == FitKind::friction);
+    CHECK (rig.panel().columns().choice().names.at ("position") == integrated_position);
+    rig.finish();
+    REQUIRE (rig.panel().fitted());
+    const auto& report = rig.panel().fitted()->report;
+    CHECK (report.at ("mu").value == Approx (0.4).epsilon (0.02));
+    CHECK (report.at ("d_max").value == Approx (1e-4).epsilon (0.05));   // in m: the unit of the velocity counts
+    CHECK (std::ranges::any_of (report.notes, [] (const std::string& n) { return n.find ("integral of the velocity") != std::string::npos; }));
+    // A speed has no direction, and a recorded position is better.
+    for (const auto* columns : { "t,speed,normal,friction", "t,velocity,normal,friction,x" })
+    {
+        const auto read = readRecording (rig.write ("other.csv", std::string (columns) + (std::string (columns).ends_with ("x") ? "\n0,1,1,1,1\n1,1,1,1,1\n" : "\n0,1,1,1\n1,1,1,1\n")));
+        REQUIRE (read);
+        CHECK_FALSE (read->column (integrated_position));
+    }
+}
+
 TEST_CASE ("fit panel: the fitted node can be added to the open graph as one undo step", "[app][fit]")
 {
     FitRig rig;
