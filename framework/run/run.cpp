@@ -218,7 +218,7 @@ Result<> Run::startLog (const std::filesystem::path& path, std::string program, 
 
 void Run::logNext (const std::shared_ptr<Plan>& plan, const graph::Graph& graph, const std::vector<std::pair<std::string, RoleDevice>>& joining)
 {
-    if (! log) return;
+    if (! log || log_ended) return;
     std::map<std::string, GuardLimits> guards;
     std::map<std::string, DeviceLayout> layouts;
     for (const auto& [role, d] : joining)
@@ -264,7 +264,7 @@ std::optional<Message> Run::poll()
         runner->poll();
     else
         running->clear();
-    if (! log || log_failure) return std::nullopt;
+    if (! log || log_failure || log_ended) return std::nullopt;
     if (auto drained = log->drain(); ! drained) return log_failure = drained.error();
     if (std::exchange (log_broke, log->brokenAt().has_value()) || ! log_broke) return std::nullopt;
     return Message::warning ("log/broken", {}, "writing the log could not keep up with the run, so the log ends at tick " + std::to_string (*log->brokenAt()),
@@ -281,8 +281,13 @@ void Run::end()
 Result<> Run::finish()
 {
     end();
-    if (! log || log_failure) return log_failure ? Result<> { *log_failure } : Result<> {};
-    if (auto drained = log->drain(); ! drained) return drained;
+    return endLog();
+}
+
+Result<> Run::endLog()
+{
+    if (log_failure) return *log_failure;
+    if (! log || std::exchange (log_ended, true)) return {};
     return log->finish();
 }
 

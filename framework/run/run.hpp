@@ -155,6 +155,9 @@ public:
     /// Stops the tick thread, if there is one, and waits until the forces are zero and the thread has ended.
     void end();
 
+    /// Completes the log, which then ends with the latest tick; the run goes on. Returns why the log is incomplete, if it is.
+    Result<> endLog();
+
     /// Like end(), but also ends the log. Returns why the log is incomplete, if it is.
     Result<> finish();
 
@@ -268,7 +271,7 @@ private:
     std::vector<std::string> captured_ports;
     std::vector<std::size_t> captured_taps;
     std::optional<Message> log_failure;
-    bool log_broke = false;
+    bool log_broke = false, log_ended = false;
     double graph_rate_hz = 0.0;       // the rate in the first graph; 0 if the options set the rate
     std::uint64_t now = 0;            // tick number, offline only
     std::unique_ptr<Runner> runner;   // declared last, so that it is destroyed first: it ticks the engine

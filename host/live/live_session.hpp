@@ -73,6 +73,7 @@ public:
 
     /// Logs all inputs (Run::startLog), from the first tick to the last.
     Result<> log (const std::filesystem::path&, std::string program, std::vector<std::string> sets);
+    Result<> endLog() { return running ? running->endLog() : Result<> {}; }   ///< completes the log; the run goes on
 
     struct Start
     {

@@ -159,6 +159,13 @@ void LiveRun::beginLog()
         is_logged = true;
 }
 
+void LiveRun::stopLogging()
+{
+    log_next.clear();
+    if (! std::exchange (is_logged, false)) return;
+    if (auto ended = session->endLog(); ! ended) said.push_back (std::move (ended).error());
+}
+
 /// Completes the log of a run that is over, or ends the run.
 void LiveRun::endLog()
 {

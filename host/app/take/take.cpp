@@ -43,7 +43,7 @@ void Take::record()
 
 void Take::stop()
 {
-    if (now == State::recording) playback.run().stop();
+    if (now == State::recording) playback.run().stopLogging();
 }
 
 double Take::seconds() const noexcept

@@ -13,7 +13,7 @@
 namespace tactus::host
 {
 
-/// Records everything that enters a run of the window, from its first tick to its end, and reads stretches from the recording. To read, it
+/// Records everything that enters a run of the window, from its first tick until stop(), and reads stretches from the recording. To read, it
 /// replays the recording without devices, a part on each call of poll(), so the window stays responsive. [main thread]
 class Take
 {
@@ -35,7 +35,7 @@ public:
     std::string program = "tactus";
 
     void record();   ///< starts the run again, and records it
-    void stop();     ///< stops the run
+    void stop();     ///< ends the recording; the run goes on
 
     State state() const noexcept { return now; }
     double seconds() const noexcept;   ///< the length so far, or of the complete recording

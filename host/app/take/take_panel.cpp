@@ -4,6 +4,7 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/scopes/scope_ports.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/assets/nearest_by_embree.hpp>
 #include <host/io/stretch_files.hpp>
 #include <tactus/run/log/run_test.hpp>
 #include <tactus/text/quote.hpp>
@@ -26,7 +27,7 @@ double secondsIn (const juce::String& text, double before)
 }
 }   // namespace
 
-TakePanel::TakePanel (Document& d, Playback& p, const Catalogue& c) : document (d), catalogue (c), recording (p)
+TakePanel::TakePanel (Document& d, Playback& p, const Catalogue& c) : document (d), catalogue (c), playback (p), recording (p)
 {
     setTitle (TRANS ("Take"));
     record.setColour ([] (const Theme& t) { return t.stop; });
@@ -92,6 +93,29 @@ void TakePanel::toggleRecording()
     refresh();
 }
 
+/// The latest part of what is being recorded, as far as it is kept.
+void TakePanel::showLatest()
+{
+    latest.want (recording.state() == Take::State::recording ? std::vector { shown_port } : std::vector<std::string> {});
+    if (recording.state() != Take::State::recording) return;
+    const auto traces = latest.of (shown_port);
+    if (traces.empty() || traces.front()->begin() == traces.front()->end()) return;
+    const auto& first = *traces.front();
+    Stretch now { .rate_hz = first.rate(), .from = first.begin(), .until = first.end(), .quantity = first.quantity(), .unit = first.unit() };
+    for (const auto& t : traces)
+    {
+        now.names.push_back (t->name());
+        now.from = std::max (now.from, t->begin());
+        now.until = std::min (now.until, t->end());
+    }
+    if (now.until <= now.from) return;
+    now.values.reserve (now.ticks() * traces.size());
+    for (auto tick = now.from; tick < now.until; ++tick)
+        for (const auto& t : traces)
+            now.values.push_back (t->at (tick));
+    curve.show (std::move (now));
+}
+
 void TakePanel::showPort (const std::string& port)
 {
     if (port == shown_port || port.empty()) return;
@@ -113,7 +137,7 @@ StretchReader::Options TakePanel::marked() const { return { .from_s = curve.from
 
 void TakePanel::refuse (const Message& m)
 {
-    if (onSaid) onSaid (TRANS ("This did not work"), juce::String (messageText (m)) + ".");
+    if (onSaid) onSaid (TRANS ("This did not work"), juce::String (messageText (m)) + ".", {});
 }
 
 void TakePanel::makeClip()
@@ -139,7 +163,8 @@ void TakePanel::makeGesture()
             if (const auto saved = saveMovement (*stretch, to); ! saved) return refuse (saved.error());
             if (onSaid)
                 onSaid (filled (TRANS ("Saved %1"), printableName (to.filename().string())),
-                        TRANS ("To let a simulated hand follow it, drop the file on the panel of the hand at the lower left."));
+                        TRANS ("To let a simulated hand follow it, drop the file on the panel of the hand at the lower left."),
+                        [this, to] { playback.moveBy ({ LiveRun::Hand::Kind::path, to.string() }); });
         });
     });
 }
@@ -157,9 +182,22 @@ void TakePanel::makeTest()
                 text << " "
                      << filled (TRANS ("The test begins at the start of the run, because the state of the nodes is known there; it compares from %1 s on."),
                                 juce::String (curve.from(), 3));
-            if (onSaid) onSaid (filled (TRANS ("Saved %1"), name), text);
+            if (onSaid) onSaid (filled (TRANS ("Saved %1"), name), text, [this, to] { runTest (to); });
         });
     });
+}
+
+void TakePanel::runTest (const std::filesystem::path& file)
+{
+    FileAssets assets;
+    const auto played = playRunTest (file.string(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree }, .program = recording.program });
+    if (! played) return refuse (played.error());
+    const auto name = juce::String (printableName (file.filename().string()));
+    if (onSaid)
+        onSaid (filled (played->isSame() ? TRANS ("%1 passes") : TRANS ("%1 fails"), name),
+                played->isSame() ? filled (TRANS ("All bits of %1 ticks are the same."), played->ticks)
+                                 : filled (TRANS ("Some bits differ. `tactus test %1` says which."), name),
+                {});
 }
 
 void TakePanel::applyFields()
@@ -202,6 +240,7 @@ void TakePanel::refresh()
     gesture.setEnabled (is_ready && ! recording.role().empty());
     for (auto* f : { &from, &until })
         f->setEnabled (curve.length() > 0.0);
+    showLatest();
     const bool has_curve = curve.length() > 0.0;
     const auto waiting = records ? TRANS ("Recording. Move, and press Stop when you are done.") : juce::translate (how_to);
     if (! has_curve) curve.setText (now == Take::State::reading ? TRANS ("Playing the recording again ...") : waiting);

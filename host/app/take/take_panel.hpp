@@ -36,7 +36,9 @@ public:
     /// Asks for a file to write; `name` is the suggested name.
     std::function<void (const std::string& name, std::function<void (const std::filesystem::path&)>)> onChoose;
     std::function<void (const Clip&, Messages, const std::filesystem::path&)> onClip;   ///< writes a clip, and reports what was lost
-    std::function<void (const juce::String& title, const juce::String& text)> onSaid;   ///< shows a result or a problem
+
+    /// Shows a result or a problem. `use`, unless it is null, uses at once what was saved.
+    std::function<void (const juce::String& title, const juce::String& text, std::function<void()> use)> onSaid;
     std::function<void (const juce::String&)> onHint;
 
     void paint (juce::Graphics&) override;
@@ -45,6 +47,8 @@ public:
 private:
     void documentChanged() override;
     void readPort();
+    void showLatest();
+    void runTest (const std::filesystem::path&);
     void listPorts();
     void showMark();
     void applyFields();
@@ -54,6 +58,8 @@ private:
 
     Document& document;
     const Catalogue& catalogue;
+    Playback& playback;
+    Traces::Client latest { playback.run().traces() };   // what the curve shows while it is recorded
     Take recording;
     TakePlot curve;
     ToolButton record { TRANS ("Record"), ToolButton::Kind::toggle, TRANS ("Start the run again and record it, from its first tick on") };

@@ -132,7 +132,7 @@ private:
     void rememberScene();
     void rememberFilmLength();
     void edgeMoved();
-    void tell (const juce::String& title, const juce::String& text);
+    void tell (const juce::String& title, const juce::String& text, std::function<void()> use = {});
     void openOscPort (const OscListen&);
     void attendLiveNodes();
     void showProblems();

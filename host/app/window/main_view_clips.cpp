@@ -84,10 +84,18 @@ void MainView::writeClip (const Clip& clip, Messages notes, const fs::path& to)
     const auto name = juce::String (printableName (file.filename().string()));
     const auto saved = saveClip (clip, file);
     if (! saved) return tell (TRANS ("The clip was not saved"), messageText (saved.error()) + ".");
-    tell (filled (TRANS ("Saved %1"), name), lossText (*saved, notes));
+    tell (filled (TRANS ("Saved %1"), name), lossText (*saved, notes), [this, file] {
+        bottom.show (layers);
+        layers.addClip (file);
+    });
 }
 
-/// A message that the user closes.
-void MainView::tell (const juce::String& title, const juce::String& text) { question.ask (title, text, { { TRANS ("Close"), {} } }); }
+/// A message that the user closes. With `use`, what was saved can be used at once.
+void MainView::tell (const juce::String& title, const juce::String& text, std::function<void()> use)
+{
+    std::vector<Question::Choice> choices { { TRANS ("Close"), {} } };
+    if (use) choices.insert (choices.begin(), { TRANS ("Use now"), std::move (use) });
+    question.ask (title, text, std::move (choices));
+}
 
 }   // namespace tactus::host

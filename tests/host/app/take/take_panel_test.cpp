@@ -44,7 +44,7 @@ struct TakeRig
             then (chosen);
         };
         panel->onClip = [this] (const Clip& c, const Messages&, const fs::path&) { clip = c; };
-        panel->onSaid = [this] (const juce::String& title, const juce::String& text) { said = title + ": " + text; };
+        panel->onSaid = [this] (const juce::String& title, const juce::String& text, const std::function<void()>&) { said = title + ": " + text; };
     }
 
     ~TakeRig()
@@ -69,11 +69,12 @@ struct TakeRig
 
     bool isReady() { return panel->take().state() == Take::State::ready && panel->plot().length() > 0.0; }
 
-    /// Records at least these seconds of the run, not counting the time until it stops.
+    /// Records at least these seconds of the run.
     void record (double s)
     {
         panel->toggleRecording();
         REQUIRE (panel->take().state() == Take::State::recording);
+        REQUIRE (until ([&] { return fs::exists (panel->take().log()); }));   // the run has begun again
         REQUIRE (until ([&] { return playback->run().status() && static_cast<double> (playback->run().status()->ticks) > 4000.0 * s; }));
         panel->toggleRecording();
         REQUIRE (until ([&] { return isReady(); }));

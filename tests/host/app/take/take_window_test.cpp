@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The Take tab in the whole window, with a mouse.
+#include "host/app/support/window_rig.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <filesystem>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+template <typename F>
+bool waitFor (F&& isSo)
+{
+    for (int i = 0; i < 3000 && ! isSo(); ++i)
+        WindowRig::settle (10);
+    return isSo();
+}
+}   // namespace
+
+TEST_CASE ("a take shows its curve while it records\\, and Stop ends the take and not the graph; what is saved can be used now", "[app][take]")
+{
+    WindowRig w ("dry_wood.json", 1280, 720, false);
+    setenv ("TACTUS_GRAPHS", w.home.path().c_str(), 1);
+    auto& run = w.view->run();
+    auto& panel = w.view->takePanel();
+    w.view->chooseFile = [&] (bool, const std::filesystem::path& begin, const std::function<void (const std::filesystem::path&)>& chosen) {
+        chosen (w.home / begin.filename().string());
+    };
+    const auto ticks = [&] { return run.status() ? run.status()->ticks : 0; };
+    w.click ("Take");
+    w.click ("Record");
+    REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::recording && panel.plot().length() > 0.05; }));
+    w.click ("Stop");
+    REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::ready; }));
+    CHECK (run.isRunning());
+    const auto before = ticks();
+    CHECK (waitFor ([&] { return ticks() > before + 400; }));
+    CHECK (panel.plot().length() > 0.05);
+
+    w.click ("Make a gesture...");
+    REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
+    w.click ("Use now");
+    CHECK (run.hand().kind == LiveRun::Hand::Kind::path);
+    CHECK (run.hand().path == (w.home / "gesture.csv").string());
+
+    w.click ("Make a test...");
+    REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
+    w.click ("Use now");
+    REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
+    CHECK (w.view->asked().getTitle().contains ("passes"));
+    w.click ("Close");
+
+    w.click ("Make a clip...");
+    REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
+    w.click ("Use now");
+    const auto clip = std::ranges::find (w.graph().root.nodes, "signal.clip", &graph::Node::type);
+    REQUIRE (clip != w.graph().root.nodes.end());
+    CHECK (clip->settings.at ("clip").asString().ends_with ("take.wav"));
+    run.letGo();
+    unsetenv ("TACTUS_GRAPHS");
+}
