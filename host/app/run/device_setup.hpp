@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/app/model/device_profiles.hpp>
+#include "device_profiles.hpp"
+
 #include <host/hid_link/open_device.hpp>
 #include <host/sessions/session_file.hpp>
 #include <tactus/text/result.hpp>

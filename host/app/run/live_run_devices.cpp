@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The tool of a live run: which hand moves it.
+#include "device_profiles.hpp"
 #include "device_setup.hpp"
 #include "live_run.hpp"
 
-#include <host/app/model/device_profiles.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/sessions/binding.hpp>
 #include <host/sessions/role_fits.hpp>
