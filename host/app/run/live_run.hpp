@@ -185,7 +185,7 @@ public:
 
     /// The next run to start is logged to this file, from its first tick to its end; `program` is this program and its version.
     void logNextTo (std::filesystem::path file, std::string program);
-    void stopLogging();   ///< completes the log now; the run goes on
+    void stopLogging();                                                           ///< completes the log now; the run goes on
     bool isLogging() const noexcept { return is_logged || ! log_next.empty(); }   ///< the log is wanted, or being written
 
     /// From now on, replaces the plan that runs by compiled code (docs/fusion.md); empty: runs by the plan. The forces do not change.

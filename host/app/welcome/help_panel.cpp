@@ -118,7 +118,7 @@ private:
     juce::TextLayout nameIn (int w) const
     {
         const auto& look = lookOf (*this);
-        return wrapText (name, look.font (13.0f, true), look.theme().text, static_cast<float> (names->in (w) - 12));
+        return wrapText (name, look.font (13.0f, true), look.theme().text, static_cast<float> (names->in (w)-12));
     }
 
     juce::TextLayout textIn (int w) const
