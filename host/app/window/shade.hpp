@@ -18,6 +18,7 @@ public:
         if (is_needed == isVisible()) return;
         setVisible (is_needed);
         toFront (false);
+        if (auto* dialog = getCurrentlyModalComponent(); is_needed && dialog->getParentComponent() == getParentComponent()) toBehind (dialog);
     }
 
     void paint (juce::Graphics& g) override { dimWindow (g, themeOf (*this)); }
