@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rows.hpp"
 
+#include <host/app/inspector/blocks/fields.hpp>
 #include <host/app/inspector/blocks/table_row.hpp>
 #include <host/app/inspector/settings/setting_editor.hpp>
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/look/tool_button.hpp>
 #include <host/app/model/controlled_param.hpp>
 #include <host/app/text/filled.hpp>
@@ -36,10 +38,9 @@ class Header final : public Block
 public:
     Header (Document& d, std::string i) : document (d), id (std::move (i))
     {
-        name.setEditable (false, true, false);
-        name.setBorderSize ({ 0, 0, 0, 0 });
-        name.setTooltip (TRANS ("Double-click to rename"));
-        name.onTextChange = [this] { change (document, id, [text = name.getText().toStdString()] (auto& c) { c.name = text; }); };
+        name.setTitle (TRANS ("Name of the control"));
+        name.setTooltip (TRANS ("The name of the control"));
+        name.onApply = [this] (const juce::String& text) { change (document, id, [to = text.trim().toStdString()] (auto& c) { c.name = to; }); };
         fader.setSliderStyle (juce::Slider::LinearBar);
         fader.setRange (0.0, 1.0);
         fader.setWantsKeyboardFocus (true);
@@ -65,8 +66,7 @@ public:
         const auto* c = find (document, id);
         if (c == nullptr) return;
         fader.setTitle (c->name.empty() ? c->id : c->name);
-        name.setTitle (TRANS ("Name of the control"));
-        if (! name.isBeingEdited()) name.setText (c->name.empty() ? c->id : c->name, juce::dontSendNotification);
+        name.show (fromUtf8 (c->name.empty() ? c->id : c->name));
         fader.setValue (c->value, juce::dontSendNotification);
     }
 
@@ -81,7 +81,7 @@ public:
 private:
     Document& document;
     std::string id;
-    juce::Label name;
+    TextField name;
     juce::Slider fader;
     ToolButton cross { juce::String::fromUTF8 ("\xc3\x97"), ToolButton::Kind::plain,
                        TRANS ("Delete this control. Its parameters go back to their stored values.") };

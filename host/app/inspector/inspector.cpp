@@ -114,6 +114,7 @@ void Inspector::rebuild()
         const auto of = std::make_pair (patch, selection);
         const auto place = column && of == shown_of ? scroll.getViewPosition() : juce::Point<int>();
         shown_of = of;
+        if (column) letGoOfFocus (*column);
         retired = std::move (column);
         column = std::move (made);
         scroll.setViewedComponent (column.get(), false);

@@ -12,4 +12,10 @@ inline void takeFocus (juce::Component& c)
     if (c.isShowing()) c.grabKeyboardFocus();
 }
 
+/// Call it before a component is hidden or deleted: JUCE would give its focus to a neighbour. The window gives it to the canvas.
+inline void letGoOfFocus (const juce::Component& c)
+{
+    if (c.hasKeyboardFocus (true)) juce::Component::unfocusAllComponents();
+}
+
 }   // namespace tactus::host

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "welcome_page.hpp"
 
+#include <host/app/look/focus.hpp>
 #include <host/app/presets/fitted_text.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -13,6 +14,7 @@ namespace tactus::host
 
 namespace
 {
+constexpr int columns = 3;   // of cards
 constexpr std::size_t most_cards = 6, most_files = 4;
 constexpr int margin = 32, gap = 12, line_height = 15, low = 420, lowest = 224;   // of the page, in pixels
 
@@ -51,6 +53,14 @@ public:
     }
 
     const Preset preset;
+    std::function<void()> onKey;   ///< called by Return and the space bar
+
+    bool keyPressed (const juce::KeyPress& key) override
+    {
+        if (key != juce::KeyPress::returnKey && key != juce::KeyPress::spaceKey) return false;
+        if (onKey) onKey();
+        return true;
+    }
 
     void paintButton (juce::Graphics& g, bool over, bool) override
     {
@@ -122,7 +132,10 @@ void WelcomePage::show (const std::vector<Preset>& presets, const std::vector<st
     {
         auto& card = *all.emplace_back (std::make_unique<Card> (p, pictures));
         card.onClick = [this, file = p.file] {
-            if (onFeel) onFeel (file);
+            if (onFeel) onFeel (file, true);
+        };
+        card.onKey = [this, file = p.file] {
+            if (onFeel) onFeel (file, false);
         };
         addAndMakeVisible (card);
     }
@@ -169,10 +182,30 @@ void WelcomePage::resized()
         f->setBounds (low_row.removeFromLeft (w));
     }
     if (! is_lowest) area.removeFromBottom (is_low ? gap : 24);
-    const int columns = 3, rows = std::max (1, (static_cast<int> (all.size()) + columns - 1) / columns);
+    const int rows = std::max (1, (static_cast<int> (all.size()) + columns - 1) / columns);
     const int w = (area.getWidth() - (columns - 1) * gap) / columns, h = (area.getHeight() - (rows - 1) * gap) / rows;
     for (std::size_t i = 0; i < all.size(); ++i)
         all[i]->setBounds (area.getX() + static_cast<int> (i % columns) * (w + gap), area.getY() + static_cast<int> (i / columns) * (h + gap), w, h);
+}
+
+/// Arrows go from card to card.
+bool WelcomePage::keyPressed (const juce::KeyPress& key)
+{
+    const auto now = std::ranges::find_if (all, [] (const auto& card) { return card->hasKeyboardFocus (false); });
+    if (now == all.end()) return false;
+    auto to = now - all.begin();
+    if (key == juce::KeyPress::leftKey)
+        --to;
+    else if (key == juce::KeyPress::rightKey)
+        ++to;
+    else if (key == juce::KeyPress::upKey)
+        to -= columns;
+    else if (key == juce::KeyPress::downKey)
+        to += columns;
+    else
+        return false;
+    if (to >= 0 && to < std::ssize (all)) takeFocus (*all[static_cast<std::size_t> (to)]);
+    return true;
 }
 
 void WelcomePage::paint (juce::Graphics& g)

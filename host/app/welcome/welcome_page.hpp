@@ -22,13 +22,16 @@ public:
     void show (const std::vector<Preset>& presets, const std::vector<std::filesystem::path>& recent);
     void refresh();   ///< call many times a second
 
-    std::function<void (const std::filesystem::path&)> onFeel, onOpenFile;
+    /// A preset is chosen: by the mouse, which is then the hand, or by a key.
+    std::function<void (const std::filesystem::path&, bool by_pointer)> onFeel;
+    std::function<void (const std::filesystem::path&)> onOpenFile;
     std::function<void()> onNew, onOpen;
 
     const std::vector<Preset>& cards() const noexcept { return chosen; }
 
     void paint (juce::Graphics&) override;
     void resized() override;
+    bool keyPressed (const juce::KeyPress&) override;
 
 private:
     class Card;

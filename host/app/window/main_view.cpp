@@ -3,7 +3,6 @@
 #include "appearance.hpp"
 
 #include <host/app/look/fitted_text.hpp>
-#include <host/app/look/focus.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/storage/language.hpp>
 #include <host/app/text/filled.hpp>
@@ -170,11 +169,7 @@ void MainView::closeSuddenly()
 void MainView::timerCallback()
 {
     playback.poll();
-    // A dialog for files that has just closed gives the focus back to what had it before.
-    juce::Component* over = nullptr;
-    if (fitting.isOpen()) over = &fitting;
-    if (question.isOpen()) over = &question;
-    if (over != nullptr && ! over->hasKeyboardFocus (true) && juce::Component::getNumCurrentlyModalComponents() == 0) takeFocus (*over);
+    keepKeyboard();
     shade.follow();
     if (osc_server) osc_server->poll();
     strip.refresh();

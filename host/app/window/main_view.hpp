@@ -126,7 +126,7 @@ private:
     void choose (const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string&)> chosen);
     void probe (const std::vector<std::string>& ports);
     void showAdded (const std::string& patch, graph::Id node);
-    void feel (const std::filesystem::path& preset);
+    void feel (const std::filesystem::path& preset, bool by_pointer);
     void openFitted (const FittedGraph&);
     void insertFitted (const FittedGraph&);
     void rememberScene();
@@ -140,6 +140,10 @@ private:
     bool isAnythingOpen() const;
     bool escStops();
     void escape (const juce::KeyPress&);
+    juce::Component& keyboardHome();
+    void keepKeyboard();
+    bool panelKey (const juce::KeyPress&);
+    void nextPanel (int step);
     void stopBy (const juce::KeyPress&);
     bool fileKey (const juce::KeyPress&);
     void helpOnSelection();

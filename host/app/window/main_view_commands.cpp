@@ -35,7 +35,7 @@ bool MainView::keyPressed (const juce::KeyPress& key)
         return true;
     }
     if (fitting.isOpen()) return true;   // the panel has had the key
-    if (fileKey (key)) return true;
+    if (fileKey (key) || panelKey (key)) return true;
     if (key == juce::KeyPress::F1Key || key.getTextCharacter() == '?')
     {
         help.isOpen() ? help.close() : helpOnSelection();
@@ -87,6 +87,7 @@ void MainView::globalFocusChanged (juce::Component* now)
     focused = now != this ? now : nullptr;
     if (focused != nullptr) focused->addKeyListener (this);
     if (focused != nullptr) inspector.reveal (*focused);
+    keepKeyboard();
 }
 
 bool MainView::keyPressed (const juce::KeyPress& key, juce::Component*)
@@ -112,7 +113,7 @@ void MainView::escape (const juce::KeyPress& key)
     if (help.isOpen()) return help.close();
     if (hand.isEnlarged() && ! palette.isVisible()) return hand.enlarge (false);
     palette.close();
-    if (inspector.hasKeyboardFocus (true)) takeFocus (patching);
+    takeFocus (keyboardHome());
 }
 
 void MainView::preview (const std::filesystem::path& file)

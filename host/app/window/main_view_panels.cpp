@@ -54,11 +54,14 @@ void MainView::showAdded (const std::string& patch, graph::Id node)
     patching.endEdit();   // undoing the edit brings back the view from before
 }
 
-void MainView::feel (const std::filesystem::path& preset)
+void MainView::feel (const std::filesystem::path& preset, bool by_pointer)
 {
-    files.openCopy (preset, true);
-    status.notify (files.isSafe() ? TRANS ("Safe mode: press START, then press and drag on the surface below.")
-                                  : TRANS ("Press and drag on the surface below: the mouse is your hand."));
+    files.openCopy (preset, by_pointer);
+    if (files.isSafe())
+        status.notify (TRANS ("Safe mode: press START or F5, then press and drag on the surface below."));
+    else
+        status.notify (by_pointer ? TRANS ("Press and drag on the surface below: the mouse is your hand.")
+                                  : TRANS ("The hand moves by itself. Press and drag on the surface below, and the mouse is your hand."));
 }
 
 void MainView::fitRecordingIn (const std::filesystem::path& file) { fitting.open (file); }

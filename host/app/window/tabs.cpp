@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tabs.hpp"
 
+#include <host/app/look/focus.hpp>
+
 namespace tactus::host
 {
 
@@ -28,7 +30,11 @@ void Tabs::show (int index)
     if (index < 0 || index >= static_cast<int> (tabs.size())) return;
     current = index;
     for (std::size_t i = 0; i < tabs.size(); ++i)
-        tabs[i].panel->setVisible (static_cast<int> (i) == current);
+    {
+        const bool is_shown = static_cast<int> (i) == current;
+        if (! is_shown) letGoOfFocus (*tabs[i].panel);
+        tabs[i].panel->setVisible (is_shown);
+    }
     repaint();
 }
 

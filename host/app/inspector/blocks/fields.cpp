@@ -2,6 +2,7 @@
 #include "fields.hpp"
 
 #include <host/app/look/fitted_text.hpp>
+#include <host/app/look/focus.hpp>
 #include <host/app/look/tool_button.hpp>
 #include <host/app/text/filled.hpp>
 
@@ -67,10 +68,14 @@ TextField::TextField()
     setFont (lookOf (*this).font (12.0f));
     setIndents (8, 5);
     setSelectAllWhenFocused (true);
-    onReturnKey = onFocusLost = [this] { apply(); };
+    onFocusLost = [this] { apply(); };
+    onReturnKey = [safe = juce::Component::SafePointer<TextField> (this)] {
+        safe->apply();
+        if (safe != nullptr) letGoOfFocus (*safe);
+    };
     onEscapeKey = [this] {
         setText (shown, false);
-        unfocusAllComponents();
+        letGoOfFocus (*this);
     };
 }
 

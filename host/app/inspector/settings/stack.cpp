@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "setting_editor.hpp"
 
+#include <host/app/look/focus.hpp>
+
 #include <utility>
 
 namespace tactus::host
@@ -10,6 +12,8 @@ void Stack::refresh (const graph::Node* node)
 {
     if (auto now = shape(); made_for != now)
     {
+        for (auto& b : blocks)
+            letGoOfFocus (*b);
         for (auto& b : blocks)
             removeChildComponent (b.get());
         retired = std::exchange (blocks, {});

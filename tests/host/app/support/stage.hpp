@@ -14,6 +14,7 @@ public:
     Stage (int width, int height)
     {
         setOpaque (true);
+        setWantsKeyboardFocus (true);   // as the windows of JUCE, which do not hand keys down
         setSize (width, height);
         setVisible (true);
         plugIn();

@@ -24,7 +24,7 @@ struct WindowRig
     std::unique_ptr<MainView> view;
     int clicks = 0;
 
-    /// Without a preset: the welcome page. In safe mode, nothing runs until START.
+    /// Opens a preset, or the graph at an absolute path. Without: the welcome page. In safe mode, nothing runs until START.
     explicit WindowRig (const std::string& preset = {}, int width = 1280, int height = 720, bool safe = true)
     {
         juce::LookAndFeel::setDefaultLookAndFeel (&look);
@@ -33,7 +33,7 @@ struct WindowRig
         view = std::make_unique<MainView> (catalogue());
         stage->fill (*view);
         MainView::StartOptions start { .home = home.path(), .safe = safe };
-        if (! preset.empty()) start.files = { std::string (TACTUS_SOURCE_DIR "/graphs/") + preset };
+        if (! preset.empty()) start.files = { std::filesystem::path (TACTUS_SOURCE_DIR "/graphs") / preset };
         view->begin (start);
         if (! view->asked().isOpen()) view->grabKeyboardFocus();   // as the program does
         settle();
@@ -90,6 +90,29 @@ struct WindowRig
     {
         stage->key (described);
         settle (2);   // JUCE reports the focus, and Enter in a field, later
+    }
+
+    /// The part of the window with this title or name; null if it is not showing.
+    juce::Component* titled (const juce::String& title) { return titledIn (*view, title); }
+
+    static juce::Component* titledIn (juce::Component& c, const juce::String& title)
+    {
+        if (c.isShowing() && (c.getTitle() == title || c.getName() == title)) return &c;
+        for (auto* child : c.getChildren())
+            if (auto* found = titledIn (*child, title)) return found;
+        return nullptr;
+    }
+
+    juce::Point<float> middleOf (juce::Component& c) { return stage->getLocalPoint (&c, c.getLocalBounds().getCentre()).toFloat(); }
+
+    /// Clicks the part of the window with this title.
+    void clickTitled (const juce::String& title, int button = juce::ModifierKeys::leftButtonModifier)
+    {
+        INFO (title);
+        auto* c = titled (title);
+        REQUIRE (c != nullptr);
+        stage->click (middleOf (*c), button);
+        settle();
     }
 
     static juce::Component* focused() { return juce::Component::getCurrentlyFocusedComponent(); }

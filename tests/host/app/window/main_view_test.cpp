@@ -61,7 +61,7 @@ TEST_CASE ("the first start shows the welcome page, and one click runs a preset 
     REQUIRE (o.view->welcomePage().cards().size() == 6);
     const auto first = o.view->welcomePage().cards().front();
     CHECK (first.name == "Dry wood");
-    o.view->welcomePage().onFeel (first.file);
+    o.view->welcomePage().onFeel (first.file, true);
     CHECK_FALSE (o.view->welcomePage().isVisible());
     CHECK (o.view->run().isRunning());
     CHECK (o.view->run().hand() == LiveRun::Hand::pointer());

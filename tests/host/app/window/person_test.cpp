@@ -22,7 +22,7 @@ struct Person
     explicit Person (bool safe) : w ({}, 1280, 720, safe) {}
 
     Canvas& canvas() { return w.view->canvas(); }
-    juce::Point<float> of (juce::Component& c) { return w.stage->getLocalPoint (&c, c.getLocalBounds().getCentre()).toFloat(); }
+    juce::Point<float> of (juce::Component& c) { return w.middleOf (c); }
 
     juce::Point<float> onCanvas (juce::Point<float> at)
     {
@@ -120,15 +120,7 @@ struct Person
         REQUIRE (isSo());
     }
 
-    juce::Component* titled (const juce::String& title) { return find (*w.view, title); }
-
-    static juce::Component* find (juce::Component& c, const juce::String& title)
-    {
-        if (c.isShowing() && c.getTitle() == title) return &c;
-        for (auto* child : c.getChildren())
-            if (auto* found = find (*child, title)) return found;
-        return nullptr;
-    }
+    juce::Component* titled (const juce::String& title) { return w.titled (title); }
 };
 
 /// The force on the tool, averaged over a stroke at this height, in m.

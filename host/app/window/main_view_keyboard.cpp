@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which part of the window has the keyboard.
+#include "main_view.hpp"
+
+#include <host/app/look/focus.hpp>
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+/// What has the keyboard unless the user has given it to something else.
+juce::Component& MainView::keyboardHome()
+{
+    if (question.isOpen()) return question;
+    if (fitting.isOpen()) return fitting;
+    if (welcome.isVisible()) return welcome;
+    return patching.isShowing() ? static_cast<juce::Component&> (patching) : *this;
+}
+
+/// The keyboard is never lost: after a menu, a dialog, a field or a start, JUCE leaves it with nothing, or with a part of the window that has no keys.
+void MainView::keepKeyboard()
+{
+    const auto* peer = getPeer();
+    if (peer == nullptr || ! peer->isFocused() || juce::Component::getNumCurrentlyModalComponents() > 0) return;
+    auto& home = keyboardHome();
+    const bool is_over = question.isOpen() || fitting.isOpen();   // nothing else may have the keyboard
+    const auto* now = juce::Component::getCurrentlyFocusedComponent();
+    const bool is_kept = is_over ? home.hasKeyboardFocus (true) : now != nullptr && isParentOf (now) && now->isShowing();
+    if (! is_kept && now != &home) takeFocus (home);
+}
+
+void MainView::nextPanel (int step)
+{
+    const std::initializer_list<juce::Component*> panels { &patching, &inspector, &bottom, &hand, &left };
+    std::vector<juce::Component*> open;
+    for (auto* p : panels)
+        if (p->isShowing() && ! p->getBounds().isEmpty()) open.push_back (p);
+    const auto now = std::ranges::find_if (open, [] (const juce::Component* p) { return p->hasKeyboardFocus (true); });
+    const auto count = static_cast<int> (open.size()), at = now == open.end() ? (step > 0 ? -1 : 0) : static_cast<int> (now - open.begin());
+    for (int i = 1; i <= count; ++i)
+    {
+        auto& next = *open[static_cast<std::size_t> (((at + i * step) % count + count) % count)];
+        takeFocus (next);   // or the first part of it that takes keys
+        if (next.hasKeyboardFocus (true)) return;
+    }
+}
+
+/// F6 goes from panel to panel, Ctrl+F to the search for presets, and F5 starts.
+bool MainView::panelKey (const juce::KeyPress& key)
+{
+    if (key.isKeyCode (juce::KeyPress::F6Key))
+        nextPanel (key.getModifiers().isShiftDown() ? -1 : 1);
+    else if (key == juce::KeyPress::createFromDescription ("ctrl + f"))
+    {
+        if (left_edge.isFolded())
+        {
+            left_edge.fold (false);
+            edgeMoved();
+        }
+        left.show (presets);
+        takeFocus (presets);
+    }
+    else if (key.isKeyCode (juce::KeyPress::F5Key))
+    {
+        if (! playback.current().isRunning()) playback.restart();   // as START does
+    }
+    else
+        return false;
+    return true;
+}
+
+}   // namespace tactus::host

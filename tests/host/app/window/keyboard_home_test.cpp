@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The keyboard is never lost: after everything that takes it for a while, the keys of the canvas work again.
+#include "host/app/support/window_rig.hpp"
+
+#include <tactus/file/graph_file.hpp>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::Stage;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+/// A window with a graph that may be saved.
+struct Desk
+{
+    TemporaryFolder folder;
+    std::filesystem::path file = folder / "mine.json";
+    std::unique_ptr<WindowRig> w;
+
+    Desk()
+    {
+        std::filesystem::copy_file (TACTUS_SOURCE_DIR "/graphs/dry_wood.json", file);
+        w = std::make_unique<WindowRig> (file.string());
+    }
+
+    Document& document() { return w->view->document(); }
+
+    /// Ctrl+S saves, the space bar opens the palette, Esc closes it, and Ctrl+Z undoes.
+    void checkKeys (const std::string& after)
+    {
+        INFO ("after " << after);
+        WindowRig::settle();
+        CHECK (WindowRig::focused() == &w->view->canvas());
+        document().perform (graph::SetHeader { .about = after });
+        REQUIRE (document().isChanged());
+        w->key ("ctrl + s");
+        CHECK_FALSE (document().isChanged());
+        CHECK (loadGraph (file).graph.about == after);
+        w->key ("spacebar");
+        CHECK (w->titled ("Palette") != nullptr);
+        w->key ("escape");
+        CHECK (w->titled ("Palette") == nullptr);
+        const auto position = document().history().position();
+        w->key ("ctrl + z");
+        CHECK (document().history().position() == position - 1);
+    }
+
+    void select (const std::string& node) { w->view->canvas().select ({ w->graph().root.find (node)->id }); }
+};
+}   // namespace
+
+TEST_CASE ("after a menu\\, a name\\, a dialog and a start\\, the keys of the canvas work", "[app][keyboard]")
+{
+    Desk d;
+    auto& w = *d.w;
+    w.stage->grabKeyboardFocus();   // as the window system does when it shows the window
+    d.checkKeys ("a start with a file");
+
+    d.select ("drag");
+    w.clickTitled ("Stiffness", juce::ModifierKeys::rightButtonModifier);
+    const auto controls = w.graph().controls.size();
+    for (std::size_t i = 0; i <= controls; ++i)
+        w.key ("cursor down");
+    w.key ("return");
+    WindowRig::settle();
+    REQUIRE (w.graph().controls.size() == controls + 1);
+    if (auto* field = dynamic_cast<juce::TextEditor*> (WindowRig::focused())) w.key ("return");
+    d.checkKeys ("New control");
+    w.key ("ctrl + z");
+    d.checkKeys ("New control and Ctrl+Z");
+
+    w.view->canvas().select ({});
+    w.clickTitled ("Name of the control");
+    w.stage->type ("Drape");
+    w.key ("return");
+    CHECK (w.graph().controls[0].name.find ("Drape") != std::string::npos);
+    d.checkKeys ("a control was renamed");
+
+    d.select ("drag");
+    w.clickTitled ("Name of the node");
+    w.key ("ctrl + a");
+    w.stage->type ("scrub");
+    w.key ("return");
+    REQUIRE (w.graph().root.find ("scrub") != nullptr);
+    d.checkKeys ("a node was renamed");
+
+    for (const char* end : { "escape", "return" })
+    {
+        auto* more = w.titled ("Menu");
+        REQUIRE (more != nullptr);
+        w.stage->click (w.middleOf (*more));
+        WindowRig::settle();
+        if (juce::String (end) == "return")
+            for (int i = 0; i < 6; ++i)
+                w.key ("cursor down");   // the theme
+        w.key (end);
+        WindowRig::settle();
+        d.checkKeys (std::string ("the menu of the window, ") + end);
+    }
+
+    w.view->canvas().select ({});
+    w.key ("F1");
+    w.key ("escape");
+    d.checkKeys ("the help");
+
+    d.document().perform (graph::SetHeader { .about = "changed" });
+    w.key ("ctrl + n");
+    REQUIRE (w.view->asked().isOpen());
+    w.key ("escape");
+    d.checkKeys ("a question");
+
+    const auto& scene = w.view->canvas().scene();
+    const auto at = w.view->canvas().view().toPixels (scene.nodes().front().bounds().getCentre());
+    w.stage->click (w.stage->getLocalPoint (&w.view->canvas(), at), juce::ModifierKeys::rightButtonModifier);
+    WindowRig::settle();
+    REQUIRE (juce::Component::getNumCurrentlyModalComponents() == 1);
+    w.key ("escape");
+    WindowRig::settle();
+    d.checkKeys ("the menu of a node");
+
+    // A field that vanishes while it has the keyboard hands it to nobody's neighbour.
+    d.select ("scrub");
+    w.key ("return");
+    REQUIRE (w.view->inspected().hasKeyboardFocus (true));
+    d.document().perform (graph::RemoveNode { {}, "scrub" });
+    d.checkKeys ("the node of a focused field was deleted");
+
+    w.click ("Presets");
+    w.key ("ctrl + f");
+    REQUIRE (w.titled ("Search presets")->hasKeyboardFocus (true));
+    w.click ("History");
+    d.checkKeys ("the panel of a focused field was hidden");
+}
+
+TEST_CASE ("the keyboard alone leads from the welcome page to a force, and through all panels", "[app][keyboard]")
+{
+    WindowRig w ({}, 1280, 720, false);
+    const auto& cards = w.view->welcomePage().cards();
+    REQUIRE (cards.size() == 6);
+    const auto isOn = [&] (std::size_t card) { return WindowRig::focused() != nullptr && WindowRig::focused()->getName() == juce::String (cards[card].name); };
+    CHECK (isOn (0));
+    w.key ("cursor down");
+    CHECK (isOn (3));
+    w.key ("cursor right");
+    CHECK (isOn (4));
+    w.key ("tab");
+    CHECK (isOn (5));
+    w.key ("cursor left");
+    w.key ("cursor up");
+    w.key ("cursor left");
+    REQUIRE (isOn (0));
+    w.key ("return");
+    CHECK (w.graph().name == cards[0].name);
+    bool is_felt = false;
+    for (int i = 0; i < 3000 && ! is_felt; ++i)
+    {
+        WindowRig::settle (10);
+        const auto tool = w.view->run().tool();
+        is_felt = tool && tool->force.norm() > 0.1;
+    }
+    CHECK (is_felt);
+    CHECK (WindowRig::focused() == &w.view->canvas());
+
+    w.view->run().letGo();
+    REQUIRE_FALSE (w.view->run().isWanted());
+    w.key ("F5");
+    CHECK (w.view->run().isWanted());
+    w.view->run().letGo();
+
+    std::vector<juce::Component*> visited;
+    for (int i = 0; i < 5; ++i)
+    {
+        w.key ("F6");
+        REQUIRE (WindowRig::focused() != nullptr);
+        CHECK (std::ranges::count (visited, WindowRig::focused()) == 0);
+        visited.push_back (WindowRig::focused());
+    }
+    CHECK (visited.back() == &w.view->canvas());
+    w.key ("shift + F6");
+    CHECK (WindowRig::focused() == visited[3]);
+    w.key ("ctrl + f");
+    CHECK (WindowRig::focused()->getTitle() == "Search presets");
+    w.stage->type ("liver");
+    w.key ("return");
+    CHECK (w.graph().name == "Liver");
+    CHECK (WindowRig::focused() == &w.view->canvas());
+    w.view->run().letGo();
+}
