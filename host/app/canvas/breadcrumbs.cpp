@@ -97,12 +97,17 @@ std::optional<Canvas::Instance> Canvas::instance() const
     return node == nullptr ? std::nullopt : instanceOf (*node, names);
 }
 
+SeenPatch Canvas::seen() const
+{
+    SeenPatch now (patch());
+    for (const auto& [name, subgraph] : entered)
+        now.path += name + '/';
+    return now;
+}
+
 void Canvas::chooseInstance (int number)
 {
-    std::string names;
-    for (const auto& [name, subgraph] : entered)
-        names += name + '/';
-    chosen_instances[names] = number;
+    chosen_instances[seen().path] = number;
     point ({});
     if (onBreadcrumbs) onBreadcrumbs();
 }

@@ -56,7 +56,7 @@ void Canvas::rebuild()
 {
     const auto& look = lookOf (*this);
     ++scenes_made;
-    shown = std::make_unique<Scene> (document.graph(), patch(), catalogue, curves,
+    shown = std::make_unique<Scene> (document.graph(), seen(), catalogue, curves,
                                      [&look] (const std::string& text, float size, bool bold) { return look.font (size, bold).getStringWidthFloat (text); });
     repaint();
 }

@@ -5,6 +5,7 @@
 #include "minimap.hpp"
 #include "paint_scene.hpp"
 
+#include <host/app/model/patch.hpp>
 #include <host/app/palette/search.hpp>
 
 #include <filesystem>
@@ -42,6 +43,7 @@ public:
     const Catalogue& types() const noexcept { return catalogue; }
     CanvasCommands& commands() noexcept { return edits; }
     const CanvasCommands& commands() const noexcept { return edits; }
+    const Catalogue& types() const noexcept { return catalogue; }
     const Scene& scene() const noexcept { return *shown; }
     std::uint64_t sceneNumber() const noexcept { return scenes_made; }   ///< another number for each scene; never 0
     View& view() noexcept { return window; }
@@ -54,6 +56,7 @@ public:
     using Breadcrumbs = std::vector<std::pair<std::string, std::string>>;
     const Breadcrumbs& breadcrumbs() const noexcept { return entered; }
     std::string patch() const { return entered.empty() ? std::string {} : entered.back().second; }
+    SeenPatch seen() const;   ///< the patch, and the way into it
     void leaveTo (std::size_t depth);
     void enter (const SceneNode&);   ///< no effect unless the node is a subgraph of this file
 

@@ -84,7 +84,7 @@ public:
 private:
     const graph::Patch& patchShown() const;
     std::optional<graph::Command> storePositions() const;   ///< stores those of automatically arranged nodes; empty if all are stored
-    graph::Graph placedGraph() const;                       ///< the graph with the positions of all nodes of the patch stored
+    graph::Graph graphAsShown() const;                      ///< stores in the nodes of the patch where they are, and what controls set them to
 
     Canvas& canvas;
     Document& document;

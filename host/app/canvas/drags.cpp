@@ -179,7 +179,7 @@ public:
     DragParam (Canvas& c, const SceneNode& n, const FacePort& p, QuantityText v)
         : canvas (c), id { n.id, Role::param, p.id }, sheet (*p.sheet), grabbed (v), now (v)
     {
-        if (c.patch().empty()) control = controlOf (c.edited().graph(), n.name + '.' + p.id);
+        if (const auto address = c.seen().address (n.name + '.' + p.id); ! address.empty()) control = controlOf (c.edited().graph(), address);
     }
 
     void move (const juce::MouseEvent& e) override

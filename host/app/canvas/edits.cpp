@@ -10,6 +10,7 @@
 #include <host/app/model/patch.hpp>
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/model/step_text.hpp>
+#include <host/app/model/value_in_effect.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/run/turn.hpp>
 
@@ -51,11 +52,11 @@ bool CanvasCommands::perform (graph::Command command, graph::Step step)
     return document.perform (std::move (all), step);
 }
 
-graph::Graph CanvasCommands::placedGraph() const
+graph::Graph CanvasCommands::graphAsShown() const
 {
-    auto placed = document.graph();
-    if (const auto stored = storePositions()) (void)graph::apply (placed, *stored);
-    return placed;
+    auto shown = withValuesInEffect (document.graph(), canvas.seen(), canvas.types());
+    if (const auto stored = storePositions()) (void)graph::apply (shown, *stored);
+    return shown;
 }
 
 void CanvasCommands::removeSelection()
@@ -76,13 +77,13 @@ void CanvasCommands::removeSelection()
 void CanvasCommands::duplicateSelection()
 {
     Selection made;
-    auto command = duplicate (placedGraph(), canvas.patch(), canvas.scene(), canvas.selection(), made);
+    auto command = duplicate (graphAsShown(), canvas.patch(), canvas.scene(), canvas.selection(), made);
     if (command && perform (std::move (*command))) canvas.select (made);
 }
 
 void CanvasCommands::copySelection() const
 {
-    if (! canvas.selection().empty()) copyToClipboard (copyText (placedGraph(), canvas.patch(), canvas.selection()));
+    if (! canvas.selection().empty()) copyToClipboard (copyText (graphAsShown(), canvas.patch(), canvas.selection()));
 }
 
 void CanvasCommands::pasteText()
@@ -247,10 +248,10 @@ void CanvasCommands::setParam (const SceneNode& shown_node, const FacePort& port
 {
     const auto* node = patchShown().find (shown_node.name);
     if (node == nullptr) return;
-    if (auto command = changeParam (document.graph(), canvas.patch(), *node, port, value))
+    if (auto command = changeParam (document.graph(), canvas.seen(), *node, port, value))
         perform (std::move (*command), step);
     else
-        canvas.notice (juce::String (outOfRangeText (document.graph(), *node, port)));
+        canvas.notice (juce::String (outOfRangeText (document.graph(), canvas.seen(), *node, port)));
 }
 
 void CanvasCommands::editParam (const SceneNode& node, const Socket& socket)

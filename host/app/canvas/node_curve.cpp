@@ -35,7 +35,7 @@ std::optional<SettingValue> settingNow (const graph::Node& node, const SettingSh
 }
 
 /// A curve is not in use if a choice with the same name has another value: `adhesion_curve` counts if `adhesion` is "curve".
-bool isInUse (const graph::Graph& graph, const std::string& patch, const graph::Node& node, const Face& face, std::string_view setting)
+bool isInUse (const graph::Graph& graph, const SeenPatch& patch, const graph::Node& node, const Face& face, std::string_view setting)
 {
     constexpr std::string_view ending = "_curve";
     if (! setting.ends_with (ending)) return true;
@@ -71,7 +71,7 @@ std::optional<PlotData> modesIn (const SettingSheet& sheet, const SettingValue& 
     return plot;
 }
 
-std::optional<PlotData> curveInSettings (const graph::Graph& graph, const std::string& patch, const graph::Node& node, const Face& face)
+std::optional<PlotData> curveInSettings (const graph::Graph& graph, const SeenPatch& patch, const graph::Node& node, const Face& face)
 {
     for (const auto& sheet : face.type->settings)
     {
@@ -205,7 +205,7 @@ std::optional<PlotData> characteristic (TrialNode& trial, const NodeType& type)
 }
 
 /// How the node itself answers. A plugin's node that fails has no curve; compile() says so.
-std::optional<PlotData> answerOf (const graph::Graph& graph, const std::string& patch, const graph::Node& node, const Face& face)
+std::optional<PlotData> answerOf (const graph::Graph& graph, const SeenPatch& patch, const graph::Node& node, const Face& face)
 {
     try
     {
@@ -223,7 +223,7 @@ std::optional<PlotData> answerOf (const graph::Graph& graph, const std::string& 
 }
 }   // namespace
 
-std::shared_ptr<const PlotData> curveOf (const graph::Graph& graph, const std::string& patch, const graph::Node& node, const Face& face)
+std::shared_ptr<const PlotData> curveOf (const graph::Graph& graph, const SeenPatch& patch, const graph::Node& node, const Face& face)
 {
     if (face.kind != Face::Kind::node || face.type == nullptr) return nullptr;
     auto plot = envelopeOf (graph, node);
@@ -233,7 +233,7 @@ std::shared_ptr<const PlotData> curveOf (const graph::Graph& graph, const std::s
     return std::make_shared<const PlotData> (std::move (*plot));
 }
 
-std::string NodeCurves::keyOf (const graph::Graph& graph, const std::string& patch, const graph::Node& node, const Face& face)
+std::string NodeCurves::keyOf (const graph::Graph& graph, const SeenPatch& patch, const graph::Node& node, const Face& face)
 {
     auto key = node.type + node.settings.dump();
     for (const auto& port : face.params)
@@ -241,7 +241,7 @@ std::string NodeCurves::keyOf (const graph::Graph& graph, const std::string& pat
     return key;
 }
 
-std::shared_ptr<const PlotData> NodeCurves::of (const graph::Graph& graph, const std::string& patch, const graph::Node& node, const Face& face)
+std::shared_ptr<const PlotData> NodeCurves::of (const graph::Graph& graph, const SeenPatch& patch, const graph::Node& node, const Face& face)
 {
     if (face.kind != Face::Kind::node || face.type == nullptr) return nullptr;
     const auto& type = *face.type;

@@ -3,6 +3,7 @@
 
 #include <host/app/inspector/blocks/plot_box.hpp>
 #include <host/app/model/face.hpp>
+#include <host/app/model/patch.hpp>
 
 #include <map>
 #include <memory>
@@ -18,13 +19,13 @@ namespace tactus::host
 ///  - the envelope of a clip;
 ///  - ridges and friction: the force along a stroke, from a node of the same type and values that is ticked here and not in the run;
 ///  - an output that depends on nothing but the one input: the output over the input, unless it is a straight line.
-std::shared_ptr<const PlotData> curveOf (const graph::Graph&, const std::string& patch, const graph::Node&, const Face&);
+std::shared_ptr<const PlotData> curveOf (const graph::Graph&, const SeenPatch& patch, const graph::Node&, const Face&);
 
 /// Keeps the curves of nodes that have not changed, because every edit lays the canvas out again.
 class NodeCurves
 {
 public:
-    std::shared_ptr<const PlotData> of (const graph::Graph&, const std::string& patch, const graph::Node&, const Face&);
+    std::shared_ptr<const PlotData> of (const graph::Graph&, const SeenPatch& patch, const graph::Node&, const Face&);
     void clear() { known.clear(); }   ///< the node types have changed
 
 private:
@@ -34,7 +35,7 @@ private:
         std::shared_ptr<const PlotData> curve;
     };
 
-    static std::string keyOf (const graph::Graph&, const std::string& patch, const graph::Node&, const Face&);
+    static std::string keyOf (const graph::Graph&, const SeenPatch& patch, const graph::Node&, const Face&);
 
     std::map<graph::Id, CacheEntry> known;
 };

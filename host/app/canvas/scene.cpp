@@ -35,20 +35,20 @@ const Socket* SceneNode::paramAt (juce::Point<float> p) const noexcept
     return socket == box.sockets.end() ? nullptr : &*socket;
 }
 
-Scene::Scene (const graph::Graph& graph, const std::string& name, const Catalogue& catalogue, NodeCurves& curves, const TextWidth& widthOf)
+Scene::Scene (const graph::Graph& graph, const SeenPatch& seen, const Catalogue& catalogue, NodeCurves& curves, const TextWidth& widthOf)
 {
-    const auto* patch = findPatch (graph, name);
+    const auto* patch = findPatch (graph, seen.name);
     if (patch == nullptr) return;
-    addNodes (graph, name, *patch, catalogue, curves, widthOf);
+    addNodes (graph, seen, *patch, catalogue, curves, widthOf);
     place (*patch);
     findQuantities (*patch, Quantities (graph, catalogue));
     addWires (*patch);
     routeWires();
     addExposed (*patch, widthOf);
-    all_notes = notesOf (graph, name);
+    all_notes = notesOf (graph, seen.name);
 }
 
-void Scene::addNodes (const graph::Graph& graph, const std::string& name, const graph::Patch& patch, const Catalogue& catalogue, NodeCurves& curves,
+void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const graph::Patch& patch, const Catalogue& catalogue, NodeCurves& curves,
                       const TextWidth& widthOf)
 {
     for (const auto& node : patch.nodes)
@@ -62,9 +62,9 @@ void Scene::addNodes (const graph::Graph& graph, const std::string& name, const 
         const auto wired = [&] (const FacePort& p) {
             return std::ranges::any_of (patch.wires, [&] (const graph::Wire& w) { return w.to.node == node.name && made.face->endOf (w.to) == &p; });
         };
-        made.curve = curves.of (graph, name, node, *made.face);
+        made.curve = curves.of (graph, seen, node, *made.face);
         made.box = boxOf (
-            node, *made.face, wired, [&] (const FacePort& p) { return paramNow (graph, name, node, p).value; },
+            node, *made.face, wired, [&] (const FacePort& p) { return paramNow (graph, seen, node, p).value; },
             made.curve != nullptr, widthOf);
         indices.emplace (node.name, static_cast<int> (all_nodes.size()) - 1);
     }

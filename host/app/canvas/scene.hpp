@@ -85,8 +85,8 @@ struct SceneSocket
 class Scene
 {
 public:
-    /// `patch` is "" for the graph itself, else the name of a subgraph. Nodes without a stored position are arranged automatically.
-    Scene (const graph::Graph&, const std::string& patch, const Catalogue&, NodeCurves&, const TextWidth&);
+    /// Nodes without a stored position are arranged automatically.
+    Scene (const graph::Graph&, const SeenPatch&, const Catalogue&, NodeCurves&, const TextWidth&);
 
     const std::vector<SceneNode>& nodes() const noexcept { return all_nodes; }
     const std::vector<SceneWire>& wires() const noexcept { return all_wires; }
@@ -121,7 +121,7 @@ public:
     bool isCorner (std::size_t note, juce::Point<float>) const noexcept;
 
 private:
-    void addNodes (const graph::Graph&, const std::string& name, const graph::Patch&, const Catalogue&, NodeCurves&, const TextWidth&);
+    void addNodes (const graph::Graph&, const SeenPatch&, const graph::Patch&, const Catalogue&, NodeCurves&, const TextWidth&);
     void place (const graph::Patch&);
     void placeAmong (std::vector<bool> placed, const std::vector<std::pair<int, int>>& wires);
     juce::Point<float> freePlaceNear (std::size_t node, const std::vector<bool>& placed) const;

@@ -66,7 +66,7 @@ TrialNode::TrialNode (const NodeType& t)
     t.initialiseOutputs (outputs.get());
 }
 
-std::optional<TrialNode> TrialNode::make (const graph::Graph& graph, const std::string& patch, const graph::Node& node, const Face& face)
+std::optional<TrialNode> TrialNode::make (const graph::Graph& graph, const SeenPatch& patch, const graph::Node& node, const Face& face)
 {
     if (face.type == nullptr || ! canBeTried (*face.type)) return std::nullopt;
     const auto& type = *face.type;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <host/app/model/face.hpp>
+#include <host/app/model/patch.hpp>
 
 #include <cstddef>
 #include <memory>
@@ -18,7 +19,7 @@ class TrialNode
 {
 public:
     /// Empty if the node reads files or a device, has lists, or refuses its values.
-    static std::optional<TrialNode> make (const graph::Graph&, const std::string& patch, const graph::Node&, const Face&);
+    static std::optional<TrialNode> make (const graph::Graph&, const SeenPatch& patch, const graph::Node&, const Face&);
 
     void set (std::string_view input, const Vec3&);   ///< of a scalar input: x
     void tick() noexcept;

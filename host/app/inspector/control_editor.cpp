@@ -6,7 +6,7 @@
 #include <host/app/inspector/settings/setting_editor.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/tool_button.hpp>
-#include <host/app/model/controlled_param.hpp>
+#include <host/app/model/value_in_effect.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoint_text.hpp>
 
@@ -36,7 +36,7 @@ void change (Document& d, const std::string& id, const std::function<void (graph
 class Header final : public Block
 {
 public:
-    Header (Document& d, std::string i) : document (d), id (std::move (i))
+    Header (Document& d, const Catalogue& c, std::string i) : document (d), catalogue (c), id (std::move (i))
     {
         name.setTitle (TRANS ("Name of the control"));
         name.setTooltip (TRANS ("The name of the control"));
@@ -53,7 +53,7 @@ public:
                 continues ? graph::Step::joined : graph::Step::own);
             continues = fader.isMouseButtonDown();
         };
-        cross.onClick = [this] { document.perform (graph::RemoveControl { id }); };
+        cross.onClick = [this] { document.perform (removeControl (document.graph(), id, catalogue)); };
         addAndMakeVisible (name);
         addAndMakeVisible (fader);
         addAndMakeVisible (cross);
@@ -80,11 +80,12 @@ public:
 
 private:
     Document& document;
+    const Catalogue& catalogue;
     std::string id;
     TextField name;
     juce::Slider fader;
     ToolButton cross { juce::String::fromUTF8 ("\xc3\x97"), ToolButton::Kind::plain,
-                       TRANS ("Delete this control. Its parameters go back to their stored values.") };
+                       TRANS ("Delete this control. Its parameters keep the values that it sets.") };
     bool continues = false;
 };
 
@@ -108,7 +109,7 @@ protected:
 
     void fill() override
     {
-        add (std::make_unique<Header> (document, id));
+        add (std::make_unique<Header> (document, catalogue, id));
         const auto* c = find (document, id);
         if (c == nullptr) return;
         if (c->to.empty()) add (TRANS ("No targets yet. Right-click a parameter to add one."), TextBlock::Kind::small);
@@ -129,7 +130,7 @@ protected:
                                  } };
             };
             const auto remove = [this, path] {
-                if (auto command = removeTarget (document.graph(), id, path)) document.perform (std::move (*command));
+                if (auto command = removeTarget (document.graph(), id, path, catalogue)) document.perform (std::move (*command));
             };
             const auto sheet = sheetOfTarget (path);
             std::vector<TableRow::Cell> cells { { sheet, end (&graph::Control::Target::low) }, { sheet, end (&graph::Control::Target::high) } };

@@ -17,6 +17,7 @@ struct InspectorContext
     Document& document;
     const Catalogue& catalogue;
     std::string patch;   ///< "" is the graph itself
+    std::string path;    ///< how the patch is seen, see SeenPatch
     Refusal refused;
     EditorContext editors;
     std::function<Messages()> messages;                                               ///< returns the messages about the current graph; may be null

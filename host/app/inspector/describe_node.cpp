@@ -144,7 +144,7 @@ void describeNode (const InspectorContext& at, const graph::Node& node, bool hel
 
     if (! face.params.empty()) column.add (help ? TRANS ("Parameter values") : TRANS ("Parameters"), TextBlock::Kind::heading);
     for (const auto& p : face.params)
-        if (p.sheet != nullptr) column.add (paramRow (at.document, at.patch, node.name, p, at.refused));
+        if (p.sheet != nullptr) column.add (paramRow (at.document, at.catalogue, { at.patch, at.path }, node.name, p, at.refused));
     if (face.kind == Face::Kind::subgraph) describeSubgraphNode (at, node, column);
     if (node.type.starts_with ("device.")) describeDevice (at, node, column);
     if (face.type == nullptr) return;

@@ -26,9 +26,9 @@ Inspector::Inspector (Document& d, const Catalogue& c) : document (d), catalogue
 
 Inspector::~Inspector() { document.remove (*this); }
 
-void Inspector::inspect (const std::string& p, std::set<graph::Id> s)
+void Inspector::inspect (SeenPatch p, std::set<graph::Id> s)
 {
-    patch = p;
+    patch = std::move (p);
     selection = std::move (s);
     rebuild();
 }
@@ -58,7 +58,7 @@ InspectorContext Inspector::inspected()
         std::ranges::copy_if (contacts, std::back_inserter (its), [&] (const ContactLimit& c) { return c.node == node || c.node.starts_with (node + '/'); });
         return its;
     };
-    return { document, catalogue, patch, refused, EditorContext { files, folder, refused }, messages, contactsOf };
+    return { document, catalogue, patch.name, patch.path, refused, EditorContext { files, folder, refused }, messages, contactsOf };
 }
 
 Inspector::SelectedItems Inspector::selected (const InspectorContext& at) const
@@ -71,7 +71,7 @@ Inspector::SelectedItems Inspector::selected (const InspectorContext& at) const
         for (const auto& w : in->wires)
             if (selection.contains (w.id)) s.wires.push_back (w.id);
     }
-    s.key = patch + '|' + std::to_string (s.nodes.size()) + '|' + std::to_string (s.wires.size()) + (help ? "?" : "");
+    s.key = patch.name + '|' + patch.path + '|' + std::to_string (s.nodes.size()) + '|' + std::to_string (s.wires.size()) + (help ? "?" : "");
     if (s.nodes.size() == 1) s.key += shapeOf (at, *s.nodes[0]);
     if (s.isOneWire()) s.key += std::to_string (s.wires[0]);
     if (! s.isEmpty()) return s;

@@ -20,7 +20,7 @@ public:
     Inspector (Document&, const Catalogue&);
     ~Inspector() override;
 
-    void inspect (const std::string& patch, std::set<graph::Id> selection);
+    void inspect (SeenPatch, std::set<graph::Id> selection);
     void showLimits (const std::vector<ContactLimit>&);
     void setHelp (bool);   ///< true: also shows the descriptions of all ports
     bool showsHelp() const noexcept { return help; }
@@ -58,13 +58,13 @@ private:
     Document& document;
     const Catalogue& catalogue;
     FileAssets files;
-    std::string patch;
+    SeenPatch patch;
     std::set<graph::Id> selection;
     bool help = false;
     std::vector<ContactLimit> contacts;
-    std::string made_for;                                   // key of the current column; the column is kept while it matches, so that a drag can continue
-    std::unique_ptr<Column> column, retired;                // retired: kept alive because one of its fields may have triggered the rebuild
-    std::pair<std::string, std::set<graph::Id>> shown_of;   // patch and selection; the scroll position is kept while they stay the same
+    std::string made_for;                                 // key of the current column; the column is kept while it matches, so that a drag can continue
+    std::unique_ptr<Column> column, retired;              // retired: kept alive because one of its fields may have triggered the rebuild
+    std::pair<SeenPatch, std::set<graph::Id>> shown_of;   // patch and selection; the scroll position is kept while they stay the same
     juce::Viewport scroll;
     KnobStrip strip { document };   // the controls of the graph, while something is selected
 };

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "knob_strip.hpp"
 
+#include <host/app/inspector/blocks/fields.hpp>
 #include <host/app/look/fitted_text.hpp>
+#include <host/app/look/focus.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>
@@ -12,7 +14,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr int knob_width = 68, knob_height = 64, strip_margin = 8;
+constexpr int knob_width = 68, knob_height = 64, label_height = 16, strip_margin = 8;
 constexpr double scale_start = 1.25, scale_end = 2.75;   // of the scale, in half turns from the top
 }   // namespace
 
@@ -38,12 +40,11 @@ public:
 
     void refresh()
     {
-        const auto& all = document.graph().controls;
-        const auto c = std::ranges::find (all, id, &graph::Control::id);
-        if (c == all.end()) return;
+        const auto* c = find();
+        if (c == nullptr) return;
         name = fromUtf8 (c->name.empty() ? c->id : c->name);
         setTitle (name);
-        setTooltip (filled (TRANS ("%1: drag up or down, Ctrl+drag for fine steps; double-click for the middle"), name));
+        setTooltip (filled (TRANS ("%1: drag up or down, Ctrl+drag for fine steps; double-click for the middle, or on the name to rename it"), name));
         setValue (c->value, juce::dontSendNotification);
         repaint();
     }
@@ -56,6 +57,13 @@ public:
         const double by = key.getModifiers().isShiftDown() ? 0.001 : 0.01;
         change (std::clamp (getValue() + (is_up ? by : -by), 0.0, 1.0), false);
         return true;
+    }
+
+    /// On the dial, JUCE moves it to the middle.
+    void mouseDoubleClick (const juce::MouseEvent& e) override
+    {
+        if (e.y < getHeight() - label_height) return juce::Slider::mouseDoubleClick (e);
+        rename();
     }
 
     void focusGained (FocusChangeType cause) override
@@ -75,7 +83,7 @@ public:
         const auto& look = lookOf (*this);
         const auto& theme = look.theme();
         auto area = getLocalBounds().toFloat();
-        const auto label = area.removeFromBottom (16.0f);
+        const auto label = area.removeFromBottom (static_cast<float> (label_height));
         const auto dial = area.withSizeKeepingCentre (36.0f, 36.0f);
         const auto arc = [&] (double to, juce::Colour colour) {
             juce::Path p;
@@ -99,19 +107,48 @@ public:
     }
 
 private:
-    void change (double to, bool joins)
+    void rename()
+    {
+        field = std::make_unique<TextField>();
+        field->setTitle (TRANS ("Name of the control"));
+        field->show (name);
+        field->onApply = [this] (const juce::String& text) { edit ([to = text.trim().toStdString()] (graph::Control& c) { c.name = to; }, false); };
+        field->onFocusLost = [this] {
+            field->apply();
+            juce::MessageManager::callAsync ([safe = SafePointer (this)] {
+                if (safe != nullptr && safe->field && ! safe->field->hasKeyboardFocus (true)) safe->field.reset();
+            });
+        };
+        addAndMakeVisible (*field);
+        field->setBounds (getLocalBounds().removeFromBottom (24));
+        takeFocus (*field);
+    }
+
+    const graph::Control* find() const
     {
         const auto& all = document.graph().controls;
         const auto c = std::ranges::find (all, id, &graph::Control::id);
-        if (c == all.end() || c->value == to) return;
+        return c == all.end() ? nullptr : &*c;
+    }
+
+    void change (double to, bool joins)
+    {
+        if (const auto* c = find(); c != nullptr && c->value != to) edit ([to] (graph::Control& changed) { changed.value = to; }, joins);
+    }
+
+    void edit (const std::function<void (graph::Control&)>& f, bool joins)
+    {
+        const auto* c = find();
+        if (c == nullptr) return;
         auto changed = *c;
-        changed.value = to;
+        f (changed);
         document.perform (graph::ChangeControl { id, std::move (changed) }, joins ? graph::Step::joined : graph::Step::own);
     }
 
     Document& document;
     std::string id;
     juce::String name;
+    std::unique_ptr<TextField> field;   // while the control is being renamed
     bool continues = false;
 };
 

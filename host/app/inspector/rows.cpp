@@ -8,6 +8,7 @@
 #include <host/app/model/param_value.hpp>
 #include <host/app/model/patch.hpp>
 #include <host/app/model/readable.hpp>
+#include <host/app/model/value_in_effect.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>
@@ -19,9 +20,9 @@ namespace tactus::host
 
 namespace
 {
-const graph::Node* find (const Document& document, const std::string& patch, const std::string& node)
+const graph::Node* find (const Document& document, const SeenPatch& patch, const std::string& node)
 {
-    const auto* in = findPatch (document.graph(), patch);
+    const auto* in = findPatch (document.graph(), patch.name);
     return in == nullptr ? nullptr : in->find (node);
 }
 
@@ -29,13 +30,13 @@ const graph::Node* find (const Document& document, const std::string& patch, con
 class ParamRow final : public SetRow
 {
 public:
-    ParamRow (Document& d, std::string p, std::string n, const FacePort& f, const Refusal& r)
-        : SetRow (fromUtf8 (readableName (f))), document (d), patch (std::move (p)), node_name (std::move (n)), port (f), refused (r)
+    ParamRow (Document& d, const Catalogue& c, SeenPatch p, std::string n, const FacePort& f, const Refusal& r)
+        : SetRow (fromUtf8 (readableName (f))), document (d), catalogue (c), patch (std::move (p)), node_name (std::move (n)), port (f), refused (r)
     {
         const auto id = std::string (port.sheet->id);
         setTooltip (tooltipOf (*port.sheet) + (nameWithId (id) == readable (id) ? juce::String() : "\n" + filled (TRANS ("In files: %1"), id)));
         onReset = [this] { change (std::nullopt, false); };
-        if (patch.empty() && port.width == 1 && ! port.isChoice())
+        if (! patch.address (port.id).empty() && port.width == 1 && ! port.isChoice())
             onWantsMenu = [this] (juce::PopupMenu& menu) { fillMenu (menu); };
         const int fields = port.isChoice() ? 0 : port.width;
         for (int i = 0; i < fields; ++i)
@@ -99,22 +100,22 @@ private:
             return;
         }
         refresh (nullptr);
-        if (refused) refused (outOfRangeText (document.graph(), *node, port));
+        if (refused) refused (outOfRangeText (document.graph(), patch, *node, port));
     }
 
     void fillMenu (juce::PopupMenu& menu)
     {
-        if (const auto param = controlOf (document.graph(), node_name + '.' + port.id))
+        if (const auto param = controlOf (document.graph(), patch.address (node_name + '.' + port.id)))
         {
             menu.addItem (filled (TRANS ("Release from %1"), param->name), [safe = juce::Component::SafePointer (this)] {
-                if (safe != nullptr) release (safe->document, safe->node_name, safe->port);
+                if (safe != nullptr) release (safe->document, safe->patch, safe->node_name, safe->port, safe->catalogue);
             });
             return;
         }
         menu.addSectionHeader (TRANS ("Assign to control"));
         const auto item = [&] (const juce::String& what, const std::string& id) {
             menu.addItem (what, [safe = juce::Component::SafePointer (this), id] {
-                if (safe != nullptr) controlBy (safe->document, safe->node_name, safe->port, id);
+                if (safe != nullptr) controlBy (safe->document, safe->patch, safe->node_name, safe->port, id, safe->catalogue);
             });
         };
         for (const auto& c : document.graph().controls)
@@ -137,7 +138,9 @@ private:
     }
 
     Document& document;
-    std::string patch, node_name;
+    const Catalogue& catalogue;
+    SeenPatch patch;
+    std::string node_name;
     FacePort port;
     Refusal refused;
     Json current;
@@ -146,36 +149,34 @@ private:
 };
 }   // namespace
 
-std::unique_ptr<Block> paramRow (Document& document, const std::string& patch, const std::string& node, const FacePort& port, const Refusal& refused)
+std::unique_ptr<Block> paramRow (Document& document, const Catalogue& catalogue, const SeenPatch& patch, const std::string& node, const FacePort& port,
+                                 const Refusal& refused)
 {
-    return std::make_unique<ParamRow> (document, patch, node, port, refused);
+    return std::make_unique<ParamRow> (document, catalogue, patch, node, port, refused);
 }
 
-void controlBy (Document& document, const std::string& name, const FacePort& port, const std::string& control)
+void controlBy (Document& document, const SeenPatch& patch, const std::string& name, const FacePort& port, const std::string& control,
+                const Catalogue& catalogue)
 {
-    const auto* node = find (document, {}, name);
-    if (node == nullptr || port.sheet == nullptr) return;
-    const auto own = writtenValue (*node, port);
-    const auto now = own.is_null() ? initialValue (document.graph(), *node, port) : own;
+    const auto* node = find (document, patch, name);
+    const auto path = patch.address (name + '.' + port.id);
+    if (node == nullptr || port.sheet == nullptr || path.empty()) return;
+    auto now = paramNow (document.graph(), patch, *node, port).value;
+    const auto shown = readQuantity (now, *port.sheet);
+    if (const auto si = valueInEffect (document.graph(), path, catalogue); si && shown && *si != shown->si()) now = shown->exactly (*si).toJson();
     const auto [low, high] = sweepOf (now, *port.sheet);
-    const auto path = name + '.' + port.id;
     if (control.empty())
         document.perform (newControlFor (document.graph(), path, low, high, siOf (now, *port.sheet)));
-    else if (auto command = addTarget (document.graph(), control, path, low, high))
+    else if (auto command = addTarget (document.graph(), control, path, now, *port.sheet))
         document.perform (std::move (*command));
 }
 
-void release (Document& document, const std::string& name, const FacePort& port)
+void release (Document& document, const SeenPatch& patch, const std::string& name, const FacePort& port, const Catalogue& catalogue)
 {
-    const auto path = name + '.' + port.id;
+    const auto path = patch.address (name + '.' + port.id);
     const auto param = controlOf (document.graph(), path);
-    const auto* node = find (document, {}, name);
-    if (! param || node == nullptr || port.sheet == nullptr) return;
-    auto without = removeTarget (document.graph(), param->control, path);
-    if (! without) return;
-    const auto kept = withValue (*node, port, valueOf (*param, *port.sheet));
-    document.perform (
-        graph::Batch { filled (TRANS ("release %1"), path).toStdString(), { std::move (*without), graph::SetParam { {}, name, baseOf (port.id), kept } } });
+    if (! param) return;
+    if (auto command = removeTarget (document.graph(), param->control, path, catalogue)) document.perform (std::move (*command));
 }
 
 }   // namespace tactus::host

@@ -4,6 +4,7 @@
 #include <host/app/inspector/blocks/block.hpp>
 #include <host/app/model/document.hpp>
 #include <host/app/model/face.hpp>
+#include <host/app/model/patch.hpp>
 
 #include <functional>
 #include <optional>
@@ -16,11 +17,11 @@ using Refusal = std::function<void (const juce::String&)>;
 
 /// A param of a node: a field per component, or a list of choices. If a control drives it, editing moves the control. Its menu
 /// assigns it to a control or releases it.
-std::unique_ptr<Block> paramRow (Document&, const std::string& patch, const std::string& node, const FacePort&, const Refusal&);
+std::unique_ptr<Block> paramRow (Document&, const Catalogue&, const SeenPatch&, const std::string& node, const FacePort&, const Refusal&);
 
-/// controlBy() assigns a param to a control; "" creates a new one. release() ends that and keeps the current value of the param.
-void controlBy (Document&, const std::string& node, const FacePort&, const std::string& control);
-void release (Document&, const std::string& node, const FacePort&);
+/// controlBy() assigns a param to a control; "" creates a new one. release() ends that. Both keep the current value of the param.
+void controlBy (Document&, const SeenPatch&, const std::string& node, const FacePort&, const std::string& control, const Catalogue&);
+void release (Document&, const SeenPatch&, const std::string& node, const FacePort&, const Catalogue&);
 
 /// A control of the graph: its name, a fader, and its targets with their ranges.
 std::unique_ptr<Block> controlEditor (Document&, const Catalogue&, const std::string& id, const Refusal&);

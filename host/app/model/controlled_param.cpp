@@ -68,24 +68,6 @@ std::optional<graph::Command> moveControlFor (const graph::Graph& g, const Contr
     return graph::ChangeControl { param.control, std::move (to) };
 }
 
-std::optional<graph::Command> addTarget (const graph::Graph& g, const std::string& id, const std::string& path, Json low, Json high)
-{
-    const auto* control = find (g, id);
-    if (control == nullptr) return std::nullopt;
-    auto to = *control;
-    to.to.push_back ({ path, std::move (low), std::move (high) });
-    return graph::ChangeControl { id, std::move (to) };
-}
-
-std::optional<graph::Command> removeTarget (const graph::Graph& g, const std::string& id, const std::string& path)
-{
-    const auto* control = find (g, id);
-    if (control == nullptr) return std::nullopt;
-    auto to = *control;
-    std::erase_if (to.to, [&] (const auto& t) { return t.path == path; });
-    return graph::ChangeControl { id, std::move (to) };
-}
-
 graph::Command newControlFor (const graph::Graph& g, const std::string& path, const Json& low, const Json& high, double now_si)
 {
     graph::Control c;

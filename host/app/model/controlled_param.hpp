@@ -24,12 +24,6 @@ std::optional<ControlledParam> controlOf (const graph::Graph&, const std::string
 /// Moves the control so that the parameter gets this value. Empty if the value is out of the control's range.
 std::optional<graph::Command> moveControlFor (const graph::Graph&, const ControlledParam&, double to_si);
 
-/// Adds a target to a control.
-std::optional<graph::Command> addTarget (const graph::Graph&, const std::string& control, const std::string& path, Json low, Json high);
-
-/// Removes a target from a control.
-std::optional<graph::Command> removeTarget (const graph::Graph&, const std::string& control, const std::string& path);
-
 /// Creates a control for one parameter, with a free id derived from the parameter's name. It starts at the current value.
 graph::Command newControlFor (const graph::Graph&, const std::string& path, const Json& low, const Json& high, double now_si);
 

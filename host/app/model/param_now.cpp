@@ -10,9 +10,10 @@ namespace tactus::host
 
 namespace
 {
-std::optional<ControlledParam> controlNow (const graph::Graph& g, const std::string& patch, const graph::Node& node, const FacePort& port)
+std::optional<ControlledParam> controlNow (const graph::Graph& g, const SeenPatch& patch, const graph::Node& node, const FacePort& port)
 {
-    return patch.empty() ? controlOf (g, node.name + '.' + port.id) : std::nullopt;
+    const auto address = patch.address (node.name + '.' + port.id);
+    return address.empty() ? std::nullopt : controlOf (g, address);
 }
 }   // namespace
 
@@ -22,7 +23,7 @@ Json valueOf (const ControlledParam& controlled, const PortSheet& sheet)
     return low ? low->moved (controlled.value).toJson() : Json (rounded (controlled.value));
 }
 
-ParamNow paramNow (const graph::Graph& g, const std::string& patch, const graph::Node& node, const FacePort& port)
+ParamNow paramNow (const graph::Graph& g, const SeenPatch& patch, const graph::Node& node, const FacePort& port)
 {
     const auto own = writtenValue (node, port);
     ParamNow now { own.is_null() ? initialValue (g, node, port) : own, ! own.is_null(), controlNow (g, patch, node, port) };
@@ -32,18 +33,18 @@ ParamNow paramNow (const graph::Graph& g, const std::string& patch, const graph:
     return now;
 }
 
-std::optional<graph::Command> changeParam (const graph::Graph& g, const std::string& patch, const graph::Node& node, const FacePort& port,
+std::optional<graph::Command> changeParam (const graph::Graph& g, const SeenPatch& patch, const graph::Node& node, const FacePort& port,
                                            const std::optional<Json>& value)
 {
     const auto control = controlNow (g, patch, node, port);
-    if (! control) return graph::SetParam { patch, node.name, baseOf (port.id), withValue (node, port, value) };
+    if (! control) return graph::SetParam { patch.name, node.name, baseOf (port.id), withValue (node, port, value) };
     const auto wanted = readQuantity (value.value_or (initialValue (g, node, port)), *port.sheet);
     return wanted ? moveControlFor (g, *control, wanted->si()) : std::nullopt;
 }
 
-std::string outOfRangeText (const graph::Graph& g, const graph::Node& node, const FacePort& port)
+std::string outOfRangeText (const graph::Graph& g, const SeenPatch& patch, const graph::Node& node, const FacePort& port)
 {
-    const auto control = controlOf (g, node.name + '.' + port.id);
+    const auto control = controlNow (g, patch, node, port);
     const auto of = control ? filled (TRANS ("the new value of %1 is outside the range of the control %2"), port.id, control->name)
                             : filled (TRANS ("the new value of %1 is outside the range of its control"), port.id);
     return of.toStdString() + "; " + TRANS ("widen that range, or right-click the parameter in the inspector to release it").toStdString();

@@ -3,6 +3,7 @@
 
 #include "controlled_param.hpp"
 #include "face.hpp"
+#include "patch.hpp"
 
 #include <optional>
 
@@ -17,17 +18,16 @@ struct ParamNow
     std::optional<ControlledParam> control;   ///< set if a control drives the param; an edit then has to move that control
 };
 
-ParamNow paramNow (const graph::Graph&, const std::string& patch, const graph::Node&, const FacePort&);
+ParamNow paramNow (const graph::Graph&, const SeenPatch&, const graph::Node&, const FacePort&);
 
 /// What a control sets its parameter to now, in the unit its low end is written in.
 Json valueOf (const ControlledParam&, const PortSheet&);
 
 /// Gives a param this value, or its default if there is none. Moves the control that drives it; empty if the value is out of
 /// that control's range.
-std::optional<graph::Command> changeParam (const graph::Graph&, const std::string& patch, const graph::Node&, const FacePort&,
-                                           const std::optional<Json>& value);
+std::optional<graph::Command> changeParam (const graph::Graph&, const SeenPatch&, const graph::Node&, const FacePort&, const std::optional<Json>& value);
 
 /// Explains to the user why changeParam() returned nothing.
-std::string outOfRangeText (const graph::Graph&, const graph::Node&, const FacePort&);
+std::string outOfRangeText (const graph::Graph&, const SeenPatch&, const graph::Node&, const FacePort&);
 
 }   // namespace tactus::host

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 namespace tactus::host
 {
@@ -73,7 +74,15 @@ std::optional<Json> withValue (const graph::Node& node, const FacePort& port, co
     return plain ? std::nullopt : std::optional (std::move (all));
 }
 
-std::pair<Json, Json> sweepOf (const Json& now, const PortSheet& sheet)
+namespace
+{
+struct Sweep
+{
+    QuantityText value;
+    double low, high;
+};
+
+Sweep usualSweep (const Json& now, const PortSheet& sheet)
 {
     const auto read = readQuantity (now, sheet);
     const auto value = read ? *read : QuantityText { sheet.initial[0], {}, 1.0 };
@@ -81,7 +90,42 @@ std::pair<Json, Json> sweepOf (const Json& now, const PortSheet& sheet)
     const double low = std::isfinite (usual.min) ? usual.min : std::min (0.0, value.si());
     const double above = value.si() > low ? low + 2.0 * (value.si() - low) : low + 1.0;
     const double high = std::isfinite (usual.max) ? usual.max : above;
-    return { value.moved (low).toJson(), value.moved (high).toJson() };
+    return { value, std::min (low, value.si()), std::max (high, value.si()) };
+}
+}   // namespace
+
+std::pair<Json, Json> sweepOf (const Json& now, const PortSheet& sheet)
+{
+    const auto [value, low, high] = usualSweep (now, sheet);
+    const auto end = [v = value] (double si) { return (si == v.si() ? v : v.moved (si)).toJson(); };
+    return { end (low), end (high) };
+}
+
+std::pair<Json, Json> sweepThrough (const Json& now, const PortSheet& sheet, double at)
+{
+    const auto [value, low, high] = usualSweep (now, sheet);
+    const double si = value.si(), whole = high - low;
+    const auto widest = [at] (double down, double up) {
+        constexpr double any = std::numeric_limits<double>::max();
+        return std::min (at > 0.0 ? down / at : any, at < 1.0 ? up / (1.0 - at) : any);
+    };
+    const auto& hard = sheet.limits.hard;
+    const double least = std::max (hard.min, si - whole), most = std::min (hard.max, si + whole);
+    double a = si, b = si;
+    for (const auto& [from, to] : { std::pair (low, high), std::pair (least, most) })
+        for (const bool is_up : { true, false })
+            if (const double span = is_up ? widest (si - from, to - si) : widest (to - si, si - from); a == b && span > 0.0)
+            {
+                a = is_up ? si - at * span : si + at * span;
+                b = is_up ? si + (1.0 - at) * span : si - (1.0 - at) * span;
+                const auto settle = [&, begin = from, last = to] (double& end) {
+                    if (std::abs (end - begin) < 1e-12 * span || end < begin) end = begin;
+                    if (std::abs (end - last) < 1e-12 * span || end > last) end = last;
+                };
+                settle (a);
+                settle (b);
+            }
+    return { value.exactly (a).toJson(), value.exactly (b).toJson() };
 }
 
 }   // namespace tactus::host

@@ -23,7 +23,11 @@ Json initialValue (const graph::Graph&, const graph::Node&, const FacePort&);
 /// The value to store so that only the port's entry of a list changes. Empty means back to the default.
 std::optional<Json> withValue (const graph::Node&, const FacePort&, const std::optional<Json>&);
 
-/// The range a new control gets for a param: its usual range, in the unit of the current value.
+/// The range a new control gets for a param: its usual range, widened to the current value, in the unit of the current value.
 std::pair<Json, Json> sweepOf (const Json& now, const PortSheet&);
+
+/// The widest part of that range in which a control at `at` (0 to 1) leaves the value as it is. It may run downwards, and goes beyond the
+/// usual range if the value is at one end of it. Both ends are the value if the hard range leaves no other choice.
+std::pair<Json, Json> sweepThrough (const Json& now, const PortSheet&, double at);
 
 }   // namespace tactus::host

@@ -29,6 +29,13 @@ QuantityText QuantityText::moved (double to_si) const
     return other;
 }
 
+QuantityText QuantityText::exactly (double to_si) const
+{
+    auto other = *this;
+    other.number = unit.empty() ? to_si : rounded (to_si / scale, 12);
+    return other;
+}
+
 Json QuantityText::toJson() const { return unit.empty() ? Json (number) : Json (toText()); }
 
 std::string QuantityText::toText() const { return unit.empty() ? numberText (number) : numberText (number) + ' ' + unit; }

@@ -23,6 +23,9 @@ struct QuantityText
     /// Another value in the same unit, rounded to three digits.
     QuantityText moved (double to_si) const;
 
+    /// Another value in the same unit, to twelve digits.
+    QuantityText exactly (double to_si) const;
+
     Json toJson() const;   ///< a plain number if there is no unit
     std::string toText() const;
 };

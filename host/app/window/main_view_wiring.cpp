@@ -33,7 +33,7 @@ void MainView::connectCanvas()
     patching.onHint = [this] (const juce::String& text) { status.hint (text); };
     patching.onNotice = [this] (const juce::String& text) { status.notify (text); };
     patching.onBreadcrumbs = [this] { documentChanged(); };
-    patching.onSelection = [this] { inspector.inspect (patching.patch(), patching.selection()); };
+    patching.onSelection = [this] { inspector.inspect (patching.seen(), patching.selection()); };
     patching.onEditParams = [this] { inspector.focusFirst(); };
     patching.onNodeRequested = [this] (const NodeRequest& request) { chooseNode (request); };
     patching.onChoose = [this] (const auto& purpose, auto entries, auto chosen) { choose (purpose, std::move (entries), std::move (chosen)); };

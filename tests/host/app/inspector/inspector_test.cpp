@@ -223,7 +223,7 @@ TEST_CASE ("editing a driven parameter moves its control, and releasing it keeps
 
     const auto face = faceOf (rig.document->graph(), rig.document->graph().root, rig.node ("drag"), catalogue());
     const auto before = rig.document->history().names().size();
-    release (*rig.document, "drag", *face.find (Role::param, "d_max"));
+    release (*rig.document, {}, "drag", *face.find (Role::param, "d_max"), catalogue());
     CHECK_FALSE (controlOf (rig.document->graph(), "drag.d_max"));
     CHECK (rig.node ("drag").params["d_max"] == "1.15 mm");
     CHECK (rig.document->history().names().size() == before + 1);
@@ -236,10 +236,10 @@ TEST_CASE ("a parameter can be assigned to a control with its usual range, or to
         const auto face = faceOf (rig.document->graph(), rig.document->graph().root, rig.node ("drag"), catalogue());
         return *face.find (Role::param, id);
     };
-    controlBy (*rig.document, "drag", port ("mu"), "drape");
+    controlBy (*rig.document, {}, "drag", port ("mu"), "drape", catalogue());
     REQUIRE (rig.document->graph().controls[1].to.size() == 2);
     CHECK (rig.document->graph().controls[1].to[1].path == "drag.mu");
-    controlBy (*rig.document, "drag", port ("break_away"), "");
+    controlBy (*rig.document, {}, "drag", port ("break_away"), "", catalogue());
     REQUIRE (rig.document->graph().controls.size() == 3);
     const auto& made = rig.document->graph().controls[2];
     CHECK (made.id == "break_away");

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "face.hpp"
+#include "patch.hpp"
+
+#include <tactus/graph/edit.hpp>
+
+#include <optional>
+#include <string>
+
+namespace tactus::host
+{
+
+/// A control sets a parameter to its own value while the node still stores another one. These edits keep the value in effect, so that no force jumps.
+
+/// What the graph runs with for a parameter that controls name like this, in SI units; that of the first instance if there are several. It
+/// may be another value than the stored one, even without a control: a subgraph node may override it. Empty if there is no such parameter.
+std::optional<double> valueInEffect (const graph::Graph&, const std::string& address, const Catalogue&);
+
+/// The graph with the values in effect stored in the nodes of a patch, so that a copy of them feels the same.
+graph::Graph withValuesInEffect (const graph::Graph&, const SeenPatch&, const Catalogue&);
+
+/// Removes a control. Its parameters keep what it sets them to.
+graph::Command removeControl (const graph::Graph&, const std::string& control, const Catalogue&);
+
+/// Removes a target from a control. Its parameter keeps what the control sets it to. Empty if there is no such target.
+std::optional<graph::Command> removeTarget (const graph::Graph&, const std::string& control, const std::string& path, const Catalogue&);
+
+/// Adds a parameter, whose value now is given, to a control. Its range is a part of its usual range, such that the value stays; a control
+/// without targets moves to the value instead. Empty if there is no such control.
+std::optional<graph::Command> addTarget (const graph::Graph&, const std::string& control, const std::string& path, const Json& now, const PortSheet&);
+
+}   // namespace tactus::host
