@@ -74,14 +74,15 @@ public:
     void requestNode (NodeRequest);                                 ///< asks the user for a node to add
     void addNodeAt (const std::string& type, const NodeRequest&);   ///< adds a node and connects it as requested
 
-    /// Connects two ports. If only one of them is a vector, asks which component to use.
-    void join (const ScenePort& from, const ScenePort& to);
+    /// Connects two ports, in place of a wire if its id is given. If only one of them is a vector, asks which component to use.
+    void join (const ScenePort& from, const ScenePort& to, graph::Id replaced = 0);
 
     void editParams();   ///< gives the keyboard focus to the parameters of the selected node
     void editParam (const SceneNode&, const Socket&);
     void setParam (const SceneNode&, const FacePort&, const std::optional<Json>&, graph::Step = graph::Step::own);
 
 private:
+    void connectInPlaceOf (graph::Id, const Plug& from, const Plug& to);
     const graph::Patch& patchShown() const;
     std::optional<graph::Command> storePositions() const;   ///< stores those of automatically arranged nodes; empty if all are stored
     graph::Graph graphAsShown() const;                      ///< stores in the nodes of the patch where they are, and what controls set them to

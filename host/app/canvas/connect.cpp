@@ -90,13 +90,30 @@ void CanvasCommands::addNodeAt (const std::string& type, const NodeRequest& requ
     }
 }
 
-void CanvasCommands::join (const ScenePort& from, const ScenePort& to)
+/// One step, also if it moves a wire. Where nothing would change, no step.
+void CanvasCommands::connectInPlaceOf (graph::Id replaced, const Plug& from, const Plug& to)
 {
-    if (from.port->width == to.port->width)
+    if (replaced == 0)
     {
-        perform (connect (document.graph(), canvas.patch(), { *from.node, *from.port }, { *to.node, *to.port }));
+        perform (connect (document.graph(), canvas.patch(), from, to));
         return;
     }
+    const graph::RemoveWire removal { canvas.patch(), replaced };
+    auto without = document.graph();
+    const auto back = graph::apply (without, removal);
+    const auto* was = back ? std::get_if<graph::AddWire> (&back->edit) : nullptr;
+    if (was == nullptr) return;
+    auto command = connect (without, canvas.patch(), from, to);
+    auto& commands = std::get<graph::Batch> (command.edit).commands;
+    const auto& now = std::get<graph::AddWire> (commands.back().edit).wire;
+    if (commands.size() == 1 && now.from == was->wire.from && now.to == was->wire.to) return;
+    commands.insert (commands.begin(), removal);
+    perform (graph::Batch { NEEDS_TRANS ("re-plug wire"), std::move (commands) });
+}
+
+void CanvasCommands::join (const ScenePort& from, const ScenePort& to, graph::Id replaced)
+{
+    if (from.port->width == to.port->width) return connectInPlaceOf (replaced, { *from.node, *from.port }, { *to.node, *to.port });
     if (! canvas.onChoose) return;
     const bool of_output = from.port->width == 3;
     const auto& vector = of_output ? from : to;
@@ -107,12 +124,12 @@ void CanvasCommands::join (const ScenePort& from, const ScenePort& to)
                              {},
                              (of_output ? TRANS ("Send this component") : TRANS ("Feed this component")).toStdString() });
     const PortId out { from.node->id, Role::output, from.port->id }, in { to.node->id, to.port->role, to.port->id };
-    canvas.onChoose (TRANS ("Which component?"), entries, [this, out, in, entries, of_output] (const std::string& chosen) {
+    canvas.onChoose (TRANS ("Which component?"), entries, [this, out, in, entries, of_output, replaced] (const std::string& chosen) {
         const auto component = static_cast<int> (std::ranges::find (entries, chosen, &PaletteEntry::type) - entries.begin());
         const auto a = canvas.scene().findPort (out), b = canvas.scene().findPort (in);
         if (component >= 3 || ! a || ! b) return;
         const int of_a = of_output ? component : -1, of_b = of_output ? -1 : component;
-        perform (connect (document.graph(), canvas.patch(), { *a.node, *a.port, of_a }, { *b.node, *b.port, of_b }));
+        connectInPlaceOf (replaced, { *a.node, *a.port, of_a }, { *b.node, *b.port, of_b });
     });
 }
 

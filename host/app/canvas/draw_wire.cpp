@@ -62,15 +62,15 @@ public:
         if (! over)
         {
             if (e.getDistanceFromDragStart() <= least_drag_px || canvas.scene().nodeAt (at) != nullptr) return;
-            if (wire_id != 0) return unplug (NEEDS_TRANS ("disconnect"));
+            if (wire_id != 0) return unplug();
             canvas.commands().requestNode ({ at, start });
             return;
         }
         if (! check (*over.node, *over.socket->port)) return;
         const PortId other { over.node->id, over.socket->port->role, over.socket->port->id };
-        if (wire_id != 0) unplug (NEEDS_TRANS ("re-plug wire"));   // rebuilds the scene
         const auto a = canvas.scene().findPort (start), b = canvas.scene().findPort (other);
-        if (a && b) start.role == Role::output ? canvas.commands().join (a, b) : canvas.commands().join (b, a);
+        if (! a || ! b) return;
+        start.role == Role::output ? canvas.commands().join (a, b, wire_id) : canvas.commands().join (b, a, wire_id);
     }
 
     void paint (juce::Graphics& g) const override
@@ -137,7 +137,7 @@ private:
         g.drawText (problem, box, juce::Justification::centred, false);
     }
 
-    void unplug (const char* step) { canvas.commands().perform (graph::Batch { step, { graph::RemoveWire { canvas.patch(), wire_id } } }); }
+    void unplug() { canvas.commands().perform (graph::Batch { NEEDS_TRANS ("disconnect"), { graph::RemoveWire { canvas.patch(), wire_id } } }); }
 
     static constexpr int least_drag_px = 8;
 

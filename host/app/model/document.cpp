@@ -20,9 +20,17 @@ bool Document::perform (graph::Command command, graph::Step step)
         return false;
     }
     origins.resize (before + 1);   // drops the redo steps
+    if (window_steps.size() > before) window_steps.resize (before);
     if (edits.position() > before) origins.push_back (origins.back());
     notifyChanged();
     return true;
+}
+
+void Document::addWindowStep (const std::string& name, std::function<void()> undo, std::function<void()> redo)
+{
+    if (is_stepping || ! perform (graph::Batch { name, {} })) return;
+    window_steps.resize (edits.position());
+    window_steps.back() = { std::move (undo), std::move (redo) };
 }
 
 void Document::open (graph::Graph g, Source source, const std::string& step)
@@ -31,6 +39,7 @@ void Document::open (graph::Graph g, Source source, const std::string& step)
     const auto to = std::make_shared<const graph::Graph> (std::move (g));
     (void)edits.perform (graph::Batch { step, { graph::ReplaceGraph { to } } });   // cannot be refused
     origins.resize (edits.position());
+    if (window_steps.size() >= edits.position()) window_steps.resize (edits.position() - 1);
     origins.push_back (std::make_shared<Origin> (Origin { std::move (source), std::move (saved) }));
     notifyChanged();
 }
@@ -38,15 +47,16 @@ void Document::open (graph::Graph g, Source source, const std::string& step)
 void Document::goTo (std::size_t position)
 {
     const auto before = edits.position();
+    std::vector<std::function<void()>> of_window;
     while (edits.position() > position && edits.undo())
-    {
-    }
+        if (edits.position() < window_steps.size()) of_window.push_back (window_steps[edits.position()].first);
     while (edits.position() < position && edits.redo())
-    {
-    }
+        if (edits.position() <= window_steps.size()) of_window.push_back (window_steps[edits.position() - 1].second);
     if (edits.position() == before) return;
     is_stepping = true;
     notifyChanged();
+    for (const auto& change : of_window)
+        if (change) change();
     is_stepping = false;
 }
 

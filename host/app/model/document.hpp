@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -54,6 +55,11 @@ public:
 
     /// Returns false if the edit was refused; the listeners get the reason.
     bool perform (graph::Command, graph::Step = graph::Step::own);
+
+    /// Adds a step that changes only the window, such as a closed scope. Undoing and redoing it calls these functions, and leaves the graph alone.
+    /// The change itself has been made.
+    void addWindowStep (const std::string& name, std::function<void()> undo, std::function<void()> redo);
+
     void undo() { goTo (edits.position() - std::min<std::size_t> (1, edits.position())); }
     void redo() { goTo (edits.position() + 1); }
     void goTo (std::size_t position);   ///< undoes or redoes up to that position of the history
@@ -106,8 +112,9 @@ private:
     Origin& origin() const noexcept { return *origins[edits.position()]; }
 
     const Catalogue* types = &catalogue();
-    graph::History edits;                           // accepts edits with errors: the window shows them as problems, and offers to mend them
-    std::vector<std::shared_ptr<Origin>> origins;   // one per position of the history
+    graph::History edits;                                                                // accepts edits with errors: the window shows them as problems, and offers to mend them
+    std::vector<std::shared_ptr<Origin>> origins;                                        // one per position of the history
+    std::vector<std::pair<std::function<void()>, std::function<void()>>> window_steps;   // one per step of the history: how to undo and redo it
     std::vector<Listener*> listeners;
     bool is_stepping = false;
 };

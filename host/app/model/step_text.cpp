@@ -6,6 +6,7 @@
 #include "readable.hpp"
 
 #include <host/app/text/filled.hpp>
+#include <tactus/graph/endpoint_text.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -106,13 +107,64 @@ std::optional<std::string> textOf (const graph::History& history, std::size_t st
         return textOf (*a, *b);
     return {};
 }
+/// What a step is about: the nodes and wires that its commands name.
+struct Objects
+{
+    std::vector<std::string> nodes, wires;
+
+    static void add (std::vector<std::string>& to, const std::string& what)
+    {
+        if (std::ranges::count (to, what) == 0) to.push_back (what);
+    }
+
+    void collect (const graph::Command& command)
+    {
+        if (const auto* batch = std::get_if<graph::Batch> (&command.edit))
+        {
+            // The canvas stores where it shows the nodes together with the first edit, which is not what the step is about.
+            const auto* first = batch->commands.size() == 2 ? std::get_if<graph::Batch> (&batch->commands.front().edit) : nullptr;
+            const bool places_all = first != nullptr && batch->name != first->name && first->name.starts_with ("move node");
+            for (std::size_t i = places_all ? 1 : 0; i < batch->commands.size(); ++i)
+                collect (batch->commands[i]);
+        }
+        else if (const auto* added = std::get_if<graph::AddNode> (&command.edit))
+            add (nodes, added->node.name);
+        else if (const auto* removed = std::get_if<graph::RemoveNode> (&command.edit))
+            add (nodes, removed->name);
+        else if (const auto* changed = std::get_if<graph::SetNodeKey> (&command.edit))
+            add (nodes, changed->node);
+        else if (const auto* wired = std::get_if<graph::AddWire> (&command.edit))
+            add (wires, graph::toText (wired->wire));
+        else if (const auto* rewired = std::get_if<graph::ChangeWire> (&command.edit))
+            add (wires, graph::toText (rewired->to));
+    }
+};
+
+/// The name of a step of the canvas with what it was done to: "delete drag". A new wire is its own name.
+std::string withObjects (const std::string& name, const graph::History& history, std::size_t step)
+{
+    constexpr std::size_t most = 3;
+    Objects done, undone;
+    for (const auto& c : history.commandsOf (step))
+        done.collect (c);
+    for (const auto& c : history.inversesOf (step))
+        undone.collect (c);
+    if (name == "connect" && ! done.wires.empty()) return done.wires.back();
+    const auto& wires = done.wires.empty() ? undone.wires : done.wires;
+    const auto& objects = done.nodes.empty() ? wires : done.nodes;
+    auto text = juce::translate (valueText (name)).toStdString();
+    if (objects.empty() || objects.size() > most) return text;
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        if (name.find (objects[i]) == std::string::npos) text += (i == 0 ? " " : ", ") + objects[i];
+    return text;
+}
 }   // namespace
 
 std::vector<std::string> stepNames (const graph::History& history, const Catalogue& catalogue)
 {
     auto names = history.names();
     for (std::size_t i = 0; i < names.size(); ++i)
-        names[i] = textOf (history, i, catalogue).value_or (juce::translate (valueText (names[i])).toStdString());
+        names[i] = textOf (history, i, catalogue).value_or (withObjects (names[i], history, i));
     return names;
 }
 

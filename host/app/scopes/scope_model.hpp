@@ -64,6 +64,7 @@ struct ScopeSpec
     std::map<std::string, Extent> zoomed;   ///< ranges that the user has zoomed, by unit
     std::vector<Cursor> cursors;            ///< at most two
     bool is_frozen = false;
+    double share = 1.0;   ///< of the width of its row, relative to the other scopes in it
 
     /// Adds a trace. A spectrogram replaces its trace, because it shows only one.
     void addPort (const std::string& port)

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scope_panel.hpp"
 
+#include <host/app/look/focus.hpp>
 #include <host/app/look/size_in_view.hpp>
 #include <host/app/model/message_text.hpp>
 #include <host/app/text/filled.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 namespace tactus::host
 {
@@ -13,7 +18,81 @@ namespace tactus::host
 namespace
 {
 constexpr std::array scope_kinds { ScopeKind::time, ScopeKind::over, ScopeKind::spectrum, ScopeKind::spectrogram, ScopeKind::energy, ScopeKind::tool };
+constexpr double best_shape = 1.6;        // width by height of a scope
+constexpr int least_in_grid = 200;        // units of the window: no second row if it makes scopes lower than this
+constexpr double least_plot_px = 120.0;   // pixels of the screen
+constexpr double least_share = 0.2;
+
+/// A scope is no lower than this, in units of the window.
+int leastHeight()
+{
+    const auto scale = static_cast<double> (juce::Desktop::getInstance().getGlobalScaleFactor());
+    return ScopeView::header_height + static_cast<int> (std::ceil (least_plot_px / std::max (0.1, scale)));
 }
+}   // namespace
+
+/// The edge between two scopes of a row. A drag sizes them, and a double click makes them equally wide.
+class ScopePanel::Edge final : public juce::Component
+{
+public:
+    static constexpr int width = 7;
+
+    explicit Edge (ScopePanel& p) : panel (p)
+    {
+        setMouseCursor (juce::MouseCursor::LeftRightResizeCursor);
+        setMouseClickGrabsKeyboardFocus (false);
+        setTitle (TRANS ("Edge between scopes"));
+    }
+
+    void paint (juce::Graphics& g) override
+    {
+        if (! isMouseOverOrDragging()) return;
+        g.setColour (themeOf (*this).accent);
+        g.fillRect (getLocalBounds().withSizeKeepingCentre (2, getHeight()));
+    }
+
+    void mouseEnter (const juce::MouseEvent&) override { repaint(); }
+    void mouseExit (const juce::MouseEvent&) override { repaint(); }
+
+    void mouseDown (const juce::MouseEvent&) override
+    {
+        before = panel.copies();
+        grabbed = panel.views[right - 1]->getWidth();
+    }
+
+    void mouseDrag (const juce::MouseEvent& e) override
+    {
+        const int whole = panel.views[right - 1]->getWidth() + panel.views[right]->getWidth();
+        const int way = e.getEventRelativeTo (getParentComponent()).getOffsetFromDragStart().x;
+        const double both = before[right - 1].share + before[right].share, part = static_cast<double> (grabbed + way) / std::max (1, whole);
+        size (std::clamp (part, least_share, 1.0 - least_share) * both, both);
+    }
+
+    void mouseUp (const juce::MouseEvent&) override { panel.addStep (NEEDS_TRANS ("size scopes"), before); }
+
+    void mouseDoubleClick (const juce::MouseEvent&) override
+    {
+        before = panel.copies();
+        const double both = before[right - 1].share + before[right].share;
+        size (0.5 * both, both);
+        panel.addStep (NEEDS_TRANS ("size scopes"), before);
+    }
+
+private:
+    void size (double left, double both)
+    {
+        panel.model.scopes[right - 1]->share = left;
+        panel.model.scopes[right]->share = both - left;
+        panel.layOutScopes();
+    }
+
+    ScopePanel& panel;
+    Scopes before;
+    int grabbed = 0;
+
+public:
+    std::size_t right = 1;   // the scope to its right
+};
 
 ScopePanel::ScopePanel (Document& d, Traces& t, const Catalogue& c) : document (d), catalogue (c), traces (t), client (t)
 {
@@ -52,7 +131,11 @@ ScopePanel::ScopePanel (Document& d, Traces& t, const Catalogue& c) : document (
 void ScopePanel::offer (ScopeKind kind)
 {
     if (model.scopes.size() < most_scopes)
+    {
+        const auto before = copies();
         add (kind);
+        addStep (NEEDS_TRANS ("add scope"), before);
+    }
     else if (onHint)
         onHint (filled (TRANS ("At most %1 scopes; close one first"), most_scopes));
 }
@@ -70,14 +153,47 @@ void ScopePanel::openAdders()
 void ScopePanel::suggest()
 {
     listPorts();
+    restore (suggestedScopes (document.graph(), catalogue));
+}
+
+ScopePanel::Scopes ScopePanel::copies() const
+{
+    Scopes all;
+    for (const auto& s : model.scopes)
+        all.push_back (*s);
+    return all;
+}
+
+void ScopePanel::restore (const Scopes& to)
+{
+    letGoOfFocus (scope_row);
+    moved = nullptr;
+    edges.clear();
     views.clear();
     model = {};
-    for (auto& s : suggestedScopes (document.graph(), catalogue))
+    for (auto s : to)
+    {
+        s.is_frozen = false;   // what it showed is gone
         model.scopes.push_back (std::make_unique<ScopeSpec> (std::move (s)));
+    }
     for (auto& s : model.scopes)
         showView (*s);
     requestPorts();
     resized();
+}
+
+/// Makes a step of the history of what has changed since these scopes.
+void ScopePanel::addStep (const char* name, const Scopes& before)
+{
+    const auto now = copies();
+    const auto isSame = [] (const ScopeSpec& a, const ScopeSpec& b) { return a.kind == b.kind && a.ports == b.ports && a.share == b.share; };
+    if (std::ranges::equal (before, now, isSame)) return;
+    const auto to = [safe = juce::Component::SafePointer (this)] (const Scopes& scopes) {
+        return [safe, scopes] {
+            if (safe != nullptr) safe->restore (scopes);
+        };
+    };
+    document.addWindowStep (name, to (before), to (now));
 }
 
 ScopePanel::~ScopePanel() { document.remove (*this); }
@@ -111,7 +227,10 @@ void ScopePanel::showView (ScopeSpec& s)
     auto& v = *views.emplace_back (std::make_unique<ScopeView> (s, context, [this] (const std::string& port) { return client.of (port); }));
     v.onClose = [this, &s] {
         juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), which = &s] {
-            if (safe != nullptr) safe->close (*which);
+            if (safe == nullptr) return;
+            const auto before = safe->copies();
+            safe->close (*which);
+            safe->addStep (NEEDS_TRANS ("close scope"), before);
         });
     };
     v.onFreeze = [this] { freeze_button.setToggleState (isFrozen(), juce::dontSendNotification); };
@@ -145,7 +264,10 @@ void ScopePanel::close (const ScopeSpec& s)
     const auto at = std::ranges::find (model.scopes, &s, &std::unique_ptr<ScopeSpec>::get);
     if (at == model.scopes.end()) return;
     if (model.active == &s) model.active = nullptr;
-    views.erase (views.begin() + (at - model.scopes.begin()));
+    edges.clear();
+    const auto view = views.begin() + (at - model.scopes.begin());
+    letGoOfFocus (**view);
+    views.erase (view);
     model.scopes.erase (at);
     requestPorts();
     resized();
@@ -154,12 +276,14 @@ void ScopePanel::close (const ScopeSpec& s)
 bool ScopePanel::probe (const std::string& port)
 {
     const auto scopes_before = model.scopes.size();
+    const auto before = copies();
     const bool is_shown = model.probe (port);
     const bool is_new = model.scopes.size() > scopes_before;
     if (is_new) showView (*model.scopes.back());
     requestPorts();
     resized();
     if (is_new) reveal (*views.back());
+    addStep (NEEDS_TRANS ("probe"), before);
     return is_shown;
 }
 
@@ -225,8 +349,7 @@ juce::Rectangle<int> ScopePanel::emptyArea() const { return getLocalBounds().wit
 void ScopePanel::ScopeRow::paint (juce::Graphics& g)
 {
     g.setColour (themeOf (*this).hairline);
-    for (const auto* view : getChildren())
-        if (view->getX() > 0) g.drawVerticalLine (view->getX() - 1, 0.0f, static_cast<float> (getHeight()));
+    g.fillAll();   // between the scopes
 }
 
 void ScopePanel::paint (juce::Graphics& g)
@@ -287,15 +410,59 @@ void ScopePanel::resized()
     repaint();
 }
 
-/// Equally wide, but none too narrow or too low to read.
+/// As many rows as make the scopes easiest to read; one row in a panel of the usual height.
+std::size_t ScopePanel::columns() const
+{
+    const auto count = std::max<std::size_t> (1, views.size());
+    std::size_t best = count;
+    double least = std::numeric_limits<double>::max();
+    for (std::size_t rows = 1; rows <= count; ++rows)
+    {
+        const auto across = (count + rows - 1) / rows;
+        const double width = scroll.getWidth() / static_cast<double> (across), height = scroll.getHeight() / static_cast<double> (rows);
+        if (rows > 1 && height < least_in_grid) break;
+        if (const double off = std::abs (std::log (std::max (1.0, width) / std::max (1.0, height) / best_shape)); off < least)
+        {
+            least = off;
+            best = across;
+        }
+    }
+    return best;
+}
+
+/// By their shares of the width, but none too narrow or too low to read.
 void ScopePanel::layOutScopes()
 {
-    const int count = static_cast<int> (views.size()), bar = scroll.getScrollBarThickness();
-    const auto size = sizeInView (scroll.getLocalBounds(), { count * least_scope_width, least_scope_height }, bar);
+    const auto across = columns(), rows = (views.size() + across - 1) / across;
+    const int bar = scroll.getScrollBarThickness(), wide = static_cast<int> (across), high = static_cast<int> (rows);
+    const auto size = sizeInView (scroll.getLocalBounds(), { wide * least_scope_width, high * leastHeight() }, bar);
     scope_row.setSize (size.width, size.height);
     auto area = scope_row.getLocalBounds();
-    for (int i = 0; i < count; ++i)
-        views[static_cast<std::size_t> (i)]->setBounds (area.removeFromLeft (area.getWidth() / (count - i)).withTrimmedLeft (i == 0 ? 0 : 1));
+    std::size_t used = 0;
+    for (std::size_t row = 0; row < rows; ++row)
+    {
+        auto line = area.removeFromTop (area.getHeight() / static_cast<int> (rows - row)).withTrimmedTop (row == 0 ? 0 : 1);
+        const auto first = row * across, end = std::min (views.size(), first + across);
+        double left = 0.0;
+        for (auto i = first; i < end; ++i)
+            left += model.scopes[i]->share;
+        for (auto i = first; i < end; ++i)
+        {
+            const double share = model.scopes[i]->share;
+            const int others = static_cast<int> (end - i) - 1;
+            const int most = std::max (least_scope_width, line.getWidth() - others * least_scope_width);
+            const int width = others == 0 ? line.getWidth() : std::clamp (juce::roundToInt (line.getWidth() * share / left), least_scope_width, most);
+            left -= share;
+            views[i]->setBounds (line.removeFromLeft (width).withTrimmedLeft (i == first ? 0 : 1));
+            if (i == first) continue;
+            if (used == edges.size()) scope_row.addAndMakeVisible (*edges.emplace_back (std::make_unique<Edge> (*this)));
+            auto& edge = *edges[used++];   // the one that is being dragged stays
+            edge.right = i;
+            edge.toFront (false);
+            edge.setBounds (views[i]->getBounds().withWidth (Edge::width).translated (-Edge::width / 2 - 1, 0));
+        }
+    }
+    edges.resize (used);
 }
 
 bool ScopePanel::keyPressed (const juce::KeyPress& key)
@@ -307,8 +474,42 @@ bool ScopePanel::keyPressed (const juce::KeyPress& key)
 
 void ScopePanel::mouseDown (const juce::MouseEvent& e)
 {
+    moved = nullptr;
     for (const auto& v : views)
-        if (v.get() == e.eventComponent || v->isParentOf (e.eventComponent)) model.active = &v->shown();
+        if (v.get() == e.eventComponent || v->isParentOf (e.eventComponent))
+        {
+            model.active = &v->shown();
+            if (v.get() != e.eventComponent) continue;
+            moved = model.active;   // its title
+            before_drag = copies();
+        }
+}
+
+void ScopePanel::mouseDrag (const juce::MouseEvent& e)
+{
+    if (moved == nullptr || ! e.mouseWasDraggedSinceMouseDown()) return;
+    const auto at = e.getEventRelativeTo (&scope_row).getPosition();
+    for (std::size_t i = 0; i < views.size(); ++i)
+        if (views[i]->getBounds().contains (at) && &views[i]->shown() != moved) return moveTo (i);
+}
+
+void ScopePanel::mouseUp (const juce::MouseEvent&)
+{
+    if (std::exchange (moved, nullptr) != nullptr) addStep (NEEDS_TRANS ("move scope"), before_drag);
+}
+
+/// Moves the dragged scope to a place in the row, and those in between by one.
+void ScopePanel::moveTo (std::size_t place)
+{
+    const auto from = static_cast<std::size_t> (std::ranges::find (model.scopes, moved, &std::unique_ptr<ScopeSpec>::get) - model.scopes.begin());
+    if (from >= views.size()) return;
+    const auto shift = [&] (auto& list) {
+        const auto begin = list.begin(), source = begin + static_cast<std::ptrdiff_t> (from), target = begin + static_cast<std::ptrdiff_t> (place);
+        from < place ? std::rotate (source, source + 1, target + 1) : std::rotate (target, source, source + 1);
+    };
+    shift (model.scopes);
+    shift (views);
+    layOutScopes();
 }
 
 }   // namespace tactus::host

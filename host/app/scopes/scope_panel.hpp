@@ -9,7 +9,8 @@
 namespace tactus::host
 {
 
-/// Scopes next to one another, with a row of buttons to add more. Where they do not fit, they keep a readable size and scroll.
+/// Scopes in a grid, with a row of buttons to add more. Where they do not fit, they keep a readable size and scroll. A drag of its title moves a
+/// scope to another place, and a drag of the edge between two scopes sizes them. What the user does to the scopes is a step of the history.
 class ScopePanel final : public juce::Component, private Document::Listener
 {
 public:
@@ -42,9 +43,11 @@ public:
     void resized() override;
     bool keyPressed (const juce::KeyPress&) override;
     void mouseDown (const juce::MouseEvent&) override;
+    void mouseDrag (const juce::MouseEvent&) override;
+    void mouseUp (const juce::MouseEvent&) override;
 
 private:
-    static constexpr int row_height = 30, least_scope_width = 200, least_scope_height = 144;   // in units of the window
+    static constexpr int row_height = 30, least_scope_width = 200;   // in units of the window
     static constexpr std::size_t most_scopes = 8;
 
     /// The row of scopes, which may be wider than the panel.
@@ -53,6 +56,14 @@ private:
         void paint (juce::Graphics&) override;
     };
 
+    class Edge;
+    using Scopes = std::vector<ScopeSpec>;
+
+    Scopes copies() const;
+    void restore (const Scopes&);
+    void addStep (const char* name, const Scopes& before);
+    void moveTo (std::size_t place);
+    std::size_t columns() const;
     void documentChanged() override;
     void offer (ScopeKind);
     void openAdders();
@@ -75,6 +86,9 @@ private:
     ScopeRow scope_row;
     juce::Viewport scroll;
     std::vector<std::unique_ptr<ScopeView>> views;   // in the order of the model
+    std::vector<std::unique_ptr<Edge>> edges;        // between scopes that are next to each other
+    Scopes before_drag;
+    const ScopeSpec* moved = nullptr;   // the scope whose title is being dragged
     std::vector<std::unique_ptr<FlatButton>> adders;
     FlatButton more { "+ " + TRANS ("Scope") };   // in place of the adders, where there is no room for them
     FlatButton freeze_button { TRANS ("Freeze all (X)") };

@@ -122,6 +122,26 @@ void MainView::edgeMoved()
     resized();
 }
 
+void MainView::restorePanels (std::array<std::optional<double>, 3> to)
+{
+    shares_before = to;
+    for (std::size_t i = 0; const auto& [name, edge] : edges())
+        edge->restore (to[i++]);
+    edgeMoved();
+}
+
+void MainView::panelsMoved()
+{
+    const auto before = std::exchange (shares_before, shares()), now = shares_before;
+    if (before == now) return;
+    const auto restored = [safe = SafePointer (this)] (std::array<std::optional<double>, 3> to) {
+        return [safe, to] {
+            if (safe != nullptr) safe->restorePanels (to);
+        };
+    };
+    edited.addWindowStep (NEEDS_TRANS ("move panels"), restored (before), restored (now));
+}
+
 /// Leaves the window to the canvas, or brings back the panels that were open before.
 void MainView::foldPanels()
 {
@@ -131,12 +151,14 @@ void MainView::foldPanels()
     for (std::size_t i = 0; const auto& [name, edge] : edges())
         edge->fold (is_any_open || folded_before[i++]);
     edgeMoved();
+    panelsMoved();
 }
 
 void MainView::applySettings()
 {
     for (const auto& [name, edge] : edges())
         if (const auto share = settings.panels.find (name); share != settings.panels.end()) edge->setShare (share->second);
+    shares_before = shares();
     applyTheme (*getTopLevelComponent(), light ? Theme::light() : Theme::dark());
     applyScale (settings.scale);
     hand.showScene (settings.scene);
@@ -240,7 +262,8 @@ void MainView::documentChanged()
         scopes.suggest();
         presets.showOpen (edited.file().empty() ? edited.preset() : edited.file());
     }
-    if (edited.history().position() > 0) welcome.setVisible (false);
+    const bool is_begun = edited.identity() != first_identity || edited.isChanged();
+    if (welcome.isVisible() && is_begun) welcome.setVisible (false);
     std::vector<juce::String> trail { edited.graph().name.empty() ? TRANS ("Untitled graph") : juce::String (printableName (edited.graph().name)) };
     const auto saved = top.savedText();
     if (onTitle) onTitle (trail.front() + (saved.isEmpty() ? saved : " (" + saved + ")"));

@@ -132,6 +132,7 @@ private:
     void rememberScene();
     void rememberFilmLength();
     void edgeMoved();
+    void panelsMoved();   ///< makes a step of the history of what has changed since the last call
     void tell (const juce::String& title, const juce::String& text, std::function<void()> use = {});
     void openOscPort (const OscListen&);
     void attendLiveNodes();
@@ -187,7 +188,10 @@ private:
     HandPanel hand { playback, sound };
     Tabs left, bottom;
     Splitter left_edge { Splitter::Edge::right, 232, 160 }, right_edge { Splitter::Edge::left, 304, 220 }, bottom_edge { Splitter::Edge::top, 264, 140 };
-    std::array<bool, 3> folded_before {};   // by panel, before foldPanels() folded them all
+    std::array<std::optional<double>, 3> shares() const { return { left_edge.share(), right_edge.share(), bottom_edge.share() }; }
+    void restorePanels (std::array<std::optional<double>, 3>);
+    std::array<std::optional<double>, 3> shares_before {};   // at the last step of the history
+    std::array<bool, 3> folded_before {};                    // by panel, before foldPanels() folded them all
     TopBar top { edited };
     Canvas patching;
     Inspector inspector;
@@ -207,6 +211,7 @@ private:
     juce::File recordings;                                   // the folder of the last recording that was chosen
     juce::Component::SafePointer<juce::Component> focused;   // the component with the focus, whose keys are listened to
     Messages missing;                                        // what the graph needs before it can be felt
+    const void* const first_identity = edited.identity();    // of the empty document that the window begins with
     const void* shown_identity = nullptr;                    // identity of the document that is shown
     int ticks_to_save = 0;                                   // timer ticks until the settings are saved; 0: nothing to save
     juce::TooltipWindow tooltips { this, 600 };

@@ -57,6 +57,7 @@ bool MainView::panelKey (const juce::KeyPress& key)
         {
             left_edge.fold (false);
             edgeMoved();
+            panelsMoved();
         }
         left.show (presets);
         takeFocus (presets);

@@ -60,6 +60,7 @@ void MainView::connectSides()
     top.onMenu = [this] (juce::Component& at) { openMenu (at); };
 
     left_edge.onMove = right_edge.onMove = bottom_edge.onMove = [this] { edgeMoved(); };
+    left_edge.onMoved = right_edge.onMoved = bottom_edge.onMoved = [this] { panelsMoved(); };
 }
 
 void MainView::connectRun()

@@ -38,10 +38,18 @@ public:
         if (! is_folded) dragged = s;
     }
 
+    /// The panel as it was when share() returned this.
+    void restore (std::optional<double> s)
+    {
+        is_folded = s == 0.0;
+        if (! is_folded) dragged = s;
+    }
+
     bool isFolded() const noexcept { return is_folded; }
     void fold (bool folded) { is_folded = folded; }
 
     std::function<void()> onMove;
+    std::function<void()> onMoved;   ///< called when a drag has ended, and after a double click
 
     /// Cuts the panel's part off an area, and moves the splitter to its edge. Leaves at least `least_rest` pixels of the area.
     juce::Rectangle<int> take (juce::Rectangle<int>& area, int least_rest)
@@ -90,10 +98,16 @@ public:
         if (onMove) onMove();
     }
 
+    void mouseUp (const juce::MouseEvent&) override
+    {
+        if (onMoved) onMoved();
+    }
+
     void mouseDoubleClick (const juce::MouseEvent&) override
     {
         is_folded = ! is_folded;
         if (onMove) onMove();
+        if (onMoved) onMoved();
     }
 
 private:
