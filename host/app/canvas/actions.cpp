@@ -237,26 +237,6 @@ std::optional<graph::Command> insertInto (const graph::Graph& g, const std::stri
     return std::nullopt;
 }
 
-graph::Command toggleExposed (const graph::Graph& g, const std::string& subgraph, const std::string& node, const FacePort& port)
-{
-    auto to = patchOf (g, subgraph).expose;
-    auto& sources = port.role == Role::input ? to.inputs : to.params;
-    auto& ports = port.role == Role::output ? to.outputs : sources;
-    const auto end = endpoint (node, port);
-    const auto shown = std::ranges::find (ports, end, &std::pair<std::string, graph::Endpoint>::second);
-    if (shown != ports.end())
-    {
-        ports.erase (shown);
-        return graph::Batch { NEEDS_TRANS ("hide port"), { graph::ChangeExpose { subgraph, std::move (to) } } };
-    }
-    std::set<std::string> taken;
-    for (const auto* all : { &to.inputs, &to.params, &to.outputs })
-        for (const auto& [name, where] : *all)
-            taken.insert (name);
-    ports.emplace_back (freeName ({}, taken, end.port), end);
-    return graph::Batch { NEEDS_TRANS ("expose port"), { graph::ChangeExpose { subgraph, std::move (to) } } };
-}
-
 juce::Point<float> freePlace (const Scene& scene, juce::Point<float> at)
 {
     const juce::Point<float> usual_size { 160.0f, 96.0f };

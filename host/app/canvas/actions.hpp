@@ -52,7 +52,4 @@ graph::Command connect (const graph::Graph&, const std::string& patch, const Plu
 /// Inserts a node into a wire, through the node's first pair of ports that fit. Empty if no pair fits.
 std::optional<graph::Command> insertInto (const graph::Graph&, const std::string& patch, const Scene&, graph::Id wire, graph::Id node);
 
-/// Exposes a port of a node inside a subgraph under a free name, or hides it again.
-graph::Command toggleExposed (const graph::Graph&, const std::string& subgraph, const std::string& node, const FacePort&);
-
 }   // namespace tactus::host

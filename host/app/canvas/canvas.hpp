@@ -95,6 +95,8 @@ public:
     juce::String tooltipAt (juce::Point<float> pixel) const;   ///< about the limit light, or, while nothing runs, the port at this pixel; else empty
 
     std::function<void()> onSelection, onBreadcrumbs;
+    /// Fills the menu of a param, which the user has clicked with the right button.
+    std::function<void (juce::PopupMenu&, const std::string& node, const std::string& port)> onParamMenu;
     std::function<void()> onEditParams;                 ///< the parameters of the selected node get the keyboard focus
     std::function<void (const juce::String&)> onHint;   ///< receives a description of what is under the pointer, or ""
 
@@ -171,7 +173,7 @@ private:
     std::unique_ptr<Drag> dragFor (const juce::MouseEvent&);
     void dropClip (const std::filesystem::path&, juce::Point<float> at);
     void paintFileOver (juce::Graphics&) const;
-    void showMenu();
+    void showMenu (juce::Point<float> at);
     void closeEditor (bool keep);
 
     Document& document;

@@ -2,6 +2,7 @@
 // The canvas commands that add nodes and connect ports.
 #include "canvas.hpp"
 
+#include <host/app/model/fragment.hpp>
 #include <host/app/model/obvious_wires.hpp>
 #include <host/app/model/wire_rules.hpp>
 #include <host/app/text/filled.hpp>

@@ -94,14 +94,24 @@ void Canvas::mouseUp (const juce::MouseEvent& e)
         graph::Id id = wire != nullptr ? wire->id : 0;
         if (node != nullptr) id = node->id;
         if (id != 0 && ! highlights.selected.contains (id)) select ({ id });
-        showMenu();
+        showMenu (at);
     }
     repaint();
 }
 
-void Canvas::showMenu()
+/// On a param: its menu, with the commands of the canvas in a submenu.
+void Canvas::showMenu (juce::Point<float> at)
 {
-    juce::PopupMenu menu;
+    juce::PopupMenu menu, of_param;
+    const auto* node = shown->nodeAt (at);
+    const auto over = shown->socketAt (at, socket_reach / window.zoom);
+    const auto* param = node == nullptr ? nullptr : node->paramAt (at);
+    if (over && over.socket->port->role == Role::param)
+    {
+        node = over.node;
+        param = over.socket;
+    }
+    if (param != nullptr && onParamMenu) onParamMenu (of_param, node->name, param->port->id);
     for (const auto& c : canvasCommands())
     {
         if (! c.in_menu || ! c.can (*this)) continue;
@@ -113,6 +123,12 @@ void Canvas::showMenu()
         };
         menu.addItem (std::move (item));
         if (c.ends_group) menu.addSeparator();
+    }
+    if (of_param.getNumItems() > 0)
+    {
+        of_param.addSeparator();
+        of_param.addSubMenu (TRANS ("Node"), menu);
+        menu = of_param;
     }
     menu.showMenuAsync (juce::PopupMenu::Options().withMousePosition().withParentComponent (getTopLevelComponent()));
 }

@@ -22,6 +22,7 @@ struct InspectorContext
     EditorContext editors;
     std::function<Messages()> messages;                                               ///< returns the messages about the current graph; may be null
     std::function<std::vector<ContactLimit> (const std::string& node)> contacts {};   ///< the contacts whose steepest node this is; may be null
+    std::function<void (juce::PopupMenu&, const std::string& node, const std::string& port)> menuOfParam {};
 
     const graph::Patch* in() const { return findPatch (document.graph(), patch); }
 

@@ -58,7 +58,8 @@ InspectorContext Inspector::inspected()
         std::ranges::copy_if (contacts, std::back_inserter (its), [&] (const ContactLimit& c) { return c.node == node || c.node.starts_with (node + '/'); });
         return its;
     };
-    return { document, catalogue, patch.name, patch.path, refused, EditorContext { files, folder, refused }, messages, contactsOf };
+    const auto menuOf = [this] (juce::PopupMenu& menu, const std::string& node, const std::string& port) { fillParamMenu (menu, node, port); };
+    return { document, catalogue, patch.name, patch.path, refused, EditorContext { files, folder, refused }, messages, contactsOf, menuOf };
 }
 
 Inspector::SelectedItems Inspector::selected (const InspectorContext& at) const

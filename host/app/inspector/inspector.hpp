@@ -25,11 +25,15 @@ public:
     void setHelp (bool);   ///< true: also shows the descriptions of all ports
     bool showsHelp() const noexcept { return help; }
 
-    std::function<void (const juce::String&)> onHint;   ///< receives the reason why an edit was refused
-    std::function<Messages()> messagesNow;              ///< returns the messages about the current graph
+    std::function<void (const juce::String&)> onHint;     ///< receives the reason why an edit was refused
+    std::function<void (const juce::String&)> onNotice;   ///< receives what stays in the status line, such as the range of a param
+    std::function<Messages()> messagesNow;                ///< returns the messages about the current graph
 
     Column& shown() noexcept { return *column; }
     KnobStrip& knobs() noexcept { return strip; }
+
+    /// Fills the menu of a param of the patch that is inspected.
+    void fillParamMenu (juce::PopupMenu&, const std::string& node, const std::string& port);
 
     void focusFirst();                            ///< gives the keyboard focus to the first field
     void reveal (const juce::Component& field);   ///< scrolls to a field
@@ -42,6 +46,14 @@ private:
     void typesChanged() override;
     void rebuild();
     InspectorContext inspected();
+
+    struct ParamPlace
+    {
+        SeenPatch patch;
+        std::string node, port;
+    };
+    void onParam (const ParamPlace&, const std::function<void (const graph::Node&, const FacePort&)>&);   ///< no effect if it is gone
+    void nameControl (const std::string& id);                                                             ///< opens the field for its name
 
     struct SelectedItems
     {

@@ -106,7 +106,6 @@ public:
         g.drawText (name, label, juce::Justification::centred, true);
     }
 
-private:
     void rename()
     {
         field = std::make_unique<TextField>();
@@ -124,6 +123,7 @@ private:
         takeFocus (*field);
     }
 
+private:
     const graph::Control* find() const
     {
         const auto& all = document.graph().controls;
@@ -155,6 +155,12 @@ private:
 KnobStrip::KnobStrip (Document& d) : document (d) { setTitle (TRANS ("Controls")); }
 
 KnobStrip::~KnobStrip() = default;
+
+void KnobStrip::rename (const std::string& id)
+{
+    const auto found = std::ranges::find (knobs, id, [] (const auto& k) { return k->control(); });
+    if (found != knobs.end()) (*found)->rename();
+}
 
 juce::Slider& KnobStrip::knob (std::size_t i) { return *knobs[i]; }
 

@@ -12,7 +12,7 @@ namespace tactus::host
 {
 
 /// The controls of the graph as knobs, which stay in reach while a node is selected. Drag a knob, turn the wheel over it, or use the arrow
-/// keys; a double click sets it to the middle.
+/// keys; a double click on the dial sets it to the middle, and one on the name renames it.
 class KnobStrip final : public juce::Component
 {
 public:
@@ -24,6 +24,7 @@ public:
     int heightFor (int width) const;
     std::size_t size() const noexcept { return knobs.size(); }
     juce::Slider& knob (std::size_t i);
+    void rename (const std::string& control);   ///< opens the field for the name of a control
 
     void paint (juce::Graphics&) override;
     void resized() override;

@@ -30,14 +30,12 @@ const graph::Node* find (const Document& document, const SeenPatch& patch, const
 class ParamRow final : public SetRow
 {
 public:
-    ParamRow (Document& d, const Catalogue& c, SeenPatch p, std::string n, const FacePort& f, const Refusal& r)
-        : SetRow (fromUtf8 (readableName (f))), document (d), catalogue (c), patch (std::move (p)), node_name (std::move (n)), port (f), refused (r)
+    ParamRow (Document& d, SeenPatch p, std::string n, const FacePort& f, const Refusal& r)
+        : SetRow (fromUtf8 (readableName (f))), document (d), patch (std::move (p)), node_name (std::move (n)), port (f), refused (r)
     {
         const auto id = std::string (port.sheet->id);
         setTooltip (tooltipOf (*port.sheet) + (nameWithId (id) == readable (id) ? juce::String() : "\n" + filled (TRANS ("In files: %1"), id)));
         onReset = [this] { change (std::nullopt, false); };
-        if (! patch.address (port.id).empty() && port.width == 1 && ! port.isChoice())
-            onWantsMenu = [this] (juce::PopupMenu& menu) { fillMenu (menu); };
         const int fields = port.isChoice() ? 0 : port.width;
         for (int i = 0; i < fields; ++i)
         {
@@ -103,26 +101,6 @@ private:
         if (refused) refused (outOfRangeText (document.graph(), patch, *node, port));
     }
 
-    void fillMenu (juce::PopupMenu& menu)
-    {
-        if (const auto param = controlOf (document.graph(), patch.address (node_name + '.' + port.id)))
-        {
-            menu.addItem (filled (TRANS ("Release from %1"), param->name), [safe = juce::Component::SafePointer (this)] {
-                if (safe != nullptr) release (safe->document, safe->patch, safe->node_name, safe->port, safe->catalogue);
-            });
-            return;
-        }
-        menu.addSectionHeader (TRANS ("Assign to control"));
-        const auto item = [&] (const juce::String& what, const std::string& id) {
-            menu.addItem (what, [safe = juce::Component::SafePointer (this), id] {
-                if (safe != nullptr) controlBy (safe->document, safe->patch, safe->node_name, safe->port, id, safe->catalogue);
-            });
-        };
-        for (const auto& c : document.graph().controls)
-            item (c.name.empty() ? c.id : c.name, c.id);
-        item (TRANS ("New control"), {});
-    }
-
     Json componentOf (std::size_t i) const
     {
         if (port.width != 3) return current;
@@ -138,7 +116,6 @@ private:
     }
 
     Document& document;
-    const Catalogue& catalogue;
     SeenPatch patch;
     std::string node_name;
     FacePort port;
@@ -149,10 +126,12 @@ private:
 };
 }   // namespace
 
-std::unique_ptr<Block> paramRow (Document& document, const Catalogue& catalogue, const SeenPatch& patch, const std::string& node, const FacePort& port,
-                                 const Refusal& refused)
+std::unique_ptr<Block> paramRow (Document& document, const SeenPatch& patch, const std::string& node, const FacePort& port, const Refusal& refused,
+                                 std::function<void (juce::PopupMenu&)> fillMenu)
 {
-    return std::make_unique<ParamRow> (document, catalogue, patch, node, port, refused);
+    auto row = std::make_unique<ParamRow> (document, patch, node, port, refused);
+    row->onWantsMenu = std::move (fillMenu);
+    return row;
 }
 
 void controlBy (Document& document, const SeenPatch& patch, const std::string& name, const FacePort& port, const std::string& control,

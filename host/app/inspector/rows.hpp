@@ -15,9 +15,10 @@ namespace tactus::host
 /// Tells the user why an edit was refused.
 using Refusal = std::function<void (const juce::String&)>;
 
-/// A param of a node: a field per component, or a list of choices. If a control drives it, editing moves the control. Its menu
-/// assigns it to a control or releases it.
-std::unique_ptr<Block> paramRow (Document&, const Catalogue&, const SeenPatch&, const std::string& node, const FacePort&, const Refusal&);
+/// A param of a node: a field per component, or a list of choices. If a control drives it, editing moves the control. `fillMenu`
+/// fills its menu.
+std::unique_ptr<Block> paramRow (Document&, const SeenPatch&, const std::string& node, const FacePort&, const Refusal&,
+                                 std::function<void (juce::PopupMenu&)> fillMenu);
 
 /// controlBy() assigns a param to a control; "" creates a new one. release() ends that. Both keep the current value of the param.
 void controlBy (Document&, const SeenPatch&, const std::string& node, const FacePort&, const std::string& control, const Catalogue&);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fragment.hpp"
+#include "param_value.hpp"
 #include "patch.hpp"
 
 #include <host/app/text/filled.hpp>
@@ -118,6 +119,28 @@ Result<graph::Command> paste (const graph::Graph& g, const std::string& patch_na
         batch.commands.push_back (graph::AddWire { patch_name, wire });
     }
     return graph::Command (std::move (batch));
+}
+
+graph::Command toggleExposed (const graph::Graph& g, const std::string& subgraph, const std::string& node, const FacePort& port)
+{
+    const auto* patch = findPatch (g, subgraph);
+    auto to = patch == nullptr ? graph::Expose {} : patch->expose;
+    auto& sources = port.role == Role::input ? to.inputs : to.params;
+    auto& ports = port.role == Role::output ? to.outputs : sources;
+    const auto entry = entryOf (port.id);
+    const graph::Endpoint end { node, baseOf (port.id), entry ? static_cast<int> (*entry) : -1 };
+    const auto shown = std::ranges::find (ports, end, &std::pair<std::string, graph::Endpoint>::second);
+    if (shown != ports.end())
+    {
+        ports.erase (shown);
+        return graph::Batch { NEEDS_TRANS ("hide port"), { graph::ChangeExpose { subgraph, std::move (to) } } };
+    }
+    std::set<std::string> taken;
+    for (const auto* all : { &to.inputs, &to.params, &to.outputs })
+        for (const auto& [name, where] : *all)
+            taken.insert (name);
+    ports.emplace_back (freeName ({}, taken, end.port), end);
+    return graph::Batch { NEEDS_TRANS ("expose port"), { graph::ChangeExpose { subgraph, std::move (to) } } };
 }
 
 }   // namespace tactus::host

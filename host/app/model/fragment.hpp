@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "face.hpp"
+
 #include <tactus/graph/edit.hpp>
 #include <tactus/text/result.hpp>
 
@@ -29,5 +31,8 @@ std::string usualName (const std::string& type);
 
 /// Returns `wanted` if it is free, else the same name with the next free number, such as "drag_2".
 std::string freeName (const graph::Patch&, const std::set<std::string>& also_taken, const std::string& wanted);
+
+/// Exposes a port of a node inside a subgraph under a free name, or hides it again.
+graph::Command toggleExposed (const graph::Graph&, const std::string& subgraph, const std::string& node, const FacePort&);
 
 }   // namespace tactus::host

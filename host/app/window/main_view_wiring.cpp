@@ -34,6 +34,7 @@ void MainView::connectCanvas()
     patching.onNotice = [this] (const juce::String& text) { status.notify (text); };
     patching.onBreadcrumbs = [this] { documentChanged(); };
     patching.onSelection = [this] { inspector.inspect (patching.seen(), patching.selection()); };
+    patching.onParamMenu = [this] (juce::PopupMenu& menu, const std::string& node, const std::string& port) { inspector.fillParamMenu (menu, node, port); };
     patching.onEditParams = [this] { inspector.focusFirst(); };
     patching.onNodeRequested = [this] (const NodeRequest& request) { chooseNode (request); };
     patching.onChoose = [this] (const auto& purpose, auto entries, auto chosen) { choose (purpose, std::move (entries), std::move (chosen)); };
@@ -45,6 +46,7 @@ void MainView::connectCanvas()
 void MainView::connectSides()
 {
     inspector.onHint = patching.onHint;
+    inspector.onNotice = patching.onNotice;
     inspector.messagesNow = [this] { return run().messages(); };
 
     presets.onOpen = [this] (const Preset& p, bool is_own) { openPreset (p, is_own); };

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Controls in the window: no click on them moves a force unless it turns one, and parameters have their menu where they are.
+#include "host/app/support/values.hpp"
+#include "host/app/support/window_rig.hpp"
+
+#include <host/app/model/controlled_param.hpp>
+#include <tactus/file/graph_file.hpp>
+
+using namespace tactus;
+using namespace tactus::host;
+using namespace tactus::host::test;
+
+namespace
+{
+constexpr int right_button = juce::ModifierKeys::rightButtonModifier;
+
+/// Layered cloth, whose knobs are not where its nodes store them.
+struct Cloth
+{
+    TemporaryFolder folder;
+    std::unique_ptr<WindowRig> w;
+
+    Cloth()
+    {
+        auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/layered_cloth.json").graph;
+        g.controls[0].value = 0.7;   // warp 70 mN, stored 40 mN
+        g.controls[1].value = 0.25;
+        REQUIRE (saveGraph (g, folder / "cloth.json"));
+        w = std::make_unique<WindowRig> ((folder / "cloth.json").string());
+    }
+
+    const graph::Node& node (const std::string& name) const { return *w->view->document().graph().root.find (name); }
+    void select (const std::string& name) { w->view->canvas().select ({ node (name).id }); }
+    ValuesInEffect values() const { return valuesInEffect (w->view->document().graph()); }
+
+    /// Where the value of a param is on the canvas.
+    juce::Point<float> value (const std::string& name, const std::string& param)
+    {
+        auto& canvas = w->view->canvas();
+        for (const auto& n : canvas.scene().nodes())
+            if (n.name == name)
+            {
+                const auto* socket = n.box.find (Role::param, param);
+                REQUIRE (socket != nullptr);
+                const auto at = canvas.view().toPixels (n.at + juce::Point<float> (n.box.width - 20.0f, socket->at.y));
+                REQUIRE (canvas.getLocalBounds().toFloat().contains (at));
+                return w->stage->getLocalPoint (&canvas, at);
+            }
+        FAIL ("no node " << name);
+        return {};
+    }
+
+    void key (const char* k, int times = 1)
+    {
+        for (int i = 0; i < times; ++i)
+            w->key (k);
+        WindowRig::settle();
+    }
+};
+}   // namespace
+
+TEST_CASE ("copies have the values that the controls set", "[app][controls]")
+{
+    Cloth c;
+    for (const bool by_clipboard : { false, true })
+    {
+        INFO (by_clipboard);
+        c.w->view->canvas().grabKeyboardFocus();
+        c.select ("threads");
+        if (by_clipboard)
+        {
+            c.key ("ctrl + c");
+            c.key ("ctrl + v");
+        }
+        else
+            c.key ("ctrl + d");
+        const auto& copy = c.w->graph().root.nodes.back();
+        CHECK (copy.name.starts_with ("threads_"));
+        CHECK (copy.params["warp"] == "70 mN");
+        CHECK (copy.params["weft"] == "105 mN");
+        CHECK (c.node ("threads").params["warp"] == "40 mN");
+    }
+}
+
+TEST_CASE ("a control that is deleted leaves its values\\, and one more parameter moves none", "[app][controls]")
+{
+    Cloth c;
+    const auto before = c.values();
+    c.select ("table");
+    c.w->clickTitled ("Damping", right_button);
+    c.key ("cursor down", 2);   // the second entry: the first control
+    c.key ("return");
+    REQUIRE (c.w->graph().controls[0].to.size() == 3);
+    CHECK (changedValue (before, c.values()) == "");
+    CHECK (c.w->view->document().stepNames().back() == "assign table.damping to Coarseness");
+
+    c.w->view->canvas().select ({});
+    c.w->clickTitled ("Delete this control. Its parameters keep the values that it sets.");
+    REQUIRE (c.w->graph().controls.size() == 1);
+    CHECK (changedValue (before, c.values()) == "");
+    CHECK (c.node ("threads").params["warp"] == "70 mN");
+    c.w->view->canvas().grabKeyboardFocus();
+    c.key ("ctrl + z", 2);
+    CHECK (c.w->graph().controls.size() == 2);
+    CHECK (c.node ("threads").params["warp"] == "40 mN");
+    CHECK (changedValue (before, c.values()) == "");
+}
+
+TEST_CASE ("a double click on the name of a knob renames it and moves nothing", "[app][controls]")
+{
+    Cloth c;
+    c.select ("drag");
+    auto& knobs = c.w->view->inspected().knobs();
+    REQUIRE (knobs.isVisible());
+    auto& knob = knobs.knob (0);
+    const auto label = c.w->stage->getLocalPoint (&knob, juce::Point<float> (0.5f * static_cast<float> (knob.getWidth()), static_cast<float> (knob.getHeight()) - 6.0f));
+    c.w->stage->doubleClick (label);
+    WindowRig::settle();
+    CHECK (c.w->graph().controls[0].value == 0.7);
+    c.w->stage->type ("Rough");
+    c.key ("return");
+    CHECK (c.w->graph().controls[0].name == "Rough");
+    CHECK (c.w->graph().controls[0].value == 0.7);
+    CHECK (WindowRig::focused() == &c.w->view->canvas());
+    CHECK (c.w->titled ("Name of the control") == nullptr);
+    c.w->stage->doubleClick (c.w->middleOf (knob).translated (0.0f, -8.0f));   // the dial
+    CHECK (c.w->graph().controls[0].value == 0.5);
+}
+
+TEST_CASE ("a right click on a parameter of a node opens its menu\\, inside a subgraph too", "[app][controls]")
+{
+    Cloth c;
+    auto& canvas = c.w->view->canvas();
+    const auto before = c.values();
+    c.w->stage->click (c.value ("drag", "mu"), right_button);
+    WindowRig::settle();
+    REQUIRE (juce::Component::getNumCurrentlyModalComponents() == 1);
+    c.key ("cursor down");
+    c.key ("return");   // New control
+    REQUIRE (c.w->graph().controls.size() == 3);
+    CHECK (c.w->graph().controls[2].to[0].path == "drag.mu");
+    c.w->stage->type ("Grip");   // the field for its name is open
+    c.key ("return");
+    CHECK (c.w->graph().controls[2].name == "Grip");
+    CHECK (changedValue (before, c.values()) == "");
+
+    c.w->stage->click (c.value ("drag", "mu"), right_button);
+    WindowRig::settle();
+    c.key ("cursor down");
+    c.key ("return");   // Release
+    CHECK (c.w->graph().controls[2].to.empty());
+    CHECK (changedValue (before, c.values()) == "");
+
+    const auto& scene = canvas.scene();
+    const auto threads = std::ranges::find (scene.nodes(), "threads", &SceneNode::name);
+    REQUIRE (threads != scene.nodes().end());
+    canvas.enter (*threads);
+    const auto& inside = canvas.scene().nodes();
+    const auto shows = [] (const SceneNode& n) {
+        return std::ranges::any_of (n.box.sockets, [] (const Socket& s) { return s.port->role == Role::param && s.port->width == 1 && ! s.port->isChoice(); });
+    };
+    const auto node = std::ranges::find_if (inside, shows);
+    REQUIRE (node != inside.end());
+    const auto socket = std::ranges::find_if (node->box.sockets, [] (const Socket& s) { return s.port->role == Role::param && ! s.port->isChoice(); });
+    const auto name = node->name, param = socket->port->id;
+    const auto within = c.values();
+    c.w->stage->click (c.value (name, param), right_button);
+    WindowRig::settle();
+    c.key ("cursor down");
+    c.key ("return");
+    REQUIRE (c.w->graph().controls.size() == 4);
+    CHECK (c.w->graph().controls[3].to[0].path == "threads/" + name + "." + param);
+    c.key ("return");
+    CHECK (changedValue (within, c.values()) == "");
+
+    // The menu exposes the parameter outside the subgraph, and hides it again.
+    const auto exposed = [&] { return c.w->graph().find (canvas.patch())->expose.params.size(); };
+    const auto count = exposed();
+    for (const std::size_t wanted : { count + 1, count })
+    {
+        c.w->stage->click (c.value (name, param), right_button);
+        WindowRig::settle();
+        c.key ("cursor down", 2);   // below Release
+        c.key ("return");
+        CHECK (exposed() == wanted);
+    }
+    c.w->stage->click (c.value (name, param), right_button);
+    WindowRig::settle();
+    c.key ("cursor up", 2);   // above the commands of the node
+    c.key ("return");
+    c.w->stage->move ({ 4.0f, 4.0f });   // off the canvas, whose hints cover the notice
+    WindowRig::settle();
+    INFO (c.w->view->statusText());
+    CHECK (c.w->view->statusText().contains ("Usual"));
+}
