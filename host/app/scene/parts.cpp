@@ -46,6 +46,25 @@ void rod (Raster& raster, const Camera& camera, const Paint& paint, const Vec3& 
         raster.triangle (ring[i + 1], ring[i + 3], ring[i + 2], Raster::Sides::both, shade);
     }
 }
+/// The axis of what is drawn of a tool without a blade, from the middle of its tip.
+std::array<Vec3, 2> shaft (const Tool& tool, double radius)
+{
+    const Vec3 lean = Vec3 (0.42, -0.30, 1.0).normalized(), tip = tool.position + Vec3 (0.0, 0.0, radius);
+    return { tip, tip + 16.0 * radius * lean };
+}
+
+struct Blade
+{
+    Vec3 normal, along;
+    double half, height;   // m
+};
+
+Blade bladeOf (const Body& b, std::size_t number, const SceneState& now)
+{
+    const Vec3 normal = direction (b.vector (&Appearance::normal, Vec3::UnitZ()));
+    const double half = 0.5 * b.number (&Appearance::width, 0.02);
+    return { normal, bladeDirection (b, number, now, normal), half, std::max (0.012, 1.2 * half) };
+}
 }   // namespace
 
 Vec3 bladeDirection (const Body& b, std::size_t number, const SceneState& now, const Vec3& normal)
@@ -55,13 +74,31 @@ Vec3 bladeDirection (const Body& b, std::size_t number, const SceneState& now, c
     return along.norm() > 1e-6 ? Vec3 (along.normalized()) : perpendicularTo (normal);
 }
 
+double Scene::tipRadius (const Tool& tool, const Camera& camera) noexcept
+{
+    return std::clamp (5.0 / camera.scaleAt (camera.see (tool.position).depth), 3e-4, 2.5e-3);
+}
+
+std::vector<std::array<Vec3, 2>> Scene::linesOf (const Tool& tool, const Camera& camera, const SceneState& now) const
+{
+    const auto number = static_cast<std::size_t> (
+        std::ranges::find_if (all, [&] (const Body& b) { return b.role == tool.role && (b.kind == Appearance::Kind::blade || b.kind == Appearance::Kind::scissors); })
+        - all.begin());
+    if (number == all.size()) return { shaft (tool, tipRadius (tool, camera)) };
+    const auto& b = all[number];
+    if (b.kind == Appearance::Kind::scissors) return {};
+    const auto blade = bladeOf (b, number, now);
+    const Vec3 p = tool.position;
+    return { { p - blade.half * blade.along, p + blade.half * blade.along }, { p, p + 1.9 * blade.height * blade.normal } };
+}
+
 void Scene::drawTool (Raster& raster, const Camera& camera, const Paint& paint, const Tool& tool) const
 {
     const auto seen = camera.see (tool.position);
     if (! (seen.depth > camera.near())) return;
-    const double radius = std::clamp (5.0 / camera.scaleAt (seen.depth), 3e-4, 2.5e-3);   // easy to see, but never too large
-    const Vec3 lean = Vec3 (0.42, -0.30, 1.0).normalized(), tip = tool.position + Vec3 (0.0, 0.0, radius);
-    rod (raster, camera, paint, tip, tip + 16.0 * radius * lean, 0.5 * radius, 1.15 * radius, mixed (paint.metal, paint.lines, 0.25f));
+    const double radius = tipRadius (tool, camera);
+    const auto [tip, top] = shaft (tool, radius);
+    rod (raster, camera, paint, tip, top, 0.5 * radius, 1.15 * radius, mixed (paint.metal, paint.lines, 0.25f));
     const Vec3 right = camera.right(), up = camera.up(), back = -camera.view();
     raster.ball (camera, tip, radius, [&] (const std::array<float, 3>& n) {
         const Vec3 world = static_cast<double> (n[0]) * right + static_cast<double> (n[1]) * up + static_cast<double> (n[2]) * back;
@@ -73,9 +110,9 @@ void Scene::drawBlade (Raster& raster, const Camera& camera, const Paint& paint,
 {
     const auto* tool = now.tool (b.role);
     if (tool == nullptr) return;
-    const Vec3 normal = direction (b.vector (&Appearance::normal, Vec3::UnitZ()));
-    const Vec3 along = bladeDirection (b, number, now, normal), side = normal.cross (along);
-    const double half = 0.5 * b.number (&Appearance::width, 0.02), height = std::max (0.012, 1.2 * half), thick = 4e-4;
+    const auto [normal, along, half, height] = bladeOf (b, number, now);
+    const Vec3 side = normal.cross (along);
+    constexpr double thick = 4e-4;
     const Vec3 p = tool->position;
     for (const double s : { -1.0, 1.0 })   // a wedge: an edge below, and a back above
     {

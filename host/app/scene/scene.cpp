@@ -199,6 +199,8 @@ void Scene::draw (Raster& raster, const Camera& camera, const Paint& paint, cons
     for (auto& sheet : sheets)
     {
         sheet.grid = gridFor (camera);
+        for (const auto& tool : now.tools)
+            if (isFinite (tool.position)) sheet.cover (tool.position);
         sheet.cells = std::clamp (cells, 2, sheet.cells);
         sheet.draw (raster, camera, paint);
     }

@@ -3,6 +3,8 @@
 
 #include "solid.hpp"
 
+#include <array>
+
 namespace tactus::host::scene
 {
 
@@ -55,6 +57,12 @@ public:
 
     /// What a picture should show as a whole, wherever the tools are.
     Bounds bounds() const noexcept;
+
+    /// The lines through what is drawn of a tool: its shaft, and the edge of a blade.
+    std::vector<std::array<Vec3, 2>> linesOf (const Tool&, const Camera&, const SceneState&) const;
+
+    /// The radius with which the tip of a tool is drawn, in m: easy to see, but never too large.
+    static double tipRadius (const Tool&, const Camera&) noexcept;
 
     /// Draws everything that has a surface: planes, meshes, blades, plates and tools.
     void draw (Raster&, const Camera&, const Paint&, const SceneState&) const;

@@ -159,11 +159,20 @@ std::array<Vec3, 2> Sheet3D::axes() const noexcept
     return { v.cross (n), v };
 }
 
+void Sheet3D::cover (const Vec3& p) noexcept
+{
+    constexpr double step = 0.02, margin = 0.01, most = 0.5;
+    const auto [u, v] = axes();
+    const Vec3 away = p - centre();
+    const double farthest = std::max (std::abs (away.dot (u)), std::abs (away.dot (v))) + margin;
+    if (farthest > half) half = std::min (most, step * std::ceil (farthest / step));
+}
+
 void Sheet3D::draw (Raster& raster, const Camera& camera, const Paint& paint) const
 {
     const auto [u, v] = axes();
     const Vec3 busy = dents.empty() ? Vec3 (camera.target) : dents.front().at;
-    const auto us = places (half_width, (busy - centre()).dot (u), cells), vs = places (half_width, (busy - centre()).dot (v), cells);
+    const auto us = places (half, (busy - centre()).dot (u), cells), vs = places (half, (busy - centre()).dot (v), cells);
     const Skin skin (*this, camera, paint);
     using Corner = Raster::Corner<Skin::count>;
     std::vector<Corner> corners;

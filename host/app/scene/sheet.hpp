@@ -49,6 +49,8 @@ class Sheet3D
 public:
     static constexpr double half_width = 0.06;   ///< m; as in the view from above
 
+    double half = half_width;   ///< m; larger where a tool has gone farther, see cover()
+
     Vec3 normal = Vec3::UnitZ();
     double offset = 0.0;                 ///< m, along the normal
     std::vector<std::string> roles {};   ///< of the tools that its planes follow
@@ -57,6 +59,9 @@ public:
     std::vector<Dent> dents {};
     double grid = 0.01;   ///< distance of the lines on it, in m
     int cells = 64;       ///< along each side; each is drawn as two triangles
+
+    /// Makes the sheet large enough to be under this point, in steps of 2 cm, at most half a metre to each side.
+    void cover (const Vec3&) noexcept;
 
     void draw (Raster&, const Camera&, const Paint&) const;
 

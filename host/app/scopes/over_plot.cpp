@@ -123,6 +123,9 @@ void OverPlot::draw (const Trace& x, const Trace& y, const Trace* state, std::ui
     head = last;
 }
 
+/// A past pass has none of the colours of the legend: a faded one would look like another state.
+juce::Colour colourOfPast (const Theme& theme) { return theme.canvas.interpolatedWith (theme.of (Quantity::torque), 0.45f); }
+
 juce::Colour OverPlot::colourOf (Part part) const
 {
     switch (part)
@@ -148,8 +151,10 @@ void OverPlot::paintLane (juce::Graphics& g, const Lane&, std::size_t)
         for (const auto part : { Part::plain, Part::open, Part::sliding, Part::stuck, Part::fault })
         {
             const auto& piece = tail[age][static_cast<std::size_t> (part)];
+            const bool is_past = has_state && age + fresh_ages < ages;
             const float fade = static_cast<float> (age + 1) / static_cast<float> (ages);
-            g.setColour (colourOf (part).withAlpha (0.12f + 0.88f * fade * fade));
+            const float alpha = 0.2f + 0.8f * fade;
+            g.setColour (is_past ? colourOfPast (theme()).withAlpha (alpha) : colourOf (part).withAlpha (has_state ? 1.0f : alpha * alpha));
             g.fillRectList (piece.spans);
             g.strokePath (piece.lines, juce::PathStrokeType (thickness));
         }
@@ -167,7 +172,7 @@ void OverPlot::paintOver (juce::Graphics& g)
     const auto legend = area.withY (area.getY() - legend_height).withHeight (legend_height);
     paintLegend (
         g, legend,
-        { { colourOf (Part::stuck), TRANS ("stuck") }, { colourOf (Part::sliding), TRANS ("sliding") }, { colourOf (Part::open), TRANS ("no contact") } });
+        { { colourOf (Part::stuck), TRANS ("stuck") }, { colourOf (Part::sliding), TRANS ("sliding") }, { colourOf (Part::open), TRANS ("no contact") }, { colourOfPast (theme()), TRANS ("before") } });
 }
 
 void OverPlot::zoomX (double factor, const Lane& lane, float at)

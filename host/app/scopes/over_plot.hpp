@@ -7,7 +7,7 @@ namespace tactus::host
 {
 
 /// One signal against another, such as force against displacement, with a tail that fades. If the state is known, sticking and
-/// sliding have different colours.
+/// sliding have different colours, and the older part of the tail has neither.
 class OverPlot final : public ScopePlot
 {
 public:
@@ -25,7 +25,7 @@ private:
         sliding,
         fault
     };
-    static constexpr std::size_t ages = 8, parts = 5;
+    static constexpr std::size_t ages = 8, fresh_ages = 3, parts = 5;   // the fresh ages have the colours of the states
 
     void paintLane (juce::Graphics&, const Lane&, std::size_t) override;
     void paintOver (juce::Graphics&) override;
@@ -47,5 +47,8 @@ private:
     std::array<std::array<Piece, parts>, ages> tail;
     std::optional<juce::Point<float>> head;
 };
+
+/// The colour of what the tail of a plot with states shows of earlier passes.
+juce::Colour colourOfPast (const Theme&);
 
 }   // namespace tactus::host

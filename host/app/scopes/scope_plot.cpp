@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tactus::host
 {
@@ -94,6 +95,18 @@ void ScopePlot::paint (juce::Graphics& g)
     paintOver (g);
 }
 
+namespace
+{
+/// Text to the left of a lane. What is too wide is squeezed, not cut.
+void paintBeside (juce::Graphics& g, const juce::String& text, float right, float y)
+{
+    const float width = g.getCurrentFont().getStringWidthFloat (text) + 3.0f, room = right - 1.0f;
+    const juce::Graphics::ScopedSaveState whole (g);
+    if (width > room) g.addTransform (juce::AffineTransform::scale (room / width, 1.0f, right, y));
+    drawNumber (g, text, { right - width, y - 8.0f, width, 16.0f });
+}
+}   // namespace
+
 void ScopePlot::paintScales (juce::Graphics& g, const Lane& lane) const
 {
     const auto& look = lookOf (*this);
@@ -107,22 +120,24 @@ void ScopePlot::paintScales (juce::Graphics& g, const Lane& lane) const
         g.setColour (tick.at == 0.0 ? theme().dim.withAlpha (0.5f) : theme().dots);
         g.fillRect (lane.area.getX(), y - 0.5f, lane.area.getWidth(), 1.0f);
         g.setColour (theme().dim);
-        if (lane.shows_y && y > lane.area.getY() + 12.0f) drawNumber (g, juce::String::fromUTF8 (tick.text.c_str()), { 0.0f, y - 8.0f, gutter - 6.0f, 16.0f });
+        if (lane.shows_y && y > lane.area.getY() + 12.0f) paintBeside (g, juce::String::fromUTF8 (tick.text.c_str()), gutter - 6.0f, y);
     }
     auto label = juce::String::fromUTF8 (down.label.c_str()).trim();
     if (label.startsWithChar ('(')) label = label.fromFirstOccurrenceOf ("(", false, false).upToLastOccurrenceOf (")", false, false);
     g.setColour (theme().text);
-    const juce::Rectangle<float> label_area (0.0f, lane.area.getY() - 6.0f, gutter - 6.0f, 14.0f);
-    if (lane.shows_y) g.drawText (label, label_area, juce::Justification::centredRight, false);
+    if (lane.shows_y) paintBeside (g, label, gutter - 6.0f, lane.area.getY() + 1.0f);
 
-    const auto vertical = [&] (double at, const juce::String& text, bool strong) {
+    float taken = 0.0f;   // where the label to the left ends
+    const auto vertical = [&] (double at, const juce::String& text, bool strong, float free) {
         const float x = lane.toPixels (at, lane.y.low).x;
         g.setColour (strong ? theme().dim.withAlpha (0.5f) : theme().dots);
         g.fillRect (x - 0.5f, lane.area.getY(), 1.0f, lane.area.getHeight());
-        if (! lane.shows_x) return;
+        if (! lane.shows_x || text.isEmpty()) return;
         g.setColour (theme().dim);
         const float width = font.getStringWidthFloat (text) + 2.0f;
         const float left = std::min (x - 0.5f * width, static_cast<float> (getWidth()) - width);
+        if (left < taken || left + width > free) return;   // it would cover another one
+        taken = left + width;
         g.drawText (text, juce::Rectangle<float> (left, lane.area.getBottom() + 2.0f, width, 14.0f), juce::Justification::centred, false);
     };
     if (lane.is_logarithmic)
@@ -130,17 +145,21 @@ void ScopePlot::paintScales (juce::Graphics& g, const Lane& lane) const
         for (double decade = std::pow (10.0, std::floor (std::log10 (lane.x.low))); decade <= lane.x.high; decade *= 10.0)
             for (int i = 1; i < 10; ++i)
                 if (const double at = i * decade; at >= lane.x.low && at <= lane.x.high)
-                    vertical (at, i == 1 ? juce::String::fromUTF8 (withPrefix (at, lane.x_unit, 1).c_str()) : juce::String(), i == 1);
+                    vertical (at, i == 1 ? juce::String::fromUTF8 (withPrefix (at, lane.x_unit, 1).c_str()) : juce::String(), i == 1, std::numeric_limits<float>::max());
         return;
     }
     const auto along = axisScale (lane.x, "", lane.x_unit);
     auto unit = juce::String::fromUTF8 (along.label.c_str()).fromFirstOccurrenceOf ("(", false, false).upToLastOccurrenceOf (")", false, false);
     const auto ticks = ticksWithin (along.shown (lane.x), std::max (2, static_cast<int> (lane.area.getWidth() / 52.0f)));
+    const auto textOf = [&] (std::size_t i) { return juce::String::fromUTF8 (ticks[i].text.c_str()) + (i + 1 == ticks.size() ? " " + unit : juce::String()); };
+    const auto placeOf = [&] (std::size_t i) { return along.origin + ticks[i].at * along.unit; };
     for (std::size_t i = 0; i < ticks.size(); ++i)
     {
-        auto text = juce::String::fromUTF8 (ticks[i].text.c_str());
-        if (i + 1 == ticks.size()) text << " " << unit;
-        vertical (along.origin + ticks[i].at * along.unit, text, false);
+        // The last label, which has the unit, goes before the others.
+        const auto last = ticks.size() - 1;
+        const float width = font.getStringWidthFloat (textOf (last)) + 2.0f;
+        const float begin = std::min (lane.toPixels (placeOf (last), lane.y.low).x - 0.5f * width, static_cast<float> (getWidth()) - width);
+        vertical (placeOf (i), textOf (i), false, i == last ? std::numeric_limits<float>::max() : begin);
     }
 }
 

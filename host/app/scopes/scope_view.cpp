@@ -77,6 +77,7 @@ std::unique_ptr<ScopePlot> makePlot (ScopeSpec& s, ScopeContext& d)
 ScopeView::ScopeView (ScopeSpec& s, ScopeContext& c, Signals from) : spec (s), context (c), live (std::move (from)), drawing (makePlot (s, c))
 {
     setTitle (titleOf (s.kind));
+    setMouseCursor (juce::MouseCursor::DraggingHandCursor);   // of its title, which can be dragged to another place
     freeze_button = std::make_unique<FlatButton> (TRANS ("Freeze this scope"), twoBars());
     save_button = std::make_unique<FlatButton> (TRANS ("Save as image or data"), downArrow());
     close_button = std::make_unique<FlatButton> (TRANS ("Close this scope"), cross());
@@ -277,8 +278,8 @@ void ScopeView::paint (juce::Graphics& g)
     const auto font = look.font (12.0f, true);
     g.setFont (font);
     g.setColour (look.theme().text);
-    const auto header = getLocalBounds().removeFromTop (header_height).withTrimmedLeft (8).withTrimmedRight (80);
-    g.drawText (titleOf (spec.kind), header, juce::Justification::centredLeft, true);
+    constexpr int least_title = 40;   // units of the window; a shorter rest of the title says nothing
+    if (title_area.getWidth() >= least_title) g.drawText (titleOf (spec.kind), title_area.withTrimmedLeft (8), juce::Justification::centredLeft, true);
 }
 
 void ScopeView::resized()
@@ -288,14 +289,24 @@ void ScopeView::resized()
     header.removeFromRight (4);
     for (auto* b : { close_button.get(), save_button.get(), freeze_button.get() })
         b->setBounds (header.removeFromRight (FlatButton::height));
-    header.removeFromLeft (static_cast<int> (lookOf (*this).font (12.0f, true).getStringWidthFloat (titleOf (spec.kind))) + 14);
+    const int title_width = static_cast<int> (lookOf (*this).font (12.0f, true).getStringWidthFloat (titleOf (spec.kind))) + 14;
+    const bool is_low = getHeight() < low;
+    auto row = is_low ? header : area.removeFromTop (chips_height).reduced (0, 1);
+    row = row.withTrimmedLeft (2);
+    if (is_low)   // the plot is worth more than the title
+    {
+        int wanted = 0;
+        for (const auto& c : chips)
+            wanted += c->wantedWidth();
+        row.removeFromLeft (std::clamp (row.getWidth() - wanted, 0, title_width));
+    }
+    title_area = is_low ? header.withRight (row.getX()) : header.removeFromLeft (title_width);
     for (auto& l : links)
     {
         const int width = l->wantedWidth();
-        l->setBounds (header.removeFromLeft (width));
+        l->setBounds (is_low ? juce::Rectangle<int>() : header.removeFromLeft (width));
         l->setVisible (l->getWidth() == width);   // hidden rather than cut off
     }
-    auto row = area.removeFromTop (chips_height).withTrimmedLeft (2).reduced (0, 1);
     for (auto& c : chips)
     {
         c->setBounds (row.removeFromLeft (std::min (c->wantedWidth(), row.getWidth())));

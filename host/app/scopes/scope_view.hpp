@@ -15,7 +15,7 @@ namespace tactus::host
 class ScopeView final : public juce::Component
 {
 public:
-    static constexpr int header_height = 26, chips_height = 26;
+    static constexpr int header_height = 26, chips_height = 26, low = 172;   ///< a scope that is lower than `low` has its chips in the header
 
     ScopeView (ScopeSpec&, ScopeContext&, Signals live);
 
@@ -61,6 +61,7 @@ private:
     void add (Chip);
 
     std::string headerKey();
+    juce::Rectangle<int> title_area;
 
     ScopeSpec& spec;
     ScopeContext& context;

@@ -112,7 +112,20 @@ void SceneView::frameAll()
 {
     follow_button.setToggleState (false, juce::dontSendNotification);
     seen_by.setSize (static_cast<float> (getWidth()), static_cast<float> (getHeight()));
-    seen_by.frame (stage.bounds());
+    for (int i = 0; i < 2; ++i)   // how large a tool is drawn depends on the distance
+    {
+        auto box = stage.bounds();
+        constexpr double far = 1.0;   // m; a tool that an unstable loop has thrown away is not worth the picture
+        for (const auto& tool : now.tools)
+        {
+            if (! isFinite (tool.position) || tool.position.norm() > far) continue;
+            box.add (tool.position);
+            for (const auto& line : stage.linesOf (tool, seen_by, now))
+                for (const auto& end : line)
+                    box.add (end);
+        }
+        seen_by.frame (box);
+    }
     is_framed = ! stage.bounds().isEmpty() && getWidth() > 0;
     changed();
 }
@@ -205,14 +218,22 @@ void SceneView::paint (juce::Graphics& g)
 
 bool SceneView::isOnTool (juce::Point<float> at) const
 {
-    constexpr float reach = 14.0f;
     const auto* tool = handTool();
-    return tool != nullptr && seen_by.pixel (tool->position).getDistanceFrom (at) < reach;
+    if (tool == nullptr) return false;
+    const auto seen = seen_by.see (tool->position);
+    const auto reach = std::max (14.0f, static_cast<float> (1.2 * scene::Scene::tipRadius (*tool, seen_by) * seen_by.scaleAt (seen.depth)));
+    if (juce::Point<float> (seen.x, seen.y).getDistanceFrom (at) < reach) return true;
+    return std::ranges::any_of (stage.linesOf (*tool, seen_by, now), [&] (const auto& line) {
+        juce::Point<float> nearest;
+        const juce::Line<float> shown (seen_by.pixel (line[0]), seen_by.pixel (line[1]));
+        return shown.getDistanceFromPoint (at, nearest) < reach;
+    });
 }
 
-/// Presses the tool where the pointer meets the plane z = 0. Above the horizon, the tool stays where it is.
+/// Presses the tool where the pointer meets the plane z = 0, as far from it as it was grabbed. Above the horizon, the tool stays where it is.
 void SceneView::press (juce::Point<float> at)
 {
+    at += grabbed_at;
     const Vec3 ray = seen_by.ray (at), eye = seen_by.eye();
     const double reach = std::abs (ray.z()) < 1e-3 ? 0.0 : -eye.z() / ray.z();
     constexpr double far = scene::Sheet3D::half_width;
@@ -241,6 +262,7 @@ void SceneView::mouseDown (const juce::MouseEvent& e)
     if (drag == Drag::turn && e.mods.isLeftButtonDown() && isOnTool (e.position))
     {
         drag = Drag::tool;
+        grabbed_at = seen_by.pixel (handTool()->position) - e.position;
         constexpr double far = scene::Sheet3D::half_width;
         steered_to = handTool()->position.cwiseMax (-far).cwiseMin (far);
         return press (e.position);

@@ -79,6 +79,7 @@ private:
     };
     Drag drag = Drag::none;
     juce::Point<float> dragged_to;
+    juce::Point<float> grabbed_at;    // from where the tool was grabbed to its position, in pixels
     Vec3 steered_to = Vec3::Zero();   // where the dragged tool was moved last; z does not matter
 };
 

@@ -210,3 +210,68 @@ TEST_CASE ("an enlarged scene is shown next to the view from above", "[app][scen
     rig.panel.showScene (false);
     CHECK_FALSE (rig.panel.isEnlarged());
 }
+
+TEST_CASE ("any visible part of the tool can be dragged\\, and the tool does not jump to the pointer", "[app][scene]")
+{
+    Rig rig { "dry_wood" };
+    rig.playback.start (LiveRun::Hand::pointer());
+    REQUIRE (rig.until ([&] { return ! rig.playback.run().scene().now().tools.empty(); }));
+    rig.panel.refresh();
+    const auto tool = rig.playback.run().scene().now().tools[0];
+    std::vector<juce::Point<double>> steered;
+    rig.view.onSteer = [&] (double x, double y, bool presses) {
+        if (presses) steered.push_back ({ x, y });
+    };
+    scene::Scene all;
+    all.setBodies (rig.playback.run().scene().bodies());
+    const auto lines = all.linesOf (tool, rig.view.camera(), {});
+    REQUIRE (lines.size() == 1);
+    std::optional<juce::Point<double>> by_tip;
+    for (const double part : { 0.0, 0.3, 0.6, 0.95 })
+    {
+        INFO (part);
+        const auto at = rig.view.camera().pixel (lines[0][0] + part * (lines[0][1] - lines[0][0]));
+        steered.clear();
+        const double yaw = rig.view.camera().yaw;
+        rig.hand.press (at);
+        REQUIRE_FALSE (steered.empty());
+        if (! by_tip) by_tip = steered.back();
+        CHECK (steered.back().getDistanceFrom (*by_tip) < 1e-3);
+        rig.hand.dragTo (at.translated (12.0f, 0.0f));
+        rig.hand.release (at.translated (12.0f, 0.0f));
+        CHECK (rig.view.camera().yaw == yaw);   // it did not turn the scene
+    }
+}
+
+TEST_CASE ("Frame shows the tool\\, wherever it is\\, and the plate is under it", "[app][scene]")
+{
+    Rig rig { "dry_wood" };
+    rig.playback.start (LiveRun::Hand::pointer());
+    REQUIRE (rig.until ([&] { return ! rig.playback.run().scene().now().tools.empty(); }));
+    for (const juce::Point<float> corner : { juce::Point<float> (6.0f, 6.0f), { 330.0f, 200.0f } })
+    {
+        rig.panel.view().setSize (400, 400);
+        Hand (rig.panel.view()).move (corner);   // far from the middle
+        const auto tool = [&] { return rig.playback.run().scene().now().tools[0]; };
+        REQUIRE (rig.until ([&] { return tool().position.head<2>().norm() > 0.03; }));
+        for (int i = 0; i < 200; ++i)
+            rig.until ([] { return true; });
+        rig.panel.refresh();
+        REQUIRE (rig.view.keyPressed (juce::KeyPress ('f', {}, 'f')));
+        scene::Scene all;
+        for (const auto& line : all.linesOf (tool(), rig.view.camera(), {}))
+            for (const auto& end : line)
+            {
+                const auto at = rig.view.camera().pixel (end);
+                INFO (at.toString());
+                CHECK (rig.view.getLocalBounds().toFloat().expanded (2.0f).contains (at));
+            }
+    }
+    for (const Vec3& p : { Vec3 (0.0, 0.0, 0.0), Vec3 (0.058, -0.05, 0.0), Vec3 (0.09, 0.0, 0.0), Vec3 (0.02, -0.21, -0.01) })
+    {
+        scene::Sheet3D sheet;
+        sheet.cover (p);
+        CHECK (sheet.half >= std::max (std::abs (p.x()), std::abs (p.y())));
+        CHECK (sheet.half >= scene::Sheet3D::half_width);
+    }
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How the scopes share their panel, on small and large screens.
+#include "host/app/support/seen_text.hpp"
+#include "host/app/support/window_rig.hpp"
+#include "scope_bench.hpp"
+
+#include <host/app/scopes/over_plot.hpp>
+#include <host/app/window/appearance.hpp>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::Bench;
+using tactus::host::test::Stage;
+using tactus::host::test::WindowRig;
+
+TEST_CASE ("on a small screen and at twice the size\\, at least 120 pixels of each plot are in view", "[app][scopes]")
+{
+    WindowRig w ("dry_wood.json", 1024, 700);
+    for (const double scale : { 1.0, 2.0 })
+    {
+        INFO (scale);
+        applyScale (scale);
+        Stage::plugIn();
+        w.stage->setSize (juce::roundToInt (1024 / scale), juce::roundToInt (700 / scale));
+        WindowRig::settle();
+        auto* panel = dynamic_cast<ScopePanel*> (w.titled ("Scopes"));
+        REQUIRE (panel != nullptr);
+        REQUIRE_FALSE (panel->shown().empty());
+        for (const auto& v : panel->shown())
+        {
+            auto& plot = v->plot();
+            const auto seen = panel->getLocalArea (&plot, plot.getLocalBounds()).withX (0).withWidth (10).getIntersection (panel->getLocalBounds());
+            CHECK (seen.getHeight() * scale >= 120.0);
+        }
+        CHECK (w.view->canvas().getHeight() * scale >= 160.0);
+    }
+    applyScale (1.0);
+    Stage::plugIn();
+}
+
+TEST_CASE ("scopes in a high panel are in a grid\\, all in view and none over another", "[app][scopes]")
+{
+    Bench b;
+    for (const int scopes : { 2, 3, 4, 6, 8 })
+        for (const int height : { 260, 600, 1000 })
+        {
+            INFO (scopes << " scopes, " << height);
+            b.panel->setSize (1000, height);
+            b.panel->suggest();
+            while (static_cast<int> (b.panel->shown().size()) < scopes)
+                b.panel->add (ScopeKind::spectrum);
+            std::set<int> rows;
+            const auto& views = b.panel->shown();
+            for (std::size_t i = 0; i < views.size(); ++i)
+            {
+                rows.insert (views[i]->getY());
+                CHECK (views[i]->getWidth() >= 199);
+                for (std::size_t j = 0; j < i; ++j)
+                    CHECK_FALSE (views[i]->getBounds().intersects (views[j]->getBounds()));
+            }
+            if (height == 260) CHECK (rows.size() == 1);
+            if (height == 1000 && scopes >= 4) CHECK (rows.size() >= 2);
+        }
+}
+
+TEST_CASE ("what a plot shows of earlier passes has no colour of its legend", "[app][scopes]")
+{
+    for (const auto& theme : { Theme::dark(), Theme::light() })
+    {
+        const auto past = colourOfPast (theme);
+        for (const auto other : { theme.of (Quantity::length), theme.of (Quantity::force), theme.dim, theme.canvas })
+        {
+            const auto apart = std::abs (past.getRed() - other.getRed()) + std::abs (past.getGreen() - other.getGreen()) + std::abs (past.getBlue() - other.getBlue());
+            INFO (past.toDisplayString (false) << " and " << other.toDisplayString (false));
+            CHECK (apart > 60);
+            const auto hue = std::abs (past.getHue() - other.getHue());
+            if (other != theme.dim && other != theme.canvas) CHECK (std::min (hue, 1.0f - hue) > 0.08f);
+        }
+    }
+}
+
+TEST_CASE ("the numbers of the axes are whole in a scope of any size", "[app][scopes]")
+{
+    Bench b;
+    b.run (3000);
+    for (const int width : { 620, 900, 1600 })
+        for (const int height : { 200, 260, 420 })
+        {
+            b.panel->setSize (width, height);
+            b.panel->refresh();
+            for (const auto& v : b.panel->shown())
+                for (const auto& t : tactus::host::test::readTexts (v->plot()))
+                {
+                    INFO (width << " x " << height << ": " << t.text);
+                    const bool has_digit = t.text.containsAnyOf ("0123456789");
+                    CHECK_FALSE ((has_digit && t.is_cut));
+                }
+        }
+}
