@@ -83,10 +83,22 @@ void play (unsigned seed, int actions, bool prints)
     for (int n = 1; n <= actions; ++n)
     {
         if (prints) std::cerr << n << ": " << std::flush;
+        const auto& document = monkey.view->document();
+        const auto before = valuesInEffect (document.graph());
+        const auto names = document.history().names().size(), position = document.history().position();
+        const auto* identity = &document;
         const auto action = monkey.act();
         if (prints) std::cerr << action << std::endl;
         done.add (std::to_string (n) + ": " + action);
-        if (n % 3 == 0) monkey.poll (1);
+        const auto& after = monkey.view->document();   // the window may have begun again
+        if (&after == identity && after.history().position() == position + 1 && after.history().names().size() <= names + 1)
+            check (movedValue (after, before, valuesInEffect (after.graph())));
+        if (n % 3 == 0)
+        {
+            monkey.poll (1);
+            check (keyboardFault (*monkey.view));
+        }
+        if (n % 7 == 0) check (stepFault (monkey.view->document()));
         check (disagreement (*monkey.view));
         if (n % 20 == 0) check (disagreementWithCompile (*monkey.view, assets));
         if (n % 50 == 0) monkey.paint();

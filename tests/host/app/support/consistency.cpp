@@ -105,4 +105,37 @@ std::string historyFault (Document& d)
     return writeGraph (d.graph()) == here ? std::string() : std::string ("jumping through the history and back changes the graph");
 }
 
+std::string keyboardFault (MainView& view)
+{
+    if (juce::Component::getNumCurrentlyModalComponents() > 0) return {};
+    const auto* now = juce::Component::getCurrentlyFocusedComponent();
+    if (now == nullptr) return "nothing has the keyboard";
+    if (! now->isShowing()) return "something that is not seen has the keyboard";
+    if (now == &view && view.canvas().isShowing()) return "the window has the keyboard, and not a part of it";
+    return now == &view || view.isParentOf (now) ? std::string() : std::string ("something outside of the window has the keyboard");
+}
+
+std::string stepFault (Document& d)
+{
+    if (d.history().position() == 0) return {};
+    const auto text = writeGraph (d.graph());
+    d.undo();
+    d.redo();
+    return writeGraph (d.graph()) == text ? std::string() : "undoing and redoing " + d.history().names()[d.history().position() - 1] + " changes the graph";
+}
+
+std::string movedValue (const Document& d, const ValuesInEffect& before, const ValuesInEffect& now)
+{
+    if (d.history().position() == 0) return {};
+    const auto name = d.history().names()[d.history().position() - 1];
+    for (const char* begin : { "add control", "remove control", "release ", "assign ", "duplicate", "paste", "rename", "move", "align", "arrange", "add note",
+                               "edit note", "colour region", "resize note", "store snapshot", "close scope", "add scope", "size scopes", "probe" })
+        if (name.starts_with (begin))
+        {
+            const auto moved = changedValue (before, now);
+            return moved.empty() ? std::string() : name + ": " + moved;
+        }
+    return {};
+}
+
 }   // namespace tactus::host::test

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "values.hpp"
+
 #include <host/app/window/main_view.hpp>
 
 #include <string>
@@ -21,5 +23,14 @@ std::string instability (const graph::Graph&);
 
 /// Between the graph now and the same graph after jumps through its history and back.
 std::string historyFault (Document&);
+
+/// Between the keyboard and the window: some part of it must have the keyboard. Call it after the message loop has run.
+std::string keyboardFault (MainView&);
+
+/// Between the graph now and after an undo and a redo.
+std::string stepFault (Document&);
+
+/// Values that the latest step has changed, although it was none that changes values: it is about controls, names, copies or the window.
+std::string movedValue (const Document&, const ValuesInEffect& before, const ValuesInEffect& now);
 
 }   // namespace tactus::host::test
