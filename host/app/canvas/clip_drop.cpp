@@ -3,7 +3,7 @@
 #include "canvas.hpp"
 
 #include <host/app/model/clip_graph.hpp>
-#include <host/app/model/file_path.hpp>
+#include <host/app/text/file_path.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/io/clip_io.hpp>
 #include <tactus/text/quote.hpp>

@@ -3,7 +3,7 @@
 #include "canvas.hpp"
 
 #include <host/app/model/clip_graph.hpp>
-#include <host/app/model/file_path.hpp>
+#include <host/app/text/file_path.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/graph/endpoint_text.hpp>
 

@@ -3,8 +3,8 @@
 #include "trial_node.hpp"
 
 #include <host/app/model/clip_graph.hpp>
-#include <host/app/model/file_path.hpp>
 #include <host/app/model/param_now.hpp>
+#include <host/app/text/file_path.hpp>
 #include <host/io/clip_io.hpp>
 #include <tactus/kit/signal/clip_score.hpp>
 #include <tactus/node/node_fault.hpp>

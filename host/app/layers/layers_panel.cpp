@@ -2,8 +2,8 @@
 #include "layers_panel.hpp"
 
 #include <host/app/look/size_in_view.hpp>
-#include <host/app/model/file_path.hpp>
 #include <host/app/model/message_text.hpp>
+#include <host/app/text/file_path.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/io/clip_io.hpp>
 #include <tactus/text/quote.hpp>

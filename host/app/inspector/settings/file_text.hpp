@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/app/model/file_path.hpp>
+#include <host/app/text/file_path.hpp>
 
 #include <tactus/kit/assets.hpp>
 #include <tactus/node/setting.hpp>
