@@ -43,7 +43,6 @@ public:
     const Catalogue& types() const noexcept { return catalogue; }
     CanvasCommands& commands() noexcept { return edits; }
     const CanvasCommands& commands() const noexcept { return edits; }
-    const Catalogue& types() const noexcept { return catalogue; }
     const Scene& scene() const noexcept { return *shown; }
     std::uint64_t sceneNumber() const noexcept { return scenes_made; }   ///< another number for each scene; never 0
     View& view() noexcept { return window; }
