@@ -53,6 +53,7 @@ private:
         std::string node, port;
     };
     void onParam (const ParamPlace&, const std::function<void (const graph::Node&, const FacePort&)>&);   ///< no effect if it is gone
+    void assign (const graph::Node&, const FacePort&, const std::string& control);                        ///< to a control; "": a new one
     void nameControl (const std::string& id);                                                             ///< opens the field for its name
 
     struct SelectedItems

@@ -38,6 +38,12 @@ void Inspector::onParam (const ParamPlace& at, const std::function<void (const g
     if (const auto* port = face.find (Role::param, at.port); port != nullptr && port->sheet != nullptr) f (*node, *port);
 }
 
+void Inspector::assign (const graph::Node& node, const FacePort& port, const std::string& control)
+{
+    if (controlBy (document, patch, node.name, port, control, catalogue) || ! onNotice) return;
+    onNotice (filled (TRANS ("%1 has no single value: the instances of this subgraph differ, and a control would make them equal."), port.id));
+}
+
 void Inspector::fillParamMenu (juce::PopupMenu& menu, const std::string& node_name, const std::string& port_id)
 {
     const ParamPlace at { patch, node_name, port_id };
@@ -59,12 +65,12 @@ void Inspector::fillParamMenu (juce::PopupMenu& menu, const std::string& node_na
             else
             {
                 item (TRANS ("New control"), [] (Inspector& i, const auto& n, const auto& p) {
-                    controlBy (i.document, i.patch, n.name, p, {}, i.catalogue);
+                    i.assign (n, p, {});
                     if (const auto made = controlOf (i.document.graph(), i.patch.address (n.name + '.' + p.id))) i.nameControl (made->control);
                 });
                 for (const auto& c : document.graph().controls)
                     item (filled (TRANS ("Assign to %1"), c.name.empty() ? c.id : c.name), [id = c.id] (Inspector& i, const auto& n, const auto& p) {
-                        controlBy (i.document, i.patch, n.name, p, id, i.catalogue);
+                        i.assign (n, p, id);
                     });
             }
             menu.addSeparator();

@@ -134,20 +134,24 @@ std::unique_ptr<Block> paramRow (Document& document, const SeenPatch& patch, con
     return row;
 }
 
-void controlBy (Document& document, const SeenPatch& patch, const std::string& name, const FacePort& port, const std::string& control,
+bool controlBy (Document& document, const SeenPatch& patch, const std::string& name, const FacePort& port, const std::string& control,
                 const Catalogue& catalogue)
 {
     const auto* node = find (document, patch, name);
     const auto path = patch.address (name + '.' + port.id);
-    if (node == nullptr || port.sheet == nullptr || path.empty()) return;
+    if (node == nullptr || port.sheet == nullptr || path.empty()) return false;
     auto now = paramNow (document.graph(), patch, *node, port).value;
     const auto shown = readQuantity (now, *port.sheet);
-    if (const auto si = valueInEffect (document.graph(), path, catalogue); si && shown && *si != shown->si()) now = shown->exactly (*si).toJson();
+    const auto si = valueInEffect (document.graph(), path, catalogue);
+    if (! si) return false;
+    if (shown && *si != shown->si()) now = shown->exactly (*si).toJson();
+    if (! control.empty())
+    {
+        auto command = addTarget (document.graph(), control, path, now, *port.sheet);
+        return command && document.perform (std::move (*command));
+    }
     const auto [low, high] = sweepOf (now, *port.sheet);
-    if (control.empty())
-        document.perform (newControlFor (document.graph(), path, low, high, siOf (now, *port.sheet)));
-    else if (auto command = addTarget (document.graph(), control, path, now, *port.sheet))
-        document.perform (std::move (*command));
+    return document.perform (newControlFor (document.graph(), path, low, high, siOf (now, *port.sheet)));
 }
 
 void release (Document& document, const SeenPatch& patch, const std::string& name, const FacePort& port, const Catalogue& catalogue)

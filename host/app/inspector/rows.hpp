@@ -20,8 +20,9 @@ using Refusal = std::function<void (const juce::String&)>;
 std::unique_ptr<Block> paramRow (Document&, const SeenPatch&, const std::string& node, const FacePort&, const Refusal&,
                                  std::function<void (juce::PopupMenu&)> fillMenu);
 
-/// controlBy() assigns a param to a control; "" creates a new one. release() ends that. Both keep the current value of the param.
-void controlBy (Document&, const SeenPatch&, const std::string& node, const FacePort&, const std::string& control, const Catalogue&);
+/// controlBy() assigns a param to a control; "" creates a new one. release() ends that. Both keep the current value of the param, so
+/// controlBy() returns false where the instances of a subgraph have different ones.
+bool controlBy (Document&, const SeenPatch&, const std::string& node, const FacePort&, const std::string& control, const Catalogue&);
 void release (Document&, const SeenPatch&, const std::string& node, const FacePort&, const Catalogue&);
 
 /// A control of the graph: its name, a fader, and its targets with their ranges.

@@ -76,10 +76,15 @@ std::optional<double> valueInEffect (const graph::Graph& g, const std::string& a
     auto flattened = plan::flatten (g, catalogue, {}, nullptr, plan::SettingFiles::left_out);
     plan::Ports found;
     if (! plan::find (address, plan::Side::param, *flattened.top, nullptr, flattened.flat, found) || found.empty()) return std::nullopt;
-    const auto& first = found.front();
-    const auto values = std::as_const (flattened.flat).param (first.node, static_cast<std::size_t> (first.port));
-    const auto at = static_cast<std::size_t> (std::max (0, first.index) + std::max (0, first.component));
-    return at < values.size() ? std::optional (values[at]) : std::nullopt;
+    std::optional<double> all;
+    for (const auto& p : found)
+    {
+        const auto values = std::as_const (flattened.flat).param (p.node, static_cast<std::size_t> (p.port));
+        const auto at = static_cast<std::size_t> (std::max (0, p.index) + std::max (0, p.component));
+        if (at >= values.size() || (all && *all != values[at])) return std::nullopt;
+        all = values[at];
+    }
+    return all;
 }
 
 graph::Graph withValuesInEffect (const graph::Graph& g, const SeenPatch& seen, const Catalogue& catalogue)

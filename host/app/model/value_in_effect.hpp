@@ -14,8 +14,8 @@ namespace tactus::host
 
 /// A control sets a parameter to its own value while the node still stores another one. These edits keep the value in effect, so that no force jumps.
 
-/// What the graph runs with for a parameter that controls name like this, in SI units; that of the first instance if there are several. It
-/// may be another value than the stored one, even without a control: a subgraph node may override it. Empty if there is no such parameter.
+/// What the graph runs with for a parameter that controls name like this, in SI units. It may be another value than the stored one, even
+/// without a control: a subgraph node may override it. Empty if there is no such parameter, or if its instances have different values.
 std::optional<double> valueInEffect (const graph::Graph&, const std::string& address, const Catalogue&);
 
 /// The graph with the values in effect stored in the nodes of a patch, so that a copy of them feels the same.

@@ -18,8 +18,8 @@ namespace tactus::host
 namespace
 {
 constexpr int hand_width = 420, refreshes_per_second = 30;
-constexpr int least_canvas_width = 240, least_canvas_height = 200;   // in pixels
-constexpr int least_bottom_height = 160;                             // in a low window, the canvas gives way to the panels below it
+constexpr int least_canvas_width = 240, least_canvas_height = 200;    // in pixels
+constexpr int lowest_canvas_height = 80, least_bottom_height = 160;   // in a low window, the canvas gives way to the panels below it
 }   // namespace
 
 MainView::MainView (const Catalogue& c)
@@ -285,7 +285,7 @@ void MainView::resized()
     strip.setBounds (area.removeFromTop (SafetyStrip::height));
     top.setBounds (area.removeFromTop (TopBar::height));
     status.setBounds (area.removeFromBottom (StatusLine::height));
-    auto low = bottom_edge.take (area, std::clamp (area.getHeight() - least_bottom_height, least_canvas_height / 2, least_canvas_height));
+    auto low = bottom_edge.take (area, std::clamp (area.getHeight() - least_bottom_height, lowest_canvas_height, least_canvas_height));
     left.setBounds (left_edge.take (area, least_canvas_width));
     inspector.setBounds (right_edge.take (area, least_canvas_width));
     if (! hand.isEnlarged()) hand.setBounds (low.removeFromLeft (std::min (hand_width, low.getWidth() / 2)));

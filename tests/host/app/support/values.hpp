@@ -43,7 +43,7 @@ inline std::string changedValue (const ValuesInEffect& before, const ValuesInEff
         const auto now = after.find (of);
         if (now == after.end() || now->second.size() != values.size()) continue;
         for (std::size_t i = 0; i < values.size(); ++i)
-            if (! (std::abs (now->second[i] - values[i]) <= 1e-9 * std::max (1e-9, std::abs (values[i]))))
+            if (! (std::abs (now->second[i] - values[i]) <= 1e-9 * std::abs (values[i]) + 1e-14))
                 return std::get<1> (of) + " of node " + std::to_string (std::get<0> (of)) + " went from " + std::to_string (values[i]) + " to "
                        + std::to_string (now->second[i]);
     }

@@ -55,6 +55,9 @@ struct Cloth
         for (int i = 0; i < times; ++i)
             w->key (k);
         WindowRig::settle();
+        const bool ends_menu = juce::String (k) == "return";
+        for (int i = 0; ends_menu && i < 100 && juce::Component::getNumCurrentlyModalComponents() > 0; ++i)
+            WindowRig::settle();
     }
 };
 }   // namespace
