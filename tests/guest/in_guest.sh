@@ -130,7 +130,7 @@ for signal in KILL HUP STOP; do attack $signal own play $signal; done
 for what in close fault abort hang; do attack $what own $what; done
 for what in fork two; do attack $what own $what KILL; done
 if [ -d build/release/python ]; then
-    (cd / && PYTHONPATH=$OLDPWD/build/release/python /usr/bin/python3 -B -c 'import tactus, numpy; tactus._play._live()')   # reads the files once
+    (cd / && PYTHONPATH=$OLDPWD/build/release/python /usr/bin/python3 -B -c 'import tactus, numpy; tactus._play.live()')   # reads the files once
     for what in raise exit; do attack script_$what script $what; done
     attack script_KILL script play KILL
 fi
@@ -152,10 +152,14 @@ for signal in INT KILL STOP hang; do
         end_under_force KILL
     else
         driven --duration 600 & player=$!
-        wait_for "$work/pushed"
-        to_player $signal
-        [ $signal = STOP ] && { sleep 1; to_player KILL; }
-        end_under_force $signal
+        if [ $signal = STOP ]; then
+            wait_for "$work/pushed"
+            to_player STOP
+            sleep 1
+            end_under_force KILL
+        else
+            end_under_force $signal
+        fi
     fi
     unplug
     keep driver_$signal

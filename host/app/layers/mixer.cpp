@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <memory>
 #include <numeric>
+#include <set>
 
 namespace tactus::host
 {
@@ -19,15 +20,17 @@ namespace
 {
 constexpr int removed = 1'000'000;   // a list index that cannot exist: marks what is removed
 
-void collect (const graph::Graph& g, const std::string& patch, const std::string& path, int depth, std::vector<MixerPlace>& found)
+/// The mixers of a patch and of the subgraphs in it. Each subgraph is looked into once, because its instances have the same mixers, and a
+/// broken graph may contain itself.
+void collect (const graph::Graph& g, const std::string& patch, const std::string& path, std::set<std::string>& seen, std::vector<MixerPlace>& found,
+              int depth = 0)
 {
     const auto* in = mixing::patchOf (g, patch);
-    if (in == nullptr || depth > deepest_subgraph) return;
+    if (in == nullptr || depth > deepest_subgraph || ! seen.insert (patch).second) return;
     for (const auto& n : in->nodes)
     {
-        if (mixing::isMixer (n.type) && std::ranges::count (found, n.id, &MixerPlace::id) == 0)
-            found.push_back ({ n.id, patch, n.name, path + n.name, n.type == mixing::vector_mixer });
-        if (n.type.starts_with ("graph:")) collect (g, n.type.substr (6), path + n.name + '/', depth + 1, found);
+        if (mixing::isMixer (n.type)) found.push_back ({ n.id, patch, n.name, path + n.name, n.type == mixing::vector_mixer });
+        if (n.type.starts_with ("graph:")) collect (g, n.type.substr (6), path + n.name + '/', seen, found, depth + 1);
     }
 }
 
@@ -120,7 +123,8 @@ Result<graph::Command> permuted (const graph::Graph& g, const MixerPlace& at, co
 std::vector<MixerPlace> mixersOf (const graph::Graph& g)
 {
     std::vector<MixerPlace> found;
-    collect (g, {}, {}, 0, found);
+    std::set<std::string> seen;
+    collect (g, {}, {}, seen, found);
     return found;
 }
 

@@ -45,77 +45,75 @@ std::vector<FacePort> portsOf (const std::vector<PortSheet>& sheets, int entries
 /// The port's part of an endpoint, such as "in[2]".
 std::string idOf (const graph::Endpoint& e) { return e.index < 0 ? e.port : e.port + '[' + std::to_string (e.index) + ']'; }
 
-class FaceBuilder
+Face placeholder (const graph::Patch& patch, const graph::Node& node)
 {
-public:
-    explicit FaceBuilder (const Catalogue& c) : catalogue (c) {}
-
-    Face make (const graph::Graph& graph, const graph::Patch& patch, const graph::Node& node, int depth) const
+    Face face;
+    face.kind = Face::Kind::placeholder;
+    const auto add = [] (std::vector<FacePort>& ports, Role role, const std::string& id) {
+        if (std::ranges::count (ports, id, &FacePort::id) == 0) ports.push_back ({ role, id, {}, UnitRule (UnitRule::Kind::open), 1, nullptr });
+    };
+    for (const auto& w : patch.wires)
     {
-        if (const auto inside = graph::insideOf (graph, node)) return subgraph (*inside.owner, *inside.patch, depth);
-
-        Face face;
-        face.type = catalogue.find (node.type);
-        if (face.type == nullptr) return placeholder (patch, node);
-        const int entries = entriesOf (*face.type, node);
-        face.inputs = portsOf (face.type->inputs, entries);
-        face.params = portsOf (face.type->params, entries);
-        face.outputs = portsOf (face.type->outputs, entries);
-        return face;
+        if (w.to.node == node.name) add (face.inputs, Role::input, idOf (w.to));
+        if (w.from.node == node.name) add (face.outputs, Role::output, idOf (w.from));
     }
+    return face;
+}
 
-private:
-    const Catalogue& catalogue;
+/// The face of a node that is not a subgraph.
+Face innermost (const graph::Patch& patch, const graph::Node& node, const Catalogue& catalogue)
+{
+    Face face;
+    face.type = catalogue.find (node.type);
+    if (face.type == nullptr) return placeholder (patch, node);
+    const int entries = entriesOf (*face.type, node);
+    face.inputs = portsOf (face.type->inputs, entries);
+    face.params = portsOf (face.type->params, entries);
+    face.outputs = portsOf (face.type->outputs, entries);
+    return face;
+}
 
-    Face subgraph (const graph::Graph& owner, const graph::Patch& inside, int depth) const
+/// What a patch exposes as a port of a role. Null if it exposes nothing by this name.
+const graph::Endpoint* exposed (const graph::Patch& patch, Role role, const std::string& id)
+{
+    const auto in = [&] (const std::vector<std::pair<std::string, graph::Endpoint>>& names) -> const graph::Endpoint* {
+        const auto at = std::ranges::find (names, id, &std::pair<std::string, graph::Endpoint>::first);
+        return at == names.end() ? nullptr : &at->second;
+    };
+    if (role == Role::output) return in (patch.expose.outputs);
+    const auto* input = in (patch.expose.inputs);
+    return input != nullptr ? input : in (patch.expose.params);
+}
+
+/// A port that a subgraph exposes, with what the port of the innermost node says. Only this one port is followed, so nesting costs a step for
+/// each level.
+FacePort exposedPort (graph::Inside inside, Role role, const std::string& name, const graph::Endpoint* end, const Catalogue& catalogue)
+{
+    FacePort port { role, name, {}, UnitRule (UnitRule::Kind::open), 1, nullptr };
+    bool is_component = false;
+    for (int depth = 0; end != nullptr && depth < deepest_subgraph; ++depth)
     {
-        Face face;
-        face.kind = Face::Kind::subgraph;
-        if (depth >= deepest_subgraph) return face;
-        expose (owner, inside, inside.expose.inputs, Role::input, depth, face.inputs);
-        expose (owner, inside, inside.expose.params, Role::param, depth, face.params);
-        expose (owner, inside, inside.expose.outputs, Role::output, depth, face.outputs);
-        return face;
-    }
-
-    void expose (const graph::Graph& owner, const graph::Patch& inside, const std::vector<std::pair<std::string, graph::Endpoint>>& names, Role role,
-                 int depth, std::vector<FacePort>& into) const
-    {
-        for (const auto& [name, end] : names)
+        const auto* node = end->node.find ('/') == std::string::npos ? inside.patch->find (graph::firstNameOf (end->node)) : nullptr;
+        if (node == nullptr) break;
+        is_component |= end->component >= 0;
+        if (const auto deeper = graph::insideOf (*inside.owner, *node))
         {
-            FacePort port { role, name, {}, UnitRule (UnitRule::Kind::open), 1, nullptr };
-            const auto slash = end.node.find ('/');
-            if (const auto* node = inside.find (graph::firstNameOf (end.node)); node != nullptr && slash == std::string::npos)
-            {
-                const auto face = make (owner, inside, *node, depth + 1);
-                const auto* inner = role == Role::output ? face.startOf (end) : face.endOf (end);
-                if (inner != nullptr)
-                {
-                    port.about = inner->about;
-                    port.unit = inner->unit.kind == UnitRule::Kind::fixed ? inner->unit : UnitRule (UnitRule::Kind::open);
-                    port.width = end.component >= 0 ? 1 : inner->width;
-                    port.sheet = inner->sheet;
-                }
-            }
-            into.push_back (std::move (port));
+            end = exposed (*deeper.patch, role, idOf (*end));
+            inside = deeper;
+            continue;
         }
-    }
-
-    static Face placeholder (const graph::Patch& patch, const graph::Node& node)
-    {
-        Face face;
-        face.kind = Face::Kind::placeholder;
-        const auto add = [] (std::vector<FacePort>& ports, Role role, const std::string& id) {
-            if (std::ranges::count (ports, id, &FacePort::id) == 0) ports.push_back ({ role, id, {}, UnitRule (UnitRule::Kind::open), 1, nullptr });
-        };
-        for (const auto& w : patch.wires)
+        const auto face = innermost (*inside.patch, *node, catalogue);
+        if (const auto* inner = role == Role::output ? face.startOf (*end) : face.endOf (*end))
         {
-            if (w.to.node == node.name) add (face.inputs, Role::input, idOf (w.to));
-            if (w.from.node == node.name) add (face.outputs, Role::output, idOf (w.from));
+            port.about = inner->about;
+            if (inner->unit.kind == UnitRule::Kind::fixed) port.unit = inner->unit;
+            if (! is_component) port.width = inner->width;
+            port.sheet = inner->sheet;
         }
-        return face;
+        break;
     }
-};
+    return port;
+}
 }   // namespace
 
 const FacePort* Face::find (Role role, std::string_view id) const noexcept
@@ -142,7 +140,18 @@ const FacePort* Face::endOf (const graph::Endpoint& e) const noexcept
 
 Face faceOf (const graph::Graph& graph, const graph::Patch& patch, const graph::Node& node, const Catalogue& catalogue)
 {
-    return FaceBuilder (catalogue).make (graph, patch, node, 0);
+    const auto inside = graph::insideOf (graph, node);
+    if (! inside) return innermost (patch, node, catalogue);
+    Face face;
+    face.kind = Face::Kind::subgraph;
+    const auto expose = [&] (const std::vector<std::pair<std::string, graph::Endpoint>>& names, Role role, std::vector<FacePort>& into) {
+        for (const auto& [name, end] : names)
+            into.push_back (exposedPort (inside, role, name, &end, catalogue));
+    };
+    expose (inside.patch->expose.inputs, Role::input, face.inputs);
+    expose (inside.patch->expose.params, Role::param, face.params);
+    expose (inside.patch->expose.outputs, Role::output, face.outputs);
+    return face;
 }
 
 }   // namespace tactus::host

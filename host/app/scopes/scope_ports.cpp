@@ -4,30 +4,37 @@
 #include <tactus/graph/inside.hpp>
 #include <tactus/run/probe_ring.hpp>
 
+#include <algorithm>
+
 namespace tactus::host
 {
 
 namespace
 {
-constexpr int deepest = 16;
+constexpr int most_nodes = 20000;   // twice as many as a processor core computes in a tick
 
 struct PortCollector
 {
     const Catalogue& catalogue;
     std::vector<ScopePort> all;
+    std::vector<const graph::Patch*> open {};   // those that contain the patch; a broken graph may contain itself
+    int nodes = 0;
 
-    void patch (const graph::Graph& g, const graph::Patch& p, const std::string& prefix, int depth)
+    void patch (const graph::Graph& g, const graph::Patch& p, const std::string& prefix)
     {
-        if (depth > deepest) return;
+        if (open.size() > deepest_subgraph || std::ranges::count (open, &p) > 0) return;
+        open.push_back (&p);
         for (const auto& node : p.nodes)
         {
+            if (++nodes > most_nodes) break;
             const auto path = prefix + node.name;
             const auto face = faceOf (g, p, node, catalogue);
             for (const auto* ports : { &face.outputs, &face.inputs, &face.params })
                 for (const auto& port : *ports)
                     if (! port.isChoice()) all.push_back ({ path + "." + port.id, path, node.id, node.type, port });
-            if (const auto inside = graph::insideOf (g, node)) patch (*inside.owner, *inside.patch, path + "/", depth + 1);
+            if (const auto inside = graph::insideOf (g, node)) patch (*inside.owner, *inside.patch, path + "/");
         }
+        open.pop_back();
     }
 };
 
@@ -53,7 +60,7 @@ bool isWired (const graph::Patch& patch, const std::string& node, const std::str
 std::vector<ScopePort> scopePorts (const graph::Graph& g, const Catalogue& c)
 {
     PortCollector walk { c, {} };
-    walk.patch (g, g.root, {}, 0);
+    walk.patch (g, g.root, {});
     return std::move (walk.all);
 }
 

@@ -69,9 +69,10 @@ TextField::TextField()
     setIndents (8, 5);
     setSelectAllWhenFocused (true);
     onFocusLost = [this] { apply(); };
-    onReturnKey = [safe = juce::Component::SafePointer<TextField> (this)] {
-        safe->apply();
-        if (safe != nullptr) letGoOfFocus (*safe);
+    onReturnKey = [this] {
+        const juce::Component::SafePointer<TextField> field (this);   // what is applied may delete the field, and this function with it
+        apply();
+        if (field != nullptr) letGoOfFocus (*field);
     };
     onEscapeKey = [this] {
         setText (shown, false);

@@ -102,3 +102,24 @@ TEST_CASE ("nodes show readable names of their ports", "[app][canvas]")
     CHECK (rig.node ("drag").box.find (Role::param, "d_max")->label == "d max");
     CHECK (rig.node ("drag").box.find (Role::output, "force")->label == "Force");
 }
+
+TEST_CASE ("a part of the canvas is painted with the pixels that it has in the whole picture", "[app][canvas]")
+{
+    const auto [preset, zoom] = GENERATE (table<std::string, float> ({ { "dry_wood", 1.0f }, { "dry_wood", 2.5f }, { "padded_bench", 0.5f } }));
+    CanvasRig rig { CanvasRig::preset (preset) };
+    rig.canvas->view().zoom *= zoom;
+    LiveState live;
+    for (const auto& w : rig.canvas->scene().wires())
+        live.levels[w.id] = LiveState::most_level;
+    rig.canvas->showLive (live);
+    const auto all = rig.canvas->getLocalBounds();
+    const auto whole = rig.canvas->createComponentSnapshot (all);
+    constexpr int size = 60;   // pixels; most wires are longer
+    for (int y = 0; y + size <= all.getHeight(); y += size)
+        for (int x = 0; x + size <= all.getWidth(); x += size)
+        {
+            const juce::Rectangle<int> area { x, y, size, size };
+            INFO (preset << ", " << area.toString());
+            CHECK (differing (rig.canvas->createComponentSnapshot (area), whole.getClippedImage (area), { 0, 0, size, size }) == 0);
+        }
+}

@@ -35,7 +35,7 @@ void write (TextField* field, const std::string& text)
 {
     REQUIRE (field != nullptr);
     field->setText (text, false);
-    field->apply();
+    field->onReturnKey();   // which may delete the field
 }
 }   // namespace
 

@@ -191,6 +191,15 @@ TEST_CASE ("the steepest contact of a role has its limits, in multiples of what 
     CHECK (stable.contacts[0].stable_up_to >= stable.contacts[0].passive_up_to);
 }
 
+TEST_CASE ("a check that is stopped finds nothing, and closing does not wait for it", "[app][limits]")
+{
+    std::stop_source stop;
+    stop.request_stop();
+    FileAssets assets;
+    const auto g = wall ("\"damping\": 0.4");
+    CHECK_FALSE (limitsOf ({ g, 0.0, limitRolesOf (g, {}, {}) }, catalogue(), assets, stop.get_token()).is_checked);
+}
+
 TEST_CASE ("closing stops a running check, and a series of edits ends with a check of the last one", "[app][limits]")
 {
     CanvasRig rig { wall ("\"damping\": 1") };
