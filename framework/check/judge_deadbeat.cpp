@@ -76,7 +76,9 @@ struct Wall
 /// could grow before the loop swings.
 void closeLoop (Condition& c, const Wall& wall, const Deadbeat& node, const DeviceNumbers& numbers, double delay)
 {
-    DeadbeatPlan plan { .damping = node.damping > 0.0 ? node.damping : wall.damping, .stiffness = wall.stiffness, .delay = static_cast<std::size_t> (wall.delay) };
+    DeadbeatPlan plan { .damping = node.damping > 0.0 ? node.damping : wall.damping,
+                        .stiffness = wall.stiffness,
+                        .delay = static_cast<std::size_t> (wall.delay) };
     const auto rests = [&] (double factor) {
         plan.mass = wall.mass + factor * (wall.assumed - wall.mass);
         const auto radius = deadbeatRadius (plan, numbers, static_cast<std::size_t> (delay), wall.period_s);
@@ -85,7 +87,8 @@ void closeLoop (Condition& c, const Wall& wall, const Deadbeat& node, const Devi
     const bool is_stable = rests (1.0);
     c.may_grow = roomToGrow (rests);
     c.verdict = is_stable ? Verdict::stable : Verdict::unstable;
-    c.text += is_stable ? "; a tool that is pressed into the wall comes to rest, up to " : "; a tool that is pressed into the wall swings, and would rest with ";
+    c.text +=
+        is_stable ? "; a tool that is pressed into the wall comes to rest, up to " : "; a tool that is pressed into the wall swings, and would rest with ";
     c.text += text (c.may_grow) + " times this error of M";
 }
 

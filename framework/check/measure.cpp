@@ -237,7 +237,11 @@ private:
 
     Deadbeat deadbeatAt (std::size_t n, const std::string& role) const
     {
-        Deadbeat wall { .node = n, .role = role, .mass = valueInFile (*plan, n, "mass", 0.0), .damping = valueInFile (*plan, n, "damping", 0.0), .stiffness = valueInFile (*plan, n, "stiffness", 0.0) };
+        Deadbeat wall { .node = n,
+                        .role = role,
+                        .mass = valueInFile (*plan, n, "mass", 0.0),
+                        .damping = valueInFile (*plan, n, "damping", 0.0),
+                        .stiffness = valueInFile (*plan, n, "stiffness", 0.0) };
         wall.delay = settingInFile (*plan, n, "delay", 0.0);
         bool is_first = true;
         for (const auto& path : plan->delays())

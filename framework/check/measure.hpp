@@ -147,7 +147,8 @@ struct Thoroughness
 /// Measures a graph along a motion that was recorded at the same rate. The result is a pure function of the arguments. Takes about
 /// 150,000 ticks of the graph for each role, twice that if there are textures, up to four times that if sections do not run on
 /// every tick, 40,000 ticks to choose the points, and one run along the motion for each texture. The graph must compile without
-/// errors, and the motion must not diverge (see divergence()). Throws Stopped if the subject is stopped. [any thread, as long as no other thread uses the assets]
+/// errors, and the motion must not diverge (see divergence()). Throws Stopped if the subject is stopped. [any thread, as long as no other thread uses the
+/// assets]
 Demand measure (const Subject&, const HandMotion&, const Thoroughness& = {});
 
 }   // namespace tactus::check

@@ -73,7 +73,8 @@ Motion motionOf (const DeviceNumbers& n, const HeldHand& hand)
 /// exp (m), by the Taylor series of a small part of m, squared again and again.
 LoopMatrix exponential (const LoopMatrix& m)
 {
-    const int halvings = std::max (0, static_cast<int> (std::ceil (std::log2 (std::max (1e-300, m.lpNorm<Eigen::Infinity>() * static_cast<double> (m.rows()))))) + 2);
+    const int halvings =
+        std::max (0, static_cast<int> (std::ceil (std::log2 (std::max (1e-300, m.lpNorm<Eigen::Infinity>() * static_cast<double> (m.rows()))))) + 2);
     const LoopMatrix part = m / std::exp2 (halvings);
     LoopMatrix sum = LoopMatrix::Identity (m.rows(), m.cols()), term = sum;
     for (int i = 1; i <= 16; ++i)
@@ -112,7 +113,8 @@ std::optional<double> radiusOf (const std::vector<LoopMatrix>& pulses, std::span
         loop.block (first[i], first[i], states, states) = ticks[i].leftCols (states);
         for (std::size_t k = 0; k < pulses.size(); ++k)
             for (std::size_t j = 0; j < n; ++j)
-                loop.block (first[i], past (j, k + delayOf (*axes[i])), states, 1) -= pulses[k](static_cast<Index> (i), static_cast<Index> (j)) * ticks[i].rightCols (1);
+                loop.block (first[i], past (j, k + delayOf (*axes[i])), states, 1) -=
+                    pulses[k](static_cast<Index> (i), static_cast<Index> (j)) * ticks[i].rightCols (1);
         for (std::size_t ago = 1; ago <= remembered; ++ago)
             loop (past (i, ago), past (i, ago - 1)) = 1.0;
     }

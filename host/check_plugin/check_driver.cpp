@@ -71,7 +71,8 @@ Clock::duration timeOf (const char* stage, Call&& call)
 /// Text that no driver expects.
 std::vector<std::string> strangeTexts()
 {
-    return { "", " ", "/", "..", "%s%n%d", "\xff\xfe", "\x1b[2J", "\1", std::string (100'000, 'x'), std::string ("/nowhere/\xe2\x80") + "\xae", "0", "-1", "1e999" };
+    return { "", " ", "/", "..", "%s%n%d", "\xff\xfe", "\x1b[2J", "\1", std::string (100'000, 'x'), std::string ("/nowhere/\xe2\x80") + "\xae",
+             "0", "-1", "1e999" };
 }
 
 std::vector<std::string> strangeDescriptions (const DeviceDriver& driver)

@@ -5,18 +5,8 @@
 #include "report.hpp"
 #include "run_options.hpp"
 
-#include <host/assets/file_assets.hpp>
-#include <host/assets/nearest_by_embree.hpp>
-#include <host/device_plugins/open_plugin_device.hpp>
 #include <host/hid/physics.hpp>
-#include <host/hid_link/open_device.hpp>
-#include <host/hid_link/profile_library.hpp>
-#include <host/sessions/numbers_device.hpp>
-#include <host/sessions/role_fits.hpp>
-#include <tactus/check/hands.hpp>
 #include <tactus/check/report.hpp>
-#include <tactus/file/text_file.hpp>
-#include <tactus/text/closest_match.hpp>
 #include <tactus/text/json_text.hpp>
 #include <tactus/text/json_writer.hpp>
 #include <tactus/text/number_text.hpp>
@@ -24,9 +14,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
-#include <iterator>
 #include <memory>
 
 namespace tactus::host
@@ -34,8 +22,6 @@ namespace tactus::host
 
 namespace
 {
-namespace fs = std::filesystem;
-
 struct CheckOptions
 {
     std::string graph;
@@ -107,57 +93,18 @@ void print (const CheckOptions& options, const check::Demand& demand, const std:
               << "; not everything can be judged: try it by hand\n";
 }
 
-/// Moves each role through the workspace of its device, or through a box of 10 cm around the origin.
-check::HandMotion sweep (std::shared_ptr<Plan> plan, const std::vector<CheckedRole>& roles, double duration_s)
-{
-    if (duration_s <= 0.0) duration_s = 4.0;
-    std::vector<std::unique_ptr<check::SweepDevice>> sweeps;
-    std::vector<check::Hand> hands;
-    for (const auto& r : roles)
-    {
-        const auto& box = r.device.numbers.workspace;
-        const Vec3 min = box ? box->min : Vec3 (Vec3::Constant (-0.05)), max = box ? box->max : Vec3 (Vec3::Constant (0.05));
-        sweeps.push_back (std::make_unique<check::SweepDevice> (min, max, duration_s));
-        hands.push_back ({ r.device.role, *sweeps.back() });
-    }
-    const auto ticks = static_cast<std::size_t> (duration_s * plan->rateHz());
-    return check::recordMotion (std::move (plan), hands, ticks);
-}
-
 void run (const CheckOptions& options)
 {
-    const auto loaded = loadGraph (options.graph);
-    if (report (loaded.messages, loaded, options.graph) > 0) throw Stop {};
-    FileAssets assets;
-    const check::Subject subject { loaded.graph,
-                                   catalogue(),
-                                   { .rate_hz = options.rate_hz,
-                                     .overrides = readSets (options.sets),
-                                     .assets = &assets,
-                                     .services = { .nearest_triangle = nearestByEmbree } } };
-    auto compiled = compile (subject.graph, subject.catalogue, subject.options);
-    if (report (compiled.messages, loaded, options.graph) > 0) throw Stop {};
-
-    const auto folder = fs::path (options.graph).parent_path();
-    const auto profiles = hid::loadProfileLibrary();
-    const auto roles = checkedRoles (*compiled.plan, loaded, folder, options.devices, profiles);
-    check::RecordedMotion recorded;
-    if (options.sweep)
-        recorded.motion = sweep (compiled.plan, roles, options.duration_s);
-    else
-        recorded = check::recordMotion (subject, handsOf (roles), folder, options.duration_s);
-    std::ranges::move (check::divergence (recorded.motion, reachesOf (roles)), std::back_inserter (recorded.messages));
-    if (report (recorded.messages, loaded, options.graph) > 0) throw Stop {};
-
-    const auto demand = check::measure (subject, recorded.motion);
+    const CheckedGraph graph { options.graph, options.devices, options.sets, options.rate_hz };
+    const auto demand = check::measure (graph.subject, options.sweep ? graph.sweep (options.duration_s) : graph.motion (options.duration_s));
     std::vector<check::RoleDevice> devices;
-    for (const auto& r : roles)
+    for (const auto& r : graph.roles)
         devices.push_back (r.device);
     const auto conditions = check::judge (demand, devices, options.judge);
     if (options.json)
         std::cout << writeJson (check::toJson (demand, devices, conditions, options.judge));
     else
-        print (options, demand, devices, conditions, profiles);
+        print (options, demand, devices, conditions, graph.profiles);
     if (check::isBroken (conditions))
     {
         std::cout.flush();

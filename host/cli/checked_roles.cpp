@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "checked_roles.hpp"
 #include "report.hpp"
+#include "run_options.hpp"
 
+#include <host/assets/nearest_by_embree.hpp>
 #include <host/device_plugins/open_plugin_device.hpp>
 #include <host/hid/physics.hpp>
 #include <host/hid_link/open_device.hpp>
@@ -12,6 +14,7 @@
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace tactus::host
@@ -118,13 +121,6 @@ private:
         return true;
     }
 };
-}   // namespace
-
-std::vector<CheckedRole> checkedRoles (const Plan& plan, const LoadedGraph& graph, const fs::path& folder, const std::vector<std::string>& options,
-                                       const hid::LoadedProfiles& profiles)
-{
-    return Choices { graph, folder, profiles }.read (plan, options);
-}
 
 std::vector<check::HandChoice> handsOf (const std::vector<CheckedRole>& roles)
 {
@@ -140,6 +136,58 @@ std::vector<check::Reach> reachesOf (const std::vector<CheckedRole>& roles)
     for (const auto& r : roles)
         if (const auto& box = r.device.numbers.workspace) reaches.push_back ({ r.device.role, box->min, box->max });
     return reaches;
+}
+
+fs::path folderOf (const std::string& file) { return fs::path (file).parent_path(); }
+}   // namespace
+
+CheckedGraph::CheckedGraph (const std::string& f, const std::vector<std::string>& devices, const std::vector<std::string>& sets, double rate_hz)
+    : file (f), loaded (loadGraph (file)), profiles (hid::loadProfileLibrary()),
+      subject { loaded.graph,
+                catalogue(),
+                { .rate_hz = rate_hz, .overrides = readSets (sets), .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } } },
+      plan ([this] {
+          refuseErrors (loaded.messages);
+          auto compiled = compile (subject.graph, subject.catalogue, subject.options);
+          refuseErrors (compiled.messages);
+          return std::move (compiled.plan);
+      }()),
+      roles (Choices { loaded, folderOf (file), profiles }.read (*plan, devices))
+{
+}
+
+check::HandMotion CheckedGraph::motion (double duration_s) const
+{
+    return bounded (check::recordMotion (subject, handsOf (roles), folderOf (file), duration_s));
+}
+
+check::HandMotion CheckedGraph::sweep (double duration_s) const
+{
+    if (duration_s <= 0.0) duration_s = 4.0;
+    std::vector<std::unique_ptr<check::SweepDevice>> sweeps;
+    std::vector<check::Hand> hands;
+    for (const auto& r : roles)
+    {
+        const auto& box = r.device.numbers.workspace;
+        const Vec3 min = box ? box->min : Vec3 (Vec3::Constant (-0.05)), max = box ? box->max : Vec3 (Vec3::Constant (0.05));
+        sweeps.push_back (std::make_unique<check::SweepDevice> (min, max, duration_s));
+        hands.push_back ({ r.device.role, *sweeps.back() });
+    }
+    const auto ticks = static_cast<std::size_t> (duration_s * plan->rateHz());
+    return bounded ({ .motion = check::recordMotion (plan, hands, ticks) });
+}
+
+void CheckedGraph::refuseErrors (const Messages& messages) const
+{
+    if (report (messages, loaded, file) > 0) throw Stop {};
+}
+
+/// The motion, if no tool runs away in it.
+check::HandMotion CheckedGraph::bounded (check::RecordedMotion recorded) const
+{
+    std::ranges::move (check::divergence (recorded.motion, reachesOf (roles)), std::back_inserter (recorded.messages));
+    refuseErrors (recorded.messages);
+    return std::move (recorded.motion);
 }
 
 }   // namespace tactus::host

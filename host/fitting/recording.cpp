@@ -79,7 +79,8 @@ void integrate (Table& table)
         return columnOf (table, {}, { table.columns[i], unit, true, { bareName (table.columns[i]) }, {} });
     };
     const auto t = find ("s", { "t", "time" }), v = find ("m/s", { "velocity", "v" });
-    const bool is_stroke = find ("N", { "friction", "friction_force", "drag" }) || (find ("N", { "force" }) && find ("N", { "load", "normal", "normal_force" }));
+    const bool is_stroke =
+        find ("N", { "friction", "friction_force", "drag" }) || (find ("N", { "force" }) && find ("N", { "load", "normal", "normal_force" }));
     if (! t || ! v || ! is_stroke || find ("m", { "position", "x", "displacement", "travel", "depth" })) return;
     const auto time = valuesIn (*t, "s"), velocity = valuesIn (*v, "m/s");
     if (! time || ! velocity) return;
@@ -90,7 +91,8 @@ void integrate (Table& table)
     for (std::size_t r = 0; r < rows; ++r)
     {
         if (r > 0) x += 0.5 * ((*velocity)[r] + (*velocity)[r - 1]) * ((*time)[r] - (*time)[r - 1]);
-        values.insert (values.end(), table.values.begin() + static_cast<std::ptrdiff_t> (r * width), table.values.begin() + static_cast<std::ptrdiff_t> ((r + 1) * width));
+        values.insert (values.end(), table.values.begin() + static_cast<std::ptrdiff_t> (r * width),
+                       table.values.begin() + static_cast<std::ptrdiff_t> ((r + 1) * width));
         values.push_back (x);
     }
     table.columns.emplace_back (integrated_position);

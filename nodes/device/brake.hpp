@@ -51,7 +51,8 @@ struct DeviceBrake
 
     static constexpr std::tuple ports {
         input (&Inputs::damping, "damping", unit::damping, "damping of the brake; below 0 counts as 0"),
-        input (&Inputs::stiffness, "stiffness", unit::stiffness, "stiffness to make up for: half of it, times the time of a tick, is added; below 0 counts as 0"),
+        input (&Inputs::stiffness, "stiffness", unit::stiffness,
+               "stiffness to make up for: half of it, times the time of a tick, is added; below 0 counts as 0"),
         output (&Outputs::applied, "applied", unit::damping, "damping of the brake since the last tick, after the limits of the guard"),
     };
 

@@ -46,7 +46,9 @@ TEST_CASE ("figure: a tool between two steps of the sensor hunts, unless frictio
         device.precision (17);
         device << R"({ "driver": "sim", "mass": 0.1, "damping": 2, "quantum": 1e-5, "coulomb": )" << coulomb << R"(, "position": [0, 0, )"
                << -between / sigma - delta << R"(], "hand_force": [0, 0, )" << -between << "] }";
-        const auto run = test::renderFigure ("stiffness_limit", name, { "--device", "tool=" + scratch.write ("tool.json", device.str()), "--set", "wall.stiffness=2000", "--duration", "4", "--record", "hand.position.z" });
+        const auto run = test::renderFigure ("stiffness_limit", name,
+                                             { "--device", "tool=" + scratch.write ("tool.json", device.str()), "--set", "wall.stiffness=2000",
+                                               "--duration", "4", "--record", "hand.position.z" });
         const auto z = run["hand.position.z"];
         const auto [low, high] = std::minmax_element (z.begin() + 3000, z.end());
         INFO (name);

@@ -111,7 +111,9 @@ Run run (const graph::Graph& g, const std::vector<plan::Override>& overrides = {
 /// it is.
 const std::map<std::string, std::pair<std::string, std::string>> breaks {
     { "braked_wall", { "stiffness", "it needs the brake of its device, which `tactus check` does not count" } },
-    { "denim", { "stiffness", "its noise grows with speed, so at some moments it pushes the tool on, which a loop that is linearised there cannot tell from a lasting push" } },
+    { "denim",
+      { "stiffness",
+        "its noise grows with speed, so at some moments it pushes the tool on, which a loop that is linearised there cannot tell from a lasting push" } },
 };
 
 /// What a preset asks of its devices, measured at several points of its gesture.

@@ -59,7 +59,8 @@ Found footOf (const PlacedSurface& body, const PlacedSurface::Tool& tool, Spot s
         Mat2 slopes, level;
         for (std::size_t k = 1; k < 3; ++k)
         {
-            slopes.col (static_cast<int> (k) - 1) = (offAt (body, tool, beside (body, spot, k, h), p) - offAt (body, tool, beside (body, spot, k, -h), p)) / (2.0 * h);
+            slopes.col (static_cast<int> (k) - 1) =
+                (offAt (body, tool, beside (body, spot, k, h), p) - offAt (body, tool, beside (body, spot, k, -h), p)) / (2.0 * h);
             level.col (static_cast<int> (k) - 1) = -(frame * (corners[k] - corners[0])).head<2>();
         }
         const Mat2 ahead = level.inverse() * slopes;   // how far the tool moves per move of the foot
@@ -118,7 +119,8 @@ Bristle scaled (const Bristle& unit, double bound) noexcept
 }
 
 /// The stretch that the bristle leaves, if the contact slips.
-std::optional<Vec2> slipped (const PlacedSurface& body, const PlacedSurface::Tool& tool, const SurfaceSample& now, const Spot& before, const Bristle& unit) noexcept
+std::optional<Vec2> slipped (const PlacedSurface& body, const PlacedSurface::Tool& tool, const SurfaceSample& now, const Spot& before,
+                             const Bristle& unit) noexcept
 {
     const Vec2 pulled = now.felt.d.head<2>();
     const double bound = std::max (0.0, body.ratio (now.touch.foot, now.felt.d.z(), tool) * now.felt.d.z());
@@ -195,7 +197,8 @@ Vec3 forceOf (const PlacedSurface& body, const PlacedSurface::Tool& tool, const 
     return along + felt.frame.topRows<2>().transpose() * (slopes.transpose().inverse() * energy);
 }
 
-SurfaceStep stepped (const PlacedSurface& body, const PlacedSurface::Tool& tool, const SurfaceTouch& start, const Bristle& unit, const Vec3& from, const Vec3& to) noexcept
+SurfaceStep stepped (const PlacedSurface& body, const PlacedSurface::Tool& tool, const SurfaceTouch& start, const Bristle& unit, const Vec3& from,
+                     const Vec3& to) noexcept
 {
     const Way way (body, tool, from, to);
     SurfaceStep step { .after = way.follow (start, 1.0), .slips = start.frictionless };

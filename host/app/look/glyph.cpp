@@ -47,7 +47,10 @@ juce::Path glyphOf (std::string_view family)
     if (family == "shock") return curve ([] (float x) { return 12.0f - 11.0f * std::exp (-60.0f * (x - 0.4f) * (x - 0.4f)); });
     if (family == "contact") return lines ({ { { 0, 12 }, { 14, 12 } }, { { 7, 1 }, { 7, 10 } }, { { 4, 7 }, { 7, 10 }, { 10, 7 } } });
     if (family == "coupling") return lines ({ { { 0, 7 }, { 2, 7 }, { 3, 3 }, { 5, 11 }, { 7, 3 }, { 9, 11 }, { 11, 3 }, { 12, 7 }, { 14, 7 } } });
-    if (family == "field") return lines ({ { { 0, 3 }, { 4, 1 }, { 10, 5 }, { 14, 3 } }, { { 0, 7 }, { 4, 5 }, { 10, 9 }, { 14, 7 } }, { { 0, 11 }, { 4, 9 }, { 10, 13 }, { 14, 11 } } });
+    if (family == "field")
+        return lines ({ { { 0, 3 }, { 4, 1 }, { 10, 5 }, { 14, 3 } },
+                        { { 0, 7 }, { 4, 5 }, { 10, 9 }, { 14, 7 } },
+                        { { 0, 11 }, { 4, 9 }, { 10, 13 }, { 14, 11 } } });
     if (family == "safety") return lines ({ { { 7, 1 }, { 13, 3 }, { 12, 9 }, { 7, 13 }, { 2, 9 }, { 1, 3 }, { 7, 1 } } });
     if (family == "hold") return lines ({ { { 0, 11 }, { 4, 11 }, { 4, 7 }, { 8, 7 }, { 8, 3 }, { 14, 3 } } });
     if (family == "motion") return lines ({ { { 0, 7 }, { 13, 7 } }, { { 9, 3 }, { 13, 7 }, { 9, 11 } } });

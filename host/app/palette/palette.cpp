@@ -136,8 +136,8 @@ void Palette::paint (juce::Graphics& g)
     g.drawText (purpose, getLocalBounds().reduced (12, 8).removeFromTop (16), juce::Justification::centredLeft, true);
     if (! found.empty()) return;
     const auto area_below = getLocalBounds().withTrimmedTop (margin + purpose_height + query_height + gap).reduced (12, 10);
-    g.drawFittedText (TRANS ("No match. Try a family such as friction or vibration, or a unit such as N. G groups nodes into a subgraph."), area_below, juce::Justification::centredTop, 2,
-                      1.0f);
+    g.drawFittedText (TRANS ("No match. Try a family such as friction or vibration, or a unit such as N. G groups nodes into a subgraph."), area_below,
+                      juce::Justification::centredTop, 2, 1.0f);
 }
 
 void Palette::resized()

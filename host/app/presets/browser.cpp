@@ -143,7 +143,8 @@ void PresetBrowser::fillRows()
             for (const auto& p : is_own ? found_own : found)
                 if (isWanted (p)) wanted.push_back (&p);
             const auto count = std::min (most, wanted.size());
-            if (count > 0) shown.push_back ({ count < wanted.size() ? heading + filled (TRANS (": %1 of %2"), count, wanted.size()) : heading, nullptr, is_own });
+            if (count > 0)
+                shown.push_back ({ count < wanted.size() ? heading + filled (TRANS (": %1 of %2"), count, wanted.size()) : heading, nullptr, is_own });
             for (const auto* p : std::span (wanted).first (count))
                 shown.push_back ({ {}, p, is_own });
         };

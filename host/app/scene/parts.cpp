@@ -82,7 +82,8 @@ double Scene::tipRadius (const Tool& tool, const Camera& camera) noexcept
 std::vector<std::array<Vec3, 2>> Scene::linesOf (const Tool& tool, const Camera& camera, const SceneState& now) const
 {
     const auto number = static_cast<std::size_t> (
-        std::ranges::find_if (all, [&] (const Body& b) { return b.role == tool.role && (b.kind == Appearance::Kind::blade || b.kind == Appearance::Kind::scissors); })
+        std::ranges::find_if (
+            all, [&] (const Body& b) { return b.role == tool.role && (b.kind == Appearance::Kind::blade || b.kind == Appearance::Kind::scissors); })
         - all.begin());
     if (number == all.size()) return { shaft (tool, tipRadius (tool, camera)) };
     const auto& b = all[number];

@@ -170,9 +170,11 @@ void OverPlot::paintOver (juce::Graphics& g)
     const auto& area = lanes.front().area;
     if (! has_state) return;
     const auto legend = area.withY (area.getY() - legend_height).withHeight (legend_height);
-    paintLegend (
-        g, legend,
-        { { colourOf (Part::stuck), TRANS ("stuck") }, { colourOf (Part::sliding), TRANS ("sliding") }, { colourOf (Part::open), TRANS ("no contact") }, { colourOfPast (theme()), TRANS ("before") } });
+    paintLegend (g, legend,
+                 { { colourOf (Part::stuck), TRANS ("stuck") },
+                   { colourOf (Part::sliding), TRANS ("sliding") },
+                   { colourOf (Part::open), TRANS ("no contact") },
+                   { colourOfPast (theme()), TRANS ("before") } });
 }
 
 void OverPlot::zoomX (double factor, const Lane& lane, float at)

@@ -145,7 +145,8 @@ void ScopePlot::paintScales (juce::Graphics& g, const Lane& lane) const
         for (double decade = std::pow (10.0, std::floor (std::log10 (lane.x.low))); decade <= lane.x.high; decade *= 10.0)
             for (int i = 1; i < 10; ++i)
                 if (const double at = i * decade; at >= lane.x.low && at <= lane.x.high)
-                    vertical (at, i == 1 ? juce::String::fromUTF8 (withPrefix (at, lane.x_unit, 1).c_str()) : juce::String(), i == 1, std::numeric_limits<float>::max());
+                    vertical (at, i == 1 ? juce::String::fromUTF8 (withPrefix (at, lane.x_unit, 1).c_str()) : juce::String(), i == 1,
+                              std::numeric_limits<float>::max());
         return;
     }
     const auto along = axisScale (lane.x, "", lane.x_unit);

@@ -201,7 +201,8 @@ bool Files::rename (const fs::path& file)
 {
     const auto stem = file.stem().string();
     if (file == document.file() || stemFor (document.graph().name) == stemFor (stem)) return false;
-    return document.perform (graph::Batch { filled (TRANS ("call the graph %1"), nameFor (stem)).toStdString(), { graph::SetHeader { .name = nameFor (stem) } } });
+    return document.perform (
+        graph::Batch { filled (TRANS ("call the graph %1"), nameFor (stem)).toStdString(), { graph::SetHeader { .name = nameFor (stem) } } });
 }
 
 void Files::saveElsewhere (const juce::String& why, const std::function<void()>& then)

@@ -103,7 +103,8 @@ const check::SpringAndDamper& Contact::measured (double rate_hz, const std::vect
     }
     for (const auto& message : compile (changed.graph, changed.catalogue, changed.options).messages)
         if (message.severity == Message::Severity::error)
-            fail (Message::error (message.id, (where.empty() ? "" : where + ", ") + numberText (rate_hz) + " Hz" + (message.where.empty() ? "" : ", " + message.where),
+            fail (Message::error (message.id,
+                                  (where.empty() ? "" : where + ", ") + numberText (rate_hz) + " Hz" + (message.where.empty() ? "" : ", " + message.where),
                                   message.text, message.remedy));
     const auto demand = check::measure (changed, rate_hz == motion.rate_hz ? motion : check::atRate (motion, rate_hz), { .at_s = t_s });
     const auto at = std::ranges::find (demand.roles, role.device.role, &check::RoleDemand::role);

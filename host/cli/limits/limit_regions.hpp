@@ -106,7 +106,8 @@ public:
         Varied rate { .what = Varied::What::rate, .name = "rate", .unit = "Hz", .now = contact.rate() };
         double most = std::max (here.stiffness, 2.0 * B / here.period_s);
         for (const double b : grid (1e-2 * B, here.largest_damper, 24))
-            if (const auto range = rangeOf (Rule::stable, { .what = Varied::What::stiffness }, grid (1e-3 * most, 1e3 * most, 60), most, { { Varied::What::damping, b } }))
+            if (const auto range = rangeOf (Rule::stable, { .what = Varied::What::stiffness }, grid (1e-3 * most, 1e3 * most, 60), most,
+                                            { { Varied::What::damping, b } }))
                 most = std::max (most, range->high);
         View whole { "the whole region", stiffness, damping }, near { "near the working point", stiffness, damping }, over { "over the rate", rate, stiffness };
         whole.x.to = 1.1 * most;
@@ -180,7 +181,8 @@ public:
                     const auto holds = [] (double v) { return std::isnan (v) ? v : v < 0.0 ? 1.0
                                                                                            : 0.0; };
                     const double B = contact.damping();
-                    for (const double v : { s.load, s.radius.value_or (std::nan ("")), holds (s.passive (B)), holds (s.rests()), holds (s.damperHolds()), holds (s.footnote (B)) })
+                    for (const double v : { s.load, s.radius.value_or (std::nan ("")), holds (s.passive (B)), holds (s.rests()), holds (s.damperHolds()),
+                                            holds (s.footnote (B)) })
                         row.push_back (v);
                 }
         return all;

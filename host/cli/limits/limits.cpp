@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "limit_regions.hpp"
 
-#include <host/assets/file_assets.hpp>
-#include <host/assets/nearest_by_embree.hpp>
 #include <host/cli/commands.hpp>
 #include <host/cli/graph_argument.hpp>
 #include <host/cli/overwriting.hpp>
 #include <host/cli/progress.hpp>
 #include <host/cli/render/figure_size.hpp>
-#include <host/cli/report.hpp>
 #include <host/cli/run_options.hpp>
 #include <host/io/plot.hpp>
 #include <host/platform/signals.hpp>
-#include <tactus/check/hands.hpp>
 #include <tactus/check/report.hpp>
 #include <tactus/file/csv.hpp>
 #include <tactus/file/text_file.hpp>
@@ -32,8 +28,6 @@ namespace tactus::host
 
 namespace
 {
-namespace fs = std::filesystem;
-
 struct LimitsOptions : FigureSize
 {
     std::string graph, role, x, y, file;
@@ -65,11 +59,12 @@ void print (const LimitRegions& report, Contact& contact, const LimitsOptions& o
     const double B = contact.damping();
     std::cout << printableName (options.graph) << " at " << numberText (contact.rate()) << " Hz, " << printableName (device.role) << " on "
               << printableName (device.name) << ": " << check::describe (device.numbers) << '\n';
-    std::cout << "the steepest contact, " << (contact.node().empty() ? "" : quote (contact.node()) + " ") << "at " << number (contact.time()) << " s: stiffness "
-              << number (here.stiffness) << " N/m, virtual damping " << number (here.damping) << " N*s/m; "
-              << (here.passive (B) < 0.0 ? "passive" : here.rests() < 0.0 ? "stable, but not passive"
-                                                   : here.radius          ? "it swings"
-                                                                          : "not passive; its loop is not known")
+    std::cout << "the steepest contact, " << (contact.node().empty() ? "" : quote (contact.node()) + " ") << "at " << number (contact.time())
+              << " s: stiffness " << number (here.stiffness) << " N/m, virtual damping " << number (here.damping) << " N*s/m; "
+              << (here.passive (B) < 0.0 ? "passive"
+                  : here.rests() < 0.0   ? "stable, but not passive"
+                  : here.radius          ? "it swings"
+                                         : "not passive; its loop is not known")
               << "\n\n";
     const auto row = [] (const std::string& what, const std::string& now, const std::string& is_passive, const std::string& is_stable) {
         std::cout << "  " << padded (what, 26) << padded (now, 12) << padded (is_passive, 34) << is_stable << '\n';
@@ -79,8 +74,8 @@ void print (const LimitRegions& report, Contact& contact, const LimitsOptions& o
     row ("stiffness (N/m)", number (here.stiffness), describe (passive.stiffness, false), rests (stable.stiffness, false));
     row ("virtual damping (N*s/m)", number (here.damping), describe (passive.damping, false), rests (stable.damping, false));
     row ("rate (Hz)", number (contact.rate()), describe (passive.rate, true), rests (stable.rate, true));
-    std::cout << "\nfootnote 2 of the chapter: b < 2M/T + 4B/3 " << (here.damperHolds() < 0.0 ? "holds" : "is broken") << " (" << number (here.damping) << " of "
-              << number (here.largest_damper) << " N*s/m); sigma T < b + B " << (here.footnote (B) < 0.0 ? "holds" : "is broken") << " ("
+    std::cout << "\nfootnote 2 of the chapter: b < 2M/T + 4B/3 " << (here.damperHolds() < 0.0 ? "holds" : "is broken") << " (" << number (here.damping)
+              << " of " << number (here.largest_damper) << " N*s/m); sigma T < b + B " << (here.footnote (B) < 0.0 ? "holds" : "is broken") << " ("
               << number (here.stiffness * here.period_s) << " of " << number (here.damping + B) << " N*s/m)\n";
 }
 
@@ -102,37 +97,23 @@ void run (LimitsOptions& options)
     if (options.x.empty() != options.y.empty()) throw UsageError ("--x and --y: give both, or none");
     options.readSize();
     refuseOverwriting ({ options.file }, { options.graph });
-    const auto loaded = loadGraph (options.graph);
-    if (report (loaded.messages, loaded, options.graph) > 0) throw Stop {};
-    FileAssets assets;
-    const check::Subject subject { loaded.graph,
-                                   catalogue(),
-                                   { .rate_hz = options.rate_hz,
-                                     .overrides = readSets (options.sets),
-                                     .assets = &assets,
-                                     .services = { .nearest_triangle = nearestByEmbree } } };
-    const auto compiled = compile (subject.graph, subject.catalogue, subject.options);
-    if (report (compiled.messages, loaded, options.graph) > 0) throw Stop {};
-    const auto folder = fs::path (options.graph).parent_path();
-    const auto profiles = hid::loadProfileLibrary();
-    const auto roles = checkedRoles (*compiled.plan, loaded, folder, options.devices, profiles);
+    const CheckedGraph graph { options.graph, options.devices, options.sets, options.rate_hz };
+    const auto& roles = graph.roles;
     if (! options.role.empty() && std::ranges::none_of (roles, [&] (const CheckedRole& r) { return r.device.role == options.role; }))
     {
         std::vector<std::string> names;
         for (const auto& r : roles)
             names.push_back (r.device.role);
-        fail (Message::error ("device/unknown_role", "--role", "the graph has no role " + quote (options.role) + didYouMean (options.role, names), "name one of its roles"));
+        fail (Message::error ("device/unknown_role", "--role", "the graph has no role " + quote (options.role) + didYouMean (options.role, names),
+                              "name one of its roles"));
     }
     std::vector<std::string> params;
     std::vector<Varied> axes;
-    if (! options.x.empty()) axes = { readVaried ("--x", options.x, *compiled.plan, params), readVaried ("--y", options.y, *compiled.plan, params) };
+    if (! options.x.empty()) axes = { readVaried ("--x", options.x, *graph.plan, params), readVaried ("--y", options.y, *graph.plan, params) };
     if (axes.size() == 2 && axes[0].name == axes[1].name) throw UsageError ("--y", quote (axes[1].name) + " is already along --x");
     watchForStop();
 
-    auto recorded = check::recordMotion (subject, handsOf (roles), folder, options.duration_s);
-    std::ranges::move (check::divergence (recorded.motion, reachesOf (roles)), std::back_inserter (recorded.messages));
-    if (report (recorded.messages, loaded, options.graph) > 0) throw Stop {};
-    Contact contact { subject, std::move (recorded.motion), roles, options.role };
+    Contact contact { graph.subject, graph.motion (options.duration_s), roles, options.role };
     LimitRegions limits { options.steps, contact };
     limits.vary (axes);
     const auto passive = limits.limitsOf (LimitRegions::Rule::passive), stable = limits.limitsOf (LimitRegions::Rule::stable);
@@ -154,7 +135,11 @@ void run (LimitsOptions& options)
     }
     if (isFigureFile (options.file))
     {
-        Figure figure { .title = loaded.graph.name + ": limits of the steepest contact", .panels = {}, .width = options.width, .height = options.height, .dpi = options.dpi };
+        Figure figure { .title = graph.loaded.graph.name + ": limits of the steepest contact",
+                        .panels = {},
+                        .width = options.width,
+                        .height = options.height,
+                        .dpi = options.dpi };
         Progress progress { 4 * views.size() };
         std::size_t done = 0;
         for (const auto& view : views)
@@ -170,7 +155,9 @@ void run (LimitsOptions& options)
         return orFail (table.commit());
     }
     const auto& here = limits.workingPoint();
-    Json all { { "graph", loaded.graph.name }, { "role", contact.device().device.role }, { "device", contact.device().device.name }, { "rate_hz", contact.rate() } };
+    Json all {
+        { "graph", graph.loaded.graph.name }, { "role", contact.device().device.role }, { "device", contact.device().device.name }, { "rate_hz", contact.rate() }
+    };
     all["node"] = contact.node();
     all["t"] = contact.time();
     all["stiffness"] = here.stiffness;
@@ -198,7 +185,8 @@ void run (LimitsOptions& options)
 void addLimitsOf (const Command& app)
 {
     const auto options = std::make_shared<LimitsOptions>();
-    const auto command = app.add ("limits", "How stiff, how damped and how slow the steepest contact of a graph may be, passive and stable; and a picture of it");
+    const auto command =
+        app.add ("limits", "How stiff, how damped and how slow the steepest contact of a graph may be, passive and stable; and a picture of it");
     command
         .addOption (
             "graph", [options] (const std::string& given) { options->graph = graphArgument (given); }, "The graph file, or the name of a preset")
@@ -207,7 +195,8 @@ void addLimitsOf (const Command& app)
     command.addOption ("--role", options->role, "The role whose contact is examined; default: the one with the heaviest contact");
     command.addOption ("--x", options->x, "What varies along x, in SI units: stiffness=FROM:TO, damping=FROM:TO, rate=FROM:TO or NODE.PARAM=FROM:TO");
     command.addOption ("--y", options->y, "What varies along y; without --x and --y: the damping over the stiffness, and the stiffness over the rate");
-    command.addOption ("-o,--out", options->file, std::string ("The file to write: ") + figure_kinds + " for a picture, .csv for a table, .json for all numbers");
+    command.addOption ("-o,--out", options->file,
+                       std::string ("The file to write: ") + figure_kinds + " for a picture, .csv for a table, .json for all numbers");
     command.addOption ("--steps", options->steps, "Steps along each axis; default: 40").check (within (2, 400));
     options->addSize (command);
     command.addOption ("--rate", options->rate_hz, "Ticks per second; default: the graph's rate").check (finiteWithin (10.0, 1e5));

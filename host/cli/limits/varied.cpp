@@ -21,9 +21,11 @@ Varied readVaried (const std::string& option, const std::string& text, const Pla
     const auto equals = text.find ('='), colon = text.find (':', equals == text.npos ? 0 : equals);
     Varied v { .name = text.substr (0, equals) };
     const auto number = [&] (std::size_t from, std::size_t to) { return wholeNumber (std::string_view (text).substr (from, to - from)); };
-    const auto from = colon == text.npos || equals == text.npos ? std::nullopt : number (equals + 1, colon), to = from ? number (colon + 1, text.size()) : std::nullopt;
+    const auto from = colon == text.npos || equals == text.npos ? std::nullopt : number (equals + 1, colon),
+               to = from ? number (colon + 1, text.size()) : std::nullopt;
     if (! from || ! to || ! (*from < *to))
-        throw UsageError (option, quote (text) + " is not a range in SI units, such as stiffness=0:5000, damping=0:20, rate=500:8000 or wall.stiffness=100:5000");
+        throw UsageError (option,
+                          quote (text) + " is not a range in SI units, such as stiffness=0:5000, damping=0:20, rate=500:8000 or wall.stiffness=100:5000");
     v.from = *from;
     v.to = *to;
     const auto isNatural = [&] (Varied::What what, const char* unit, double least) {

@@ -86,8 +86,10 @@ rc::Gen<Tick> anyTick()
     const auto age = rc::gen::weightedOneOf<double> ({ { 20, rc::gen::just (0.0) }, { 1, rc::gen::element (0.004, 0.1, endless, not_a_number, -1.0) } });
 
     const auto brake = rc::gen::weightedOneOf<double> ({ { 20, rc::gen::map (anyFinite(), [] (double v) { return std::abs (v); }) }, { 1, anyNumber() } });
-    const auto wanted = rc::gen::map (rc::gen::tuple (vectorOf (anyNumber()), vectorOf (anyNumber()), channelsOf (anyNumber()), channelsOf (anyNumber()), brake),
-                                      [] (const auto& t) { return Effort { std::get<0> (t), std::get<1> (t), std::get<2> (t), std::get<3> (t), std::get<4> (t) }; });
+    const auto wanted = rc::gen::map (
+        rc::gen::tuple (vectorOf (anyNumber()), vectorOf (anyNumber()), channelsOf (anyNumber()), channelsOf (anyNumber()), brake), [] (const auto& t) {
+            return Effort { std::get<0> (t), std::get<1> (t), std::get<2> (t), std::get<3> (t), std::get<4> (t) };
+        });
     const auto near_place = rc::gen::map (rc::gen::inRange (-100, 101), [] (int i) { return 1e-5 * i; });
     const auto places = vectorOf (rc::gen::weightedOneOf<double> ({ { 20, near_place }, { 1, anyNumber() } }));
     const auto buttons = rc::gen::map (rc::gen::inRange (0, 20), [] (int i) { return i < 18 ? 1u : 0u; });

@@ -154,6 +154,7 @@ TEST_CASE ("`tactus limits` refuses bad input, and says where it is and what wou
     checkRefused ({ "limits", file, "-o", scratch.path ("out.txt") }, 2, "should end in", scratch.path ("out.txt"));
     checkRefused ({ "limits", scratch.write ("g.json", wallOn (R"({ "driver": "gesture", "path": "press" })")), "-o", out }, 1,
                   "the mass of the device is not known", out);
-    checkRefused ({ "limits", scratch.write ("h.json", wallOn (R"({ "driver": "sim", "mass": 0.1, "damping": 2, "position": [0, 0, "50 mm"] })")), "-o", out }, 1,
-                  "limits/no_contact", out);
+    checkRefused (
+        { "limits", scratch.write ("h.json", wallOn (R"({ "driver": "sim", "mass": 0.1, "damping": 2, "position": [0, 0, "50 mm"] })")), "-o", out }, 1,
+        "limits/no_contact", out);
 }

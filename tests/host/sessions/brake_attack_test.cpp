@@ -175,7 +175,9 @@ TEST_CASE ("brake attacked by a graph's own guard, and by edits: they only tight
     const std::string greedy = R"("devices": { "tip": { "driver": "sim", "guard": { "max_brake": 100, "brake_at_stop": 100 } } },)";
     const std::string modest = R"("devices": { "tip": { "driver": "sim", "guard": { "max_brake": 2 } } },)";
     std::vector<double> brakes;
-    Run run { catalogue(), {}, [&] (const std::string&, const auto&...) -> Run::RoleDevice { return { std::make_unique<Leash> (brakes), GuardLimits { .max_brake = 4.0, .max_brake_slew = 100.0 } }; } };
+    Run run { catalogue(), {}, [&] (const std::string&, const auto&...) -> Run::RoleDevice {
+                 return { std::make_unique<Leash> (brakes), GuardLimits { .max_brake = 4.0, .max_brake_slew = 100.0 } };
+             } };
     const auto greedy_graph = parsed (braking (greedy));
     Messages found = run.load (greedy_graph);
     REQUIRE_FALSE (hasErrors (found));

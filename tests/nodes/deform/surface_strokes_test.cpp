@@ -162,8 +162,9 @@ TEST_CASE ("surface: a stroke over a nodule feels it, and its lag keeps its boun
                     CHECK (there.drag_down == Approx (back.drag_down).epsilon (0.05));
                     if (! is_ball && ratio == 3.0)
                     {
-                        const double slope = 0.5 * 1.5 * 600.0 / 0.005 * deep * deep * (1.0 + (sticks ? across * mu_c * mu_c : 0.0));   // - k' w^2 / 2 and the same for s
-                        const double drag = sticks ? mu_c * across * 600.0 * deep : 0.0;                                                // Amontons, halfway up
+                        const double slope =
+                            0.5 * 1.5 * 600.0 / 0.005 * deep * deep * (1.0 + (sticks ? across * mu_c * mu_c : 0.0));   // - k' w^2 / 2 and the same for s
+                        const double drag = sticks ? mu_c * across * 600.0 * deep : 0.0;                               // Amontons, halfway up
                         CHECK (there.drag_up == Approx (-slope - drag).epsilon (0.05));
                         CHECK (there.drag_down == Approx (slope - drag).epsilon (0.1));
                     }

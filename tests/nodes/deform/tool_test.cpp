@@ -258,7 +258,8 @@ TEST_CASE ("tool: without the torque, tilting a tool that presses would create e
 TEST_CASE ("tool: the slope of the energy between two tools is that of their blend, and belongs to the last two at the end", "[nodes][deform]")
 {
     const auto energy = [] (double number) { return number < 1.0 ? 1.0 + 2.0 * number : 3.0 + 5.0 * (number - 1.0); };   // 1, 3 and 8 J
-    for (const auto& [number, slope] : { std::pair { 0.0, 2.0 }, { 0.3, 2.0 }, { 0.9999, 2.0 }, { 1.0, 5.0 }, { 1.5, 5.0 }, { 2.0, 5.0 }, { 7.0, 5.0 }, { -1.0, 2.0 } })
+    for (const auto& [number, slope] :
+         { std::pair { 0.0, 2.0 }, { 0.3, 2.0 }, { 0.9999, 2.0 }, { 1.0, 5.0 }, { 1.5, 5.0 }, { 2.0, 5.0 }, { 7.0, 5.0 }, { -1.0, 2.0 } })
     {
         CAPTURE (number);
         CHECK (toolSlope (number, 2.0, energy) == Approx (slope));

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Friction on a grain: drag by direction, equality with friction.elasto_plastic, energy, claims.
+#include "work_bench.hpp"
+
 #include <tactus/nodes/friction/anisotropic.hpp>
 #include <tactus/nodes/friction/elasto_plastic.hpp>
 
@@ -41,27 +43,7 @@ double coefficient (const Params& params, double angle)
     return 1.0 / std::hypot (x / line, y / params.mu_across);
 }
 
-/// Counts the work of the hand as elasto_plastic_energy_test does.
-struct Bench
-{
-    const Outputs& tick (const Inputs& in)
-    {
-        const Vec3 before = out.force, dp = in.position - p;
-        out = node.tick (in);
-        held -= before.dot (dp);
-        reached -= out.force.dot (dp);
-        trapezoid -= 0.5 * (before + out.force).dot (dp);
-        p = in.position;
-        return out;
-    }
-
-    double model() const { return out.stored_energy + out.dissipated_energy; }
-
-    Anisotropic node;
-    Outputs out;
-    Vec3 p = Vec3::Zero();
-    double held = 0.0, reached = 0.0, trapezoid = 0.0;   // J
-};
+using Bench = tactus::test::WorkBench<Anisotropic>;
 
 /// A loop over a turning surface with a turning grain, under a changing load.
 struct Handling
@@ -166,7 +148,8 @@ TEST_CASE ("anisotropic: a slide at any angle is held back against its motion, b
         node.params.mu_across = 0.05 + dice.uniform();
         node.params.adhesion = dice.uniform() < 0.5 ? Adhesion::stick : Adhesion::dahl;
         const double angle = 2.0 * M_PI * dice.uniform(), load = 0.1 + 2.0 * dice.uniform(), step = 1e-5 * std::pow (10.0, 2.0 * dice.uniform());
-        const Vec3 n = dice.vector().normalized(), grain = n.cross (dice.vector()).normalized(), way = std::cos (angle) * grain + std::sin (angle) * n.cross (grain);
+        const Vec3 n = dice.vector().normalized(), grain = n.cross (dice.vector()).normalized(),
+                   way = std::cos (angle) * grain + std::sin (angle) * n.cross (grain);
         Outputs out;
         for (double s = 0.0; s < 4e-2; s += step)
             out = node.tick ({ .position = s * way, .normal = n, .grain = 3.0 * grain + dice.vector().dot (n) * n, .normal_force = load });

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "work_bench.hpp"
+
 #include <tactus/nodes/friction/elasto_plastic.hpp>
 
 #include <catch2/catch.hpp>
@@ -7,14 +9,6 @@
 #include <cmath>
 #include <initializer_list>
 #include <random>
-
-// The work of the hand over a step is counted in four ways:
-//
-//   model      the growth of stored_energy plus dissipated_energy, over the straight path between the samples
-//   trapezoid  -(f before + f after) / 2 . dp; equal to `model` while sticking, and on dense paths
-//   held       -f before . dp, the work on a device that holds its force between samples; a spring of slope K leaks
-//              up to K |dp|^2 / 2 per step, which the device must damp (section 1)
-//   reached    -f after . dp; never less than the growth of stored energy, whatever the step: the proof of passivity
 
 using tactus::Vec3;
 using tactus::nodes::ElastoPlastic;
@@ -33,28 +27,7 @@ constexpr auto both_integrators = { Integrator::exponential, Integrator::euler }
 constexpr auto all_loads = { Load::bound, Load::scale, Load::passive };
 constexpr auto passive_loads = { Load::bound, Load::passive };
 
-struct Bench
-{
-    explicit Bench (const Params& params) { node.params = params; }
-
-    const Outputs& tick (const Inputs& in)
-    {
-        const Vec3 before = out.force, dp = in.position - p;
-        out = node.tick (in);
-        held -= before.dot (dp);
-        reached -= out.force.dot (dp);
-        trapezoid -= 0.5 * (before + out.force).dot (dp);
-        p = in.position;
-        return out;
-    }
-
-    double model() const { return out.stored_energy + out.dissipated_energy; }
-
-    ElastoPlastic node;
-    Outputs out;
-    Vec3 p = Vec3::Zero();
-    double held = 0.0, reached = 0.0, trapezoid = 0.0;   // J
-};
+using Bench = tactus::test::WorkBench<ElastoPlastic>;
 
 double sigma (const Params& params, double normal_force)
 {

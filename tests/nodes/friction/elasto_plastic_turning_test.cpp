@@ -182,7 +182,9 @@ TEST_CASE ("friction: a held contact walks by pi angle a in each cycle in which 
             const double phase = 2.0 * M_PI * k / per_cycle;
             const Vec3 to { 2e-5, 0.0, a * std::cos (phase) };
             const auto before = out;
-            out = node.tick ({ .position = to, .normal = { std::sin (angle) * std::sin (phase), 0.0, std::sqrt (1.0 - std::pow (std::sin (angle) * std::sin (phase), 2)) } });
+            out = node.tick (
+                { .position = to,
+                  .normal = { std::sin (angle) * std::sin (phase), 0.0, std::sqrt (1.0 - std::pow (std::sin (angle) * std::sin (phase), 2)) } });
             REQUIRE (out.state == 1.0);
             if (k > 0) work -= 0.5 * (before.force + out.force).dot (to - p);
             if (k == 0) first = out;

@@ -39,8 +39,8 @@ juce::String LimitBlock::textOf (const ContactLimit& c)
         return filled (TRANS ("Stable on %1 with usual hands, and up to %2 times as steep; passive up to %3 times"), c.device, factorText (c.stable_up_to),
                        factorText (c.passive_up_to));
     if (c.stable_up_to > 0.0)
-        return filled (TRANS ("It swings on %1. Stable with usual hands up to %2 times as steep, passive up to %3 times"), c.device, factorText (c.stable_up_to),
-                       factorText (c.passive_up_to));
+        return filled (TRANS ("It swings on %1. Stable with usual hands up to %2 times as steep, passive up to %3 times"), c.device,
+                       factorText (c.stable_up_to), factorText (c.passive_up_to));
     return filled (TRANS ("Not passive on %1; passive up to %2 times as steep"), c.device, factorText (c.passive_up_to));
 }
 

@@ -264,10 +264,13 @@ void SafetyStrip::paint (juce::Graphics& g)
         area.removeFromLeft (gap);
     }
     const std::pair<juce::String, juce::String> rest[] {
-        { shown.misses, TRANS ("Ticks that were not finished in time since the start. A few are not felt; many mean that the computer is too slow for the rate. "
-                               "C shows what each node costs.") },
-        { shown.delay, TRANS ("How many ticks pass from a movement of the hand to its effect on the motor. Each tick of delay makes a stiff wall less stable.") },
-        { shown.walls, TRANS ("The largest stiffness that a wall can have with this delay and the damping of the device. A stiffer one vibrates or kicks.") },
+        { shown.misses,
+          TRANS ("Ticks that were not finished in time since the start. A few are not felt; many mean that the computer is too slow for the rate. "
+                 "C shows what each node costs.") },
+        { shown.delay,
+          TRANS ("How many ticks pass from a movement of the hand to its effect on the motor. Each tick of delay makes a stiff wall less stable.") },
+        { shown.walls,
+          TRANS ("The largest stiffness that a wall can have with this delay and the damping of the device. A stiffer one vibrates or kicks.") },
     };
     for (const auto& [text, meaning] : rest)   // left out rather than cut off
         if (look.font (13.0f).getStringWidthFloat (text) + 4.0f <= area.getWidth()) add (text, 0.0f, theme.dim, meaning);

@@ -133,7 +133,8 @@ TEST_CASE ("simulated brake: the damping is exact at any rate, and takes energy 
 
     rc::prop ("any requests, below 0 and not numbers among them: no tool without a force gets faster", [] (unsigned seed) {
         Dice dice { seed };
-        SimulatedDevice tool ({ .mass = dice.size (0.01, 1.0), .damping = 0.0, .brake = 10.0, .brake_time = dice.uniform (0.0, 0.02), .velocity = { 0.3, -0.2, 0.1 } });
+        SimulatedDevice tool (
+            { .mass = dice.size (0.01, 1.0), .damping = 0.0, .brake = 10.0, .brake_time = dice.uniform (0.0, 0.02), .velocity = { 0.3, -0.2, 0.1 } });
         tool.prepare (dt);
         double before = tool.read().true_velocity.norm();
         for (int k = 0; k < 200; ++k)
@@ -167,7 +168,8 @@ TEST_CASE ("simulated brake: its coil follows with its time constant, and dry fr
     CHECK (dry.read().true_velocity.x() == 0.0);
 }
 
-TEST_CASE ("brake: it changes no faster than its slew limit, in a stop too, and a guard never allows more than the device has", "[framework][guard][brake][safety]")
+TEST_CASE ("brake: it changes no faster than its slew limit, in a stop too, and a guard never allows more than the device has",
+           "[framework][guard][brake][safety]")
 {
     const double slew = 400.0;
     auto guard = guardWith ({ .max_brake = 50.0, .max_brake_slew = slew });

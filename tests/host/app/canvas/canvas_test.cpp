@@ -105,9 +105,10 @@ TEST_CASE ("a node that is dropped from a position or a resistance gets its othe
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     const auto before = rig.text();
-    const auto [node, port, type] = GENERATE (std::tuple { "hand", "position", "friction.anisotropic" }, std::tuple { "board", "resistance", "friction.anisotropic" },
-                                              std::tuple { "hand", "position", "texture.height_map" }, std::tuple { "board", "resistance", "texture.noise" },
-                                              std::tuple { "hand", "position", "vector.length" });
+    const auto [node, port, type] =
+        GENERATE (std::tuple { "hand", "position", "friction.anisotropic" }, std::tuple { "board", "resistance", "friction.anisotropic" },
+                  std::tuple { "hand", "position", "texture.height_map" }, std::tuple { "board", "resistance", "texture.noise" },
+                  std::tuple { "hand", "position", "vector.length" });
     CAPTURE (node, port, type);
     rig.hand().drag (rig.port (node, Role::output, port), rig.nowhere());
     REQUIRE (rig.request);

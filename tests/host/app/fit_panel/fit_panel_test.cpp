@@ -120,7 +120,8 @@ TEST_CASE ("fit panel: time\\, velocity\\, normal force and friction are strokes
     // A speed has no direction, and a recorded position is better.
     for (const auto* columns : { "t,speed,normal,friction", "t,velocity,normal,friction,x" })
     {
-        const auto read = readRecording (rig.write ("other.csv", std::string (columns) + (std::string (columns).ends_with ("x") ? "\n0,1,1,1,1\n1,1,1,1,1\n" : "\n0,1,1,1\n1,1,1,1\n")));
+        const auto read = readRecording (rig.write (
+            "other.csv", std::string (columns) + (std::string (columns).ends_with ("x") ? "\n0,1,1,1,1\n1,1,1,1,1\n" : "\n0,1,1,1\n1,1,1,1\n")));
         REQUIRE (read);
         CHECK_FALSE (read->column (integrated_position));
     }

@@ -32,7 +32,8 @@ TEST_CASE ("presets are found by words of their name, tags and description, igno
 TEST_CASE ("own graphs are in the documents of the user\\, and settings in the configurations\\, where XDG says they are")
 {
     const TemporaryFolder home;
-    const auto isFor = [&] (std::initializer_list<std::pair<const char*, std::string>> variables, const std::filesystem::path& graphs, const std::string& settings) {
+    const auto isFor = [&] (std::initializer_list<std::pair<const char*, std::string>> variables, const std::filesystem::path& graphs,
+                            const std::string& settings) {
         std::vector<std::pair<const char*, std::string>> before;
         for (const auto* name : { "HOME", "TACTUS_HOME", "TACTUS_GRAPHS", "XDG_CONFIG_HOME", "XDG_DOCUMENTS_DIR" })
         {

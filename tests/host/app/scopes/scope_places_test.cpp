@@ -70,7 +70,8 @@ TEST_CASE ("what a plot shows of earlier passes has no colour of its legend", "[
         const auto past = colourOfPast (theme);
         for (const auto other : { theme.of (Quantity::length), theme.of (Quantity::force), theme.dim, theme.canvas })
         {
-            const auto apart = std::abs (past.getRed() - other.getRed()) + std::abs (past.getGreen() - other.getGreen()) + std::abs (past.getBlue() - other.getBlue());
+            const auto apart =
+                std::abs (past.getRed() - other.getRed()) + std::abs (past.getGreen() - other.getGreen()) + std::abs (past.getBlue() - other.getBlue());
             INFO (past.toDisplayString (false) << " and " << other.toDisplayString (false));
             CHECK (apart > 60);
             const auto hue = std::abs (past.getHue() - other.getHue());

@@ -9,6 +9,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <functional>
 #include <optional>
 
 namespace tactus::host::test
@@ -46,7 +47,18 @@ struct WindowRig
         juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
     }
 
-    static void settle (int ms = 20) { juce::MessageManager::getInstance()->runDispatchLoopUntil (ms); }
+    /// Lets the window work for a while, at least until it has handled all messages so far and those that they cause.
+    static void settle (int ms = 20)
+    {
+        for (int round = 0; round < 3; ++round)
+        {
+            bool handled = false;
+            juce::MessageManager::callAsync ([&handled] { handled = true; });
+            while (! handled)
+                juce::MessageManager::getInstance()->runDispatchLoopUntil (1);
+        }
+        juce::MessageManager::getInstance()->runDispatchLoopUntil (ms);
+    }
 
     static juce::Button* buttonIn (juce::Component& c, const juce::String& text)
     {
@@ -112,6 +124,28 @@ struct WindowRig
         auto* c = titled (title);
         REQUIRE (c != nullptr);
         stage->click (middleOf (*c), button);
+        settle();
+    }
+
+    /// Clicks there, goes down in the menu that opens (or up, if `steps` is negative), and presses a key. The keys are in the message after the one
+    /// that opens the menu, because JUCE closes a menu at its first timer call if no window of the program has the keyboard of the X server.
+    void choose (juce::Point<float> at, int steps, int button = juce::ModifierKeys::rightButtonModifier, const juce::String& end = "return")
+    {
+        bool opened = false;
+        int waits = 0;
+        const std::function<void()> chooseIfOpen = [&] {
+            opened = juce::Component::getNumCurrentlyModalComponents() == 1;
+            if (! opened && ++waits < 1000) return void (juce::MessageManager::callAsync (chooseIfOpen));
+            for (int i = 0; i < std::abs (steps); ++i)
+                stage->key (steps > 0 ? "cursor down" : "cursor up");
+            stage->key (end);
+            waits = 1000;
+        };
+        stage->click (at, button);
+        chooseIfOpen();
+        while (waits < 1000 || juce::Component::getNumCurrentlyModalComponents() > 0)
+            settle();
+        REQUIRE (opened);
         settle();
     }
 

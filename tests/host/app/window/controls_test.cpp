@@ -12,7 +12,6 @@ using namespace tactus::host::test;
 
 namespace
 {
-constexpr int right_button = juce::ModifierKeys::rightButtonModifier;
 
 /// Layered cloth, whose knobs are not where its nodes store them.
 struct Cloth
@@ -26,7 +25,7 @@ struct Cloth
         g.controls[0].value = 0.7;   // warp 70 mN, stored 40 mN
         g.controls[1].value = 0.25;
         REQUIRE (saveGraph (g, folder / "cloth.json"));
-        w = std::make_unique<WindowRig> ((folder / "cloth.json").string());
+        w = std::make_unique<WindowRig> ((folder / "cloth.json").string(), 1280, 1000);   // the row of a parameter is in view
     }
 
     const graph::Node& node (const std::string& name) const { return *w->view->document().graph().root.find (name); }
@@ -55,9 +54,6 @@ struct Cloth
         for (int i = 0; i < times; ++i)
             w->key (k);
         WindowRig::settle();
-        const bool ends_menu = juce::String (k) == "return";
-        for (int i = 0; ends_menu && i < 100 && juce::Component::getNumCurrentlyModalComponents() > 0; ++i)
-            WindowRig::settle();
     }
 };
 }   // namespace
@@ -90,9 +86,7 @@ TEST_CASE ("a control that is deleted leaves its values\\, and one more paramete
     Cloth c;
     const auto before = c.values();
     c.select ("table");
-    c.w->clickTitled ("Damping", right_button);
-    c.key ("cursor down", 2);   // the second entry: the first control
-    c.key ("return");
+    c.w->choose (c.w->middleOf (*c.w->titled ("Damping")), 2);   // the second entry: the first control
     REQUIRE (c.w->graph().controls[0].to.size() == 3);
     CHECK (changedValue (before, c.values()) == "");
     CHECK (c.w->view->document().stepNames().back() == "assign table.damping to Coarseness");
@@ -116,7 +110,8 @@ TEST_CASE ("a double click on the name of a knob renames it and moves nothing", 
     auto& knobs = c.w->view->inspected().knobs();
     REQUIRE (knobs.isVisible());
     auto& knob = knobs.knob (0);
-    const auto label = c.w->stage->getLocalPoint (&knob, juce::Point<float> (0.5f * static_cast<float> (knob.getWidth()), static_cast<float> (knob.getHeight()) - 6.0f));
+    const auto label =
+        c.w->stage->getLocalPoint (&knob, juce::Point<float> (0.5f * static_cast<float> (knob.getWidth()), static_cast<float> (knob.getHeight()) - 6.0f));
     c.w->stage->doubleClick (label);
     WindowRig::settle();
     CHECK (c.w->graph().controls[0].value == 0.7);
@@ -135,11 +130,7 @@ TEST_CASE ("a right click on a parameter of a node opens its menu\\, inside a su
     Cloth c;
     auto& canvas = c.w->view->canvas();
     const auto before = c.values();
-    c.w->stage->click (c.value ("drag", "mu"), right_button);
-    WindowRig::settle();
-    REQUIRE (juce::Component::getNumCurrentlyModalComponents() == 1);
-    c.key ("cursor down");
-    c.key ("return");   // New control
+    c.w->choose (c.value ("drag", "mu"), 1);   // New control
     REQUIRE (c.w->graph().controls.size() == 3);
     CHECK (c.w->graph().controls[2].to[0].path == "drag.mu");
     c.w->stage->type ("Grip");   // the field for its name is open
@@ -147,10 +138,7 @@ TEST_CASE ("a right click on a parameter of a node opens its menu\\, inside a su
     CHECK (c.w->graph().controls[2].name == "Grip");
     CHECK (changedValue (before, c.values()) == "");
 
-    c.w->stage->click (c.value ("drag", "mu"), right_button);
-    WindowRig::settle();
-    c.key ("cursor down");
-    c.key ("return");   // Release
+    c.w->choose (c.value ("drag", "mu"), 1);   // Release
     CHECK (c.w->graph().controls[2].to.empty());
     CHECK (changedValue (before, c.values()) == "");
 
@@ -167,10 +155,7 @@ TEST_CASE ("a right click on a parameter of a node opens its menu\\, inside a su
     const auto socket = std::ranges::find_if (node->box.sockets, [] (const Socket& s) { return s.port->role == Role::param && ! s.port->isChoice(); });
     const auto name = node->name, param = socket->port->id;
     const auto within = c.values();
-    c.w->stage->click (c.value (name, param), right_button);
-    WindowRig::settle();
-    c.key ("cursor down");
-    c.key ("return");
+    c.w->choose (c.value (name, param), 1);
     REQUIRE (c.w->graph().controls.size() == 4);
     CHECK (c.w->graph().controls[3].to[0].path == "threads/" + name + "." + param);
     c.key ("return");
@@ -181,17 +166,11 @@ TEST_CASE ("a right click on a parameter of a node opens its menu\\, inside a su
     const auto count = exposed();
     for (const std::size_t wanted : { count + 1, count })
     {
-        c.w->stage->click (c.value (name, param), right_button);
-        WindowRig::settle();
-        c.key ("cursor down", 2);   // below Release
-        c.key ("return");
+        c.w->choose (c.value (name, param), 2);   // below Release
         CHECK (exposed() == wanted);
     }
-    c.w->stage->click (c.value (name, param), right_button);
-    WindowRig::settle();
-    c.key ("cursor up", 2);   // above the commands of the node
-    c.key ("return");
-    c.w->stage->move ({ 4.0f, 4.0f });   // off the canvas, whose hints cover the notice
+    c.w->choose (c.value (name, param), -2);   // above the commands of the node
+    c.w->stage->move ({ 4.0f, 4.0f });         // off the canvas, whose hints cover the notice
     WindowRig::settle();
     INFO (c.w->view->statusText());
     CHECK (c.w->view->statusText().contains ("Usual"));

@@ -45,7 +45,8 @@ TEST_CASE ("Ctrl+S, a name and Return save\\, and the graph\\, the header and th
         WindowRig::settle (200);   // the window behind is dimmed, and the dialog is not
         auto* dialog = juce::Component::getCurrentlyModalComponent();
         for (auto* child : w.view->getChildren())
-            if (dynamic_cast<Shade*> (child) != nullptr) CHECK ((child->isVisible() && w.view->getIndexOfChildComponent (child) < w.view->getIndexOfChildComponent (dialog)));
+            if (dynamic_cast<Shade*> (child) != nullptr)
+                CHECK ((child->isVisible() && w.view->getIndexOfChildComponent (child) < w.view->getIndexOfChildComponent (dialog)));
         CHECK (name->getHighlightedText() == name->getText());
         w.stage->type ("my board");
         CHECK (name->getText() == "my board");

@@ -21,7 +21,7 @@ struct Desk
     Desk()
     {
         std::filesystem::copy_file (TACTUS_SOURCE_DIR "/graphs/dry_wood.json", file);
-        w = std::make_unique<WindowRig> (file.string());
+        w = std::make_unique<WindowRig> (file.string(), 1280, 1000);   // the row of a parameter is in view
     }
 
     Document& document() { return w->view->document(); }
@@ -58,11 +58,8 @@ TEST_CASE ("after a menu\\, a name\\, a dialog and a start\\, the keys of the ca
     d.checkKeys ("a start with a file");
 
     d.select ("drag");
-    w.clickTitled ("Stiffness", juce::ModifierKeys::rightButtonModifier);
     const auto controls = w.graph().controls.size();
-    w.key ("cursor down");
-    w.key ("return");
-    WindowRig::settle();
+    w.choose (w.middleOf (*w.titled ("Stiffness")), 1);
     REQUIRE (w.graph().controls.size() == controls + 1);
     REQUIRE (dynamic_cast<juce::TextEditor*> (WindowRig::focused()) != nullptr);   // for its name
     w.key ("return");
@@ -89,13 +86,7 @@ TEST_CASE ("after a menu\\, a name\\, a dialog and a start\\, the keys of the ca
     {
         auto* more = w.titled ("Menu");
         REQUIRE (more != nullptr);
-        w.stage->click (w.middleOf (*more));
-        WindowRig::settle();
-        if (juce::String (end) == "return")
-            for (int i = 0; i < 7; ++i)
-                w.key ("cursor down");   // the theme
-        w.key (end);
-        WindowRig::settle();
+        w.choose (w.middleOf (*more), 7, juce::ModifierKeys::leftButtonModifier, end);   // the theme
         d.checkKeys (std::string ("the menu of the window, ") + end);
     }
 
@@ -119,7 +110,7 @@ TEST_CASE ("after a menu\\, a name\\, a dialog and a start\\, the keys of the ca
     WindowRig::settle();
     d.checkKeys ("the menu of a node");
 
-    // A field that vanishes while it has the keyboard hands it to nobody's neighbour.
+    // If a field is deleted while it has the keyboard, the component next to it does not get it.
     d.select ("scrub");
     w.key ("return");
     REQUIRE (w.view->inspected().hasKeyboardFocus (true));

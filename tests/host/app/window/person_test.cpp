@@ -71,15 +71,12 @@ struct Person
         WindowRig::settle();
     }
 
-    /// A right click, Down and Return. Nothing comes between: JUCE closes a menu while no window of the program has the keyboard of the X server.
+    /// A right click, Down and Return.
     void chooseFirst (juce::Component* c)
     {
         REQUIRE (c != nullptr);
-        w.stage->click (of (*c), juce::ModifierKeys::rightButtonModifier);
-        w.stage->key ("cursor down");
-        w.stage->key ("return");
+        w.choose (of (*c), 1);
         actions += 3;
-        WindowRig::settle();
     }
 
     void drag (juce::Point<float> from, juce::Point<float> to)
@@ -232,7 +229,8 @@ TEST_CASE ("a person types a name and Return\\, and gets what has this name", "[
     p.key ("return");
     CHECK (p.w.graph().name == "Soft pad");
     p.key ("ctrl + n");
-    for (const auto& [word, type] : { std::pair { "hand", "device.position" }, std::pair { "motor", "device.force" }, std::pair { "contact", "contact.window" } })
+    for (const auto& [word, type] :
+         { std::pair { "hand", "device.position" }, std::pair { "motor", "device.force" }, std::pair { "contact", "contact.window" } })
     {
         p.key ("spacebar");
         p.type (word);
