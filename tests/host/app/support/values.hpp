@@ -53,11 +53,15 @@ inline std::string changedValue (const ValuesInEffect& before, const ValuesInEff
 /// The values of one node, to nine digits.
 inline std::vector<std::pair<std::string, double>> valuesOf (const ValuesInEffect& all, graph::Id node)
 {
+    const auto rounded = [] (double v) {
+        const double scale = v == 0.0 ? 1.0 : std::pow (10.0, 8 - std::floor (std::log10 (std::abs (v))));
+        return std::round (v * scale) / scale;
+    };
     std::vector<std::pair<std::string, double>> found;
     for (const auto& [of, values] : all)
         if (std::get<0> (of) == node)
             for (const double v : values)
-                found.emplace_back (std::get<1> (of), v == 0.0 ? 0.0 : std::round (v * std::pow (10.0, 8 - std::floor (std::log10 (std::abs (v))))));
+                found.emplace_back (std::get<1> (of), rounded (v));
     return found;
 }
 
