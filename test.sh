@@ -17,8 +17,8 @@
 #   ./test.sh --sound   plays a ring on a virtual sound card, strokes a board in the host with the mouse, and listens to both
 #   ./test.sh --devices drives the virtual HID devices
 #   ./test.sh --export  exports all presets and 500 random graphs as C++ code, compiles it with g++ and clang++, and compares the
-#                       bits; does this for the presets on a Cortex-M7 in QEMU, too, and in single precision on a Cortex-M4; builds and
-#                       loads a unit for co-simulation; runs all presets fused
+#                       bits; does this for the presets on a Cortex-M7 in QEMU, too, in single precision on a Cortex-M4, and as WebAssembly in
+#                       node; builds and loads a unit for co-simulation; runs all presets fused
 #   ./test.sh --figures redraws docs/figures/ and recounts docs/instructions.md
 #   ./test.sh --packages makes the Debian packages, and installs, uses and removes them in a clean Debian (needs root); before that,
 #                       it builds all nodes as plugins and examines them
@@ -36,6 +36,7 @@ case $mode in
     *) echo "usage: ./test.sh [--quick|--long|--screens [--update]|--sound|--devices|--export|--figures|--packages|--format [--fix]|--tidy [PART/PARTS | --changed | FILE...]|--sanitizers|--coverage|--install]" >&2; exit 2 ;;
 esac
 
+wasm_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc nodejs)
 packages+=(python3-jsonschema python3-distributed python3-build python3-venv python3-pip mypy python3-pandas python3-xarray xvfb xdotool)
 case $mode in ''|--long|--sanitizers|--install) packages+=(libclang-rt-14-dev) ;; esac
 case $mode in ''|--quick|--long|--install) packages+=(valgrind) ;; esac
@@ -43,6 +44,7 @@ case $mode in ''|--quick|--long|--format|--install) packages+=(clang-format-14) 
 case $mode in ''|--long|--tidy|--install) packages+=(clang-tidy-14) ;; esac
 [ "$mode" = --coverage ] && packages+=(gcovr)
 [ "$mode" = --export ] && packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
+case $mode in ''|--quick|--long|--export|--install) packages+=("${wasm_packages[@]}") ;; esac
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
 [ "$mode" = --screens ] && packages+=(xauth imagemagick)
 [ "$mode" = --sound ] && packages+=(xauth imagemagick jackd2 jack-capture python3-numpy)
@@ -182,6 +184,8 @@ if [ "$mode" = --export ]; then
         jobs+=($!)
     done
     for job in "${jobs[@]}"; do wait "$job"; done
+    say "In node"
+    build/release/bin/tactus_tests "[export_wasm]"
     exit
 fi
 

@@ -31,17 +31,18 @@ struct ExportArguments
 
 ExportTarget targetNamed (const std::string& name)
 {
-    const std::vector<std::string> names { "cpp", "c-api", "arduino", "fmu" };
+    const std::vector<std::string> names { "cpp", "c-api", "arduino", "fmu", "wasm" };
     const auto found = std::ranges::find (names, name);
     if (found == names.end())
-        throw UsageError ("--to", "there is no target " + quote (name) + didYouMean (name, names) + "; write cpp, c-api, arduino or fmu");
+        throw UsageError ("--to", "there is no target " + quote (name) + didYouMean (name, names) + "; write cpp, c-api, arduino, fmu or wasm");
     return static_cast<ExportTarget> (found - names.begin());
 }
 
 std::string nextStep (ExportTarget target, const std::string& folder)
 {
     if (target == ExportTarget::arduino) return "use it: copy " + folder + " into the folder libraries of Arduino";
-    return "try it: make -C " + folder + (target == ExportTarget::fmu ? " fmu" : " test");
+    return "try it: make -C " + folder + (target == ExportTarget::fmu ? " fmu" : target == ExportTarget::wasm ? " wasm"
+                                                                                                              : " test");
 }
 
 void run (const ExportArguments& options)
@@ -83,8 +84,9 @@ void addExport (const Command& app)
         .required();
     command.addOption ("-o,--out", options->folder, "The folder to write: new, empty, or an earlier export, which is replaced").required();
     command.addOption ("--to", options->target, "What to write: cpp, a C++20 class with a self-test; c-api, the same with a C interface; arduino, a "
-                                                "library for boards; fmu, a unit for simulators (FMI 2.0)")
-        .type ("cpp|c-api|arduino|fmu");
+                                                "library for boards; fmu, a unit for simulators (FMI 2.0); wasm, a WebAssembly module for "
+                                                "browsers, with its JavaScript")
+        .type ("cpp|c-api|arduino|fmu|wasm");
     command.addOption ("--input", options->inputs, "Make these ports inputs of the class, such as drag.mu or drag.position.x").separatedBy (',');
     command.addOption ("--record", options->records, "Make these ports outputs of the class; default: the inputs of every sink").separatedBy (',');
     command.addOption ("--set", options->sets, "Set a parameter: NODE.PARAM=VALUE").oneValueEach();
@@ -99,7 +101,8 @@ void addExport (const Command& app)
                     "  tactus export dry_wood -o dry_wood --record drag.force,drag.state\n"
                     "  make -C dry_wood test\n"
                     "  tactus export dry_wood -o dry_wood_small --float\n"
-                    "  tactus export dry_wood -o dry_wood_fmu --to fmu && make -C dry_wood_fmu fmu");
+                    "  tactus export dry_wood -o dry_wood_fmu --to fmu && make -C dry_wood_fmu fmu\n"
+                    "  tactus export dry_wood -o dry_wood_web --to wasm && make -C dry_wood_web wasm");
     command.callback ([options] { run (*options); });
 }
 

@@ -11,6 +11,7 @@
 #include <host/generate/targets/arduino_code.hpp>
 #include <host/generate/targets/c_api_code.hpp>
 #include <host/generate/targets/fmu_code.hpp>
+#include <host/generate/targets/wasm_code.hpp>
 
 #include <host/platform/atomic_folder.hpp>
 #include <tactus/plan/find_param.hpp>
@@ -61,7 +62,7 @@ PluginSources pluginSources (const Plan& plan, Messages& messages)
 void refuseSingle (const ExportOptions& options, Messages& messages)
 {
     if (! options.is_single || options.target == ExportTarget::cpp || options.target == ExportTarget::arduino) return;
-    messages.push_back (Message::error ("export/float", "", "C and FMU interfaces have doubles, so they cannot be exported in single precision",
+    messages.push_back (Message::error ("export/float", "", "C, FMU and WebAssembly interfaces have doubles, so they cannot be exported in single precision",
                                         "write --to cpp or --to arduino, or leave out --float"));
 }
 
@@ -205,12 +206,18 @@ std::vector<ExportedRole> rolesOf (const Run& run)
 void addTarget (ExportedFolder& folder, const Exported& e, ExportTarget target)
 {
     auto& files = folder.files;
-    if (target == ExportTarget::c_api)
+    if (target == ExportTarget::c_api || target == ExportTarget::wasm)
     {
         auto c = cFiles (e);
         files.emplace_back (e.stem + ".h", std::move (c.header));
         files.emplace_back (e.stem + "_c.cpp", std::move (c.source));
-        files.emplace_back (e.stem + "_example.c", std::move (c.example));
+        if (target == ExportTarget::c_api) files.emplace_back (e.stem + "_example.c", std::move (c.example));
+    }
+    if (target == ExportTarget::wasm)
+    {
+        for (auto& file : wasmFiles (e))
+            files.push_back (std::move (file));
+        std::ranges::find (files, "Makefile", &std::pair<std::string, std::string>::first)->second += wasmMake (e);
     }
     if (target == ExportTarget::fmu)
     {

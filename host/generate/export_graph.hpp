@@ -18,7 +18,8 @@ enum class ExportTarget
     cpp,
     c_api,
     arduino,
-    fmu
+    fmu,
+    wasm
 };
 
 struct ExportOptions

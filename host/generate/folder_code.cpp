@@ -172,6 +172,20 @@ also prints how many bytes the graph takes. `make memory` says more, and `make i
         text += filled ("\n`@S@.h` is the same class for C99: create, prepare, tick, set, destroy. `@S@_example.c` shows how to use it; link it with\n"
                         "`lib@S@.a` and the C++ library.\n",
                         { { "@S@", e.stem } });
+    if (target == ExportTarget::wasm)
+        text += filled (R"(
+`make wasm` builds `@S@.wasm`, which needs no imports: no threads, no exceptions, no memory from a heap. It needs clang 22 with its libraries for
+WebAssembly. `make wasm_test` runs the self-test in node. Copy `@S@.wasm`, `@S@.js` and `tactus_graph.js` to your server; `.d.ts` are types
+for TypeScript.
+
+```js
+import { @C@ } from './@S@.js';
+
+const graph = await @C@.load();   // in node and in an AudioWorklet: new @C@ (module), of a WebAssembly.Module
+graph.tick();                     // about.rate_hz times per second: reads graph.inputs, and writes graph.outputs
+```
+)",
+                        { { "@C@", e.class_name }, { "@S@", e.stem } });
     if (target == ExportTarget::fmu)
         text += filled (R"(
 `make fmu` builds `@S@.fmu`, a unit for co-simulation by the Functional Mock-up Interface 2.0, for 64-bit Linux. It runs at the rate

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <sstream>
 #include <vector>
 
@@ -235,6 +236,41 @@ TEST_CASE ("all presets and many random graphs give the bits of the engine with 
             CHECK (passes (answer));
         }
     }
+}
+
+TEST_CASE ("presets give the bits of the engine in WebAssembly, at most three times as slowly as natively", "[.export_wasm]")
+{
+    if (std::system ("command -v clang++-22 wasm-ld-22 node > /dev/null && [ -d /usr/lib/wasm32-wasi ]") != 0)
+    {
+        WARN ("skipped: needs clang-22 lld-22 libc++-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc nodejs");
+        return;
+    }
+    ExportedProgram program;
+    for (const auto& name : test::presetNames())
+        require (program, test::exportedPreset (name), name);
+    const auto said = program.runInNode ("-O2");
+    INFO (said);
+    CHECK (passes (said));
+    CHECK (static_cast<int> (linesWith (said, ", 0 differ").size()) == 4 * program.graphCount());   // both programs, twice
+    std::map<std::string, std::pair<double, double>> shortest;
+    for (const auto& line : linesWith (said, " ns"))
+    {
+        const double took = std::stod (line.substr (line.find (": ") + 2));
+        auto& [native, node] = shortest.try_emplace (line.substr (0, line.find (' ')), inf, inf).first->second;
+        auto& time = line.find (" natively: ") != line.npos ? native : node;
+        time = std::min (time, took);
+    }
+    CHECK (static_cast<int> (shortest.size()) == program.graphCount());
+    std::string table;
+    double most = 0.0;
+    for (const auto& [name, times] : shortest)
+    {
+        const double ratio = times.second / times.first;
+        table += name + ": " + std::to_string (times.first) + " ns natively, " + std::to_string (times.second) + " ns in node, ratio " + std::to_string (ratio) + "\n";
+        most = std::max (most, ratio);
+    }
+    WARN (table);
+    CHECK (most <= 3.0);
 }
 
 TEST_CASE ("presets give the bits of the engine on a Cortex-M7", "[.export_m7]")

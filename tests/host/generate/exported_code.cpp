@@ -220,6 +220,38 @@ std::string ExportedProgram::runOn (Board board, const std::string& flags) const
                                 "-semihosting-config enable=on,target=native,chardev=said -icount shift=6 -kernel all");
 }
 
+std::string ExportedProgram::runInNode (const std::string& flags) const
+{
+    // A time of 20 repetitions: the shortest of 20, because node compiles twice, the second time better.
+    writeMain (R"(#include <chrono>
+#ifdef __wasm__
+constexpr const char* where = "in node";
+#else
+constexpr const char* where = "natively";
+#endif
+)",
+               R"(    {
+        static @C@ graph;
+        graph.prepare();
+        double shortest = 1e300;
+        for (int i = 0; i < 20; ++i)
+        {
+            const auto begin = std::chrono::steady_clock::now();
+            for (int n = 0; n < 20; ++n)
+                @S@_self_test::repeat (graph);
+            const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
+            if (took.count() < shortest) shortest = took.count();
+        }
+        std::printf ("@S@ %s: %.1f ns\n", where, shortest / (20 * 1200));
+        failed += @S@_self_test::test();
+    }
+)");
+    if (const auto native = compileAndRun ("g++ " + flags, {}, "mv all native"); ! native.starts_with ("passed")) return native;
+    const std::string both = "./native && node --no-warnings '" TACTUS_SOURCE_DIR "/tests/host/generate/wasm/run_wasi.cjs' all";
+    return compileAndRun ("clang++-22 --target=wasm32-wasi -Wno-deprecated -fno-threadsafe-statics " + flags, "-Wl,--stack-first,-z,stack-size=262144",
+                          both + " && " + both);
+}
+
 std::string ExportedProgram::instructions (const std::string& pattern) const
 {
     folder.write ("said.txt", "");

@@ -48,6 +48,10 @@ public:
     /// instructions a tick takes on average.
     std::string runOn (Board, const std::string& flags) const;
 
+    /// The same in node, compiled for WebAssembly with clang++-22, and natively. For each graph, also says how long a tick takes, as
+    /// "NAME natively: 123 ns", the two programs in turns.
+    std::string runInNode (const std::string& flags) const;
+
     /// The lines of the disassembly of the last program that have this pattern (of grep -E), at most ten.
     std::string instructions (const std::string& pattern) const;
 

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A graph as a WebAssembly module, in node.
+
+#include "program.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+using namespace tactus::test;
+
+namespace
+{
+bool hasTools()
+{
+    if (std::system ("command -v clang++-22 wasm-ld-22 node > /dev/null && [ -d /usr/lib/wasm32-wasi ]") == 0) return true;
+    WARN ("skipped: needs clang-22 lld-22 libc++-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc nodejs");
+    return false;
+}
+
+/// Into the object, sideways with a turn, and out again.
+std::string motion (int ticks, double rate_hz)
+{
+    std::ostringstream trace;
+    trace.precision (17);
+    trace << "t,x,y,z\n";
+    for (int k = 0; k < ticks; ++k)
+    {
+        const double t = k / rate_hz;
+        trace << t << "," << 0.004 * std::sin (9.0 * t) << "," << 0.001 * std::sin (5.0 * t) << "," << 0.0006 - 0.0012 * std::sin (2.5 * t) << "\n";
+    }
+    return trace.str();
+}
+
+/// The numbers of a CSV, without its header.
+std::vector<std::vector<double>> numbersOf (const std::string& csv)
+{
+    std::vector<std::vector<double>> rows;
+    std::istringstream lines (csv);
+    std::string line;
+    std::getline (lines, line);
+    while (std::getline (lines, line))
+    {
+        auto& row = rows.emplace_back();
+        std::istringstream cells (line);
+        for (std::string cell; std::getline (cells, cell, ',');)
+            row.push_back (std::strtod (cell.c_str(), nullptr));
+    }
+    return rows;
+}
+}   // namespace
+
+TEST_CASE ("a graph in WebAssembly gives the bits of render through its JavaScript, and its guard stops it", "[cli][export][wasm]")
+{
+    if (! hasTools()) return;
+    const Scratch scratch;
+    const auto folder = scratch.path ("web"), trace = scratch.write ("in.csv", motion (4000, 4000.0)), out = scratch.path ("out.csv");
+    const auto exported = runTactus ({ "export", "dry_wood", "-o", folder, "--to", "wasm" });
+    INFO (exported.err);
+    REQUIRE (exported.status == 0);
+    REQUIRE (runProgram ("make", { "-s", "-C", folder, "wasm", "WASM_CXXFLAGS=-O1" }).status == 0);
+
+    const auto here = runTactus ({ "render", "dry_wood", "--device", "stylus=trace:" + trace, "--set", "drag.d_max=0.0005", "--set", "roughness=0.8", "--out", out });
+    INFO (here.err);
+    REQUIRE (here.status == 0);
+    const auto there = runProgram ("node", { TACTUS_SOURCE_DIR "/tests/host/generate/wasm/render_in_node.mjs", folder + "/dry_wood.js", trace, "drag.d_max=0.0005",
+                                             "roughness=0.8" });
+    INFO (there.err);
+    REQUIRE (there.status == 0);
+    const auto csv = textOf (out);
+    CHECK (csv.substr (0, csv.find ('\n')) == there.out.substr (0, there.out.find ('\n')));
+    const auto expected = numbersOf (csv), found = numbersOf (there.out);
+    REQUIRE (expected.size() == 4000);
+    REQUIRE (found.size() == expected.size());
+    std::size_t different = 0;
+    for (std::size_t k = 0; k < expected.size(); ++k)
+        different += found[k] == expected[k] ? 0 : 1;
+    CHECK (different == 0);
+    double largest = 0.0;
+    for (const auto& row : expected)
+        largest = std::max (largest, row[3]);
+    CHECK (largest > 0.5);
+}
+
+TEST_CASE ("a module for WebAssembly has doubles, types and a class with the names of its graph", "[cli][export][wasm]")
+{
+    const Scratch scratch;
+    const auto folder = scratch.path ("web");
+    checkRefused ({ "export", "two_fingers", "-o", folder, "--to", "wasm", "--float" }, 1, "export/float", folder);
+    REQUIRE (runTactus ({ "export", "two_fingers", "-o", folder, "--to", "wasm" }).status == 0);
+    const auto types = textOf (folder + "/two_fingers.d.ts");
+    for (const auto* text : { "export class TwoFingers extends Graph<", "    readonly thumb: Effort;", "export type Control = \"firmness\" | ", "export type Hit = \"creak.hit\";",
+                              "export type Role = \"index\" | \"thumb\";" })
+        CHECK (types.find (text) != std::string::npos);
+    for (const auto* file : { "two_fingers.js", "tactus_graph.js", "tactus_graph.d.ts", "two_fingers_wasm.cpp", "two_fingers.h" })
+        CHECK (std::filesystem::exists (folder + "/" + file));
+    CHECK_FALSE (std::filesystem::exists (folder + "/two_fingers_example.c"));
+}
