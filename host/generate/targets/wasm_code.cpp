@@ -74,6 +74,10 @@ EXPORT (lose_time) void wasmLoseTime (double seconds) { @S@_lose_time (&wasm_gra
 
 #include <cstddef>
 
+// What libc++ calls when it cannot go on. Its own functions print, for which the module would have to import a system.
+extern "C" void __abort_message (const char*, ...) { __builtin_trap(); }
+void std::__libcpp_verbose_abort (const char*, ...) noexcept { __builtin_trap(); }
+
 @CHECKS@
 static @S@ wasm_graph;
 static @S@_inputs wasm_inputs;

@@ -56,18 +56,19 @@ std::vector<std::vector<double>> numbersOf (const std::string& csv)
 TEST_CASE ("a graph in WebAssembly gives the bits of render through its JavaScript, and its guard stops it", "[cli][export][wasm]")
 {
     if (! hasTools()) return;
+    // It has a formula, which libc++ reads, and must import nothing all the same.
     const Scratch scratch;
     const auto folder = scratch.path ("web"), trace = scratch.write ("in.csv", motion (4000, 4000.0)), out = scratch.path ("out.csv");
-    const auto exported = runTactus ({ "export", "dry_wood", "-o", folder, "--to", "wasm" });
+    const auto exported = runTactus ({ "export", "canvas_weave", "-o", folder, "--to", "wasm" });
     INFO (exported.err);
     REQUIRE (exported.status == 0);
     REQUIRE (runProgram ("make", { "-s", "-C", folder, "wasm", "WASM_CXXFLAGS=-O1" }).status == 0);
 
-    const auto here = runTactus ({ "render", "dry_wood", "--device", "stylus=trace:" + trace, "--set", "drag.d_max=0.0005", "--set", "roughness=0.8", "--out", out });
+    const auto here = runTactus ({ "render", "canvas_weave", "--device", "stylus=trace:" + trace, "--set", "drag.d_max=0.0005", "--set", "weave=0.8", "--out", out });
     INFO (here.err);
     REQUIRE (here.status == 0);
-    const auto there = runProgram ("node", { TACTUS_SOURCE_DIR "/tests/host/generate/wasm/render_in_node.mjs", folder + "/dry_wood.js", trace, "drag.d_max=0.0005",
-                                             "roughness=0.8" });
+    const auto there = runProgram ("node", { TACTUS_SOURCE_DIR "/tests/host/generate/wasm/render_in_node.mjs", folder + "/canvas_weave.js", trace, "drag.d_max=0.0005",
+                                             "weave=0.8" });
     INFO (there.err);
     REQUIRE (there.status == 0);
     const auto csv = textOf (out);
@@ -81,8 +82,8 @@ TEST_CASE ("a graph in WebAssembly gives the bits of render through its JavaScri
     CHECK (different == 0);
     double largest = 0.0;
     for (const auto& row : expected)
-        largest = std::max (largest, row[3]);
-    CHECK (largest > 0.5);
+        largest = std::max (largest, std::abs (row[1]));
+    CHECK (largest > 0.1);
 }
 
 TEST_CASE ("a module for WebAssembly has doubles, types and a class with the names of its graph", "[cli][export][wasm]")
