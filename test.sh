@@ -19,6 +19,7 @@
 #   ./test.sh --export  exports all presets and 500 random graphs as C++ code, compiles it with g++ and clang++, and compares the
 #                       bits; does this for the presets on a Cortex-M7 in QEMU, too, in single precision on a Cortex-M4, and as WebAssembly in
 #                       node; builds and loads a unit for co-simulation; runs all presets fused
+#   ./test.sh --site    builds the playground with all presets, and uses it in Chromium. ./test.sh does this with two presets
 #   ./test.sh --figures redraws docs/figures/ and recounts docs/instructions.md
 #   ./test.sh --packages makes the Debian packages, and installs, uses and removes them in a clean Debian (needs root); before that,
 #                       it builds all nodes as plugins and examines them
@@ -32,8 +33,8 @@
 
 mode=${1:-}
 case $mode in
-    ''|--quick|--long|--screens|--sound|--devices|--export|--figures|--packages|--format|--tidy|--sanitizers|--coverage|--install) ;;
-    *) echo "usage: ./test.sh [--quick|--long|--screens [--update]|--sound|--devices|--export|--figures|--packages|--format [--fix]|--tidy [PART/PARTS | --changed | FILE...]|--sanitizers|--coverage|--install]" >&2; exit 2 ;;
+    ''|--quick|--long|--screens|--sound|--devices|--export|--site|--figures|--packages|--format|--tidy|--sanitizers|--coverage|--install) ;;
+    *) echo "usage: ./test.sh [--quick|--long|--screens [--update]|--sound|--devices|--export|--site|--figures|--packages|--format [--fix]|--tidy [PART/PARTS | --changed | FILE...]|--sanitizers|--coverage|--install]" >&2; exit 2 ;;
 esac
 
 wasm_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc nodejs)
@@ -44,7 +45,8 @@ case $mode in ''|--quick|--long|--format|--install) packages+=(clang-format-14) 
 case $mode in ''|--long|--tidy|--install) packages+=(clang-tidy-14) ;; esac
 [ "$mode" = --coverage ] && packages+=(gcovr)
 [ "$mode" = --export ] && packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
-case $mode in ''|--quick|--long|--export|--install) packages+=("${wasm_packages[@]}") ;; esac
+case $mode in ''|--quick|--long|--export|--site|--install) packages+=("${wasm_packages[@]}") ;; esac
+case $mode in ''|--long|--site|--install) packages+=(chromium chromium-driver python3-selenium) ;; esac
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
 [ "$mode" = --screens ] && packages+=(xauth imagemagick)
 [ "$mode" = --sound ] && packages+=(xauth imagemagick jackd2 jack-capture python3-numpy)
@@ -186,6 +188,13 @@ if [ "$mode" = --export ]; then
     for job in "${jobs[@]}"; do wait "$job"; done
     say "In node"
     build/release/bin/tactus_tests "[export_wasm]"
+    exit
+fi
+
+if [ "$mode" = --site ]; then
+    build release tactus
+    say "The playground in a browser"
+    tests/site/run.sh build/release
     exit
 fi
 

@@ -1,0 +1,489 @@
+// SPDX-License-Identifier: MIT
+import { HidDevice } from './hid.js';
+import { heightsOf } from './scene.js';
+
+const $ = id => document.getElementById (id);
+const pad = $('pad'), scope = $('scope');
+const words = { none: '', not_finite: 'a reading is not a number', stale: 'the device is silent', starved: 'the engine is too slow', released: 'a button is released',
+                halted: 'it is halted', speed: 'the hand was too fast', impulse: 'it pushed for too long', energy: 'it gave too much energy', emergency: 'you stopped it' };
+
+let presets = [], preset = null, about = null, module_bytes = null;
+let engine = null, context = null, device = null, recording = null;
+let state = { positions: [], efforts: [], stops: [], rumble: 0 };
+let heights = null, wanted = [], chosen = 0, pressing = new Map(), forces = [], trail = [];
+
+function say (text) { $('status').textContent = text; }
+
+//==============================================================================
+// Presets, and the address that holds preset and knobs.
+
+function readAddress() { return Object.fromEntries (new URLSearchParams (location.hash.slice (1))); }
+
+function knobs() { return Object.fromEntries (about.controls.map (control => [control.name, Number ($('knob-' + control.name).value)])); }
+
+function writeAddress()
+{
+    const all = new URLSearchParams ({ preset: preset.id });
+    for (const control of about.controls)
+        if (knobs()[control.name] !== control.value) all.set (control.name, knobs()[control.name]);
+    history.replaceState (null, '', '#' + all);
+}
+
+async function choose (id)
+{
+    const next = presets.find (one => one.id === id) ?? presets.find (one => one.id === 'dry_wood') ?? presets[0];
+    say (`Loading ${next.title}…`);
+    const [{ about: loaded }, answer] = await Promise.all ([import (`./graphs/${next.id}.js`), fetch (`graphs/${next.id}.wasm`)]);
+    if (! answer.ok) throw new Error (`${next.title} cannot be loaded: ${answer.status}`);
+    module_bytes = await answer.arrayBuffer();
+    preset = next;
+    about = loaded;
+    wanted = about.roles.map (role => start (role.name));
+    state = { positions: wanted.map (one => [...one]), efforts: [], stops: [], rumble: 0 };
+    trail = [];
+    forces = [];
+    makeKnobs();
+    makeHands();
+    $('preset').value = preset.id;
+    $('view').value = preset.view;
+    $('about').textContent = about.about;
+    if (engine) load();
+    else say (matchMedia ('(pointer: coarse)').matches ? 'Tap the picture once, then drag in it.' : 'Press and drag in the picture.');
+    writeAddress();
+    look();
+}
+
+function makeKnobs()
+{
+    const given = readAddress();
+    $('knobs').replaceChildren (...about.controls.map (control => {
+        const row = document.createElement ('div'), label = document.createElement ('label'), slider = document.createElement ('input'),
+              output = document.createElement ('output');
+        row.className = 'knob';
+        slider.type = 'range';
+        slider.id = label.htmlFor = 'knob-' + control.name;
+        slider.min = 0;
+        slider.max = 1;
+        slider.step = 'any';
+        const asked = Number (given.preset === preset.id ? given[control.name] ?? control.value : control.value);
+        slider.value = Number.isFinite (asked) ? asked : control.value;
+        label.textContent = control.title;
+        output.htmlFor = slider.id;
+        const show = () => { output.textContent = Number (slider.value).toFixed (2); };
+        slider.addEventListener ('input', () => {
+            show();
+            engine?.port.postMessage ({ turn: { name: control.name, position: Number (slider.value) } });
+        });
+        slider.addEventListener ('change', writeAddress);
+        show();
+        row.append (label, slider, output);
+        return row;
+    }));
+}
+
+function makeHands()
+{
+    chosen = 0;
+    $('hands').hidden = about.roles.length < 2;
+    $('hand').replaceChildren (...about.roles.map ((role, i) => new Option (role.name, i)));
+}
+
+/** Finds the surface that the chosen hand meets in this view. */
+async function look()
+{
+    heights = null;
+    const of = preset, found = await heightsOf (module_bytes, about, chosen, box (about.roles[chosen].name), $('view').value === 'above');
+    if (of === preset) heights = found;
+}
+
+function box (role) { return preset.boxes[role]; }
+function start (role) { return box (role).map (([low, high], axis) => axis === 2 ? high : (low + high) / 2); }
+
+//==============================================================================
+// The engine.
+
+async function begin()
+{
+    if (context)
+    {
+        await context.resume();
+        return;
+    }
+    if (! window.AudioWorkletNode || ! window.isSecureContext) throw new Error ('this page needs an AudioWorklet, which browsers have only on https and on localhost');
+    context = new AudioContext ({ latencyHint: 'interactive' });
+    await context.audioWorklet.addModule ('engine.js');
+    engine = new AudioWorkletNode (context, 'tactus-engine', { numberOfInputs: 0, outputChannelCount: [1] });
+    engine.port.onmessage = ({ data }) => receive (data);
+    engine.onprocessorerror = () => { say ('The engine has failed. Load the page again.'); device?.stop(); };
+    engine.connect (context.destination);
+    load();
+    await context.resume();
+}
+
+function load()
+{
+    engine.port.postMessage ({ load: { bytes: module_bytes, about, knobs: knobs(), starts: wanted } });
+    engine.port.postMessage ({ show: chosen });
+    engine.port.postMessage ({ volume: Number ($('volume').value) });
+    if (device?.hasForce) useDevice();
+}
+
+function receive (data)
+{
+    if (data.loaded === about.name) say (`${about.title} is running.`);
+    if (data.recorded) keepRecording (data.recorded);
+    if (! data.state || data.state.positions.length !== about.roles.length) return;
+    const before = state.stops[chosen];
+    state = data.state;
+    for (let i = 0; i < state.scope.length; i += 3)
+        forces.push (state.scope.slice (i, i + 3));
+    forces.splice (0, Math.max (0, forces.length - 2000));
+    device?.write (state.efforts[chosen], state.rumble);
+    const now = state.stops[chosen];
+    if (now === before) return;
+    $('rearm').hidden = ! ['speed', 'impulse', 'energy', 'emergency'].includes (now);
+    if (now !== 'none') say (`No force: ${words[now]}.`);
+    else if (before !== undefined) say (`${about.title} is running.`);
+}
+
+function stop()
+{
+    device?.stop();
+    engine?.port.postMessage ({ stop: true });
+    $('rearm').hidden = false;
+    say (`No force: ${words.emergency}.`);
+    quiet();
+}
+
+function rearm()
+{
+    device?.rearm();
+    engine?.port.postMessage ({ rearm: true });
+    $('rearm').hidden = true;
+    say (about ? `${about.title} is running.` : '');
+}
+
+//==============================================================================
+// The hand: mouse, pen, touch, keyboard.
+
+function axes() { return $('view').value === 'side' ? [0, 2] : [0, 1]; }
+
+function toPlace (role, x, y)
+{
+    const [across, up] = axes(), limits = box (role);
+    const place = [...wanted[about.roles.findIndex (one => one.name === role)]];
+    place[across] = limits[across][0] + x * (limits[across][1] - limits[across][0]);
+    place[up] = limits[up][1] - y * (limits[up][1] - limits[up][0]);
+    return place;
+}
+
+function toPicture (role, place)
+{
+    const [across, up] = axes(), limits = box (role);
+    return [(place[across] - limits[across][0]) / (limits[across][1] - limits[across][0]), (limits[up][1] - place[up]) / (limits[up][1] - limits[up][0])];
+}
+
+function send (i)
+{
+    engine?.port.postMessage ({ hand: { role: i, wanted: wanted[i] } });
+}
+
+/** A pen or finger that measures pressure presses deeper; from above, the slider does so where nothing is measured. */
+function moveHand (i, x, y, pressure)
+{
+    const role = about.roles[i].name, [, , [low, high]] = box (role);
+    wanted[i] = toPlace (role, x, y);
+    if ($('view').value === 'above') wanted[i][2] = high + (pressure ?? Number ($('press').value)) * (low - high);
+    else if (pressure !== undefined) wanted[i][2] -= 0.5 * pressure * (high - low);
+    send (i);
+}
+
+function pointer (event)
+{
+    const edges = pad.getBoundingClientRect();
+    const measured = event.pointerType !== 'mouse' && event.pressure > 0 && event.pressure !== 0.5 ? event.pressure : undefined;
+    moveHand (pressing.get (event.pointerId), (event.clientX - edges.left) / edges.width, (event.clientY - edges.top) / edges.height, measured);
+}
+
+pad.addEventListener ('pointerdown', async event => {
+    event.preventDefault();
+    pad.focus();
+    const others = [...pressing.values()];
+    pressing.set (event.pointerId, others.includes (chosen) && about.roles.length > 1 ? about.roles.findIndex ((_, i) => ! others.includes (i)) : chosen);
+    if (pressing.get (event.pointerId) < 0) pressing.set (event.pointerId, chosen);
+    pad.setPointerCapture (event.pointerId);
+    pointer (event);
+    if (event.pointerType !== 'mouse' && ! context) return;   // browsers let a touch start sound only when it ends
+    await begin().catch (error => say (error.message));
+    send (chosen);
+});
+pad.addEventListener ('pointermove', event => {
+    if (! pressing.has (event.pointerId)) return;
+    for (const one of event.getCoalescedEvents?.().slice (-1) ?? [])
+        if (one.clientX !== undefined) pointer (event);
+});
+for (const end of ['pointerup', 'pointercancel'])
+    pad.addEventListener (end, event => {
+        if (! pressing.has (event.pointerId)) return;
+        const i = pressing.get (event.pointerId);
+        pressing.delete (event.pointerId);
+        wanted[i] = [wanted[i][0], wanted[i][1], start (about.roles[i].name)[2]];   // the hand lifts
+        send (i);
+        if (end === 'pointerup') begin().catch (error => say (error.message));
+    });
+
+pad.addEventListener ('keydown', async event => {
+    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+    if (! step) return;
+    event.preventDefault();
+    const role = about.roles[chosen].name, [x, y] = toPicture (role, wanted[chosen]);
+    const clamp = value => Math.min (1, Math.max (0, value));
+    wanted[chosen] = toPlace (role, clamp (x + 0.02 * step[0]), clamp (y + 0.02 * step[1]));
+    await begin().catch (error => say (error.message));
+    send (chosen);
+});
+document.addEventListener ('keydown', event => { if (event.key === 'Escape') stop(); });
+
+//==============================================================================
+// Gamepads and HID.
+
+function quiet()
+{
+    for (const one of navigator.getGamepads?.() ?? [])
+        one?.vibrationActuator?.reset?.();
+}
+
+function gamepads()
+{
+    const all = [...navigator.getGamepads?.() ?? []].filter (one => one);
+    const one = all.find (found => found.vibrationActuator) ?? all[0];
+    if (! one || ! about) return;
+    $('pads').textContent = `${one.id.split (' (')[0]} moves the hand with its left stick${one.vibrationActuator ? ' and rumbles' : '; it cannot rumble here'}.`;
+    const [x, y] = one.axes;
+    if (Math.hypot (x, y) > 0.15 && pressing.size === 0 && ! device?.hasForce) moveHand (chosen, 0.5 + 0.5 * x, 0.5 + 0.5 * y);
+    if (one.buttons[1]?.pressed) stop();
+    if (state.rumble > 0.02 && state.stops[chosen] === 'none')
+        one.vibrationActuator?.playEffect ('dual-rumble', { duration: 100, strongMagnitude: state.rumble, weakMagnitude: state.rumble });
+}
+
+function useDevice()
+{
+    engine?.port.postMessage ({ device: { role: chosen, limits: device.limits (about.limits) } });
+}
+
+async function connect()
+{
+    if (! navigator.hid) throw new Error ('this browser has no WebHID; Chromium and Edge do');
+    const { profiles } = await (await fetch ('profiles.json')).json();
+    await begin();
+    const found = await HidDevice.request (profiles);
+    if (! found) return;
+    device = found;
+    device.onreading = reading => {
+        if (device?.hasForce) engine.port.postMessage ({ reading });
+        else if (Math.hypot (...reading.stick) > 0.15) moveHand (chosen, 0.5 + 0.5 * reading.stick[0], 0.5 - 0.5 * reading.stick[1]);
+    };
+    if (! $('rearm').hidden) device.stop();
+    if (device.hasForce) useDevice();
+    $('device').textContent = `${device.profile.name} is connected.`;
+    $('disconnect').hidden = false;
+}
+
+async function disconnect()
+{
+    const gone = device;
+    device = null;
+    engine?.port.postMessage ({ device: null });
+    $('disconnect').hidden = true;
+    $('device').textContent = '';
+    await gone?.close();
+}
+
+$('connect').addEventListener ('click', () => connect().catch (error => { $('device').textContent = error.message; }));
+$('disconnect').addEventListener ('click', disconnect);
+navigator.hid?.addEventListener ('disconnect', event => { if (event.device === device?.device) disconnect(); });
+addEventListener ('pagehide', () => { device?.stop(); quiet(); });
+document.addEventListener ('visibilitychange', () => { if (document.hidden && device) stop(); });
+
+//==============================================================================
+// Recording: the movement is a trace that `tactus render --device ROLE=trace:FILE` plays, and the forces are what that renders.
+
+function link (name, lines, text)
+{
+    const made = document.createElement ('a');
+    made.id = 'of-' + name;
+    made.href = URL.createObjectURL (new Blob ([lines.join ('\n') + '\n'], { type: 'text/csv' }));
+    made.download = `${preset.id}_${name}.csv`;
+    made.textContent = text;
+    return made;
+}
+
+function keepRecording ({ positions, records })
+{
+    for (const old of $('traces').querySelectorAll ('a'))
+        URL.revokeObjectURL (old.href);
+    const count = about.records.length, times = Array.from ({ length: positions[0].length / 3 }, (_, k) => k / about.rate_hz);
+    $('traces').replaceChildren (...about.roles.flatMap (({ name }, i) => [
+        link (name, ['t,x,y,z', ...times.map ((t, k) => [t, ...positions[i].slice (3 * k, 3 * k + 3)].join (','))], `the movement of ${name}`), ' ']),
+        link ('forces', [['t', ...about.records.map (record => record.name)].join (','),
+                         ...times.map ((t, k) => [t, ...records.slice (count * k, count * (k + 1))].join (','))], 'the forces'));
+    recording = null;
+    $('record').setAttribute ('aria-pressed', 'false');
+    $('record').textContent = 'Record';
+}
+
+$('record').addEventListener ('click', async () => {
+    await begin().catch (error => say (error.message));
+    recording = ! recording;
+    engine.port.postMessage ({ record: recording });
+    if (! recording) return;
+    $('record').setAttribute ('aria-pressed', 'true');
+    $('record').textContent = 'End the recording';
+    $('traces').replaceChildren();
+});
+
+//==============================================================================
+// Pictures.
+
+function colour (name) { return getComputedStyle (document.documentElement).getPropertyValue ('--' + name); }
+
+function sized (canvas)
+{
+    const ratio = devicePixelRatio, { clientWidth, clientHeight } = canvas;
+    if (canvas.width !== Math.round (clientWidth * ratio) || canvas.height !== Math.round (clientHeight * ratio))
+    {
+        canvas.width = Math.round (clientWidth * ratio);
+        canvas.height = Math.round (clientHeight * ratio);
+    }
+    const painter = canvas.getContext ('2d');
+    painter.setTransform (ratio, 0, 0, ratio, 0, 0);
+    painter.clearRect (0, 0, clientWidth, clientHeight);
+    return [painter, clientWidth, clientHeight];
+}
+
+function line (painter, points)
+{
+    painter.beginPath();
+    points.forEach (([x, y], k) => k ? painter.lineTo (x, y) : painter.moveTo (x, y));
+    painter.stroke();
+}
+
+function drawSurface (painter, width, height, role, is_side)
+{
+    if (! heights) return;
+    if (is_side)
+    {
+        const points = heights[0].map ((z, i) => [i / (heights[0].length - 1) * width, (z === null ? 1 : toPicture (role, [0, 0, z])[1]) * height]);
+        painter.fillStyle = colour ('panel');
+        painter.beginPath();
+        [[0, height], ...points, [width, height]].forEach (([x, y], k) => k ? painter.lineTo (x, y) : painter.moveTo (x, y));
+        painter.fill();
+        painter.strokeStyle = colour ('line');
+        painter.lineWidth = 2;
+        line (painter, points);
+        return;
+    }
+    const [, , [low, high]] = box (role), rows = heights.length, columns = heights[0].length;
+    painter.fillStyle = colour ('line');
+    heights.forEach ((row, j) => row.forEach ((z, i) => {
+        painter.globalAlpha = z === null ? 0 : 0.1 + 0.5 * (z - low) / (high - low);
+        painter.fillRect (i / columns * width, (rows - 1 - j) / rows * height, width / columns + 1, height / rows + 1);
+    }));
+    painter.globalAlpha = 1;
+}
+
+function drawPad()
+{
+    const [painter, width, height] = sized (pad), [across, up] = axes(), side = up === 2;
+    const role = about.roles[chosen].name;
+    drawSurface (painter, width, height, role, side);
+    about.roles.forEach (({ name }, i) => {
+        const place = (at) => { const [x, y] = toPicture (name, at); return [x * width, y * height]; };
+        const force = state.efforts[i]?.force ?? [0, 0, 0], tool = place (state.positions[i]), hand = place (wanted[i]);
+        if (i === chosen)
+        {
+            trail.push ([...tool, Math.hypot (...force)]);
+            trail.splice (0, Math.max (0, trail.length - 400));
+            painter.fillStyle = colour ('strong');
+            for (const [x, y, size] of trail)
+                if (size > 0) painter.fillRect (x - 1, y - 1, 2 + Math.min (6, size), 2 + Math.min (6, size));
+        }
+        painter.strokeStyle = colour ('line');
+        painter.lineWidth = 1;
+        line (painter, [hand, tool]);
+        painter.fillStyle = colour ('text');
+        painter.beginPath();
+        painter.arc (...tool, 8, 0, 2 * Math.PI);
+        painter.fill();
+        painter.strokeStyle = colour ('x');
+        painter.fillStyle = colour ('x');
+        painter.lineWidth = 4;
+        const tip = [tool[0] + 25 * force[across], tool[1] - 25 * force[up]];   // 25 pixels per newton
+        const length = Math.hypot (tip[0] - tool[0], tip[1] - tool[1]);
+        if (length > 2)
+        {
+            const [dx, dy] = [(tip[0] - tool[0]) / length, (tip[1] - tool[1]) / length];
+            line (painter, [tool, tip]);
+            painter.beginPath();
+            painter.moveTo (tip[0] + 8 * dx, tip[1] + 8 * dy);
+            painter.lineTo (tip[0] - 6 * dy, tip[1] + 6 * dx);
+            painter.lineTo (tip[0] + 6 * dy, tip[1] - 6 * dx);
+            painter.fill();
+        }
+    });
+}
+
+function drawScope()
+{
+    const [painter, width, height] = sized (scope);
+    let most = 0.5;
+    for (const force of forces)
+        most = Math.max (most, ...force.map (Math.abs));
+    painter.strokeStyle = colour ('line');
+    painter.lineWidth = 1;
+    line (painter, [[0, height / 2], [width, height / 2]]);
+    'xyz'.split ('').forEach ((name, i) => {
+        painter.strokeStyle = colour (name);
+        painter.lineWidth = 1.5;
+        line (painter, forces.map ((force, k) => [(k + 2000 - forces.length) / 2000 * width, height / 2 - force[i] / most * (height / 2 - 4)]));
+    });
+    painter.fillStyle = colour ('soft');
+    painter.fillText (`${most.toFixed (1)} N`, 4, 12);
+    const force = state.efforts[chosen]?.force;
+    $('force').textContent = `${(force ? Math.hypot (...force) : 0).toFixed (2)} N`;
+}
+
+function draw()
+{
+    if (about)
+    {
+        drawPad();
+        drawScope();
+    }
+    requestAnimationFrame (draw);
+}
+
+//==============================================================================
+
+$('stop').addEventListener ('click', stop);
+$('rearm').addEventListener ('click', rearm);
+$('preset').addEventListener ('change', () => choose ($('preset').value).catch (error => say (error.message)));
+$('hand').addEventListener ('change', () => {
+    chosen = Number ($('hand').value);
+    trail = [];
+    engine?.port.postMessage ({ show: chosen });
+    look();
+});
+$('view').addEventListener ('change', () => { trail = []; look(); });
+$('volume').addEventListener ('input', () => engine?.port.postMessage ({ volume: Number ($('volume').value) }));
+$('link').addEventListener ('click', async () => {
+    writeAddress();
+    await navigator.clipboard?.writeText (location.href).then (() => say ('The link is copied.'), () => say (location.href));
+});
+addEventListener ('hashchange', () => choose (readAddress().preset).catch (error => say (error.message)));
+setInterval (gamepads, 50);
+
+presets = (await (await fetch ('presets.json')).json()).presets;
+$('preset').replaceChildren (...presets.map (one => new Option (one.title, one.id)));
+await choose (readAddress().preset).catch (error => say (error.message));
+draw();

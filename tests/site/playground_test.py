@@ -1,0 +1,348 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Uses the playground in Chromium as a person does: strokes, turns knobs, stops, records, and plugs in a gamepad and a board, which are simulated.
+
+Usage: playground_test.py TACTUS SITE. Exit status 77 if the packages chromium-driver and python3-selenium are missing. What is recorded in the page must
+be what `tactus render` computes, bit for bit."""
+
+import csv
+import functools
+import http.server
+import io
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import WebDriverWait
+except ImportError:
+    webdriver = None
+
+HERE = pathlib.Path(__file__).resolve().parent
+PATIENCE_S = 60
+
+# A gamepad that rumbles, and a board at the other end of WebHID: it reports its position each 4 ms.
+MOCKS = """
+window.effects = [];
+window.pad = { id: 'Mock pad (Vendor: 1)', axes: [0, 0, 0, 0], buttons: Array.from ({ length: 16 }, () => ({ pressed: false })),
+               vibrationActuator: { playEffect: (kind, effect) => { window.effects.push (effect); }, reset: () => { window.was_reset = true; } } };
+window.has_pad = false;
+navigator.getGamepads = () => window.has_pad ? [window.pad] : [];
+class Board extends EventTarget
+{
+    vendorId = 0x16c0; productId = 0x0486; productName = 'Mock board'; collections = [{ usagePage: 0xffab, usage: 0x0200 }]; sent = []; z = 0.003; number = 0;
+    async open()
+    {
+        this.timer = setInterval (() => {
+            const data = new DataView (new ArrayBuffer (64));
+            data.setUint8 (0, 0x54); data.setUint8 (1, 1); data.setUint16 (2, this.is_homed === false ? 0 : 1, true); data.setUint32 (4, ++this.number, true);
+            data.setInt32 (20, Math.round (this.z * 1e9), true);
+            if (! this.is_silent) this.dispatchEvent (Object.assign (new Event ('inputreport'), { reportId: 0, data, device: this }));
+        }, 4);
+    }
+    async close() { clearInterval (this.timer); this.is_closed = true; }
+    async sendReport (id, bytes) { this.sent.push ([...bytes]); }
+    last()
+    {
+        const data = new DataView (Uint8Array.from (this.sent.at (-1)).buffer);
+        return { drives: data.getUint16 (2, true) & 1, answers: data.getUint32 (4, true), force: data.getInt32 (16, true) * 1e-6, count: this.sent.length };
+    }
+}
+window.board = new Board();
+Object.defineProperty (navigator, 'hid', { value: Object.assign (new EventTarget(), { requestDevice: async options => { window.filters = options.filters; return [window.board]; } }) });
+"""
+
+UNNAMED = """
+return [...document.querySelectorAll ('input, select, button, canvas, a[href]')].filter (one => ! one.closest ('[hidden]')
+    && ! one.labels?.length && ! one.getAttribute ('aria-label') && ! one.textContent.trim()).map (one => one.outerHTML);
+"""
+
+# The contrast of each text with what is behind it, by WCAG 2.1.
+FAINT = """
+const parts = text => text.match (/[\\d.]+/g).map (Number);
+const light = ([r, g, b]) => [r, g, b].map (c => c / 255).map (c => c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
+                                     .reduce ((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
+const behind = one => { const c = parts (getComputedStyle (one).backgroundColor); return c.length === 3 || c[3] === 1 || ! one.parentElement ? c : behind (one.parentElement); };
+return [...document.querySelectorAll ('body *')].filter (one => ! one.closest ('[hidden], noscript') && [...one.childNodes].some (node => node.nodeType === 3 && node.data.trim()))
+    .map (one => { const [a, b] = [light (parts (getComputedStyle (one).color)), light (behind (one))]; return [one.outerHTML, (Math.max (a, b) + 0.05) / (Math.min (a, b) + 0.05)]; })
+    .filter (([, contrast]) => contrast < 4.5);
+"""
+
+
+class Quiet(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
+class Playground(unittest.TestCase):
+    tactus = site = None
+
+    @classmethod
+    def setUpClass(cls):
+        cls.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=str(cls.site)))
+        threading.Thread(target=cls.server.serve_forever, daemon=True).start()
+        options = webdriver.ChromeOptions()
+        for flag in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--window-size=1200,1100"):
+            options.add_argument(flag)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        options.binary_location = shutil.which("chromium")
+        cls.page = webdriver.Chrome(options=options)
+        cls.page.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": MOCKS})
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.page.quit()
+        cls.server.shutdown()
+
+    def setUp(self):
+        self.open("preset=dry_wood")
+
+    def tearDown(self):
+        errors = [entry for entry in self.page.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
+        self.assertEqual(errors, [])
+
+    def open(self, address):
+        self.page.get("about:blank")
+        self.page.get(f"http://127.0.0.1:{self.server.server_port}/#{address}")
+        self.until("return document.getElementById ('about').textContent !== ''")
+
+    def run_script(self, script, *arguments):
+        return self.page.execute_script(script, *arguments)
+
+    def until(self, script, *arguments):
+        WebDriverWait(self.page, PATIENCE_S, poll_frequency=0.02).until(lambda page: page.execute_script(script, *arguments), f"never true: {script}")
+
+    def id(self, name):
+        return self.page.find_element(By.ID, name)
+
+    def force(self):
+        return float(self.id("force").text.split()[0])
+
+    def until_force(self, condition):
+        self.until(f"const force = Number.parseFloat (document.getElementById ('force').textContent); return {condition}")
+
+    def press(self):
+        """Presses into the board, below the middle of the picture, and waits for the force."""
+        pad = self.id("pad")
+        ActionChains(self.page).move_to_element(pad).click_and_hold().move_by_offset(10, int(0.49 * pad.size["height"])).perform()
+        self.until_force("force > 0.2")
+
+    def release(self):
+        ActionChains(self.page).release().perform()
+
+    def turn(self, knob, value):
+        self.run_script("const knob = document.getElementById (arguments[0]); knob.value = arguments[1]; knob.dispatchEvent (new Event ('input'));"
+                        "knob.dispatchEvent (new Event ('change'));", "knob-" + knob, value)
+
+    def text_of(self, link):
+        return self.page.execute_async_script("const done = arguments[1]; fetch (document.getElementById ('of-' + arguments[0]).href).then (a => a.text()).then (done)", link)
+
+    def record(self, act, role="stylus"):
+        self.id("record").click()
+        self.until("return document.getElementById ('record').getAttribute ('aria-pressed') === 'true'")
+        act()
+        self.id("record").click()
+        self.until("return document.getElementById ('of-forces') !== null")
+        return self.text_of(role), self.text_of("forces")
+
+    def rendered(self, preset, traces, *sets):
+        with tempfile.TemporaryDirectory() as folder:
+            made, devices = pathlib.Path(folder) / "out.csv", []
+            for role, trace in traces.items():
+                moved = pathlib.Path(folder) / f"{role}.csv"
+                moved.write_text(trace)
+                devices.append(f"--device={role}=trace:{moved}")
+            subprocess.run([self.tactus, "render", preset, *devices, *[f"--set={one}" for one in sets], "--out", made], check=True, capture_output=True)
+            return made.read_text()
+
+    def same(self, recorded, rendered, smallest=0.2):
+        ours, theirs = (list(csv.reader(io.StringIO(text))) for text in (recorded, rendered))
+        self.assertEqual(ours[0], theirs[0])
+        self.assertEqual(len(ours), len(theirs))
+        numbers = [[[float(cell) for cell in row[1:]] for row in rows[1:]] for rows in (ours, theirs)]
+        self.assertEqual(sum(a != b for a, b in zip(*numbers)), 0)
+        self.assertGreater(max(abs(cell) for row in numbers[0] for cell in row), smallest)
+        return len(numbers[0])
+
+    def test_a_first_feel_takes_less_than_a_megabyte(self):
+        self.press()
+        self.release()
+        loaded = self.run_script("return performance.getEntriesByType ('resource').map (one => [one.name, one.encodedBodySize])")
+        self.assertIn(True, [name.endswith("dry_wood.wasm") for name, _ in loaded])
+        engine = sum((self.site / name).stat().st_size for name in ("engine.js", "graphs/tactus_graph.js", "index.html"))   # a worklet is not listed
+        total = sum(size for _, size in loaded) + engine
+        print(f"first feel after {total} bytes")
+        self.assertLess(total, 1_000_000)
+        origin = f"http://127.0.0.1:{self.server.server_port}/"
+        self.assertEqual([name for name, _ in loaded if not name.startswith(origin)], [])
+
+    def test_what_is_recorded_is_what_render_computes(self):
+        def stroke():
+            self.press()
+            if "TACTUS_SCREENS" in os.environ:
+                self.page.save_screenshot(os.environ["TACTUS_SCREENS"] + "/playground.png")
+            chain = ActionChains(self.page)
+            for step in (-80, 60, -30, 90):
+                chain.move_by_offset(step, 0)
+            chain.perform()
+            self.release()
+
+        trace, forces = self.record(stroke)
+        ticks = self.same(forces, self.rendered("dry_wood", {"stylus": trace}))
+        self.assertGreater(ticks, 1000)
+        self.open("preset=dry_wood&roughness=0.9")
+        self.assertEqual(self.id("knob-roughness").get_attribute("value"), "0.9")
+        trace, forces = self.record(stroke)
+        rough = self.rendered("dry_wood", {"stylus": trace}, "roughness=0.9")
+        self.same(forces, rough)
+        self.assertNotEqual(rough, self.rendered("dry_wood", {"stylus": trace}))
+
+    def test_a_link_holds_preset_and_knobs(self):
+        self.turn("roughness", 0.25)
+        self.assertIn("#preset=dry_wood&roughness=0.25", self.page.current_url)
+        self.open("preset=dry_wood&roughness=nonsense")
+        self.assertEqual(self.id("knob-roughness").get_attribute("value"), "0.5")
+        self.open("preset=nothing_like_this")
+        self.assertEqual(self.id("preset").get_attribute("value"), "dry_wood")
+
+    def test_stop_takes_the_force_away_until_the_person_starts_again(self):
+        self.press()
+        self.page.find_element(By.TAG_NAME, "body").send_keys(Keys.ESCAPE)
+        self.until_force("force === 0")
+        self.assertIn("you stopped it", self.id("status").text)
+        ActionChains(self.page).move_by_offset(5, 0).move_by_offset(-5, 0).perform()
+        self.assertEqual(self.force(), 0.0)
+        self.release()
+        self.id("record").click()   # a new start is no way around a stop
+        self.press_only()
+        self.id_click("record")
+        self.until("return document.getElementById ('of-forces') !== null")
+        self.assertEqual(self.force(), 0.0)
+        self.id_click("rearm")
+        self.press()
+        self.id_click("stop")
+        self.until_force("force === 0")
+        self.release()
+
+    def press_only(self):
+        pad = self.id("pad")
+        ActionChains(self.page).move_to_element(pad).click_and_hold().move_by_offset(10, int(0.49 * pad.size["height"])).perform()
+
+    def touch(self, kind, *points):
+        self.page.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": list(points)})
+
+    def id_click(self, name):
+        """Clicks while the mouse may be down elsewhere, as a second hand would."""
+        self.run_script("document.getElementById (arguments[0]).click()", name)
+
+    def test_arrow_keys_move_the_hand(self):
+        self.id("pad").send_keys(Keys.ARROW_DOWN * 50)
+        self.until_force("force > 0.2")
+        self.id("pad").send_keys(Keys.ARROW_UP * 50)
+        self.until_force("force < 0.01")
+
+    def test_a_gamepad_moves_the_hand_and_rumbles_until_stop(self):
+        self.run_script("window.has_pad = true; window.pad.axes = [0, 1, 0, 0]")
+        self.id("pad").click()
+        self.until("window.pad.axes[0] = Math.sin (performance.now() / 50); return window.effects.some (one => one.strongMagnitude > 0.02)")
+        self.assertTrue(all(0 <= one["strongMagnitude"] <= 1 for one in self.run_script("return window.effects")))
+        self.run_script("window.pad.buttons[1].pressed = true")
+        self.until("return window.was_reset === true")
+        self.until_force("force === 0")
+        self.run_script("window.effects.length = 0")
+        self.until("window.ticks = (window.ticks ?? 0) + 1; return window.ticks > 20")
+        self.assertEqual(self.run_script("return window.effects.length"), 0)
+
+    def test_a_board_gets_guarded_forces_and_stop_lets_its_motors_go(self):
+        self.id("connect").click()
+        self.until("return ! document.getElementById ('disconnect').hidden")
+        self.assertTrue(any(one.get("usagePage") == 0xFFAB for one in self.run_script("return window.filters")))
+        self.run_script("window.board.z = -0.0005")
+        self.until("return window.board.sent.length > 0 && window.board.last().drives === 1 && window.board.last().force > 0.5")
+        self.assertGreater(self.run_script("return window.board.last().answers"), 0)
+        self.run_script("window.board.z = -0.005")   # 10 N, if nothing limited it: the profile of the board allows 2 N
+        self.until("return window.board.last().force > 1.5")
+        forces = self.run_script("return window.board.sent.map (bytes => new DataView (Uint8Array.from (bytes).buffer).getInt32 (16, true) * 1e-6)")
+        self.assertLessEqual(max(map(abs, forces)), 2.0)
+        self.id("stop").click()
+        self.until("return window.board.last().drives === 0 && window.board.last().force === 0")
+        count = self.run_script("return window.board.last().count")
+        self.until("window.waits = (window.waits ?? 0) + 1; return window.waits > 20")
+        self.assertEqual(self.run_script("return window.board.last().count"), count)
+        self.id("rearm").click()
+        self.run_script("window.board.z = -0.0005")
+        self.until("return window.board.last().drives === 1 && window.board.last().force > 0.3")
+        self.run_script("window.board.is_silent = true")   # the watchdog of the guard
+        self.until("return window.board.last().force === 0")
+        self.id("disconnect").click()
+        self.until("return window.board.is_closed === true")
+        self.assertEqual(self.run_script("return window.board.last().drives"), 0)
+
+    def test_every_preset_is_what_render_computes(self):
+        for preset in json.loads((self.site / "presets.json").read_text())["presets"]:
+            with self.subTest(preset["id"]):
+                self.open(f"preset={preset['id']}")
+                self.assertEqual(self.id("hand").is_displayed(), len(preset["boxes"]) > 1)
+                role = next(iter(preset["boxes"]))
+                self.run_script("document.getElementById ('press').value = 0.9")
+
+                def touch():
+                    self.press_only()
+                    chain = ActionChains(self.page, duration=60)
+                    for across, up in ((-200, 0), (100, -150), (80, 150), (-150, -60), (60, 60)):
+                        chain.move_by_offset(across, up)
+                    chain.perform()
+                    self.release()
+
+                _, forces = self.record(touch, role)
+                traces = {one: self.text_of(one) for one in preset["boxes"]}
+                self.same(forces, self.rendered(preset["id"], traces), 0.0)
+
+    def test_everything_has_a_name_and_can_be_read(self):
+        self.assertEqual(self.run_script(UNNAMED), [])
+        for scheme in ("light", "dark"):
+            self.page.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
+            self.assertEqual(self.run_script(FAINT), [], scheme)
+        self.page.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+
+    def test_a_phone_shows_all_of_it(self):
+        self.page.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 360, "height": 740, "deviceScaleFactor": 2, "mobile": True})
+        try:
+            self.open("preset=dry_wood")
+            self.assertLessEqual(self.run_script("return document.documentElement.scrollWidth"), 360)
+            pad = self.id("pad")
+            self.assertGreater(pad.size["width"], 300)
+            stop = self.id("stop")
+            self.assertGreaterEqual(min(stop.size["width"], stop.size["height"]), 44)
+            edges = self.run_script("const edges = document.getElementById ('pad').getBoundingClientRect(); return [edges.left, edges.top, edges.width, edges.height]")
+            point = {"x": edges[0] + edges[2] / 2, "y": edges[1] + 0.99 * edges[3], "force": 0.8}
+            self.touch("touchStart", point)   # a tap starts the engine
+            self.touch("touchEnd")
+            self.until("return document.getElementById ('status').textContent.includes ('is running')")
+            self.touch("touchStart", point)
+            self.until_force("force > 0.2")
+            self.touch("touchEnd")
+            self.until_force("force < 0.01")
+            if "TACTUS_SCREENS" in os.environ:
+                self.page.save_screenshot(os.environ["TACTUS_SCREENS"] + "/playground_phone.png")
+        finally:
+            self.page.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
+if __name__ == "__main__":
+    if webdriver is None or shutil.which("chromedriver") is None or shutil.which("chromium") is None:
+        print("skipped: needs chromium, chromium-driver and python3-selenium")
+        sys.exit(77)
+    Playground.tactus, Playground.site = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
+    subprocess.run(["node", HERE / "reports_test.mjs", Playground.site], check=True)
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
