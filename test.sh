@@ -19,7 +19,7 @@
 #   ./test.sh --export  exports all presets and 500 random graphs as C++ code, compiles it with g++ and clang++, and compares the
 #                       bits; does this for the presets on a Cortex-M7 in QEMU, too, in single precision on a Cortex-M4, and as WebAssembly in
 #                       node; builds and loads a unit for co-simulation; runs all presets fused
-#   ./test.sh --site    builds the playground with all presets, and uses it in Chromium. ./test.sh does this with two presets
+#   ./test.sh --site    builds the playground with all presets, and uses it in Chromium; --long does, too
 #   ./test.sh --figures redraws docs/figures/ and recounts docs/instructions.md
 #   ./test.sh --packages makes the Debian packages, and installs, uses and removes them in a clean Debian (needs root); before that,
 #                       it builds all nodes as plugins and examines them
@@ -45,8 +45,8 @@ case $mode in ''|--quick|--long|--format|--install) packages+=(clang-format-14) 
 case $mode in ''|--long|--tidy|--install) packages+=(clang-tidy-14) ;; esac
 [ "$mode" = --coverage ] && packages+=(gcovr)
 [ "$mode" = --export ] && packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
-case $mode in ''|--quick|--long|--export|--site|--install) packages+=("${wasm_packages[@]}") ;; esac
-case $mode in ''|--long|--site|--install) packages+=(chromium chromium-driver python3-selenium) ;; esac
+case $mode in --long|--export|--site) packages+=("${wasm_packages[@]}") ;; esac   # without them, the tests that need them are skipped, with a message
+case $mode in --long|--site) packages+=(chromium chromium-driver python3-selenium) ;; esac
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
 [ "$mode" = --screens ] && packages+=(xauth imagemagick)
 [ "$mode" = --sound ] && packages+=(xauth imagemagick jackd2 jack-capture python3-numpy)
@@ -264,4 +264,6 @@ if [ "$mode" = --long ]; then
     build/release/bin/tactus_tests "[long]"
     say "Soak"
     TACTUS_SOAK_TICKS=120000000 build/release/bin/tactus_tests "[soak]"
+    say "The playground in a browser"
+    tests/site/run.sh build/release
 fi
