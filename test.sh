@@ -19,7 +19,7 @@
 #   ./test.sh --export  exports all presets and 500 random graphs as C++ code, compiles it with g++ and clang++, and compares the
 #                       bits; does this for the presets on a Cortex-M7 in QEMU, too, in single precision on a Cortex-M4, and as WebAssembly in
 #                       node; builds and loads a unit for co-simulation; runs all presets fused
-#   ./test.sh --site    builds the playground with all presets, and uses it in Chromium; --long does, too
+#   ./test.sh --site    builds the site with all presets, and uses its playground in Chromium; --long does, too
 #   ./test.sh --figures redraws docs/figures/ and recounts docs/instructions.md
 #   ./test.sh --packages makes the Debian packages, and installs, uses and removes them in a clean Debian (needs root); before that,
 #                       it builds all nodes as plugins and examines them
@@ -46,7 +46,7 @@ case $mode in ''|--long|--tidy|--install) packages+=(clang-tidy-14) ;; esac
 [ "$mode" = --coverage ] && packages+=(gcovr)
 [ "$mode" = --export ] && packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
 case $mode in --long|--export|--site) packages+=("${wasm_packages[@]}") ;; esac   # without them, the tests that need them are skipped, with a message
-case $mode in --long|--site) packages+=(chromium chromium-driver python3-selenium) ;; esac
+case $mode in --long|--site) packages+=(chromium chromium-driver python3-selenium python3-sphinx furo python3-myst-parser python3-breathe doxygen) ;; esac
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
 [ "$mode" = --screens ] && packages+=(xauth imagemagick)
 [ "$mode" = --sound ] && packages+=(xauth imagemagick jackd2 jack-capture python3-numpy)
@@ -193,7 +193,7 @@ fi
 
 if [ "$mode" = --site ]; then
     build release tactus
-    say "The playground in a browser"
+    say "The site, and its playground in a browser"
     tests/site/run.sh build/release
     exit
 fi
@@ -264,6 +264,6 @@ if [ "$mode" = --long ]; then
     build/release/bin/tactus_tests "[long]"
     say "Soak"
     TACTUS_SOAK_TICKS=120000000 build/release/bin/tactus_tests "[soak]"
-    say "The playground in a browser"
+    say "The site, and its playground in a browser"
     tests/site/run.sh build/release
 fi

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Builds the site, with the playground, from a finished build:
+#   docs/build.sh [BUILD [OUT [PRESET...]]]
+# BUILD is build/release, OUT is build/site/html, and without PRESET all presets are in it. Needs the packages python3-sphinx, furo, python3-myst-parser,
+# python3-breathe, doxygen, and those that docs/site/build_playground.py names. OUT works on any file server: python3 -m http.server -d OUT
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=$(realpath "${1:-build/release}")
+out=${2:-build/site/html}
+presets=("${@:3}")
+work=$(dirname "$out")/work
+mkdir -p "$work"
+
+doxygen - >"$work/doxygen.log" 2>&1 <<END
+PROJECT_NAME = Tactus
+INPUT = framework/capi/tactus.h framework/plugin/tactus_plugin.h host/live/tactus_live.h host/device_plugins/tactus_device.h
+OUTPUT_DIRECTORY = $work/doxygen
+OPTIMIZE_OUTPUT_FOR_C = YES
+TYPEDEF_HIDES_STRUCT = YES
+AUTOLINK_SUPPORT = NO
+GENERATE_XML = YES
+GENERATE_HTML = NO
+GENERATE_LATEX = NO
+EXTRACT_ALL = YES
+MACRO_EXPANSION = YES
+EXPAND_ONLY_PREDEF = YES
+PREDEFINED = TACTUS_API= TACTUS_API_C= TACTUS_PLUGIN_NOEXCEPT= TACTUS_PLUGIN_EXTERN= TACTUS_PLUGIN_EXPORT=
+QUIET = YES
+END
+
+python=/usr/bin/python3   # Debian's, which has Sphinx
+"$python" -B docs/site/make_pages.py "$build/bin/tactus" "$work/source" "${presets[@]}"
+TACTUS_XML=$(realpath "$work/doxygen/xml") TACTUS_VERSION=$("$build/bin/tactus" --version | grep -o '[0-9.]*' | head -n 1) \
+    "$python" -m sphinx -W --keep-going -n -q -j auto -d "$work/doctrees" -b html "$work/source" "$out"
+"$python" -B docs/site/build_playground.py "$build/bin/tactus" "$out/playground" "${presets[@]}"

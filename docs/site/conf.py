@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+"""Sphinx reads this: docs/build.sh."""
+
+import os
+
+project = "Tactus"
+author = "the authors of Tactus"
+copyright = author   # pylint: disable=redefined-builtin
+version = release = os.environ["TACTUS_VERSION"]
+
+extensions = ["myst_parser", "breathe"]
+myst_enable_extensions = ["colon_fence"]
+myst_heading_anchors = 6
+breathe_projects = {"tactus": os.environ["TACTUS_XML"]}
+breathe_default_project = "tactus"
+breathe_domain_by_extension = {"h": "c"}
+primary_domain = None
+highlight_language = "none"
+
+suppress_warnings = ["misc.highlighting_failure"]   # code with an ellipsis
+
+html_theme = "furo"
+html_title = f"Tactus {version}"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+html_show_sphinx = False
+html_copy_source = False
+exclude_patterns = ["files"]
+
+# Types of the C library and of the compiler have no page here.
+nitpick_ignore_regex = [("c:identifier", r"(u?int(8|16|32|64)|size|ptrdiff)_t|bool|FILE")]
+

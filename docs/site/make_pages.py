@@ -1,0 +1,277 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Writes the source of the site, which Sphinx reads: make_pages.py TACTUS SOURCE [PRESET...]
+
+The pages of the repository come as they are, in sections. Links that lead out of the pages become copies of the files. A page is made for each node, from its
+datasheet and the comment of its header; for each preset, from its file and a run of it; and for the commands, from their --help."""
+
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+# Code, in which links are none, or a link, whose text may have code.
+PART = re.compile(r"^```.*?^```|(?P<picture>!?)\[(?P<text>(?:[^\[\]]|\[[^\]]*\])*)\]\((?P<target>[^)\s]+)\)|`[^`\n]+`", re.M | re.S)
+
+# Pages of the repository, and what they are called on the site.
+PAGES = {"README.md": "start", "CONTRIBUTING.md": "contributing", "SECURITY.md": "security", "CHANGELOG.md": "changelog", "graphs/README.md": "preset_table",
+         **{f"docs/{path.name}": path.stem for path in sorted((ROOT / "docs").glob("*.md"))},
+         **{f"docs/decisions/{path.name}": "decisions/" + ("index" if path.stem == "README" else path.stem)
+            for path in sorted((ROOT / "docs/decisions").glob("*.md"))}}
+
+SECTIONS = {
+    "Start": ("What Tactus is, and a first feel.", ["start", "playground", "gallery/index"]),
+    "Tutorials": ("From the first graph to your own device.", ["chapter", "fit", "plugins", "devices", "library", "python"]),
+    "How to": ("One page per task.", ["host", "sessions", "audio", "osc", "replay", "check", "spectra", "clips", "import", "live", "export", "realtime"]),
+    "Concepts": ("What the words mean, and how the parts work together.", ["glossary", "architecture", "safety", "hazards", "threads", "lanes", "fusion"]),
+    "Reference": ("Nodes, files, commands, interfaces, costs.",
+                  ["nodes/index", "graph_file", "commands", "c_api", "preset_table", "bench", "instructions", "changelog", "contributing", "security"]),
+    "Decisions": ("Why things are as they are, and what was measured.", ["decisions/index"]),
+}
+
+
+def run(*command):
+    return subprocess.run([str(part) for part in command], check=True, capture_output=True, text=True).stdout
+
+
+def escaped(text):
+    """A text in a cell of a table."""
+    return re.sub(r"([|<*_\[\]])", r"\\\1", text)
+
+
+def graph_of(path):
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
+def types_in(graph):
+    """The types of all nodes of a graph, in its subgraphs too."""
+    parts = [graph, *graph.get("graphs", {}).values()]
+    return {node["type"] for part in parts for node in part.get("nodes", {}).values()}
+
+
+class Site:
+    def __init__(self, tactus, source, presets):
+        self.tactus, self.source = tactus, source
+        self.presets = {name: graph_of(ROOT / "graphs" / f"{name}.json") for name in presets}
+        self.nodes = json.loads(run(tactus, "nodes", "--json"))
+        self.figures = {path.stem: types_in(graph_of(path)) for path in sorted((ROOT / "docs/figures").glob("*.json")) if path.with_suffix(".png").is_file()}
+
+    def write(self, name, text):
+        path = self.source / f"{name}.md"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+    def copied(self, path):
+        """A copy of a file of the repository, which a page can link to."""
+        kept = self.source / "files" / path
+        if kept.suffix == ".md":
+            kept = kept.with_suffix(".md.txt")   # not a page
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / path, kept)
+        return kept.relative_to(self.source)
+
+    def moved(self, link, of, name):
+        """The part of a page that stands for a link: `of` is the path of the page in the repository, `name` its name on the site."""
+        picture, text, target = link["picture"], link["text"], link["target"]
+        if target is None or "://" in target or target.startswith(("mailto:", "#")):
+            return link.group()
+        file, _, anchor = target.partition("#")
+        path = pathlib.PurePosixPath(os.path.normpath(pathlib.PurePosixPath(of).parent / file))
+        here = pathlib.PurePosixPath(name).parent
+        if str(path) in PAGES:
+            return f"{picture}[{text}]({os.path.relpath(PAGES[str(path)] + '.md', here)}{'#' + anchor if anchor else ''})"
+        if (ROOT / path).is_file():
+            return f"{picture}[{text}]({os.path.relpath(self.copied(path), here)})"
+        return f"{text} (`{path}/`)"
+
+    def page(self, of, name):
+        text = re.sub(r'<img src="([^"]+)"(?: width="\d+")? alt="([^"]*)">', r"![\2](\1)", (ROOT / of).read_text(encoding="utf-8"))
+        if not re.search("^##", text, re.M):   # a page in paragraphs with names
+            text = re.sub(r"^\*\*([^*]+)\*\*", r"## \1\n\n**\1**", text, flags=re.M)
+        return PART.sub(lambda link: self.moved(link, of, name), text)
+
+    def pages(self):
+        for of, name in PAGES.items():
+            text = self.page(of, name)
+            if name == "glossary":
+                head, terms = text.split("\n- ", 1)
+                text = head + "\n\n:::{glossary}\n" + "\n\n".join(re.sub(r"\*\*(.*?)\*\*: ", r"\1\n  ", term.rstrip()) for term in terms.split("\n- ")) + "\n:::\n"
+            self.write(name, text)
+
+    def index(self):
+        text = "# Tactus\n\nHaptic effects, patched like a modular synthesiser. [Feel a few in the browser](playground.md), or [build it](start.md).\n"
+        for title, (about, pages) in SECTIONS.items():
+            text += f"\n## {title}\n\n{about}\n\n```{{toctree}}\n:caption: {title}\n:maxdepth: 1\n\n" + "\n".join(pages) + "\n```\n"
+        self.write("index", text)
+        decisions = [name for name in PAGES.values() if name.startswith("decisions/") and name != "decisions/index"]
+        path = self.source / "decisions/index.md"
+        path.write_text(path.read_text() + "\n```{toctree}\n:hidden:\n\n" + "\n".join(name.split("/")[1] for name in decisions) + "\n```\n")
+
+    # ------------------------------------------------------------------ nodes
+
+    def law_of(self, node):
+        """The comment of the header of a node, as Markdown."""
+        family, _ = node["id"].split(".")
+        for header in sorted((ROOT / "nodes" / family).glob("**/*.hpp")):
+            text = header.read_text(encoding="utf-8")
+            if f'.id = "{node["id"]}"' not in text:
+                continue
+            comment = re.search(r"((?:^///[^\n]*\n)+)(?:template <[^\n]*>\n)?struct", text, re.M)
+            lines = [re.sub("^/// ?", "", line) for line in comment.group(1).splitlines()]
+            return header, "\n".join(self.prose(lines))
+        return None, ""
+
+    @staticmethod
+    def prose(lines):
+        """Blocks that are indented become code, and a line above a list becomes a heading."""
+        made, in_code = [], False
+        for line, after in zip(lines, [*lines[1:], ""]):
+            is_code = line.startswith("    ") and (in_code or not made or made[-1] == "")
+            if in_code and line == "" and after.startswith("    "):
+                is_code = True
+            if is_code != in_code:
+                if in_code and made[-1] == "":
+                    made.pop()
+                made += ["```", ""] if in_code else ["```"]
+            in_code = is_code
+            if is_code:
+                made.append(line[4:])
+            elif re.match(r" ?- ", after) and line and not line.startswith((" ", "-")):
+                made += ["", f"### {line.rstrip(':')}", ""]
+            else:
+                made.append(re.sub(r"([<*\\])", r"\\\1", line))
+        return made + (["```"] if in_code else [])
+
+    @staticmethod
+    def number(value):
+        return ", ".join(f"{part:g}" for part in value) if isinstance(value, list) else f"{value:g}" if isinstance(value, float) else str(value)
+
+    def range_of(self, port):
+        low, high = (port.get("usual_range") or port.get("hard_range") or [None, None])
+        if port.get("choices"):
+            return ", ".join(map(str, port["choices"]))
+        return "" if low is None and high is None else f"{'' if low is None else self.number(low)}…{'' if high is None else self.number(high)}"
+
+    def table(self, title, ports):
+        if not ports:
+            return ""
+        rows = [f"\n## {title}\n\n| name | unit | default | range | meaning |\n|---|---|---|---|---|\n"]
+        for port in ports:
+            default = port.get("default", "")
+            default = json.dumps(default) if isinstance(default, (dict, str)) and default != "" else self.number(default)
+            cells = [f"`{port['id']}`", port.get("unit", port.get("kind", "")), default if len(default) < 60 else "a table", self.range_of(port), port["about"]]
+            rows.append("| " + " | ".join(escaped(str(cell)) if i else cell for i, cell in enumerate(cells)) + " |\n")
+        return "".join(rows)
+
+    def node_page(self, node):
+        users = [name for name, graph in self.presets.items() if node["id"] in types_in(graph)]
+        header, law = self.law_of(node)
+        text = f"# {node['name']}\n\n`{node['id']}`. {node['summary']}\n\nSource: {node['source']}.\n"
+        if users:
+            text += f"\n<a href=\"../playground/index.html#preset={users[0]}\">Open in the playground</a>, in the preset {self.presets[users[0]]['name']}.\n"
+        if law:
+            text += f"\n## Law\n\n{law}\n"
+        figure = next((name for name, types in self.figures.items() if node["id"] in types and not node["id"].startswith(("signal.", "device.", "vector."))), None)
+        if figure:
+            picture = self.copied(f"docs/figures/{figure}.png")
+            text += f"\n## Figure\n\n![{node['name']}, in the figure {figure}](../{picture})\n\n[The graph of the figure](../{self.copied(f'docs/figures/{figure}.json')}).\n"
+        for title in ("inputs", "params", "settings", "outputs"):
+            text += self.table(title.capitalize(), node[title])
+        if users:
+            text += "\n## Presets that use it\n\n" + "".join(f"- [{self.presets[name]['name']}](../gallery/{name}.md)\n" for name in users)
+        if header:
+            text += f"\n[The header](../{self.copied(header.relative_to(ROOT))}).\n"
+        self.write("nodes/" + node["id"], text)
+
+    def node_pages(self):
+        families = {}
+        for node in self.nodes:
+            self.node_page(node)
+            families.setdefault(node["id"].split(".")[0], []).append(node)
+        text = f"# Nodes\n\nAll {len(self.nodes)} node types, by family. `tactus nodes` prints the same.\n"
+        for family, nodes in families.items():
+            text += f"\n## {family}\n\n" + "".join(f"- [`{node['id']}`]({node['id']}.md): {node['summary']}\n" for node in nodes)
+        text += "\n```{toctree}\n:hidden:\n\n" + "\n".join(node["id"] for node in self.nodes) + "\n```\n"
+        self.write("nodes/index", text)
+
+    # ------------------------------------------------------------------ gallery
+
+    def preset_page(self, name):
+        graph, media = self.presets[name], self.source / "_static/gallery"
+        media.mkdir(parents=True, exist_ok=True)
+        file = ROOT / "graphs" / f"{name}.json"
+        run(self.tactus, "render", file, "--plot", media / f"{name}.png", "--size", "150x90", "--dpi", "110", "--listen", media / f"{name}.wav")
+        title, known = graph["name"], {node["id"] for node in self.nodes}
+        links = (f"<a href=\"../playground/index.html#preset={name}\">Play</a> · [Download](../{self.copied(f'graphs/{name}.json')}) · "
+                 f"edit with `tactus-host graphs/{name}.json`")
+        text = f"# {title}\n\n{graph['about']}\n\n{links}\n\n![The forces of {title} in its own gesture](../_static/gallery/{name}.png)\n\n"
+        text += f"<audio controls preload=\"none\" aria-label=\"The sound of {title}\" src=\"../_static/gallery/{name}.wav\"></audio>\n"
+        if graph.get("controls"):
+            text += "\n## Knobs\n\n| knob | moves |\n|---|---|\n"
+            text += "".join(f"| {control.get('name', key)} | {', '.join(f'`{to}`' for to in control['to'])} |\n" for key, control in graph["controls"].items())
+        used = sorted(types_in(graph) & known)
+        text += "\n## Nodes\n\n" + "".join(f"- [`{kind}`](../nodes/{kind}.md)\n" for kind in used)
+        sources = graph.get("ui", {}).get("sources", {})
+        if sources:
+            text += "\n## Where the numbers come from\n\n| number | source |\n|---|---|\n"
+            text += "".join(f"| `{key}` | {escaped(value)} |\n" for key, value in sources.items())
+        self.write(f"gallery/{name}", text)
+        card = f"\n:::{{container}} card\n[![The forces of {title}](../_static/gallery/{name}.png)]({name}.md)\n\n**[{title}]({name}.md)**\n\n{graph['about']}\n\n"
+        return card + f"<a href=\"../playground/index.html#preset={name}\">Play</a> · {', '.join(graph.get('tags', []))}\n:::\n"
+
+    def gallery(self):
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            cards = list(pool.map(self.preset_page, self.presets))
+        text = "# Gallery\n\nEach preset: what it feels like, its forces in its own gesture, its sound, and where its numbers come from.\n\n"
+        text += "::::{container} gallery\n" + "".join(cards) + "::::\n"
+        self.write("gallery/index", text + "\n```{toctree}\n:hidden:\n\n" + "\n".join(self.presets) + "\n```\n")
+        self.write("playground", "# Playground\n\n<a href=\"playground/index.html\">Open the playground</a>. A mouse and headphones are enough: press and drag in the "
+                   "picture, and listen.\n\nEach preset is the C++ code that `tactus export --to wasm` writes, as a [WebAssembly module](export.md#in-a-browser). It computes "
+                   "the forces of `tactus render`, bit for bit, and has the same guard. Gamepads rumble. In Chromium and Edge, a board or a DualSense connects "
+                   "by WebHID, with its [profile](devices.md); its motors get only what has passed the guard, and STOP or Escape lets them go.\n\n"
+                   "The hand on the mouse is a spring that holds a simulated tool, so you see the force instead of feeling it: the tool stays behind. "
+                   "*Record* keeps a movement and its forces as CSV; `tactus render --device ROLE=trace:FILE` plays the movement again.\n")
+
+    # ------------------------------------------------------------------ reference
+
+    def commands(self):
+        head = run(self.tactus, "--help")
+        names = re.findall(r"^  ([a-z-]+) {2,}", head.split("Subcommands:")[1].split("Examples:")[0], re.M)
+        text = f"# Commands\n\n```\n{head.strip()}\n```\n"
+        for name in names:
+            text += f"\n## tactus {name}\n\n```\n{run(self.tactus, name, '--help').strip()}\n```\n"
+        self.write("commands", text)
+
+    def c_api(self):
+        text = "# C interfaces\n\nThe headers, as their comments describe them. [Tactus in your own program](library.md) shows how to use them.\n"
+        for header, about in (("tactus.h", "Graphs and runs"), ("tactus_live.h", "Sessions on real devices"), ("tactus_plugin.h", "Nodes in plugins"),
+                              ("tactus_device.h", "Device drivers in plugins")):
+            label = header.replace("_", "__").replace(".h", "_8h")   # as doxygen calls it
+            text += f"\n({label})=\n## {about}: {header}\n\n```{{eval-rst}}\n.. doxygenfile:: {header}\n```\n"
+        self.write("c_api", text)
+
+
+def main():
+    tactus, source = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+    presets = sys.argv[3:] or sorted(path.stem for path in (ROOT / "graphs").glob("*.json"))
+    shutil.rmtree(source, ignore_errors=True)
+    (source / "_static").mkdir(parents=True)
+    shutil.copy(ROOT / "docs/site/conf.py", source)
+    shutil.copy(ROOT / "docs/site/site.css", source / "_static")
+    site = Site(tactus, source, presets)
+    site.pages()
+    site.index()
+    site.node_pages()
+    site.gallery()
+    site.commands()
+    site.c_api()
+    print(f"{source}: {len(PAGES)} pages, {len(site.nodes)} nodes, {len(presets)} presets")
+
+
+if __name__ == "__main__":
+    main()
