@@ -65,6 +65,7 @@ void RunOptions::addTo (const Command& app, Files files)
     app.addOption ("--set", sets, "Set a parameter, NODE.PARAM=VALUE, or a control, CONTROL=0…1; may be given more than once").oneValueEach();
     app.addOption ("--device", devices,
                    "The device of a role: ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME, ROLE=hid:PROFILE (hid:auto), "
+                   "ROLE=serial:PROFILE@PORT, ROLE=udp:PROFILE@ADDRESS:PORT, "
                    "ROLE=audio:CARD, ROLE=DRIVER:PORT for a device driver in a plugin, or ROLE=ID to simulate the device of a profile that holds only "
                    "numbers; may be given more than once")
         .oneValueEach();

@@ -25,7 +25,7 @@ constexpr std::size_t most_keys = 64;
 // The keys of a description that Tactus itself reads.
 constexpr const char* own_keys[] { "driver", "guard", "about", "ui", "workspace" };
 
-constexpr std::string_view built_in[] { "sim", "trace", "gesture", "hid", "audio" };
+constexpr std::string_view built_in[] { "sim", "trace", "gesture", "hid", "serial", "udp", "audio" };
 
 /// The size of the first version of the struct.
 constexpr std::size_t first_size = offsetof (tactus_device_driver, close) + sizeof (void (*)());

@@ -319,6 +319,34 @@ struct Limits
     bool operator== (const Limits&) const = default;
 };
 
+/// How reports are kept apart on a line that carries only bytes: see writeFrame().
+enum class Framing
+{
+    none,
+    cobs,
+    length
+};
+
+/// A serial line, on which a device with this profile may be connected.
+struct SerialWire
+{
+    int baud = 115200;
+    Framing framing = Framing::cobs;
+
+    bool operator== (const SerialWire&) const = default;
+};
+
+/// The wires, besides HID, over which a device sends and gets the same reports.
+struct Wires
+{
+    std::optional<SerialWire> serial;
+    bool udp = false;   ///< each datagram is a report
+
+    bool any() const noexcept { return serial || udp; }
+
+    bool operator== (const Wires&) const = default;
+};
+
 /// A report and its values, for testing a profile without the device.
 struct GoldenSample
 {
@@ -340,6 +368,7 @@ struct Profile
     std::string replaces;   ///< the id of the shipped profile that a user's profile replaces; empty for none
     std::string file;       ///< the file from which the profile was read
     std::vector<MatchRule> match;
+    Wires wires;
     std::vector<Step> init, exit;
     std::vector<InputReport> inputs;
     std::vector<OutputReport> outputs;
@@ -372,6 +401,22 @@ inline std::vector<const InputReport*> placingReports (const Profile& p)
     for (const auto& report : p.inputs)
         if (std::ranges::any_of (report.fields, places)) all.push_back (&report);
     return all;
+}
+
+/// True if the reports of the device begin with an id.
+inline bool usesIds (const Profile& p)
+{
+    const auto has = [] (const auto& report) { return report.id.has_value(); };
+    return std::ranges::any_of (p.inputs, has) || std::ranges::any_of (p.outputs, has);
+}
+
+/// The most bytes that an input report can have; at least 1.
+inline std::size_t longestInput (const Profile& p)
+{
+    std::size_t longest = 1;
+    for (const auto& report : p.inputs)
+        longest = std::max (longest, report.longest);
+    return longest;
 }
 
 /// True for a device that sends only when something changes (quirk "only_changes").

@@ -14,6 +14,7 @@ Profile comparable (Profile p, const Limits& theirs)
     for (auto* text : { &p.id, &p.name, &p.about, &p.replaces, &p.file })
         text->clear();
     p.match.clear();
+    p.wires = {};
     p.sources.clear();
     p.samples.clear();
     const auto forgetChecks = [] (auto& reports) {

@@ -27,7 +27,7 @@ std::vector<MatchRule> readMatch (ProfileFields& profile)
 {
     std::vector<MatchRule> rules;
     const bool is_numbers_only = profile.has ("physics") && ! profile.has ("inputs") && ! profile.has ("outputs");
-    if (! is_numbers_only) profile.require ("match", "write \"match\": [{\"vid\": \"0x16c0\", \"pid\": \"0x0486\"}]");
+    if (! is_numbers_only && ! profile.has ("wires")) profile.require ("match", "write \"match\": [{\"vid\": \"0x16c0\", \"pid\": \"0x0486\"}]");
     profile.each ("match", [&] (ProfileFields& in) {
         MatchRule rule;
         rule.vid = in.ids ("vid");
@@ -46,6 +46,33 @@ std::vector<MatchRule> readMatch (ProfileFields& profile)
         rules.push_back (std::move (rule));
     });
     return rules;
+}
+
+SerialWire readSerial (ProfileFields& in)
+{
+    SerialWire serial;
+    serial.baud = in.whole ("baud", 300, 20'000'000, serial.baud);
+    const auto framing = in.text ("framing");
+    constexpr std::pair<std::string_view, Framing> all[] { { "none", Framing::none }, { "cobs", Framing::cobs }, { "length", Framing::length } };
+    const auto* it = std::ranges::find (all, framing, [] (const auto& f) { return f.first; });
+    if (! in.has ("framing"))
+        in.require ("framing", "write none, cobs or length");
+    else if (it == std::end (all))
+        in.error ("framing", "profile/kind", quote (framing) + " is not a framing", "write none, cobs or length");
+    else
+        serial.framing = it->second;
+    return serial;
+}
+
+Wires readWires (ProfileFields& profile)
+{
+    Wires wires;
+    profile.within ("wires", [&] (ProfileFields& in) {
+        in.within ("serial", [&] (ProfileFields& serial) { wires.serial = readSerial (serial); });
+        in.within ("udp", [&] (ProfileFields&) { wires.udp = true; });
+        if (! wires.any()) in.error ("", "profile/missing", "no wire is named", "write \"serial\" or \"udp\", or leave \"wires\" out");
+    });
+    return wires;
 }
 
 std::vector<Step> readSteps (ProfileFields& profile, std::string_view key)
@@ -213,6 +240,7 @@ Profile read (ProfileFields& in)
     p.about = in.text ("about");
 
     p.match = readMatch (in);
+    p.wires = readWires (in);
     p.init = readSteps (in, "init");
     p.exit = readSteps (in, "exit");
     if (in.has ("replaces")) p.replaces = in.name ("replaces");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hid_port.hpp"
 #include "udev_rule.hpp"
+#include "wires.hpp"
 
 #include <host/hid/answer.hpp>
 #include <host/hid/bits.hpp>
@@ -28,20 +29,6 @@ constexpr int least_tries = 3;
 constexpr const char* check_device = "check that the connected device is the one that the profile describes, and plug it in again";
 
 double secondsOf (Clock::duration d) { return std::chrono::duration<double> (d).count(); }
-
-std::size_t longestInput (const Profile& p)
-{
-    std::size_t longest = 1;
-    for (const auto& r : p.inputs)
-        longest = std::max (longest, r.longest);
-    return longest;
-}
-
-bool usesIds (const Profile& p)
-{
-    const auto has = [] (const auto& report) { return report.id.has_value(); };
-    return std::ranges::any_of (p.inputs, has) || std::ranges::any_of (p.outputs, has);
-}
 
 /// The reports that a device is asked for while they do not come, because it pushes, but sends only when something changes.
 std::vector<const InputReport*> askedFor (const Profile& p)
@@ -73,6 +60,11 @@ Result<> transfer (Transport& t, Step::Kind kind, std::span<std::uint8_t> bytes)
 }
 }   // namespace
 
+Result<std::unique_ptr<Transport>> HidPort::reach (HidSystem& system, const ConnectedDevice& device, const Profile& profile)
+{
+    return device.wire == Wire::hid ? system.open (device) : openWire (device, profile);
+}
+
 HidPort::HidPort (HidSystem& s, ConnectedDevice d, std::shared_ptr<const Profile> p, Options o)
     : system (s), wanted (std::move (d)), description (std::move (p)), options (o), longest_silence (watchdogOf (*description)),
       has_ids (usesIds (*description)), states (askedFor (*description)), ring (reports_waiting, 1, { .bytes = Bytes (longestInput (*description) + 1) }),
@@ -84,11 +76,13 @@ HidPort::HidPort (HidSystem& s, ConnectedDevice d, std::shared_ptr<const Profile
 
 Result<std::unique_ptr<HidPort>> HidPort::open (HidSystem& system, const ConnectedDevice& device, std::shared_ptr<const Profile> profile, Options options)
 {
-    auto opened = system.open (device);
+    auto opened = reach (system, device, *profile);
     if (! opened)
     {
         const auto& why = opened.error();
         const auto named = device.path + " (" + device.product + ")";
+        if (device.wire == Wire::udp)
+            return Message::error (why.id, device.path, named + " is not there: " + why.text, "check its address, its power and its network, and start it");
         if (why.id == "hid/not_permitted") return Message::error (why.id, device.path, "this user may not open " + named, howToPermit (device));
         return Message::error (why.id, device.path, "cannot open " + named + ": " + why.text, "check that no other program is using it, and plug it in again");
     }

@@ -57,7 +57,7 @@ struct PortCounts
     double latency_min = 0.0, latency_mean = 0.0, latency_max = 0.0;   ///< from the arrival of a report until its answer was sent, in s
 };
 
-/// An open HID device with a reading thread and a writing thread. Incoming reports queue up until a tick takes them. Only the
+/// An open device with a profile, over HID or another wire, with a reading thread and a writing thread. Incoming reports queue up until a tick takes them. Only the
 /// latest of each outgoing report is kept, so nothing ever queues up on the way out.
 ///
 /// The tick thread of a run that the device ticks reads the device itself, which saves the report a change of threads (readHere).
@@ -66,7 +66,8 @@ struct PortCounts
 ///  - On opening, and when the device comes back, the port performs the profile's init steps; on closing, it sends the
 ///    neutral reports and performs the exit steps. A number that the device returns in a step (Answer) is inserted into
 ///    everything sent afterwards.
-///  - If the device goes away, the port looks for it every half second, by serial number, else by path, else by ids.
+///  - If the device goes away, the port looks for it every half second, by serial number, else by path, else by ids; over another wire, by the
+///    place that the person has named.
 ///  - A device that is driven, but sends only when something changes, is asked for the reports that say where it is while they do not
 ///    come, once it has sent something. An answer is a report like any other. If it does not answer, or takes longer than the watchdog, it is not asked again
 ///    until it is reopened, and its readings get old when nothing changes.
@@ -187,6 +188,8 @@ private:
     };
 
     using Opened = std::shared_ptr<Transport>;
+
+    static Result<std::unique_ptr<Transport>> reach (HidSystem&, const ConnectedDevice&, const Profile&);
 
     Result<> wake (Transport&);
     Result<> perform (Transport&, const Step&);

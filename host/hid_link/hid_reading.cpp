@@ -17,7 +17,6 @@ using Kind = ReportFile::Outcome::Kind;
 
 constexpr auto longest_read = 20ms;            // short, so that a stop request is noticed promptly
 constexpr std::size_t most_at_once = 256;      // a device that sends faster than it can be read must not keep the run from ticking
-constexpr std::size_t kept_by_system = 63;     // reports that Linux keeps for a reader; it drops newer ones (HIDRAW_BUFFER_SIZE is 64)
 constexpr Clock::time_point without_waiting;   // has passed
 
 bool isOf (const InputReport& described, std::span<const std::uint8_t> report)
@@ -100,7 +99,7 @@ bool HidPort::readUntil (Clock::time_point until) noexcept
         works = got.what == Kind::report ? takeWaiting() : got.what == Kind::nothing;   // the newest counts
     }
     was_late = was_late || taken() > 1;   // woken too late
-    may_lack_newest = taken() >= kept_by_system;
+    may_lack_newest = taken() >= lent->keptBySystem();
     return works;
 }
 
@@ -247,10 +246,10 @@ void HidPort::lookAgain()
     }
     if (isStopping()) return;
 
-    const auto devices = system.connected();
-    const auto* same = sameAmong (devices);
+    const auto devices = wanted.wire == Wire::hid ? system.connected() : std::vector { wanted };   // a person has named the place of a wire
+    const auto* same = wanted.wire == Wire::hid ? sameAmong (devices) : &devices.front();
     if (same == nullptr) return;
-    auto opened = system.open (*same);
+    auto opened = reach (system, *same, *description);
     if (! opened) return note (opened.error().text);
     if (const auto woken = wake (**opened); ! woken) return note (woken.error().text + "; " + woken.error().remedy);
     become (std::move (*opened));

@@ -2,6 +2,7 @@
 #include "open_device.hpp"
 #include "force_feedback.hpp"
 #include "hid_device.hpp"
+#include "wires.hpp"
 #include <tactus/run/device/guard_limits.hpp>
 #include <tactus/text/closest_match.hpp>
 #include <tactus/text/message.hpp>
@@ -22,11 +23,13 @@ constexpr double default_ramp = 0.2;   // in s, for a profile that takes efforts
 
 struct DeviceRequest
 {
+    Wire wire = Wire::hid;
     std::string profile, serial;   // "" matches any
+    std::string port;              // where the wire goes, unless it is HID
     std::optional<PidCalibration> calibration {};
 
-    bool meansPid() const { return profile == pid_profile; }
-    bool mayMeanPid() const { return profile.empty() || meansPid(); }
+    bool meansPid() const { return wire == Wire::hid && profile == pid_profile; }
+    bool mayMeanPid() const { return wire == Wire::hid && (profile.empty() || meansPid()); }
 };
 
 DeviceRequest readRequest (const Json& description, Messages& messages)
@@ -35,8 +38,15 @@ DeviceRequest readRequest (const Json& description, Messages& messages)
     for (const auto* key : { "driver", "about", "ui" })
         in.ignore (key);
     DeviceRequest wanted;
+    wanted.wire = wireOf (description);
+    if (wanted.wire != Wire::hid)
+    {
+        in.require ("profile", "write \"profile\": the id of the device's profile, because nothing else tells which device is at the other end");
+        in.require ("port", wanted.wire == Wire::serial ? "write \"port\": \"/dev/ttyACM0\"" : "write \"port\": \"192.168.4.1:9750\"");
+        wanted.port = in.text ("port");
+    }
     wanted.profile = in.text ("profile");
-    wanted.serial = in.text ("serial");
+    if (wanted.wire == Wire::hid) wanted.serial = in.text ("serial");
     in.ignore ("guard");   // checked once the device is known, because its buttons are not known earlier
     in.ignore ("calibration");
     in.finish();
@@ -76,6 +86,22 @@ std::shared_ptr<const Profile> findProfile (const std::string& id, const LoadedP
     return nullptr;
 }
 
+std::string driverOf (const Json& description)
+{
+    if (! description.is_object()) return {};
+    const auto driver = description.find ("driver");
+    return driver != description.end() && driver->is_string() ? driver->get<std::string>() : std::string();
+}
+
+/// Says that the profile cannot be used over this wire, if so.
+void checkWire (const DeviceRequest& wanted, const Profile& profile, Messages& messages)
+{
+    if ((wanted.wire != Wire::serial || profile.wires.serial) && (wanted.wire != Wire::udp || profile.wires.udp)) return;
+    const std::string name = wanted.wire == Wire::serial ? "serial" : "udp";
+    messages.push_back (Message::error ("hid/wire", "/driver", "the profile " + quote (profile.id) + " is not for this wire",
+                                        "add \"wires\": {\"" + name + "\": …} to the profile, if the device really speaks so"));
+}
+
 std::string namesOf (const std::vector<ConnectedDevice>& devices)
 {
     std::string names;
@@ -93,11 +119,21 @@ struct Match
 };
 }   // namespace
 
-bool isHid (const Json& description)
+bool isHid (const Json& description) { return driverOf (description) == "hid" || wireOf (description) != Wire::hid; }
+
+Wire wireOf (const Json& description)
 {
-    if (! description.is_object()) return false;
-    const auto driver = description.find ("driver");
-    return driver != description.end() && *driver == "hid";
+    const auto driver = driverOf (description);
+    if (driver == "serial") return Wire::serial;
+    return driver == "udp" ? Wire::udp : Wire::hid;
+}
+
+bool isThere (const Json& description)
+{
+    if (wireOf (description) != Wire::serial) return true;
+    const auto port = description.find ("port");
+    std::error_code unseen;
+    return port != description.end() && port->is_string() && std::filesystem::exists (port->asString(), unseen);
 }
 
 std::vector<ConnectedDevice> eachOnce (const std::vector<ConnectedDevice>& listed, const LoadedProfiles& all)
@@ -135,6 +171,19 @@ FoundDevice findDevice (const Json& description, HidSystem& system, const Loaded
     if (named && isNumbersOnly (*named))
         return refuse ("hid/numbers_only", "Tactus cannot open a " + named->name + ": its profile holds only numbers",
                        "to simulate the device, write --device ROLE=" + named->id);
+    if (wanted.wire != Wire::hid)
+    {
+        checkWire (wanted, *named, found.messages);
+        if (hasErrors (found.messages)) return found;
+        if (! isThere (description))
+            return refuse ("hid/not_connected", "there is no port " + quote (wanted.port),
+                           "plug the device in, and look for its port with: ls /dev/serial/by-id /dev/ttyACM* /dev/ttyUSB*");
+        found.device.wire = wanted.wire;
+        found.device.path = wanted.wire == Wire::serial ? lastingNameOf (wanted.port) : wanted.port;
+        found.device.product = named->name;
+        found.profile = named;
+        return found;
+    }
 
     const auto connected = eachOnce (system.connected(), all);
     std::vector<Match> matches;
@@ -219,7 +268,8 @@ Messages checkDevice (const Json& description, const std::filesystem::path& fold
     if (! isHid (description)) return makeDevice (description, folder).messages;
     Messages messages;
     const auto wanted = readRequest (description, messages);
-    const auto profile = wanted.mayMeanPid() ? nullptr : findProfile (wanted.profile, all, messages);
+    const auto profile = wanted.mayMeanPid() || (wanted.wire != Wire::hid && wanted.profile.empty()) ? nullptr : findProfile (wanted.profile, all, messages);
+    if (profile) checkWire (wanted, *profile, messages);
     readGuard (description, profile ? layoutOf (HidModel (profile)) : DeviceLayout {}, messages);
     if (! profile)   // any device, with any buttons, may be connected later
         std::erase_if (messages, [] (const Message& m) { return m.id == "device/unknown_button"; });

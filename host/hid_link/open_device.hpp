@@ -9,8 +9,15 @@
 namespace tactus::host::hid
 {
 
-/// True if the description selects a real device (driver "hid").
+/// True if the description selects a real device that has a profile: over HID, or over another wire that the profile names (drivers "hid",
+/// "serial" and "udp").
 bool isHid (const Json& description);
+
+/// The wire of such a description.
+Wire wireOf (const Json& description);
+
+/// True if something is where the description says: always for UDP, where only an answer could tell. For wires other than HID.
+bool isThere (const Json& description);
 
 /// Some systems list a device once per HID collection. Keeps one entry per device: the one that a profile fits best.
 std::vector<ConnectedDevice> eachOnce (const std::vector<ConnectedDevice>&, const LoadedProfiles&);
@@ -26,9 +33,13 @@ struct FoundDevice
 /// Finds the device of a description such as `{"driver": "hid", "profile": "tactus_board", "serial": "B7", "guard": {…}}`.
 /// Without a profile, or with "auto", the most specific profile that fits a connected device is used. The serial number is
 /// needed only if several devices fit. The profile "pid" means any device with force feedback according to the USB
-/// standard, with a "calibration" (readCalibration); so does "auto" if no profile fits. [main thread]
+/// standard, with a "calibration" (readCalibration); so does "auto" if no profile fits.
 ///
-/// Ids: hid/unknown_profile, hid/numbers_only, hid/not_connected, hid/several, hid/calibration, those of ObjectReader and profileOf,
+/// Over a serial line or UDP, nothing tells which device is at the other end, so the description names both the profile and the place:
+/// `{"driver": "serial", "profile": "tactus_board", "port": "/dev/ttyACM0"}`, `{"driver": "udp", "profile": "tactus_board", "port":
+/// "192.168.4.1:9750"}`. [main thread]
+///
+/// Ids: hid/unknown_profile, hid/wire, hid/numbers_only, hid/not_connected, hid/several, hid/calibration, those of ObjectReader and profileOf,
 /// and the warnings of profiles.
 FoundDevice findDevice (const Json& description, HidSystem&, const LoadedProfiles&);
 

@@ -44,6 +44,9 @@ public:
     /// True if readUntil() works.
     virtual bool canReadUntil() const noexcept { return false; }
 
+    /// How many reports the system keeps for a reader who is late; it drops newer ones.
+    virtual std::size_t keptBySystem() const noexcept { return 63; }   // Linux, of HID: HIDRAW_BUFFER_SIZE is 64
+
     /// Like read(), for the thread that ticks a run: neither allocates nor throws, and waits precisely until that time. Does not wait
     /// if it has passed. After a failure, read() says why.
     virtual ReportFile::Outcome readUntil (std::span<std::uint8_t>, ReportFile::Clock::time_point) noexcept
@@ -67,10 +70,19 @@ public:
     virtual bool beat (bool /*driven*/) noexcept { return true; }
 };
 
+/// What connects a device to this computer.
+enum class Wire
+{
+    hid,
+    serial,
+    udp
+};
+
 /// A connected device, whether open or not.
 struct ConnectedDevice : DeviceInfo
 {
-    std::string path;           ///< the system's name for the device, such as /dev/hidraw3
+    Wire wire = Wire::hid;
+    std::string path;           ///< the system's name for the device, such as /dev/hidraw3 or /dev/ttyACM0; of UDP: its address
     std::string serial;         ///< empty if the device has none
     std::string manufacturer;   ///< empty if the device has none
 };

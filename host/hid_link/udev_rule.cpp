@@ -17,8 +17,9 @@ std::string udevRule (const DeviceInfo& d)
     return rule;
 }
 
-std::string howToPermit (const DeviceInfo& d)
+std::string howToPermit (const ConnectedDevice& d)
 {
+    if (d.wire == Wire::serial) return "join the group of " + d.path + " (on Debian: sudo adduser $USER dialout), and log in again";
     return "write this line to /etc/udev/rules.d/70-tactus.rules:\n        " + udevRule (d)
            + "\n    then run `sudo udevadm control --reload && sudo udevadm trigger`, and plug the device in again";
 }

@@ -12,6 +12,6 @@ namespace tactus::host::hid
 std::string udevRule (const DeviceInfo&);
 
 /// Instructions for installing the rule, with the commands.
-std::string howToPermit (const DeviceInfo&);
+std::string howToPermit (const ConnectedDevice&);
 
 }   // namespace tactus::host::hid

@@ -308,7 +308,16 @@ bool isAnythingArmed() noexcept
 
 Result<Failsafe> Failsafe::arm (const std::string& device_file, const std::vector<Report>& reports)
 {
-    const auto failed = [&] (std::string why) { return Message::error ("device/failsafe", device_file, std::move (why)); };
+    const int file = ::open (device_file.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);   // a tty must not become that of this session
+    if (file < 0) return Message::error ("device/failsafe", device_file, reason (errno));
+    auto armed = arm (file, device_file, reports);
+    ::close (file);
+    return armed;
+}
+
+Result<Failsafe> Failsafe::arm (int descriptor, const std::string& name, const std::vector<Report>& reports)
+{
+    const auto failed = [&] (std::string why) { return Message::error ("device/failsafe", name, std::move (why)); };
 
     if (is_child) return failed ("a process that was forked from one that has used devices cannot open devices; start a new one");
     const std::lock_guard lock (changing);
@@ -330,7 +339,7 @@ Result<Failsafe> Failsafe::arm (const std::string& device_file, const std::vecto
         used += r.bytes.size();
     }
 
-    const int file = ::open (device_file.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);   // a tty must not become that of this session
+    const int file = ::fcntl (descriptor, F_DUPFD_CLOEXEC, 0);
     if (file < 0) return failed (reason (errno));
     auto why = needGuardian();
     if (why.empty())
@@ -415,6 +424,8 @@ Result<Failsafe> Failsafe::arm (const std::string& device_file, const std::vecto
 {
     return Message::error ("device/no_failsafe", device_file, "there is no failsafe on this system");
 }
+
+Result<Failsafe> Failsafe::arm (int, const std::string& name, const std::vector<Report>& reports) { return arm (name, reports); }
 
 Failsafe::~Failsafe() = default;
 bool Failsafe::beat (bool) noexcept { return true; }

@@ -51,6 +51,9 @@ public:
     /// Arms the failsafe. Writes nothing now. Ids: device/failsafe; device/no_failsafe on systems without one. [main thread, or one that opens devices]
     static Result<Failsafe> arm (const std::string& device_file, const std::vector<Report>&);
 
+    /// The same for a device that is open already, such as a socket, whatever its name. The descriptor is duplicated; it must not block.
+    static Result<Failsafe> arm (int descriptor, const std::string& name, const std::vector<Report>&);
+
     Failsafe (Failsafe&&) noexcept;
     Failsafe& operator= (Failsafe&&) noexcept;
     ~Failsafe();   ///< disarms the failsafe

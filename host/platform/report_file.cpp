@@ -22,9 +22,9 @@ namespace
 using Outcome = ReportFile::Outcome;
 
 Outcome failure (int error) noexcept { return { .what = Outcome::Kind::failure, .error = error }; }
+}   // namespace
 
-/// Waits until the file has something to read. 0: it has; ETIMEDOUT: it has not; any other number: the failure.
-int waitFor (int file, ReportFile::Clock::time_point until) noexcept
+int waitForInput (int file, ReportFile::Clock::time_point until) noexcept
 {
     for (;;)
     {
@@ -37,7 +37,6 @@ int waitFor (int file, ReportFile::Clock::time_point until) noexcept
         if (ready > 0) return (polled.revents & (POLLERR | POLLHUP | POLLNVAL)) != 0 ? EIO : 0;
     }
 }
-}   // namespace
 
 std::optional<ReportFile> ReportFile::open (const std::string& path) noexcept
 {
@@ -65,7 +64,7 @@ Outcome ReportFile::read (std::span<std::uint8_t> into, Clock::time_point until)
         if (got == 0) return failure (EIO);   // the end of the file: the system does not pass on empty reports
         if (errno == EINTR) continue;
         if (errno != EAGAIN) return failure (errno);
-        const int waited = waitFor (file, until);
+        const int waited = waitForInput (file, until);
         if (waited == ETIMEDOUT) return {};
         if (waited != 0) return failure (waited);
     }

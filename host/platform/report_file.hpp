@@ -60,4 +60,8 @@ private:
     int file = -1;
 };
 
+/// Waits until a file has something to read; does not wait if `until` has passed. 0: it has; ETIMEDOUT: it has not; any other number: the
+/// failure, EIO for a file whose other end is gone. Only on Linux.
+int waitForInput (int file, ReportFile::Clock::time_point until) noexcept;
+
 }   // namespace tactus::host

@@ -54,6 +54,7 @@ bool namesPlugin (const Json& description)
 
 bool isAmong (const Json& description, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& all)
 {
+    if (hid::wireOf (description) != hid::Wire::hid) return hid::isThere (description);
     return std::ranges::any_of (connected, [&] (const auto& device) { return profileFor (description, device, all) != nullptr; });
 }
 

@@ -22,7 +22,7 @@ ONLY = [
     ("starting the ticks", r"running->start \(", [SESSION]),
     ("starting a log", r"startLog \(", [SESSION]),
     ("looking at alarms of the failsafe", r"Failsafe::alarms \(|Failsafe::alarms\(\)(?! noexcept)", [SESSION]),
-    ("arming a device", r"= Failsafe::arm \(", ["host/hid_link/hidapi_system.cpp", "host/device_plugins/driver_about.cpp"]),
+    ("arming a device", r"= Failsafe::arm \(", ["host/hid_link/hidapi_system.cpp", "host/hid_link/wires.cpp", "host/device_plugins/driver_about.cpp"]),
     ("rearming a run", r"engine\(\)\.rearm\(\)", [SESSION]),
     ("stopping an engine", r"engine\(\)\.emergencyStop\(\)", [SESSION]),
     ("watching the health of devices", r"= HealthWatch \{", [SESSION]),

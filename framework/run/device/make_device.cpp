@@ -224,7 +224,7 @@ std::vector<std::string> driverNames()
 }
 
 // Drivers of real devices, which other parts of Tactus open, and what chooses such a device in `--device ROLE=`.
-constexpr std::string_view real_drivers[] { "hid", "audio" };
+constexpr std::string_view real_drivers[] { "hid", "serial", "udp", "audio" };
 
 std::string driverOf (const Json& description)
 {
@@ -244,9 +244,10 @@ std::string optionFor (const Json& description, const std::string& role)
 {
     const auto driver = driverOf (description);
     auto option = "--device " + role + "=" + driver;
-    if (driver != "hid") return option;
+    if (driver == "audio") return option;
     const auto profile = description.find ("profile");
     const bool is_named = profile != description.end() && profile->is_string() && graph::isId (profile->asString());
+    if (driver != "hid") return option + ":" + (is_named ? profile->get<std::string>() : "PROFILE") + "@PORT";
     return option + ":" + (is_named ? profile->get<std::string>() : "auto");
 }
 
@@ -320,7 +321,7 @@ namespace
 Message badOption (std::string_view text, std::string what)
 {
     return Message::error ("device/option", "--device " + std::string (text), std::move (what),
-                           "write ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME, ROLE=hid:PROFILE, ROLE=audio:CARD or ROLE=DRIVER:PORT");
+                           "write ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME, ROLE=hid:PROFILE, ROLE=serial:PROFILE@PORT, ROLE=udp:PROFILE@ADDRESS:PORT, ROLE=audio:CARD or ROLE=DRIVER:PORT");
 }
 
 Json simulated (std::string_view role, const std::vector<std::pair<std::string, Json>>& described)
@@ -381,9 +382,22 @@ Result<DeviceOption> parseDeviceOption (std::string_view text, const std::vector
             return DeviceOption { .role = role, .description = { { "driver", driver }, { key, name } }, .folder = {} };
         }
 
+    for (const std::string_view wire : { "serial", "udp" })
+        if (what.starts_with (wire) && what.substr (wire.size()).starts_with (':'))
+        {
+            const auto profile = what.substr (wire.size() + 1);
+            const auto at = profile.find ('@');
+            if (at == profile.npos || at == 0 || at + 1 == profile.size())
+                return badOption (text, quote (what) + " does not say both the profile and the place, as " + std::string (wire) + ":tactus_board@"
+                                            + (wire == "udp" ? "192.168.4.1:9750" : "/dev/ttyACM0") + " does");
+            return DeviceOption { .role = role,
+                                  .description = { { "driver", wire }, { "profile", profile.substr (0, at) }, { "port", profile.substr (at + 1) } },
+                                  .folder = {} };
+        }
+
     if (! what.ends_with (".json"))
         return badOption (text, what.empty() ? "there is nothing after '='"
-                                             : quote (what) + " is not sim, trace:, gesture:, hid:, audio, an installed driver or a .json file");
+                                             : quote (what) + " is not sim, trace:, gesture:, hid:, serial:, udp:, audio, an installed driver or a .json file");
     return fromFile (text, std::move (role), Folder (what));
 }
 

@@ -40,8 +40,8 @@ struct MadeDevice
 /// the end; for a hand, stiffness 100 N/m and damping 2 N s/m. The default position is the start of the hand's path, because the
 /// tool is in the hand, or 0 without a hand.
 ///
-/// These drivers are the only ones that open no hardware. "hid" and "audio" are for real devices, which are opened by hid::openDevice
-/// and audio::openAudio; here they are refused.
+/// These drivers are the only ones that open no hardware. "hid", "serial", "udp" and "audio" are for real devices, which are opened by
+/// hid::openDevice and audio::openAudio; here they are refused.
 ///
 /// Ids: device/unknown_driver, device/real, device/missing, device/unknown_key, device/kind, device/unit,
 /// device/out_of_range, device/unknown_gesture, device/unknown_button, device/name, and the ids of trace/ and csv/.

@@ -162,9 +162,9 @@ Json deviceOf (Quantities& quantities)
              { "required", Json::array ({ "driver" }) },
              { "properties",
                { { "driver",
-                   { { "enum", Json::array ({ "sim", "trace", "gesture", "hid", "audio" }) },
+                   { { "enum", Json::array ({ "sim", "trace", "gesture", "hid", "serial", "udp", "audio" }) },
                      { "description", "sim: a simulated tool; trace: a recording; gesture: a hand that does not yield. A graph cannot choose real devices: "
-                                      "hid and audio become a simulated tool at rest." } } },
+                                      "hid, serial, udp and audio become a simulated tool at rest." } } },
                  { "guard", guard (quantities) } } },
              { "allOf", Json::array ({ driver ("sim", simulated (quantities), {}, quantities), driver ("trace", recorded, { "path" }, quantities),
                                        driver ("gesture", moved, { "path" }, quantities) }) } };

@@ -85,6 +85,7 @@ public:
         limits();
         echoes();
         steps();
+        wires();
         for (const auto& sample : p.samples)
             golden (sample);
     }
@@ -253,6 +254,21 @@ private:
                 if (step.bytes.empty())
                     in.error (list == &p.init ? "init" : "exit", "profile/missing", "the step has no bytes",
                               "write \"bytes\": the whole report, starting with its id, or with 00 if it has none");
+    }
+
+    /// Checks that everything that the device needs can pass over its wires.
+    void wires()
+    {
+        if (! p.wires.any()) return;
+        const auto isFeature = [] (const auto& list) { return std::ranges::any_of (list, [] (const auto& s) { return s.kind != Step::Kind::output; }); };
+        if (isFeature (p.init) || isFeature (p.exit) || std::ranges::any_of (p.outputs, &OutputReport::is_feature))
+            in.error ("wires", "profile/wire", "feature reports exist only in HID", "make them output reports, or leave \"wires\" out");
+        if (! p.wires.serial || p.wires.serial->framing != Framing::none) return;
+        for (const auto& report : p.inputs)
+            if (report.length != report.longest || std::ranges::none_of (report.fields, [] (const auto& f) { return f.expect.has_value(); }))
+                in.error ("wires", "profile/wire",
+                          "without framing, nothing tells where a report begins, unless it has a fixed length and a field with \"expect\"",
+                          "choose the framing cobs or length, or give each input report such a field and no \"longest\"");
     }
 
     void golden (const GoldenSample& sample)

@@ -37,9 +37,9 @@ double lawOf (const Encoding& e, double value) noexcept
         return value;
     }
 }
+}   // namespace
 
-/// The value of an encoded number; used to find the rest values in a neutral report.
-double valueOf (const Encoding& e, double number) noexcept
+double decoded (const Encoding& e, double number) noexcept
 {
     const double law = number * e.scale + e.offset;
     switch (e.law)
@@ -52,7 +52,6 @@ double valueOf (const Encoding& e, double number) noexcept
         return law;
     }
 }
-}   // namespace
 
 double encoded (const Encoding& e, double value) noexcept { return (lawOf (e, value) - e.offset) / e.scale; }
 
@@ -73,7 +72,7 @@ ReportEncoder::ReportEncoder (std::shared_ptr<const Profile> p, const ReportDeco
                     f.index = static_cast<int> (names.size());
                     names.push_back (field.name);
                     units.push_back (field.unit);
-                    rest[static_cast<std::size_t> (f.index)] = std::clamp (valueOf (field.encoding, numberOf (field.bits, f.neutral)), field.min, field.max);
+                    rest[static_cast<std::size_t> (f.index)] = std::clamp (decoded (field.encoding, numberOf (field.bits, f.neutral)), field.min, field.max);
                 }
             }
             r.fields.push_back (f);

@@ -18,6 +18,9 @@ class ReportDecoder;
 /// A finite value after its law and its scale are applied: the number to write, before it is rounded and limited to the bits of its field.
 double encoded (const Encoding&, double value) noexcept;
 
+/// The value that a number in a report stands for. Where a law gives several values the same number, one of them.
+double decoded (const Encoding&, double number) noexcept;
+
 /// Encodes values into bytes: clamped to the range of each field, with counters and checksums. Never allocates or throws
 /// after construction.
 class ReportEncoder

@@ -18,7 +18,7 @@ check = SchemaCheck(folder / "profile.schema.json")
 # For each profile: a path into it and the bad value there; None removes the key.
 bad = {
     "tactus_board": [
-        (["format"], "other"), (["version"], 2), (["id"], "Board"), (["id"], None), (["name"], ""), (["match"], None), (["match", 0, "vid"], "16c0"),
+        (["format"], "other"), (["version"], 2), (["id"], "Board"), (["id"], None), (["name"], ""), (["match", 0, "vid"], "16c0"),
         (["match", 0, "bus"], "serial"), (["match", 0], {"pid": 3}), (["inputs", 0, "length"], 0), (["inputs", 0, "length"], "64"),
          (["inputs", 0, "verified"], None),
         (["inputs", 0, "why_not"], None), (["inputs", 0, "fields", 0, "type"], "u33"), (["inputs", 0, "fields", 0, "type"], "u12be"),
@@ -28,9 +28,12 @@ bad = {
         (["outputs", 0, "fields", 2, "name"], None), (["outputs", 0, "crc32", "at"], None), (["position"], ["x", "y"]), (["position", 0], 3),
         (["limits", "max_forse"], "3 N"), (["limits", "max_force"], [3]), (["sources"], []), (["samples", 0, "input"], []), (["samples", 0, "input"], ["0"]),
         (["axes"], ["x", "y", "up"]), (["colour"], "red"),
+        (["wires"], {}), (["wires", "smoke"], {}), (["wires", "serial", "framing"], None), (["wires", "serial", "framing"], "slip"),
+        (["wires", "serial", "baud"], "fast"), (["wires", "udp"], 9750),
         (["alarms", 0, "field"], None), (["alarms", 0, "means"], "smoke"), (["alarms", 0, "means"], None), (["alarms", 2, "is"], -1), (["alarms", 0, "if"], 1),
     ],
     "woodenhaptics_usb": [
+        (["match"], None),
         (["kinematics", "serial", "links"], [1, 2]), (["kinematics", "serial", "links", 0], 0), (["kinematics", "serial", "drives", 0, "body"], None),
         (["kinematics", "linear"], {"matrix": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}), (["kinematics", "serial", "drives", 0, "counts_per_turn"], None),
     ],

@@ -290,7 +290,7 @@ TEST_CASE ("user's profiles: one that differs from the shipped profile in anythi
 
 TEST_CASE ("user's profiles: every key of a profile that comes with Tactus counts, except a few", "[hid]")
 {
-    const std::vector<std::string> may_differ { "/$schema", "/id", "/name", "/about", "/match", "/replaces", "/sources", "/samples", "/limits" };
+    const std::vector<std::string> may_differ { "/$schema", "/id", "/name", "/about", "/match", "/wires", "/replaces", "/sources", "/samples", "/limits" };
     const auto folder = std::filesystem::path (TACTUS_SOURCE_DIR) / "host" / "profiles";
     int changed = 0;
     for (const auto* id : { "tactus_board", "woodenhaptics_usb", "dualsense_bluetooth_samples", "switch_controllers", "steam_triton" })

@@ -349,7 +349,7 @@ TEST_CASE ("a graph never chooses a real device: its role gets a tool at rest, a
     CHECK (none.empty());
 
     // Whatever is not in the list of simulated drivers is refused, also what may become the driver of a real device later.
-    const Json unknown[] { "serial", "HID", "hid ", "tcp://10.0.0.1", "bridge", "pid", "", 1, Json() };
+    const Json unknown[] { "websocket", "HID", "hid ", "tcp://10.0.0.1", "bridge", "pid", "", 1, Json() };
     for (const auto& driver : unknown)
     {
         const Json description { { "driver", driver }, { "path", "/dev/ttyACM0" } };

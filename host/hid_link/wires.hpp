@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "transport.hpp"
+
+#include <memory>
+#include <string>
+
+namespace tactus::host::hid
+{
+
+/// Opens a device at the other end of a wire that is not HID. The reports are those of its profile, byte for byte: on a serial line in frames
+/// (writeFrame), over UDP one in each datagram. A report id is the first byte; without ids, the leading 0 of HID is not sent.
+///
+/// Nothing here waits for the device to take what is sent: a report that the line has no room for is refused, because a queue of forces is a
+/// delay.
+///
+/// A UDP device sends its reports to whoever has spoken to it last. So it is spoken to, with a datagram without content, when it is opened and
+/// after each 100 ms of silence. It counts as gone if it does not answer within 200 ms of being opened, or is silent for a second (unless its
+/// profile says that it reports only changes). A datagram with an earlier number than the last one is dropped.
+///
+/// Ids: hid/not_permitted, hid/not_opened; the text is the reason. [main thread, or the reading thread of a port]
+Result<std::unique_ptr<Transport>> openWire (const ConnectedDevice&, const Profile&);
+
+/// A name of a serial port that stays the same when the port is plugged in again: that of the link in `by_id` that leads to it if there is one,
+/// else the name itself.
+std::string lastingNameOf (const std::string& port, const std::string& by_id = "/dev/serial/by-id");
+
+}   // namespace tactus::host::hid
