@@ -20,6 +20,7 @@ void addSet (const Command&);
 void addHit (const Command&);
 void addProbe (const Command&);
 void addDevices (const Command&);
+void addFakeDevice (const Command&);
 void addSession (const Command&);
 void addBench (const Command&);
 void addFit (const Command&);

@@ -31,6 +31,7 @@ constexpr auto examples =
     "  tactus hit ring.hit=0.4                        while it plays\n"
     "  tactus probe drag.force                        while it plays\n"
     "  tactus devices                                 connected devices and their profiles\n"
+    "  tactus fake-device tactus_board                  a device that is not there, for tests\n"
     "  tactus session graphs/dry_wood.json            the devices bound to its roles\n"
     "  tactus fit shock tap.csv -o tap.json           a preset from a recording\n"
     "  tactus fit curve liver.csv -o liver.json       a body from an indentation\n"
@@ -66,6 +67,7 @@ int main (int argc, char** argv)
     addHit (app);
     addProbe (app);
     addDevices (app);
+    addFakeDevice (app);
     addSession (app);
     addBench (app);
     addFit (app);

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+#include "report.hpp"
+
+#include <host/hid/hex.hpp>
+#include <host/hid_link/fake_device.hpp>
+#include <host/hid_link/profile_library.hpp>
+#include <host/platform/signals.hpp>
+#include <tactus/run/device/make_device.hpp>
+#include <tactus/run/tick_clock.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+namespace tactus::host
+{
+
+namespace
+{
+using namespace hid;
+using Clock = std::chrono::steady_clock;
+
+struct FakeOptions
+{
+    std::string profile, wire, link, hand = "gesture:stroke", log;
+    std::vector<std::string> faults;
+    int port = 0;
+    double duration_s = 0.0;
+};
+
+std::shared_ptr<const Profile> profileOf (const std::string& id)
+{
+    auto all = loadProfileLibrary();
+    if (auto found = profileNamed (all, id)) return found;
+    std::vector<std::string> names;
+    for (const auto& p : all.profiles)
+        if (p->wires.any()) names.push_back (p->id);
+    fail (Message::error ("hid/unknown_profile", "", "there is no device profile " + quote (id), suggestion (id, names)));
+}
+
+/// The hand is any device that a graph may have, as in --device ROLE=.
+std::unique_ptr<Device> handOf (const std::string& text)
+{
+    const std::vector<std::pair<std::string, Json>> no_graph;
+    auto parsed = tactus::parseDeviceOption ("hand=" + text, no_graph, {});
+    if (! parsed) fail (Message::error (parsed.error().id, "--hand " + text, parsed.error().text, "write gesture:NAME, trace:FILE.csv, sim or FILE.json"));
+    auto made = makeDevice (parsed->description, parsed->folder);
+    for (const auto& m : made.messages)
+        if (m.severity == Message::Severity::error) fail (Message::error (m.id, "--hand " + text + m.where, m.text, m.remedy));
+    return std::move (made.device);
+}
+
+std::string textOf (const FakeDevice::Line& line)
+{
+    const auto step = std::to_string (line.step);
+    if (line.what == FakeDevice::Line::What::released) return step + " ! the watchdog has released the motors\n";
+    return step + (line.what == FakeDevice::Line::What::sent ? " > " : " < ") + hexOf (line.bytes) + "\n";
+}
+
+void play (FakeDevice& fake, double duration_s, std::ofstream& log)
+{
+    const auto period = toDuration (1.0 / fake.rate());
+    auto due = Clock::now();
+    while (! stopRequested() && (duration_s <= 0.0 || fake.time() < duration_s))
+    {
+        fake.step();
+        log.flush();   // whoever reads it sees what has happened
+        due += period;
+        while (Clock::now() < due && fake.hear (due))
+            ;
+        std::this_thread::sleep_until (due);
+        due = std::max (due, Clock::now() - std::chrono::milliseconds (100));   // after a pause, not everything is caught up
+    }
+}
+
+void run (const FakeOptions& o)
+{
+    watchForStop();
+    const auto profile = profileOf (o.profile);
+    const bool is_udp = o.wire == "udp" || (o.wire.empty() && ! profile->wires.serial);
+    FakeDevice::Options options { .wire = is_udp ? Wire::udp : Wire::serial, .link = o.link, .port = o.port, .faults = {} };
+    if (options.wire == Wire::udp && ! o.link.empty()) throw UsageError ("--link", "only a serial line has a name to link to");
+    for (const auto& text : o.faults)
+        options.faults.push_back (orFail (readFault (text)));
+    auto fake = orFail (FakeDevice::make (profile, handOf (o.hand), options));
+
+    std::ofstream log;
+    if (! o.log.empty())
+    {
+        log.open (o.log);
+        if (! log) fail (Message::error ("output/unwritable", o.log, "the log cannot be written", "name a file in a folder that you may write to"));
+        fake->on_line = [&log] (const FakeDevice::Line& line) { log << textOf (line); };
+    }
+    const auto driver = options.wire == Wire::udp ? "udp" : "serial";
+    const auto place = ! o.link.empty() ? o.link : fake->place();
+    std::cout << "a fake " << profile->name << " is at " << place << "; play on it: --device ROLE=" << driver << ":" << profile->id << "@" << place << "\n"
+              << std::flush;
+    play (*fake, o.duration_s, log);
+    const auto n = fake->counts();
+    std::cout << fake->place() << ": " << n.sent << " reports sent, " << n.heard << " heard, " << n.refused << " refused, " << n.stray << " stray bytes, "
+              << "released by the watchdog " << n.released << " times\n";
+    if (! o.log.empty() && ! log) fail (Message::error ("output/unwritable", o.log, "the log could not be written to its end", "check the disk"));
+}
+}   // namespace
+
+void addFakeDevice (const Command& app)
+{
+    const auto options = std::make_shared<FakeOptions>();
+    const auto command = app.add ("fake-device", "Play a device from the outside, to test programs without hardware");
+    command.addOption ("profile", options->profile, "The id of a profile that names a wire, such as tactus_board").required();
+    command.addOption ("--wire", options->wire, "The wire; default: the first that the profile knows").check (oneOf ({ "serial", "udp" }));
+    command.addOption ("--link", options->link, "A symbolic link to the serial line, so that its name stays the same").type ("PATH");
+    command.addOption ("--port", options->port, "The UDP port on this computer; default: a free one").check (within (0, 65535));
+    command.addOption ("--hand", options->hand, "The hand: gesture:NAME, trace:FILE.csv, sim, or FILE.json with a simulated device; default: gesture:stroke");
+    command.addOption ("--fault", options->faults,
+                       "A fault, KIND, KIND@FROM or KIND@FROM:DURATION, in s; kinds: stall, garbage, half, lost_byte, late, lie, away; may be given more "
+                       "than once")
+        .oneValueEach();
+    command.addOption ("--log", options->log, "A file for each report: its step, > if sent or < if heard, and its bytes").type ("FILE");
+    command.addOption ("--duration", options->duration_s, "Length in s; default: until Ctrl-C").check (finiteWithin (0.0, 1e9));
+    command.footer ("Examples:\n"
+                    "  tactus fake-device tactus_board --link /tmp/board --log heard.txt\n"
+                    "  tactus play graphs/dry_wood.json --device stylus=serial:tactus_board@/tmp/board\n"
+                    "  tactus fake-device tactus_board --wire udp --port 9750 --fault stall@5:0.2 --fault away@8:1");
+    command.callback ([options] { run (*options); });
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "fake_device.hpp"
+
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/quote.hpp>
+#include <tactus/text/read_number.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace tactus::host::hid
+{
+namespace
+{
+using FaultKind = DeviceFault::Kind;
+
+constexpr std::pair<std::string_view, FaultKind> fault_names[] { { "stall", FaultKind::stall }, { "garbage", FaultKind::garbage }, { "half", FaultKind::half }, { "lost_byte", FaultKind::lost_byte }, { "late", FaultKind::late }, { "lie", FaultKind::lie }, { "away", FaultKind::away } };
+
+constexpr double usual_rate = 1000.0, usual_watchdog = 0.02;   // Hz, s
+
+/// Replaces a link at once, so that it never leads nowhere while it is replaced.
+Result<> lead (const std::filesystem::path& link, const std::string& to)
+{
+    std::error_code failed;
+    if (std::filesystem::exists (std::filesystem::symlink_status (link, failed)) && ! std::filesystem::is_symlink (link, failed))
+        return Message::error ("fake/link", link.string(), "there is a file with this name", "name another one");
+    auto fresh = link;
+    fresh += ".new";
+    std::filesystem::remove (fresh, failed);
+    std::filesystem::create_symlink (to, fresh, failed);
+    if (! failed) std::filesystem::rename (fresh, link, failed);
+    if (failed) return Message::error ("fake/link", link.string(), "the link cannot be made: " + failed.message(), "name a link in a folder of yours");
+    return {};
+}
+}   // namespace
+
+Result<DeviceFault> readFault (std::string_view text)
+{
+    const auto wrong = [&] (std::string why) {
+        return Message::error ("fake/fault", std::string (text), std::move (why), "write KIND, KIND@FROM or KIND@FROM:DURATION, in s, as in stall@2:0.5");
+    };
+    const auto at = text.find ('@');
+    const auto kind = text.substr (0, at);
+    const auto* named = std::ranges::find (fault_names, kind, [] (const auto& f) { return f.first; });
+    if (named == std::end (fault_names))
+    {
+        std::vector<std::string> names;
+        for (const auto& f : fault_names)
+            names.emplace_back (f.first);
+        auto why = wrong (quote (kind) + " is not a fault");
+        why.remedy = suggestion (kind, names);
+        return why;
+    }
+    DeviceFault fault { .kind = named->second };
+    if (at == text.npos) return fault;
+    const auto times = text.substr (at + 1);
+    const auto colon = times.find (':');
+    const auto from = wholeNumber (times.substr (0, colon));
+    const auto lasts = colon == times.npos ? std::optional (fault.to) : wholeNumber (times.substr (colon + 1));
+    if (! from || ! lasts || ! (*from >= 0.0) || ! (*lasts > 0.0)) return wrong ("its times are not numbers of at least 0");
+    fault.from = *from;
+    fault.to = *from + *lasts;
+    return fault;
+}
+
+FakeDevice::FakeDevice (std::shared_ptr<const Profile> p, std::unique_ptr<Device> h, Options o)
+    : profile (std::move (p)), hand (std::move (h)), options (std::move (o)), rate_hz (profile->rate > 0.0 ? profile->rate : usual_rate),
+      watchdog (profile->limits.device_watchdog > 0.0 ? profile->limits.device_watchdog : usual_watchdog), port (options.port), side (profile),
+      framing (options.wire == Wire::serial ? profile->wires.serial->framing : Framing::none), lines (framing, outputShapes (*profile))
+{
+    hand->prepare (1.0 / rate_hz);
+}
+
+FakeDevice::~FakeDevice()
+{
+    std::error_code failed;
+    if (! options.link.empty() && std::filesystem::is_symlink (options.link, failed)) std::filesystem::remove (options.link, failed);
+}
+
+Result<std::unique_ptr<FakeDevice>> FakeDevice::make (std::shared_ptr<const Profile> profile, std::unique_ptr<Device> hand, Options options)
+{
+    const bool knows = options.wire == Wire::serial ? profile->wires.serial.has_value() : options.wire == Wire::udp && profile->wires.udp;
+    if (! knows)
+        return Message::error ("fake/wire", profile->id, "the profile " + quote (profile->id) + " does not know this wire",
+                               "add it to the \"wires\" of the profile, or choose another wire");
+    std::unique_ptr<FakeDevice> fake (new FakeDevice (std::move (profile), std::move (hand), std::move (options)));
+    if (auto connected = fake->connect(); ! connected) return std::move (connected).error();
+    return fake;
+}
+
+/// Makes the far end of the wire, of a serial line under another name than the last one.
+Result<> FakeDevice::connect()
+{
+    const auto old_name = name;
+    auto made = options.wire == Wire::serial ? WireFile::makeTerminal (name) : WireFile::listenUdp (port);
+    if (made && options.wire == Wire::serial && name == old_name)
+    {
+        const auto same = std::move (made);   // keeps the name while another terminal is made
+        made = WireFile::makeTerminal (name);
+    }
+    if (! made) return std::move (made).error();
+    wire.emplace (std::move (*made));
+    if (options.wire == Wire::udp) name = "127.0.0.1:" + std::to_string (port);
+    if (options.wire == Wire::serial && ! options.link.empty())
+        if (auto led = lead (options.link, name); ! led) return led;
+    return {};
+}
+
+bool FakeDevice::is (FaultKind kind) const noexcept
+{
+    return std::ranges::any_of (options.faults, [&] (const auto& f) { return f.kind == kind && time() >= f.from && time() < f.to; });
+}
+
+void FakeDevice::comeAndGo()
+{
+    if (is (FaultKind::away))
+    {
+        wire.reset();
+        applied = {};
+        is_driven = false;
+        return;
+    }
+    if (wire || ! connect()) return;   // tried again on the next step
+    side.restart();
+    lines.reset();
+    previous.clear();
+}
+
+void FakeDevice::step()
+{
+    comeAndGo();
+    while (hear ({}))
+        ;
+    ++steps;
+    if (is_driven && static_cast<double> (steps - last_valid) > watchdog * rate_hz)
+    {
+        is_driven = false;
+        applied = {};
+        ++tally.released;
+        tell (Line::What::released, {});
+    }
+    hand->write (applied);
+    hand_reading = hand->read();
+    side.hold (is (FaultKind::lie));
+    if (! wire || is (FaultKind::stall)) return;
+    std::vector<Bytes> reports;
+    for (std::size_t i = 0; i < side.inputs(); ++i)
+        reports.push_back (side.input (i, hand_reading, time()));
+    for (const auto& report : reports)
+        send (report);
+    if (is (FaultKind::late))
+        for (const auto& report : previous)
+            send (report);
+    previous = std::move (reports);
+}
+
+bool FakeDevice::hear (WireFile::Clock::time_point until)
+{
+    if (! wire || is (FaultKind::stall)) return false;
+    Bytes report (longest_report + 1);
+    const auto got = options.wire == Wire::udp ? wire->read (report, until) : lines.read (*wire, report, until);
+    if (got.what != WireFile::Outcome::Kind::report) return false;
+    take (std::span (report).first (got.size));
+    return true;
+}
+
+void FakeDevice::take (std::span<const std::uint8_t> report)
+{
+    tell (Line::What::heard, report);
+    const auto heard = side.output (report);
+    if (! heard)
+    {
+        ++tally.refused;
+        return;
+    }
+    ++tally.heard;
+    last_valid = steps;
+    is_driven = heard->enabled;
+    applied = heard->effort;
+}
+
+void FakeDevice::send (const Bytes& report)
+{
+    ++tally.sent;
+    tell (Line::What::sent, report);
+    Bytes bytes (longestFrame (framing, report.size()));
+    bytes.resize (writeFrame (framing, report, bytes));
+    if (is (FaultKind::garbage))
+        for (auto& byte : bytes)
+            byte = static_cast<std::uint8_t> (random());
+    if (is (FaultKind::half)) bytes.resize (bytes.size() / 2);
+    if (is (FaultKind::lost_byte)) bytes.erase (bytes.begin() + static_cast<std::ptrdiff_t> (bytes.size() / 2));
+    static_cast<void> (wire->write (bytes));   // a program that does not read loses reports
+}
+
+void FakeDevice::tell (Line::What what, std::span<const std::uint8_t> bytes) const
+{
+    if (on_line) on_line ({ what, steps, bytes });
+}
+
+/// Xorshift (Marsaglia, 2003).
+std::uint32_t FakeDevice::random() noexcept
+{
+    seed ^= seed << 13;
+    seed ^= seed >> 17;
+    seed ^= seed << 5;
+    return seed >> 8;
+}
+
+FakeDevice::Counts FakeDevice::counts() const noexcept
+{
+    auto all = tally;
+    all.stray = lines.counts().bytes;
+    return all;
+}
+
+}   // namespace tactus::host::hid

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "line_reader.hpp"
+#include "transport.hpp"
+
+#include <host/hid/device_side.hpp>
+
+#include <tactus/node/device.hpp>
+#include <tactus/text/result.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tactus::host::hid
+{
+
+/// What a fake device does wrong, and from when to when, in s of its own time.
+struct DeviceFault
+{
+    enum class Kind
+    {
+        stall,       ///< sends nothing and takes nothing
+        garbage,     ///< sends random bytes instead of reports
+        half,        ///< sends only the first half of what a report is on the wire
+        lost_byte,   ///< leaves out a byte in the middle of it
+        late,        ///< sends the report before last again after each one
+        lie,         ///< an encoder, or else the first coordinate, stays where it was
+        away         ///< is unplugged; comes back as if switched on again, and a serial line then has another name
+    };
+
+    Kind kind = Kind::stall;
+    double from = 0.0, to = std::numeric_limits<double>::infinity();
+};
+
+/// Reads "stall", "stall@2" (from 2 s on) or "stall@2:0.5" (for half a second). Id: fake/fault.
+Result<DeviceFault> readFault (std::string_view);
+
+/// The device of a profile, played from the outside: the far end of a serial line (a pseudo-terminal) or of UDP. A simulated hand moves its tool
+/// and feels the force. Its time is the number of steps, so nothing depends on when they are made. Like the Tactus board, it releases its motors
+/// if no valid report comes for its watchdog (`device_watchdog` of the profile, else 20 ms), and if an enable bit is 0. [one thread]
+class FakeDevice
+{
+public:
+    struct Options
+    {
+        Wire wire = Wire::serial;
+        std::string link;   ///< a symbolic link that always leads to the serial line; replaced if it is a link. Empty: none
+        int port = 0;       ///< of UDP; 0: any
+        std::vector<DeviceFault> faults;
+    };
+
+    /// What passed over the wire. `bytes` is one report, or what could not be one.
+    struct Line
+    {
+        enum class What
+        {
+            sent,
+            heard,
+            released   ///< the watchdog has released the motors; no bytes
+        };
+
+        What what;
+        std::uint64_t step;   ///< counted from 1
+        std::span<const std::uint8_t> bytes;
+    };
+
+    struct Counts
+    {
+        std::uint64_t sent = 0;       ///< reports
+        std::uint64_t heard = 0;      ///< valid reports
+        std::uint64_t refused = 0;    ///< reports with a wrong CRC, length or id
+        std::uint64_t stray = 0;      ///< bytes that belong to no report
+        std::uint64_t released = 0;   ///< times that the watchdog has released the motors
+    };
+
+    /// The hand may be any simulated device. Its layout is not used. Ids: device/wire, fake/wire if the profile does not know the wire, fake/link.
+    static Result<std::unique_ptr<FakeDevice>> make (std::shared_ptr<const Profile>, std::unique_ptr<Device> hand, Options);
+
+    ~FakeDevice();
+    FakeDevice (const FakeDevice&) = delete;
+    FakeDevice& operator= (const FakeDevice&) = delete;
+
+    /// Called with everything that passes.
+    std::function<void (const Line&)> on_line;
+
+    /// Does something wrong from now on, for so long, in s of its own time.
+    void fail (DeviceFault::Kind kind, double duration_s) { options.faults.push_back ({ kind, time(), time() + duration_s }); }
+
+    /// One tick: hears what has come, moves the hand, and sends its input reports.
+    void step();
+
+    /// Takes a report that has come, or waits for one. False if none comes. step() calls it without waiting, until there is none.
+    bool hear (WireFile::Clock::time_point until);
+
+    std::string place() const { return name; }   ///< what a program opens: "/dev/pts/3", "127.0.0.1:9750"
+    double rate() const noexcept { return rate_hz; }
+    double time() const noexcept { return static_cast<double> (steps) / rate_hz; }   ///< s
+    const Effort& effort() const noexcept { return applied; }                        ///< what the motors do now
+    const Reading& reading() const noexcept { return hand_reading; }
+    Counts counts() const noexcept;
+
+private:
+    FakeDevice (std::shared_ptr<const Profile>, std::unique_ptr<Device> hand, Options);
+
+    Result<> connect();
+    bool is (DeviceFault::Kind) const noexcept;
+    void comeAndGo();
+    void take (std::span<const std::uint8_t> report);
+    void send (const Bytes& report);
+    void tell (Line::What, std::span<const std::uint8_t>) const;
+    std::uint32_t random() noexcept;
+
+    const std::shared_ptr<const Profile> profile;
+    const std::unique_ptr<Device> hand;
+    Options options;
+    const double rate_hz, watchdog;
+    int port = 0;
+    std::string name;
+    std::optional<WireFile> wire;
+    DeviceSide side;
+    Framing framing = Framing::none;
+    LineReader lines;
+    Reading hand_reading;
+    Effort applied;
+    Counts tally;
+    std::vector<Bytes> previous;   // the input reports of the step before
+    std::uint64_t steps = 0, last_valid = 0;
+    bool is_driven = false;
+    std::uint32_t seed = 0x12345678;
+};
+
+}   // namespace tactus::host::hid

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whole programs: one plays a device, and another one plays a graph on it.
+
+#include "program.hpp"
+#include "running.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace tactus;
+using test::eventually;
+using test::Running;
+using test::runTactus;
+
+namespace
+{
+constexpr auto pushing = R"({ "format": "tactus-graph", "version": 2, "name": "push", "rate_hz": 1000,
+  "nodes": { "half": { "type": "signal.constant", "params": { "value": 0.5 } }, "motor": { "type": "device.force", "role": "stylus" } },
+  "wires": ["half.out -> motor.force.z"] })";
+
+/// The lines of the log that begin like this after the step, such as "< 54 01 01".
+std::vector<std::string> linesOf (const std::string& log, const std::string& what)
+{
+    std::ifstream file (log);
+    std::vector<std::string> found;
+    for (std::string line; std::getline (file, line);)
+        if (const auto at = line.find (' '); at != line.npos && line.compare (at + 1, what.size(), what) == 0) found.push_back (line.substr (at + 1));
+    return found;
+}
+
+const std::string drives = "< 54 01 01 00", rests = "< 54 01 00 00";
+
+/// The board of the profile, played by the program, and what another program opens.
+struct Fake
+{
+    explicit Fake (const std::string& wire)
+        : log (scratch.path ("log")), program (words (wire)), is_there (eventually ([this] { return program.out().find ('\n') != std::string::npos; }))
+    {
+        const auto told = program.out();
+        const auto at = told.find ("ROLE=");
+        device = at == told.npos ? std::string() : told.substr (at + 5, told.find ('\n', at) - at - 5);
+    }
+
+    std::vector<std::string> words (const std::string& wire) const
+    {
+        std::vector<std::string> all { "fake-device", "tactus_board", "--wire", wire, "--hand", "sim", "--log", log };
+        if (wire == "serial") all.insert (all.end(), { "--link", scratch.path ("board") });
+        return all;
+    }
+
+    const test::Scratch scratch;
+    const std::string log;
+    Running program;
+    const bool is_there;
+    std::string device;
+};
+}   // namespace
+
+TEST_CASE ("a program that is killed while it pushes leaves the device on a wire at rest", "[cli][wires][safety]")
+{
+    const auto wire = GENERATE (std::string ("serial"), std::string ("udp"));
+    Fake fake { wire };
+    REQUIRE (fake.is_there);
+    const auto graph = fake.scratch.write ("push.json", pushing);
+    Running play { { "play", graph, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off" } };
+    REQUIRE (play.says ("Ctrl-C stops"));
+    // 0.5 N are 500000 uN, 0007a120.
+    REQUIRE (eventually ([&] { return linesOf (fake.log, drives).size() > 100 && linesOf (fake.log, drives).back().find (" 20 a1 07 00 ") != std::string::npos; }));
+    play.signal (SIGKILL);
+    CHECK (eventually ([&] { return ! linesOf (fake.log, "< ").empty() && linesOf (fake.log, "< ").back().starts_with (rests); }));
+    if (wire == "udp") CHECK (eventually ([&] { return linesOf (fake.log, rests).size() >= 3; }));   // a datagram may be lost
+    const auto ran = fake.program.stop();
+    CHECK (ran.status == 0);
+    CHECK (ran.out.find (" 0 refused") != std::string::npos);
+}
+
+TEST_CASE ("a program that is frozen while it pushes leaves the device on a wire at rest", "[cli][wires][safety]")
+{
+    const auto wire = GENERATE (std::string ("serial"), std::string ("udp"));
+    Fake fake { wire };
+    REQUIRE (fake.is_there);
+    const auto graph = fake.scratch.write ("push.json", pushing);
+    Running play { { "play", graph, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off" } };
+    REQUIRE (play.says ("Ctrl-C stops"));
+    REQUIRE (eventually ([&] { return linesOf (fake.log, drives).size() > 100; }));
+    play.signal (SIGSTOP);
+    CHECK (eventually ([&] { return linesOf (fake.log, "< ").back().starts_with (rests); }));
+    play.signal (SIGCONT);
+    play.stop();
+    fake.program.stop();
+}
+
+TEST_CASE ("play on a wire accounts for its reports, and ends with the device at rest", "[cli][wires]")
+{
+    const auto wire = GENERATE (std::string ("serial"), std::string ("udp"));
+    Fake fake { wire };
+    REQUIRE (fake.is_there);
+    const auto ran = runTactus ({ "play", "dry_wood", "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off", "--duration", "1" });
+    INFO (ran.err);
+    CHECK (ran.status == 0);
+    CHECK (ran.err.find (" taken") != std::string::npos);
+    CHECK (eventually ([&] { return linesOf (fake.log, "< ").back().starts_with (rests); }));
+    CHECK (linesOf (fake.log, drives).size() > 100);
+    fake.program.stop();
+}
+
+TEST_CASE ("what fake-device cannot play is refused with a remedy", "[cli][wires]")
+{
+    const auto refused = [] (const std::vector<std::string>& more, const std::string& id) {
+        std::vector<std::string> words { "fake-device" };
+        words.insert (words.end(), more.begin(), more.end());
+        const auto ran = runTactus (words);
+        INFO (ran.err);
+        return ran.status != 0 && ran.err.find (id) != std::string::npos;
+    };
+    CHECK (refused ({ "tactus_bord" }, "hid/unknown_profile"));
+    CHECK (refused ({ "woodenhaptics_usb", "--wire", "serial" }, "fake/wire"));
+    CHECK (refused ({ "tactus_board", "--fault", "smoke" }, "fake/fault"));
+    CHECK (refused ({ "tactus_board", "--fault", "stall@soon" }, "fake/fault"));
+    CHECK (refused ({ "tactus_board", "--hand", "gesture:wave" }, "device/unknown_gesture"));
+    CHECK (refused ({ "tactus_board", "--hand", "hid:auto" }, "device/real"));
+    CHECK (refused ({ "tactus_board", "--wire", "udp", "--link", "board" }, "--link"));
+    const test::Scratch scratch;
+    CHECK (refused ({ "tactus_board", "--link", scratch.write ("file", "mine") }, "fake/link"));
+}
