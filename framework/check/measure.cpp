@@ -10,6 +10,8 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <numeric>
+#include <set>
 
 namespace tactus::check
 {
@@ -54,6 +56,9 @@ std::vector<bool> nodesOf (const Plan& plan, const std::string& role)
 {
     const auto& flat = plan.flat();
     const auto reached = [&] (bool forwards) {
+        std::vector<std::vector<int>> next (flat.nodes.size());   // by node
+        for (const auto& w : flat.wires)
+            if (w.from) next[static_cast<std::size_t> (forwards ? w.from->node : w.to.node)].push_back (forwards ? w.to.node : w.from->node);
         std::vector<bool> is (flat.nodes.size(), false);
         std::vector<int> open;
         for (int n = 0; n < flat.nodeCount(); ++n)
@@ -68,8 +73,7 @@ std::vector<bool> nodesOf (const Plan& plan, const std::string& role)
             open.pop_back();
             if (is[static_cast<std::size_t> (n)]) continue;
             is[static_cast<std::size_t> (n)] = true;
-            for (const auto& w : flat.wires)
-                if (w.from && (forwards ? w.from->node : w.to.node) == n) open.push_back (forwards ? w.to.node : w.from->node);
+            std::ranges::copy (next[static_cast<std::size_t> (n)], std::back_inserter (open));
         }
         return is;
     };
@@ -97,6 +101,8 @@ struct TextureWatch
     Claims claims {};       // the largest value of each claim
     double loudest = 0.0;   // largest force, in N
 
+    double ownAmplitude() const noexcept { return claims.amplitude < inf ? std::max (loudest, claims.amplitude) : loudest; }   // N
+
     void poll (const Plan& plan, bool with_claims)
     {
         loudest = std::max (loudest, forces.largest());
@@ -122,17 +128,25 @@ std::vector<TextureWatch> texturesIn (const Plan& plan)
     return all;
 }
 
-/// Removes from a velocity the directions in which a node does not feel a displacement.
-Vec3 across (const Eigen::Matrix3d& directions, const Vec3& velocity)
+/// Removes from a velocity the directions in which a node does not feel a displacement. `directions`: see slopes.hpp.
+class Across
 {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts (directions);
-    const double most = parts.eigenvalues()[2];
-    if (! (most > 0.0)) return velocity;
-    Vec3 kept = Vec3::Zero();
-    for (int i = 0; i < 3; ++i)
-        if (parts.eigenvalues()[i] > 1e-3 * most) kept += parts.eigenvectors().col (i).dot (velocity) * parts.eigenvectors().col (i);
-    return kept;
-}
+public:
+    explicit Across (const Eigen::Matrix3d& directions) : parts (directions) {}
+
+    Vec3 operator() (const Vec3& velocity) const
+    {
+        const double most = parts.eigenvalues()[2];
+        if (! (most > 0.0)) return velocity;
+        Vec3 kept = Vec3::Zero();
+        for (int i = 0; i < 3; ++i)
+            if (parts.eigenvalues()[i] > 1e-3 * most) kept += parts.eigenvectors().col (i).dot (velocity) * parts.eigenvectors().col (i);
+        return kept;
+    }
+
+private:
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts;
+};
 
 /// Does the work of measure().
 class Survey
@@ -150,8 +164,7 @@ public:
         for (std::size_t r = 0; r < motion.roles.size(); ++r)
             addRole (r);
         addSlopes (how);
-        for (const auto& watched : textures)
-            addTexture (watched);
+        addTextures (how);
         return std::move (demand);
     }
 
@@ -162,7 +175,9 @@ private:
     Demand demand {};
     Forces forces {};
     std::vector<TextureWatch> textures {};
-    std::vector<Directions> directions {};   // by role, then node
+    std::vector<Directions> directions {};          // by role, then node
+    std::vector<std::vector<bool>> between {};      // by role, then node: the nodes between its sources and its sinks
+    std::vector<std::vector<Vec3>> velocities {};   // of the tools, by role, then tick, in m/s
 
     static std::shared_ptr<Plan> compiled (const Subject& s, const HandMotion& m)
     {
@@ -190,7 +205,7 @@ private:
         });
         for (const auto& role : plan->roles())
         {
-            const auto its = nodesOf (*plan, role.name);
+            const auto& its = between.emplace_back (nodesOf (*plan, role.name));
             for (const auto& w : stretches)
             {
                 if (! its[w.node()]) continue;
@@ -209,11 +224,13 @@ private:
         for (const auto& path : plan->delays())
             if (belongs (path.source, role.name) && belongs (path.sink, role.name))
                 d.longest = std::max (d.longest, path.longest);
+        auto& velocity = velocities.emplace_back();
         for (std::size_t k = 0; k < motion.ticks; ++k)
         {
+            velocity.push_back (velocityAt (motion, r, k));
             d.peak_force = std::max (d.peak_force, forces[r][k].norm());
             if (k > 0) d.fastest_force = std::max (d.fastest_force, (forces[r][k] - forces[r][k - 1]).norm() * motion.rate_hz);
-            d.speed = std::max (d.speed, velocityAt (motion, r, k).norm());
+            d.speed = std::max (d.speed, velocity.back().norm());
         }
         d.has_other_efforts = hasOtherSinks (role.name);
         demand.roles.push_back (std::move (d));
@@ -269,7 +286,7 @@ private:
             work.spots = { { tick, tick } };
         }
         else
-            work.spots = chooseSpots (subject, motion, how.places, work.without);
+            work.spots = chooseSpots (subject, motion, placesWithin (how), work.without, how.ticks / 16);
         auto all = measureSlopes (subject, motion, work);
         demand.linked = std::move (all.linked);
         demand.jumps = std::move (all.jumps);
@@ -285,6 +302,14 @@ private:
                 role.slopes = std::move (all.by_role[r]);
                 if (! textures.empty()) role.nominal = std::move (nominal.by_role[r]);
             }
+    }
+
+    /// The number of places for which half of the ticks suffice, but at least least_places.
+    std::size_t placesWithin (const Thoroughness& how) const
+    {
+        constexpr std::size_t least_places = 8, ticks_per_place = 1'600;
+        const auto surveys = textures.empty() ? 1u : 2u;
+        return std::min (how.places, std::max (least_places, how.ticks / 2 / (ticks_per_place * surveys * motion.roles.size())));
     }
 
     /// The nodes that play by themselves or when they are hit, such as a clip: they have an input for hits, and no other input is wired.
@@ -327,6 +352,78 @@ private:
         });
     }
 
+    /// Measures the textures one after another, in a run for each. If a quarter of the ticks does not suffice for that, only the steepest ones
+    /// are, and a last run is for all others.
+    void addTextures (const Thoroughness& how)
+    {
+        const auto runs = std::max<std::size_t> (1, how.ticks / 4 / std::max<std::size_t> (1, motion.ticks));
+        const auto alone = steepest (runs < textures.size() ? runs - 1 : textures.size());
+        const auto others = alone.size() < textures.size() ? ownSpeeds() : std::vector<std::vector<double>>();
+        for (std::size_t t = 0; t < textures.size(); ++t)
+            alone.contains (t) ? addTexture (textures[t]) : addOther (textures[t], others[t]);
+    }
+
+    /// The indices of so many textures, the steepest ones.
+    std::set<std::size_t> steepest (std::size_t count) const
+    {
+        const auto slope = [&] (std::size_t t) { return ownSlope (textures[t], textures[t].ownAmplitude()); };
+        std::vector<std::size_t> all (textures.size());
+        std::iota (all.begin(), all.end(), std::size_t { 0 });
+        if (count < all.size()) std::ranges::stable_sort (all, std::ranges::greater {}, slope);
+        return { all.begin(), all.begin() + static_cast<std::ptrdiff_t> (count) };
+    }
+
+    static double ownSlope (const TextureWatch& t, double amplitude)
+    {
+        const auto& claims = t.claims;
+        return claims.stiffness > 0.0 && claims.stiffness < inf ? claims.stiffness : 2.0 * std::numbers::pi * amplitude * claims.spatial_frequency;
+    }
+
+    Across acrossOf (std::size_t role, std::size_t node) const
+    {
+        const auto& ways = directions[role];
+        return Across { node < ways.size() ? ways[node] : Eigen::Matrix3d (Eigen::Matrix3d::Zero()) };
+    }
+
+    /// By texture, then role: the largest speed across the texture while it gives at least felt_part of its largest force, in m/s.
+    std::vector<std::vector<double>> ownSpeeds() const
+    {
+        const auto roles = motion.roles.size();
+        std::vector<std::vector<double>> speeds (textures.size(), std::vector<double> (roles, 0.0));
+        std::vector<Across> across;
+        for (const auto& t : textures)
+            for (std::size_t r = 0; r < roles; ++r)
+                across.push_back (acrossOf (r, t.node));
+        std::vector<NodeForces> own;
+        std::size_t k = 0;
+        forcesAlong (subject, motion, {}, [&] (const Plan& running) {
+            for (std::size_t t = 0; t < textures.size(); ++t)
+            {
+                if (k == 0) own.emplace_back (running, textures[t].node);
+                const double now = own[t].largest();
+                for (std::size_t r = 0; r < roles && now > 0.0 && now >= felt_part * textures[t].loudest; ++r)
+                    speeds[t][r] = std::max (speeds[t][r], across[t * roles + r](velocities[r][k]).norm());
+            }
+            ++k;
+        });
+        return speeds;
+    }
+
+    /// A texture that has no run of its own. The roles behind it are taken to feel the force that it has.
+    void addOther (const TextureWatch& watched, const std::vector<double>& speeds)
+    {
+        for (std::size_t r = 0; r < motion.roles.size(); ++r)
+        {
+            if (! between[r][watched.node]) continue;
+            const auto& role = motion.roles[r].role;
+            const double amplitude = watched.ownAmplitude();
+            if (watched.loudest > 0.0)
+                demand.textures.push_back ({ watched.node, role, watched.claims.spatial_frequency, amplitude, ownSlope (watched, amplitude), speeds[r] });
+            else
+                demand.unreached.push_back ({ watched.node, role, true });
+        }
+    }
+
     void addTexture (const TextureWatch& watched)
     {
         const auto without = forcesAlong (subject, motion, { watched.node }, [] (const Plan&) {});
@@ -343,24 +440,26 @@ private:
         const auto& [node, own, is_driven, claims, loudest] = watched;
         if (! (most > 0.0))
         {
-            if (nodesOf (*plan, motion.roles[r].role)[node]) demand.unreached.push_back ({ node, motion.roles[r].role, true });
+            if (between[r][node]) demand.unreached.push_back ({ node, motion.roles[r].role, true });
             return;
         }
         Texture t { .node = node, .role = motion.roles[r].role, .spatial_frequency = claims.spatial_frequency };
         const double reach = loudest > 0.0 ? most / loudest : 1.0;   // gain of the wires and layers that follow the node
         t.amplitude = claims.amplitude < inf ? std::max (most, reach * claims.amplitude) : most;
         t.slope = claims.stiffness > 0.0 && claims.stiffness < inf ? reach * claims.stiffness : 2.0 * std::numbers::pi * t.amplitude * t.spatial_frequency;
-        const auto& ways = directions[r];
+        const auto across = acrossOf (r, node);
         for (std::size_t k = 0; k < motion.ticks; ++k)
-            if (part (k) >= felt_part * most)
-            {
-                const auto v = velocityAt (motion, r, k);
-                t.speed = std::max (t.speed, (node < ways.size() ? across (ways[node], v) : v).norm());
-            }
+            if (part (k) >= felt_part * most) t.speed = std::max (t.speed, across (velocities[r][k]).norm());
         demand.textures.push_back (std::move (t));
     }
 };
 }   // namespace
+
+std::size_t affordableTicks (const Plan& plan)
+{
+    constexpr std::size_t steps_of_nodes = 100'000'000;   // of about 25 ns
+    return steps_of_nodes / std::max<std::size_t> (1, plan.instances().size());
+}
 
 Demand measure (const Subject& subject, const HandMotion& motion, const Thoroughness& how) { return Survey (subject, motion).measure (how); }
 

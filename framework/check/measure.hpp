@@ -142,13 +142,19 @@ struct Thoroughness
 {
     std::size_t places = 96;         ///< number of points at which slopes are measured: see chooseSpots()
     std::optional<double> at_s {};   ///< measure slopes only at this time of the motion, in s
+    /// About how many ticks measure() may take in all. With fewer than it would take, it measures at fewer places, but at least 8, walks the path
+    /// in longer steps, and measures only the steepest textures each on its own; the others count with the force of their node.
+    std::size_t ticks = std::numeric_limits<std::size_t>::max();
 };
+
+/// The number of ticks of a graph that take about 3 s if its nodes are as fast as most are. Depends only on the number of nodes.
+std::size_t affordableTicks (const Plan&);
 
 /// Measures a graph along a motion that was recorded at the same rate. The result is a pure function of the arguments. Takes about
 /// 150,000 ticks of the graph for each role, twice that if there are textures, up to four times that if sections do not run on
-/// every tick, 40,000 ticks to choose the points, and one run along the motion for each texture. The graph must compile without
-/// errors, and the motion must not diverge (see divergence()). Throws Stopped if the subject is stopped. [any thread, as long as no other thread uses the
-/// assets]
+/// every tick, 40,000 ticks to choose the points, and one run along the motion for each texture; fewer if Thoroughness::ticks says so. The graph
+/// must compile without errors, and the motion must not diverge (see divergence()). Throws Stopped if the subject is stopped. [any thread, as long
+/// as no other thread uses the assets]
 Demand measure (const Subject&, const HandMotion&, const Thoroughness& = {});
 
 }   // namespace tactus::check

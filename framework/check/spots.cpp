@@ -41,11 +41,12 @@ private:
 };
 
 /// For each stretch of the path, the step over which the forces change most.
-std::vector<Spot> steepestSteps (const Subject& subject, const HandMotion& motion, std::size_t stretches, const std::vector<std::size_t>& without)
+std::vector<Spot> steepestSteps (const Subject& subject, const HandMotion& motion, std::size_t stretches, const std::vector<std::size_t>& without,
+                                 std::size_t at_most)
 {
     const Way way { motion };
     if (stretches == 0 || ! (way.length() > 0.0)) return {};
-    const auto steps = std::clamp<std::size_t> (static_cast<std::size_t> (way.length() / shortest_step), stretches, std::max (stretches, most_steps));
+    const auto steps = std::clamp<std::size_t> (static_cast<std::size_t> (way.length() / shortest_step), stretches, std::max (stretches, at_most));
     const auto tickOf = [&] (std::size_t step) { return way.tickAt (way.length() * static_cast<double> (step) / static_cast<double> (steps)); };
     Bench behind { subject, motion }, ahead { subject, motion };
     behind.silence (without);
@@ -72,10 +73,11 @@ std::vector<Spot> steepestSteps (const Subject& subject, const HandMotion& motio
 }
 }   // namespace
 
-std::vector<Spot> chooseSpots (const Subject& subject, const HandMotion& motion, std::size_t count, const std::vector<std::size_t>& without)
+std::vector<Spot> chooseSpots (const Subject& subject, const HandMotion& motion, std::size_t count, const std::vector<std::size_t>& without,
+                               std::size_t steps)
 {
     count = std::min (count, motion.ticks);
-    auto spots = steepestSteps (subject, motion, count - count / 3, without);
+    auto spots = steepestSteps (subject, motion, count - count / 3, without, std::min (steps, most_steps));
     const auto even = count - spots.size();
     for (std::size_t i = 0; i < even; ++i)
     {

@@ -24,7 +24,8 @@ inline constexpr double shortest_step = 1e-5;
 /// Chooses where slopes are measured, in the order of the motion. A third of the spots are spread evenly in time. For the others, the
 /// path of all tools together is walked in small equal steps, and divided into stretches of equal length. In each stretch, the spot
 /// is the step over which the forces change most. Two copies of the graph walk, one step apart, so that changes with time do not count.
-/// Nodes in `without` are silent. Takes about most_steps ticks of two graphs. [main thread]
-std::vector<Spot> chooseSpots (const Subject&, const HandMotion&, std::size_t count, const std::vector<std::size_t>& without);
+/// Nodes in `without` are silent. Takes at most `steps` ticks of two graphs. [main thread]
+std::vector<Spot> chooseSpots (const Subject&, const HandMotion&, std::size_t count, const std::vector<std::size_t>& without,
+                               std::size_t steps = most_steps);
 
 }   // namespace tactus::check

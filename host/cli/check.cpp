@@ -96,7 +96,8 @@ void print (const CheckOptions& options, const check::Demand& demand, const std:
 void run (const CheckOptions& options)
 {
     const CheckedGraph graph { options.graph, options.devices, options.sets, options.rate_hz };
-    const auto demand = check::measure (graph.subject, options.sweep ? graph.sweep (options.duration_s) : graph.motion (options.duration_s));
+    const auto motion = options.sweep ? graph.sweep (options.duration_s) : graph.motion (options.duration_s);
+    const auto demand = check::measure (graph.subject, motion, { .ticks = check::affordableTicks (*graph.plan) });
     std::vector<check::RoleDevice> devices;
     for (const auto& r : graph.roles)
         devices.push_back (r.device);

@@ -127,14 +127,11 @@ std::string pointerOf (const graph::Graph& g, std::string path)
     return pointer;
 }
 
-/// A graph whose ticks are slow is measured at fewer points of the motion, because the window cannot close before the check is over.
-check::Thoroughness thoroughness (double recorded_for_s, std::size_t ticks, std::size_t roles)
+/// The number of ticks that fit into longest_s, if they are as slow as those of the recording.
+std::size_t ticksWithin (double recorded_for_s, std::size_t ticks)
 {
-    constexpr double ticks_per_role = 300'000.0;
-    check::Thoroughness t;
-    const double expected_s = recorded_for_s / static_cast<double> (std::max<std::size_t> (ticks, 1)) * ticks_per_role * static_cast<double> (roles);
-    if (expected_s > longest_s) t.places = std::max<std::size_t> (8, static_cast<std::size_t> (static_cast<double> (t.places) * longest_s / expected_s));
-    return t;
+    const double each_s = recorded_for_s / static_cast<double> (std::max<std::size_t> (ticks, 1));
+    return static_cast<std::size_t> (longest_s / std::max (each_s, 1e-9));
 }
 
 std::string nameOf (const std::vector<check::RoleDevice>& devices, const std::string& role)
@@ -230,7 +227,7 @@ LimitList limitsOf (const LimitJob& job, const Catalogue& catalogue, FileAssets&
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
     try
     {
-        const auto demand = check::measure (subject, recorded.motion, thoroughness (took.count(), recorded.motion.ticks, job.roles.size()));
+        const auto demand = check::measure (subject, recorded.motion, { .ticks = ticksWithin (took.count(), recorded.motion.ticks) });
         return listOf (demand, devices, *compiled.plan);
     }
     catch (const check::Stopped&)
