@@ -61,16 +61,26 @@ public:
     enum class Wait
     {
         punctual,   ///< sleeps until shortly before the deadline, then spins. For motors
-        idle        ///< sleeps until the deadline, and is late by the time of waking up. A fraction of the processor time; for simulated devices
+        /// Sleeps until the deadline, and is late by the time of waking up. Ticks that begin within the same millisecond are due together, so that a
+        /// fast graph does not wake up for each. A fraction of the processor time; for simulated devices
+        idle
     };
 
-    explicit AbsoluteTimer (double period_s, Wait w = Wait::punctual) : period (toDuration (period_s)), wait (w) {}
+    explicit AbsoluteTimer (double period_s, Wait w = Wait::punctual)
+        : together (w == Wait::idle ? std::max (1, static_cast<int> (1e-3 / std::max (period_s, 1e-6) + 1e-6)) : 1), period (toDuration (together * period_s)),
+          wait (w)
+    {
+    }
 
     void drive (Ticked& ticked) noexcept override
     {
         deadline = Clock::now();
-        while (ticked.tick (waited()))
-            deadline += period;
+        for (;; deadline += period)
+        {
+            const double late_s = waited();
+            for (int i = 0; i < together; ++i)
+                if (! ticked.tick (late_s)) return;
+        }
     }
 
 private:
@@ -109,7 +119,8 @@ private:
         Clock::duration longest = toDuration (50e-6);
     };
 
-    Clock::duration period;
+    int together;             // how many ticks are due together
+    Clock::duration period;   // of all these ticks
     Wait wait;
     Wakeup wakeup {};
     Clock::time_point deadline;

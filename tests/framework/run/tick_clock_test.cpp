@@ -9,6 +9,8 @@
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <utility>
+#include <vector>
 
 using namespace tactus;
 
@@ -45,6 +47,29 @@ TEST_CASE ("an absolute timer never begins a tick early, and does not catch up o
     CHECK_FALSE (negative);
     CHECK_FALSE (early);
     CHECK (timer.now() - begin > 0.04);
+}
+
+TEST_CASE ("ticks of simulated devices are due together a millisecond at a time, and none begins before its millisecond", "[runtime]")
+{
+    for (const auto& [rate_hz, together] : { std::pair { 4000.0, 4 }, { 20e3, 20 }, { 1000.0, 1 }, { 500.0, 1 }, { 1500.0, 1 } })
+    {
+        AbsoluteTimer timer { 1.0 / rate_hz, AbsoluteTimer::Wait::idle };
+        const double begin = timer.now();
+        std::vector<double> lates;
+        int k = 0, early = 0;
+        Each each { [&] (double late) {
+            const auto ms = static_cast<double> (k / together) * together / rate_hz;
+            early += timer.now() < begin + ms - 1e-6;
+            lates.push_back (late);
+            return ++k < 10 * together;
+        } };
+        timer.drive (each);
+        INFO (rate_hz);
+        CHECK (early == 0);
+        CHECK (k == 10 * together);
+        for (std::size_t i = 0; i < lates.size(); ++i)
+            CHECK (lates[i] == lates[i - i % static_cast<std::size_t> (together)]);   // the thread has waited once for all of them
+    }
 }
 
 TEST_CASE ("a free run ticks until a tick returns that it was the last one", "[runtime]")
