@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace tactus::host
 {
@@ -51,6 +52,9 @@ Scene::Scene (const graph::Graph& graph, const SeenPatch& seen, const Catalogue&
 void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const graph::Patch& patch, const Catalogue& catalogue, NodeCurves& curves,
                       const TextWidth& widthOf)
 {
+    std::map<std::string_view, std::vector<const graph::Wire*>> wires_to;   // by node
+    for (const auto& w : patch.wires)
+        wires_to[w.to.node].push_back (&w);
     for (const auto& node : patch.nodes)
     {
         auto& made = all_nodes.emplace_back();
@@ -59,8 +63,8 @@ void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const gr
         made.type = node.type;
         made.bypass = node.bypass;
         made.face = std::make_unique<Face> (faceOf (graph, patch, node, catalogue));
-        const auto wired = [&] (const FacePort& p) {
-            return std::ranges::any_of (patch.wires, [&] (const graph::Wire& w) { return w.to.node == node.name && made.face->endOf (w.to) == &p; });
+        const auto wired = [&, &its = wires_to[node.name]] (const FacePort& p) {
+            return std::ranges::any_of (its, [&] (const graph::Wire* w) { return made.face->endOf (w->to) == &p; });
         };
         made.curve = curves.of (graph, seen, node, *made.face);
         made.box = boxOf (

@@ -30,13 +30,15 @@ Quantities::Quantities (const graph::Graph& graph, const Catalogue& c) : catalog
     visit (graph, graph.root);
     for (const auto& [name, patch] : graph.graphs)
         visit (graph, patch);
+    for (auto& port : parent)
+        port = root (port);
 }
 
 Quantity Quantities::of (const graph::Patch& patch, std::size_t node, Role role, std::string_view port) const
 {
     const auto& node_ports = patches.at (&patch).nodes[node];
     const int number = numberOf (node_ports, node_ports.face.find (role, port));
-    return number < 0 ? Quantity::any : known[at (root (number))];
+    return number < 0 ? Quantity::any : known[at (parent[at (number)])];
 }
 
 void Quantities::visit (const graph::Graph& owner, const graph::Patch& patch)
@@ -62,6 +64,7 @@ void Quantities::visit (const graph::Graph& owner, const graph::Patch& patch)
 void Quantities::joinPortsOf (const NodePorts& node_ports)
 {
     eachPort (node_ports.face, [&] (const FacePort& port) {
+        if (! follows (port.unit) && port.unit.kind != UnitRule::Kind::open) return;
         eachPort (node_ports.face, [&] (const FacePort& other) {
             const bool follows_it = follows (port.unit) && port.unit.a == withoutIndex (other.id);
             const bool both_open = port.unit.kind == UnitRule::Kind::open && other.unit.kind == UnitRule::Kind::open
@@ -122,10 +125,10 @@ int Quantities::numberOf (const NodePorts& node_ports, const FacePort* port)
     return -1;
 }
 
-int Quantities::root (int port) const
+int Quantities::root (int port)
 {
     while (parent[at (port)] != port)
-        port = parent[at (port)];
+        port = parent[at (port)] = parent[at (parent[at (port)])];
     return port;
 }
 

@@ -38,12 +38,12 @@ private:
 
     const NodePorts* portsOf (const graph::Patch&, std::string_view node) const;
     static int numberOf (const NodePorts&, const FacePort*);   ///< -1 if there is no such port
-    int root (int port) const;
+    int root (int port);                                       ///< shortens the way to the root
     void join (int a, int b);
 
     const Catalogue& catalogue;
     std::map<const graph::Patch*, PatchPorts> patches;
-    std::vector<int> parent;       // union-find: ports that carry the same quantity share a root
+    std::vector<int> parent;       // union-find: ports that carry the same quantity share a root; once made, each has its root as parent
     std::vector<Quantity> known;   // by port: its quantity; valid only at the roots
 };
 
