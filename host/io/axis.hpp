@@ -22,6 +22,7 @@ struct Extent
     double size() const noexcept { return high - low; }
     void include (double value) noexcept;
     void include (const Extent& other) noexcept;
+    bool operator== (const Extent&) const = default;
 };
 
 /// The extent with a margin on both sides. Its size is never zero: a constant gets a margin of a tenth of its value, and zero

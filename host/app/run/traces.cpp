@@ -3,9 +3,18 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <set>
+#include <string_view>
 
 namespace tactus::host
 {
+
+namespace
+{
+/// The name of the outermost node, with which the names of all components of a port begin.
+std::string_view stemOf (std::string_view port) { return port.substr (0, port.find_first_of ("[/.")); }
+}   // namespace
 
 Trace::Trace (const Tap& tap, double rate)
     : tap_name (tap.name), what (tap.quantity), si (tap.unit), rate_hz (rate),
@@ -16,7 +25,10 @@ Trace::Trace (const Tap& tap, double rate)
 void Trace::add (std::uint64_t tick, double value) noexcept
 {
     if (first_tick == end_tick || tick < end_tick || tick - end_tick > values.size())
+    {
         first_tick = end_tick = tick;
+        ++times_begun;
+    }
     for (; end_tick < tick; ++end_tick)
         values[end_tick % values.size()] = std::numeric_limits<double>::quiet_NaN();
     values[tick % values.size()] = value;
@@ -39,17 +51,18 @@ void Traces::Client::want (std::vector<std::string> wanted)
 std::vector<std::string> Traces::ports() const
 {
     std::vector<std::string> all;
+    std::set<std::string_view> known;
     for (const auto* c : clients)
         for (const auto& p : c->ports)
-            if (std::ranges::count (all, p) == 0) all.push_back (p);
+            if (known.insert (p).second) all.push_back (p);
     return all;
 }
 
 std::vector<std::shared_ptr<const Trace>> Traces::of (const std::string& port) const
 {
     std::vector<std::shared_ptr<const Trace>> found;
-    const auto stem = port.substr (0, port.find_first_of ("[/."));   // with which the names of all components of the port begin
-    for (auto at = by_name.lower_bound (stem); at != by_name.end() && at->first.starts_with (stem); ++at)
+    const auto stem = stemOf (port);
+    for (auto at = by_name.lower_bound (std::string (stem)); at != by_name.end() && at->first.starts_with (stem); ++at)
         if (isPartOf (at->first, port)) found.push_back (at->second);
     return found;
 }
@@ -57,7 +70,14 @@ std::vector<std::shared_ptr<const Trace>> Traces::of (const std::string& port) c
 void Traces::planComes (const Plan& plan)
 {
     collect();   // the frames so far belong to the previous plan
-    const auto wanted = ports();
+    ++changes;
+    std::map<std::string, std::vector<std::string>, std::less<>> wanted;   // by stem
+    for (auto& port : ports())
+        wanted[std::string (stemOf (port))].push_back (std::move (port));
+    const auto isWanted = [&] (const std::string& tap) {
+        const auto ports = wanted.find (stemOf (tap));
+        return ports != wanted.end() && std::ranges::any_of (ports->second, [&] (const std::string& port) { return isPartOf (tap, port); });
+    };
     std::vector<std::size_t> chosen;
     std::vector<std::shared_ptr<Trace>> columns;
     too_many.clear();
@@ -65,7 +85,7 @@ void Traces::planComes (const Plan& plan)
     for (std::size_t i = 0; i < plan.taps().size(); ++i)
     {
         const auto& tap = plan.taps()[i];
-        if (std::ranges::none_of (wanted, [&] (const std::string& port) { return isPartOf (tap.name, port); })) continue;
+        if (! isWanted (tap.name)) continue;
         if (chosen.size() == ProbeRing::most)
         {
             too_many.push_back (tap.name);
@@ -94,6 +114,7 @@ void Traces::collect()
 {
     ring.drain ([this] (const ProbeRing::Frame& frame) {
         if (std::ranges::count (selected, frame.plan) == 0 || frame.size != in_frame.size()) return;
+        ++changes;
         for (std::size_t i = 0; i < frame.size; ++i)
             in_frame[i]->add (frame.tick, frame.values[i]);
     });

@@ -30,7 +30,8 @@ public:
     double rate() const noexcept { return rate_hz; }
 
     std::uint64_t begin() const noexcept { return end_tick - std::min<std::uint64_t> (end_tick - first_tick, values.size()); }
-    std::uint64_t end() const noexcept { return end_tick; }   ///< one after the latest tick
+    std::uint64_t end() const noexcept { return end_tick; }             ///< one after the latest tick
+    std::uint64_t beginnings() const noexcept { return times_begun; }   ///< how often it began anew
     double at (std::uint64_t tick) const noexcept { return values[tick % values.size()]; }
 
     /// Calls f (tick, value) for each tick in [from, to) that is stored.
@@ -55,7 +56,7 @@ private:
     std::string si;
     double rate_hz;
     std::vector<double> values;   // a ring buffer
-    std::uint64_t first_tick = 0, end_tick = 0;
+    std::uint64_t first_tick = 0, end_tick = 0, times_begun = 0;
 };
 
 /// Records the ports that its clients request. A port that several clients request is recorded once. [main thread]
@@ -78,6 +79,8 @@ public:
         /// The components of a port, in order. Empty if the port does not exist, or if nothing has run yet.
         std::vector<std::shared_ptr<const Trace>> of (const std::string& port) const { return traces.of (port); }
 
+        std::uint64_t changes() const noexcept { return traces.changes; }   ///< counts what has changed any trace
+
     private:
         friend Traces;
         Traces& traces;
@@ -95,7 +98,11 @@ public:
     const std::vector<std::string>& leftOut() const noexcept { return too_many; }
 
     /// Drops the traces of earlier runs.
-    void clear() { by_name.clear(); }
+    void clear()
+    {
+        by_name.clear();
+        ++changes;
+    }
 
     void planComes (const Plan&) override;
     void after (const Plan& plan, std::uint64_t tick, bool) noexcept override { ring.note (plan, tick); }
@@ -111,6 +118,7 @@ private:
     std::map<std::string, std::shared_ptr<Trace>> by_name;
     std::vector<std::string> too_many;
     std::vector<Client*> clients;
+    std::uint64_t changes = 0;
 };
 
 }   // namespace tactus::host

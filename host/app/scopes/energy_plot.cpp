@@ -45,16 +45,16 @@ void EnergyPlot::show (const Signals& signals)
     const auto seen = windowOf (traces, spec.seconds, {}, 0.0);
     zero = seen.to;
     const auto columns = static_cast<std::size_t> (std::max (1.0f, lane.area.getWidth()));
-    work = columnsOf (*traces[0], seen.from, seen.to, columns);
-    stored = columnsOf (*traces[1], seen.from, seen.to, columns);
-    dissipated = columnsOf (*traces[2], seen.from, seen.to, columns);
+    const auto& of_work = work.update (traces[0], seen.from, seen.to, columns).all;
+    const auto& of_stored = stored.update (traces[1], seen.from, seen.to, columns).all;
+    const auto& of_heat = dissipated.update (traces[2], seen.from, seen.to, columns).all;
     Extent extent { 0.0, 0.0 };
-    for (std::size_t i = 0; i < work.all.size(); ++i)
+    for (std::size_t i = 0; i < of_work.size(); ++i)
     {
-        if (work.all[i].extent.isEmpty()) continue;
-        extent.include (work.all[i].extent);
-        extent.include (dissipated.all[i].extent.low);
-        extent.include (dissipated.all[i].extent.high + stored.all[i].extent.high);
+        if (of_work[i].extent.isEmpty()) continue;
+        extent.include (of_work[i].extent);
+        extent.include (of_heat[i].extent.low);
+        extent.include (of_heat[i].extent.high + of_stored[i].extent.high);
     }
     lane.x = { -spec.seconds, 0.0 };
     lane.x_unit = "s";
@@ -71,21 +71,22 @@ void EnergyPlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t)
         heat.clear();
         top.clear();
     };
-    for (std::size_t i = 0; i < work.all.size(); ++i)
+    const auto& columns = work.columns();
+    for (std::size_t i = 0; i < columns.all.size(); ++i)
     {
-        const auto &d = dissipated.all[i].extent, &s = stored.all[i].extent;
+        const auto &d = dissipated.columns().all[i].extent, &s = stored.columns().all[i].extent;
         if (d.isEmpty() || s.isEmpty())
         {
             flush();
             continue;
         }
-        const double x = (work.first + static_cast<double> (i) * work.ticks_each - zero) / rate_hz;
+        const double x = (columns.first + static_cast<double> (i) * columns.ticks_each - zero) / rate_hz;
         floor.push_back ({ x, 0.0 });
         heat.push_back ({ x, d.high });
         top.push_back ({ x, d.high + s.high });
     }
     flush();
-    drawTrace (g, lane, work, zero, rate_hz, theme().text);
+    drawTrace (g, lane, columns, zero, rate_hz, theme().text);
 }
 
 void EnergyPlot::paintOver (juce::Graphics& g)
@@ -109,7 +110,10 @@ void EnergyPlot::paintOver (juce::Graphics& g)
 
 std::vector<ScopePlot::Action> EnergyPlot::actions()
 {
-    return { { TRANS ("reset"), TRANS ("Restarts the energy balance from zero"), [this] (juce::Component&) { meter.restart(); } } };
+    return { { TRANS ("reset"), TRANS ("Restarts the energy balance from zero"), [this] (juce::Component&) {
+                  meter.restart();
+                  if (context.onChange) context.onChange();
+              } } };
 }
 
 juce::String EnergyPlot::emptyText() const

@@ -26,7 +26,7 @@ private:
     juce::String emptyText() const override;
 
     EnergyMeter meter;
-    TraceColumns work, stored, dissipated;
+    MovingColumns work, stored, dissipated;
     double rate_hz = 1.0, zero = 0.0;
     juce::String text;   // what is said about the balance
     bool has_legend = true;

@@ -35,6 +35,12 @@ void OverPlot::show (const Signals& signals)
     const auto end = std::min (endOf (xs), endOf (ys));
     const auto ticks = static_cast<std::uint64_t> (spec.seconds * xs.front()->rate());
     const auto from = end - std::min (end, ticks);
+    constexpr std::size_t columns = 256;   // so that only new ticks are read for the extents
+    const auto of = [&] (MovingColumns& moving, const std::shared_ptr<const Trace>& t) {
+        moving.update (t, static_cast<double> (from), static_cast<double> (end), columns);
+        return moving.extent();
+    };
+    travels.resize (xs.size());
     if (spec.component >= 0)
         component = spec.component;
     else
@@ -42,7 +48,7 @@ void OverPlot::show (const Signals& signals)
         // Shows the component that moves most. Another one replaces it only if that moves clearly more, so that the choice does not change
         // at every reversal.
         const auto travel = [&] (std::size_t i) {
-            const auto e = extentOf (*xs[i], static_cast<double> (from), static_cast<double> (end));
+            const auto e = of (travels[i], xs[i]);
             return e.isEmpty() ? 0.0 : e.size();
         };
         for (std::size_t i = 0; i < xs.size(); ++i)
@@ -56,8 +62,8 @@ void OverPlot::show (const Signals& signals)
     auto& lane = lanes.front();
     if (has_state) lane.area.removeFromTop (legend_height);
     lane.x_unit = x.unit();
-    lane.x = rangeOf (xKey (x.unit()), extentOf (x, static_cast<double> (from), static_cast<double> (end)));
-    lane.y = rangeOf (y.unit(), extentOf (y, static_cast<double> (from), static_cast<double> (end)));
+    lane.x = rangeOf (xKey (x.unit()), of (travels[std::min (xs.size() - 1, static_cast<std::size_t> (component))], pick (xs, component)));
+    lane.y = rangeOf (y.unit(), of (heights, pick (ys, component)));
     draw (x, y, has_state ? states.front().get() : nullptr, from, end);
 }
 

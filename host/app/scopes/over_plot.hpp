@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scope_plot.hpp"
+#include "trace_window.hpp"
 
 namespace tactus::host
 {
@@ -35,6 +36,8 @@ private:
     void zoomX (double factor, const Lane&, float at) override;
     void draw (const Trace& x, const Trace& y, const Trace* state, std::uint64_t from, std::uint64_t to);
 
+    std::vector<MovingColumns> travels;   // by component of x; its extents
+    MovingColumns heights;
     int component = 0;
     Quantity quantity = Quantity::force;
     bool has_state = false;

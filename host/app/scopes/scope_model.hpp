@@ -36,6 +36,7 @@ struct ScopeTrigger
 
     Edge edge = Edge::off;
     double level = 0.0;   ///< a value of the first trace, in SI units
+    bool operator== (const ScopeTrigger&) const = default;
 };
 
 /// A clicked position: x in s, Hz or the unit of the x axis, y in the unit of its lane.
@@ -43,6 +44,7 @@ struct Cursor
 {
     std::size_t lane = 0;
     double x = 0.0, y = 0.0;
+    bool operator== (const Cursor&) const = default;
 };
 
 /// What one scope shows, and how. Ports have the same names as in `tactus render --record`.
@@ -65,6 +67,7 @@ struct ScopeSpec
     std::vector<Cursor> cursors;            ///< at most two
     bool is_frozen = false;
     double share = 1.0;   ///< of the width of its row, relative to the other scopes in it
+    bool operator== (const ScopeSpec&) const = default;
 
     /// Adds a trace. A spectrogram replaces its trace, because it shows only one.
     void addPort (const std::string& port)
@@ -99,7 +102,9 @@ void click (std::vector<Cursor>&, const Cursor&);
 class AutoRange
 {
 public:
-    explicit AutoRange (int patience = 45) : updates_to_wait (patience) {}
+    static constexpr int usual_patience = 45;   ///< updates
+
+    explicit AutoRange (int patience = usual_patience) : updates_to_wait (patience) {}
 
     const Extent& update (const Extent& seen);
     const Extent& shown() const noexcept { return range; }

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace tactus::host
@@ -201,7 +202,9 @@ ScopePanel::~ScopePanel() { document.remove (*this); }
 void ScopePanel::listPorts()
 {
     context.ports = scopePorts (document.graph(), catalogue);
+    context.names = PortNames (context.ports);
     context.energies = energyPorts (context.ports);
+    ++context.edits;
 }
 
 void ScopePanel::documentChanged()
@@ -216,9 +219,10 @@ void ScopePanel::documentChanged()
 void ScopePanel::requestPorts()
 {
     std::vector<std::string> wanted;
+    std::set<std::string> known;
     for (const auto& s : model.scopes)
         for (const auto& p : portsOf (*s, context.energies))
-            if (isThere (p, context.ports) && std::ranges::count (wanted, p) == 0) wanted.push_back (p);
+            if (known.insert (p).second && context.names.has (p)) wanted.push_back (p);
     client.want (std::move (wanted));
 }
 
@@ -310,6 +314,7 @@ juce::String ScopePanel::warning() const
 
 void ScopePanel::refresh()
 {
+    context.samples = client.changes();
     for (auto& v : views)
         v->refresh();
     if (const auto now = warning(); now != warned)

@@ -28,8 +28,11 @@ struct Lane
 struct ScopeContext
 {
     std::vector<ScopePort> ports;        ///< all ports that can be probed
+    PortNames names;                     ///< of all these ports
     std::vector<std::string> energies;   ///< the ports that report energies
     std::function<void()> onChange;      ///< called when the spec of a scope has changed
+    std::uint64_t edits = 0;             ///< counts the changes of the ports
+    std::uint64_t samples = 0;           ///< counts what the traces have received
 };
 
 /// The plot of a scope: lanes with axes, two cursors, and zoom with the wheel.

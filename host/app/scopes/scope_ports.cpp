@@ -83,9 +83,23 @@ std::string stateFor (const std::string& port, const std::vector<ScopePort>& por
     return firstOf (ports, "friction.", Role::output, "state");
 }
 
-bool isThere (const std::string& port, const std::vector<ScopePort>& ports)
+PortNames::PortNames (const std::vector<ScopePort>& ports)
 {
-    return std::ranges::any_of (ports, [&] (const ScopePort& p) { return isPartOf (port, p.name) || isPartOf (p.name, port); });
+    for (const auto& p : ports)
+        sorted.push_back (p.name);
+    std::ranges::sort (sorted);
+}
+
+bool PortNames::has (const std::string& port) const
+{
+    const auto node = port.substr (0, port.find_first_of ("[/."));   // of the whole graph; it begins the names of all ports that match
+    for (const char end : { '.', '/', '[' })
+    {
+        const auto stem = node + end;
+        for (auto at = std::ranges::lower_bound (sorted, stem); at != sorted.end() && at->starts_with (stem); ++at)
+            if (isPartOf (port, *at) || isPartOf (*at, port)) return true;
+    }
+    return false;
 }
 
 ScopeSpec suggestedScope (ScopeKind kind, const graph::Graph& g, const Catalogue& c)

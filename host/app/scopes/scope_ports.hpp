@@ -37,7 +37,18 @@ std::string stateFor (const std::string& port, const std::vector<ScopePort>&);
 /// Updates the port names after an edit that renamed, grouped or moved nodes, by node id. Names of removed nodes are kept.
 void follow (ScopeModel&, const std::vector<ScopePort>& before, const std::vector<ScopePort>& after);
 
-/// True if a port, or a component of one, is among the ports.
-bool isThere (const std::string& port, const std::vector<ScopePort>&);
+/// Finds ports by name, however many there are.
+class PortNames
+{
+public:
+    PortNames() = default;
+    explicit PortNames (const std::vector<ScopePort>&);
+
+    /// True if a port, or a component of one, is among the ports.
+    bool has (const std::string& port) const;
+
+private:
+    std::vector<std::string> sorted;
+};
 
 }   // namespace tactus::host

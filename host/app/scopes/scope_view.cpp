@@ -121,12 +121,28 @@ void ScopeView::freeze (bool on)
 
 void ScopeView::redraw()
 {
+    ++times_drawn;
+    still_for = 0;
     drawing->show ([this] (const std::string& port) { return of (port); });
+}
+
+/// True if nothing has changed for so long that the ranges of the axes have settled, too.
+bool ScopeView::isAtRest()
+{
+    constexpr int settles = AutoRange::usual_patience + 15;
+    Seen now { spec, context.edits, spec.is_frozen ? 0 : context.samples, &themeOf (*this), getBounds() };
+    if (seen == now) return ++still_for > settles;
+    seen = std::move (now);
+    still_for = 0;
+    return false;
 }
 
 void ScopeView::refresh()
 {
+    if (isAtRest()) return;
+    const int still = still_for;
     redraw();
+    still_for = still;
     if (const auto key = headerKey(); key != header_of)
     {
         rebuildHeader();
@@ -141,13 +157,13 @@ std::string ScopeView::headerKey()
     for (const auto& a : drawing->actions())
         key += '|' + a.text.toStdString();
     for (const auto& p : portsOf (spec, spec.kind == ScopeKind::energy ? std::vector<std::string> {} : context.energies))
-        key += '|' + p + (isThere (p, context.ports) ? "" : "!") + std::to_string (of (p).size());
+        key += '|' + p + (context.names.has (p) ? "" : "!") + std::to_string (of (p).size());
     return key + '|' + std::to_string (getWidth());
 }
 
 void ScopeView::add (Chip c)
 {
-    const bool is_gone = ! c.port.empty() && ! isThere (c.port, context.ports);
+    const bool is_gone = ! c.port.empty() && ! context.names.has (c.port);
     auto& chip = *chips.emplace_back (std::make_unique<FlatButton> (is_gone ? filled (TRANS ("%1 no longer exists"), c.port) : c.text));
     chip.dot = c.dot;
     chip.is_wrong = is_gone;

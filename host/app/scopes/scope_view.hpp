@@ -22,12 +22,13 @@ public:
     std::function<void()> onClose, onFreeze;
     std::function<void (juce::Component& below)> onSave;   ///< called when the save button is clicked
 
-    void refresh();   ///< may rebuild the header, so do not call it from a header button
+    void refresh();   ///< call many times a second; may rebuild the header, so do not call it from a header button
     void redraw();
     void freeze (bool);
     bool isFrozen() const noexcept { return spec.is_frozen; }
 
     const ScopeSpec& shown() const noexcept { return spec; }
+    std::size_t redraws() const noexcept { return times_drawn; }   ///< how often the plot has been updated
     ScopePlot& plot() noexcept { return *drawing; }
 
     /// Saves the scope as an image, at twice its size on the screen. Ids: scope/picture, and those of createFile.
@@ -60,6 +61,17 @@ private:
     };
     void add (Chip);
 
+    /// All that the plot and the header depend on.
+    struct Seen
+    {
+        ScopeSpec of;
+        std::uint64_t edits = 0, samples = 0;
+        const Theme* theme = nullptr;
+        juce::Rectangle<int> place {};
+        bool operator== (const Seen&) const = default;
+    };
+    bool isAtRest();
+
     std::string headerKey();
     juce::Rectangle<int> title_area;
 
@@ -71,6 +83,9 @@ private:
     std::vector<std::unique_ptr<FlatButton>> links, chips;
     std::unique_ptr<FlatButton> freeze_button, save_button, close_button;
     std::string header_of;   // the headerKey() of the current header
+    std::optional<Seen> seen;
+    int still_for = 0;   // calls to refresh() since something changed
+    std::size_t times_drawn = 0;
 };
 
 /// The title in the header, and on the button that adds such a scope.

@@ -44,7 +44,7 @@ void TimePlot::show (const Signals& signals)
         {
             const auto& t = traces[i];
             const auto component = traces.size() == 3 ? juce::String (t->name()).fromLastOccurrenceOf (".", false, false) : juce::String();
-            lines.push_back ({ laneFor (units, t->unit()), traceColour (theme(), t->quantity(), nth, i, traces.size()), component, {} });
+            lines.push_back ({ laneFor (units, t->unit()), traceColour (theme(), t->quantity(), nth, i, traces.size()), component });
             all.push_back (t);
         }
     }
@@ -61,13 +61,12 @@ void TimePlot::show (const Signals& signals)
     zero = seen.trigger ? static_cast<double> (*seen.trigger) : static_cast<double> (endOf (all));
 
     std::vector<Extent> extents (units.size());
+    columns.resize (all.size());
     for (std::size_t i = 0; i < all.size(); ++i)
     {
-        auto& line = lines[i];
-        const auto width = static_cast<std::size_t> (std::max (1.0f, lanes[line.lane].area.getWidth()));
-        line.columns = columnsOf (*all[i], seen.from, seen.to, width);
-        for (const auto& c : line.columns.all)
-            if (! c.extent.isEmpty()) extents[line.lane].include (c.extent);
+        const auto lane = lines[i].lane;
+        columns[i].update (all[i], seen.from, seen.to, static_cast<std::size_t> (std::max (1.0f, lanes[lane].area.getWidth())));
+        extents[lane].include (columns[i].extent());
     }
     for (std::size_t i = 0; i < lanes.size(); ++i)
     {
@@ -114,8 +113,8 @@ void TimePlot::mouseDrag (const juce::MouseEvent& e)
 
 void TimePlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t index)
 {
-    for (const auto& l : lines)
-        if (l.lane == index) drawTrace (g, lane, l.columns, zero, rate_hz, l.colour);
+    for (std::size_t i = 0; i < std::min (lines.size(), columns.size()); ++i)
+        if (lines[i].lane == index) drawTrace (g, lane, columns[i].columns(), zero, rate_hz, lines[i].colour);
 
     // Components differ in lightness, in the same way for all vectors of a lane.
     std::vector<Entry> components;

@@ -25,7 +25,6 @@ private:
         std::size_t lane = 0;
         juce::Colour colour;
         juce::String component;   // the component of a vector, such as "x"
-        TraceColumns columns;
     };
 
     void paintLane (juce::Graphics&, const Lane&, std::size_t) override;
@@ -36,6 +35,7 @@ private:
 
     TickWindow seen;
     std::vector<Line> lines;
+    std::vector<MovingColumns> columns;   // by line
     double rate_hz = 1.0, zero = 0.0, back_before = 0.0;
     bool drags_level = false;
 };

@@ -9,35 +9,94 @@ namespace tactus::host
 namespace
 {
 std::uint64_t tickAtOrAfter (double t) { return t <= 0.0 ? 0 : static_cast<std::uint64_t> (std::ceil (t)); }
+
+/// The columns of a window. Numbers of columns count from tick 0: that of a tick is floor (tick / ticks_each).
+struct Grid
+{
+    double ticks_each, first, end;   // the last two are numbers
+
+    Grid (double from, double to, std::size_t at_most)
+        : ticks_each (std::max (1.0, (to - from) / static_cast<double> (std::max<std::size_t> (1, at_most)))), first (std::floor (from / ticks_each)),
+          end (std::ceil (to / ticks_each))
+    {
+    }
+
+    TraceColumns empty() const
+    {
+        return { ticks_each, first * ticks_each, std::vector<TraceColumn> (static_cast<std::size_t> (std::max (0.0, end - first))) };
+    }
+
+    double numberOf (std::uint64_t tick) const noexcept { return std::floor (static_cast<double> (tick) / ticks_each); }
+
+    std::uint64_t firstTickOf (double number) const noexcept
+    {
+        auto tick = tickAtOrAfter (number * ticks_each);
+        while (numberOf (tick) < number)
+            ++tick;
+        while (tick > 0 && numberOf (tick - 1) >= number)
+            --tick;
+        return tick;
+    }
+
+    /// Calls f (index, tick, next) for each column that has ticks of the trace, with its first tick and the first of the next column. The
+    /// column of a tick is computed once for each column, because a division takes as long as ten comparisons.
+    template <typename F>
+    void each (const Trace& trace, double from, double to, F&& f) const
+    {
+        const auto last = std::min (tickAtOrAfter (to), trace.end());
+        for (auto tick = std::max (tickAtOrAfter (from), trace.begin()); tick < last;)
+        {
+            const double number = std::max (first, numberOf (tick));
+            if (number >= end) break;
+            const auto next = std::min (last, firstTickOf (number + 1.0));
+            f (static_cast<std::size_t> (number - first), tick, next);
+            tick = next;
+        }
+    }
+};
 }   // namespace
 
 TraceColumns columnsOf (const Trace& trace, double from, double to, std::size_t at_most)
 {
-    TraceColumns columns;
-    columns.ticks_each = std::max (1.0, (to - from) / static_cast<double> (std::max<std::size_t> (1, at_most)));
-    const double first = std::floor (from / columns.ticks_each);
-    columns.first = first * columns.ticks_each;
-    columns.all.resize (static_cast<std::size_t> (std::max (0.0, std::ceil (to / columns.ticks_each) - first)));
-    // The column of a tick is floor (tick / ticks_each). It is computed once for each column, because a division takes as long as ten comparisons.
-    const auto columnOf = [&] (std::uint64_t tick) { return std::floor (static_cast<double> (tick) / columns.ticks_each) - first; };
-    const auto firstTickOf = [&] (double column) {
-        auto tick = tickAtOrAfter ((first + column) * columns.ticks_each);
-        while (columnOf (tick) < column)
-            ++tick;
-        while (tick > 0 && columnOf (tick - 1) >= column)
-            --tick;
-        return tick;
-    };
-    const auto begin = std::max (tickAtOrAfter (from), trace.begin()), end = std::min (tickAtOrAfter (to), trace.end());
-    for (auto tick = begin; tick < end;)
-    {
-        const double column = std::max (0.0, columnOf (tick));
-        if (column >= static_cast<double> (columns.all.size())) break;
-        const auto next = std::min (end, firstTickOf (column + 1.0));
-        columns.all[static_cast<std::size_t> (column)].extent = extentOf (trace, tick, next);
-        tick = next;
-    }
+    const Grid grid { from, to, at_most };
+    auto columns = grid.empty();
+    grid.each (trace, from, to, [&] (std::size_t i, std::uint64_t tick, std::uint64_t next) { columns.all[i].extent = extentOf (trace, tick, next); });
     return columns;
+}
+
+const TraceColumns& MovingColumns::update (const std::shared_ptr<const Trace>& trace, double from, double to, std::size_t at_most)
+{
+    const Grid grid { from, to, at_most };
+    auto columns = grid.empty();
+    const bool goes_on = of == trace && beginnings == trace->beginnings() && shown.ticks_each == columns.ticks_each;
+    const double known_from = goes_on ? whole_from : 0.0, known_to = goes_on ? whole_to : 0.0, first_before = std::round (shown.first / shown.ticks_each);
+    whole_from = whole_to = 0.0;
+    grid.each (*trace, from, to, [&] (std::size_t i, std::uint64_t tick, std::uint64_t next) {
+        const double number = grid.first + static_cast<double> (i);
+        const bool is_whole = tick == grid.firstTickOf (number) && next == grid.firstTickOf (number + 1.0);
+        if (is_whole && number >= known_from && number < known_to)
+            columns.all[i] = shown.all[static_cast<std::size_t> (number - first_before)];
+        else
+        {
+            columns.all[i].extent = extentOf (*trace, tick, next);
+            read += next - tick;
+        }
+        if (! is_whole) return;
+        if (whole_from == whole_to) whole_from = number;
+        whole_to = number + 1.0;
+    });
+    of = trace;
+    beginnings = trace->beginnings();
+    shown = std::move (columns);
+    return shown;
+}
+
+Extent MovingColumns::extent() const noexcept
+{
+    Extent all;
+    for (const auto& c : shown.all)
+        if (! c.extent.isEmpty()) all.include (c.extent);
+    return all;
 }
 
 Extent extentOf (const Trace& trace, double from, double to) { return extentOf (trace, tickAtOrAfter (from), tickAtOrAfter (to)); }

@@ -32,6 +32,26 @@ struct TraceColumns
 
 TraceColumns columnsOf (const Trace&, double from, double to, std::size_t at_most);
 
+/// The columns of a window that moves along a trace while the trace grows: the same as those of columnsOf, but only new ticks are read.
+class MovingColumns
+{
+public:
+    const TraceColumns& update (const std::shared_ptr<const Trace>&, double from, double to, std::size_t at_most);
+    const TraceColumns& columns() const noexcept { return shown; }
+
+    /// The extent of all ticks in the window.
+    Extent extent() const noexcept;
+
+    std::uint64_t ticksRead() const noexcept { return read; }   ///< by all updates together
+
+private:
+    TraceColumns shown;
+    std::shared_ptr<const Trace> of;
+    std::uint64_t beginnings = 0;
+    double whole_from = 0.0, whole_to = 0.0;   // the columns whose ticks have all been read, by number since tick 0
+    std::uint64_t read = 0;
+};
+
 /// The extent of a trace over a range of ticks.
 Extent extentOf (const Trace&, double from, double to);
 Extent extentOf (const Trace&, std::uint64_t from, std::uint64_t to);

@@ -18,6 +18,7 @@ namespace tactus::host
 namespace
 {
 constexpr int hand_width = 420, refreshes_per_second = 30;
+constexpr int refreshes_at_rest = 4, refreshes_until_rest = 60;       // at rest, only devices, OSC and other threads can change anything
 constexpr int least_canvas_width = 240, least_canvas_height = 200;    // in pixels
 constexpr int lowest_canvas_height = 80, least_bottom_height = 160;   // in a low window, the canvas gives way to the panels below it
 }   // namespace
@@ -45,11 +46,13 @@ MainView::MainView (const Catalogue& c)
     edited.add (*this);   // added after the canvas, which must be up to date when this view is notified
     documentChanged();
     juce::Desktop::getInstance().addFocusChangeListener (this);
-    startTimerHz (refreshes_per_second);
+    addMouseListener (this, true);   // any input wakes the window
+    wake();
 }
 
 MainView::~MainView()
 {
+    removeMouseListener (this);
     juce::Desktop::getInstance().removeFocusChangeListener (this);
     if (focused != nullptr) focused->removeKeyListener (this);
     if (ticks_to_save > 0) static_cast<void> (saveSettings (settings, home));
@@ -189,8 +192,19 @@ void MainView::closeSuddenly()
     files.endSuddenly();
 }
 
+void MainView::wake()
+{
+    awake_for = refreshes_until_rest;
+    if (getTimerInterval() != 1000 / refreshes_per_second) startTimer (1000 / refreshes_per_second);
+}
+
 void MainView::timerCallback()
 {
+    const bool is_busy = playback.current().isRunning() || ticks_to_save > 0;
+    if (is_busy)
+        wake();
+    else if (awake_for > 0 && --awake_for == 0)
+        startTimerHz (refreshes_at_rest);
     playback.poll();
     keepKeyboard();
     shade.follow();
@@ -247,6 +261,7 @@ void MainView::showProblems()
 
 void MainView::documentChanged()
 {
+    wake();
     status.clearNotice();
     missing = unfelt (edited.graph(), catalogue);
     std::vector<std::string> probed;

@@ -91,7 +91,8 @@ public:
     TakePanel& takePanel() noexcept { return takes; }
     Inspector& inspected() noexcept { return inspector; }
     juce::String statusText() const { return status.text(); }
-    void report (const Message&);   ///< an error that belongs to no part of the window, in the status line
+    bool isAtRest() const noexcept { return awake_for == 0; }   ///< nothing runs, and there was no input for a while
+    void report (const Message&);                               ///< an error that belongs to no part of the window, in the status line
 
     /// Asks for a file, see Files::Callbacks. Tests answer immediately.
     std::function<void (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>)> chooseFile;
@@ -109,6 +110,16 @@ private:
     void documentChanged() override;
     void documentRefused (const Message&) override;
     void timerCallback() override;
+    void wake();   ///< polls often again
+    void mouseMove (const juce::MouseEvent&) override { wake(); }
+    void mouseDown (const juce::MouseEvent&) override { wake(); }
+    void mouseDrag (const juce::MouseEvent&) override { wake(); }
+    void mouseUp (const juce::MouseEvent&) override { wake(); }
+    void mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& d) override
+    {
+        wake();
+        juce::Component::mouseWheelMove (e, d);
+    }
     void globalFocusChanged (juce::Component*) override;
     bool keyPressed (const juce::KeyPress&, juce::Component*) override;
 
@@ -214,6 +225,7 @@ private:
     const void* const first_identity = edited.identity();    // of the empty document that the window begins with
     const void* shown_identity = nullptr;                    // identity of the document that is shown
     int ticks_to_save = 0;                                   // timer ticks until the settings are saved; 0: nothing to save
+    int awake_for = 0;                                       // timer ticks until the window polls less often; 0: it does
     juce::TooltipWindow tooltips { this, 600 };
 };
 

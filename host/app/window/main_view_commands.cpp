@@ -182,6 +182,7 @@ void MainView::store (int number)
 void MainView::saveSettingsSoon()
 {
     if (! home.empty()) ticks_to_save = ticks_before_saving;
+    wake();
 }
 
 }   // namespace tactus::host

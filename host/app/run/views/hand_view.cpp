@@ -22,6 +22,8 @@ HandView::HandView (Playback& p) : playback (p)
 void HandView::refresh()
 {
     const auto& run = playback.current();
+    const bool was_moved_by_pointer = by_pointer, was_shown = tool.has_value();
+    const auto before = tool.value_or (LiveRun::Tool {});
     by_pointer = run.hand().kind == LiveRun::Hand::Kind::pointer;
     held = held && by_pointer;
     tool = run.tool();
@@ -33,7 +35,10 @@ void HandView::refresh()
     }
     else
         trail.clear();
-    repaint();
+    const auto now = tool.value_or (LiveRun::Tool {});
+    const bool is_still = was_shown == tool.has_value() && before.position == now.position && before.force == now.force
+                          && std::ranges::all_of (trail, [&] (const Vec3& p) { return p == now.position; });
+    if (! is_still || was_moved_by_pointer != by_pointer) repaint();
 }
 
 juce::Rectangle<float> HandView::surface() const { return getLocalBounds().toFloat().withTrimmedRight (64.0f); }

@@ -387,3 +387,37 @@ TEST_CASE ("scopes: for a slow stroke over a preset, the nodes account for all w
         CHECK (std::abs (balance.elsewhere()) < 0.05 * balance.work);
     }
 }
+
+TEST_CASE ("scopes: what does not change is not drawn again", "[app][scopes]")
+{
+    Bench b;
+    b.run (500);
+    const auto refresh = [&] (int times) {
+        for (int i = 0; i < times; ++i)
+            b.panel->refresh();
+    };
+    const auto redraws = [&] {
+        std::size_t all = 0;
+        for (const auto& v : b.panel->shown())
+            all += v->redraws();
+        return all;
+    };
+    const auto drawnBy = [&] (auto&& change) {
+        refresh (200);
+        const auto before = redraws();
+        refresh (50);
+        CHECK (redraws() == before);
+        change();
+        refresh (1);
+        return redraws() - before;
+    };
+    const auto scopes = b.panel->shown().size();
+    CHECK (drawnBy ([&] { b.run (1); }) >= scopes);
+    CHECK (drawnBy ([&] { b.panel->setSize (1000, 240); }) == scopes);
+    CHECK (drawnBy ([&] { REQUIRE (b.document.perform (graph::RemoveNode { "", "grain" })); }) >= scopes);
+    CHECK (drawnBy ([&] { b.panel->freezeAll (true); }) >= scopes);
+    CHECK (drawnBy ([&] { b.run (100); }) == 0);   // all are frozen
+    auto& plot = b.view (ScopeKind::time).plot();
+    CHECK (drawnBy ([&] { clickAt (plot, { 200.0f, 60.0f }); }) == 1);   // a cursor
+    CHECK (plot.shownLanes().size() == 1);
+}

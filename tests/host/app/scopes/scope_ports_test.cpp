@@ -65,7 +65,7 @@ TEST_CASE ("scopes: every preset has suggested scopes, with ports that exist", "
             for (const auto& p : portsOf (s, energyPorts (ports)))
             {
                 INFO (p);
-                CHECK (isThere (p, ports));
+                CHECK (PortNames (ports).has (p));
             }
     }
 }
@@ -112,6 +112,6 @@ TEST_CASE ("scopes: a scope follows a renamed node, and keeps the name of a remo
     CHECK (model.scopes.back()->node == "rub");
     edit (graph::RemoveNode { "", "rub" });
     CHECK (over.y == "rub.force");
-    CHECK_FALSE (isThere (over.y, scopePorts (edits.graph(), catalogue())));
-    CHECK (isThere (over.x, scopePorts (edits.graph(), catalogue())));
+    CHECK_FALSE (PortNames (scopePorts (edits.graph(), catalogue())).has (over.y));
+    CHECK (PortNames (scopePorts (edits.graph(), catalogue())).has (over.x));
 }
