@@ -123,3 +123,33 @@ TEST_CASE ("scopes: a trace visits its ticks in order, even across the end of it
     });
     CHECK (count == 100);
 }
+
+TEST_CASE ("a window that moves along a growing trace has the columns of the whole window, and reads only new ticks", "[app][scopes]")
+{
+    rc::prop ("moving columns", [] {
+        const double rate = *rc::gen::element (200.0, 1000.0, 4000.0), seconds = *rc::gen::element (0.05, 1.0, 7.3, 10.0);
+        const auto trace = emptyTrace ("a.force", rate);
+        const auto width = *rc::gen::inRange<std::size_t> (1, 700);
+        MovingColumns moving;
+        std::uint64_t tick = *rc::gen::inRange<std::uint64_t> (0, 50'000), updates = 0;
+        std::uint64_t added = 0;
+        for (const int steps : *rc::gen::container<std::vector<int>> (40, rc::gen::inRange (0, 900)))
+        {
+            for (int i = 0; i < steps; ++i, ++tick, ++added)
+                trace->add (tick, std::sin (0.013 * static_cast<double> (tick * tick % 1009)));
+            if (steps % 17 == 3) tick += 5;              // the window was busy
+            if (steps % 97 == 5) tick = tick / 2 + 13;   // another run begins
+            const double to = static_cast<double> (trace->end()), from = to - seconds * rate;
+            const auto& now = moving.update (trace, from, to, width);
+            const auto whole = columnsOf (*trace, from, to, width);
+            ++updates;
+            RC_ASSERT (now.first == whole.first);
+            RC_ASSERT (now.ticks_each == whole.ticks_each);
+            RC_ASSERT (now.all.size() == whole.all.size());
+            for (std::size_t i = 0; i < whole.all.size(); ++i)
+                RC_ASSERT (now.all[i].extent == whole.all[i].extent);
+        }
+        const auto each = static_cast<std::uint64_t> (moving.columns().ticks_each) + 1;
+        RC_ASSERT (moving.ticksRead() <= added + 3 * each * updates);
+    });
+}
