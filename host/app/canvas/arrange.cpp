@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
 namespace tactus::host
 {
@@ -114,6 +116,7 @@ public:
         stackAll();
         for (int sweep = 0; sweep < sweeps; ++sweep)
             sortByNeighbours (sweep % 2 == 0);
+        stackAll (highest);
     }
 
     const std::vector<juce::Point<float>>& result() const noexcept { return places; }
@@ -121,6 +124,7 @@ public:
 private:
     static constexpr float lane_height = 16.0f;
     static constexpr int sweeps = 8;
+    static constexpr float highest = 6000.0f;   // a higher column cannot be seen as a whole
 
     std::vector<juce::Point<float>> sizes, places;
     std::vector<int> column;
@@ -129,24 +133,37 @@ private:
 
     float middle (int b) const { return places[at (b)].y + sizes[at (b)].y / 2; }
 
-    void stackAll()
+    /// A column that is higher than `most` is divided into several, side by side.
+    void stackAll (float most = std::numeric_limits<float>::max())
     {
         float x = 0.0f;
         for (const auto& boxes : columns)
         {
-            float widest = 0.0f, y = between_boxes / 2;
+            float height = 0.0f;
             for (const int b : boxes)
-            {
-                widest = std::max (widest, sizes[at (b)].x);
-                y -= (sizes[at (b)].y + between_boxes) / 2;
-            }
-            for (const int b : boxes)
-            {
-                places[at (b)] = { x, y };
-                y += sizes[at (b)].y + between_boxes;
-            }
-            x += widest + between_columns;
+                height += sizes[at (b)].y + between_boxes;
+            const auto parts = static_cast<std::size_t> (std::ceil (std::max (1.0f, height / most)));
+            const auto in_each = std::max<std::size_t> (1, (boxes.size() + parts - 1) / parts);
+            for (std::size_t i = 0; i < boxes.size(); i += in_each)
+                x = stack (std::span (boxes).subspan (i, std::min (in_each, boxes.size() - i)), x);
         }
+    }
+
+    /// Stacks boxes from x on; returns where the next column begins.
+    float stack (std::span<const int> boxes, float x)
+    {
+        float widest = 0.0f, y = between_boxes / 2;
+        for (const int b : boxes)
+        {
+            widest = std::max (widest, sizes[at (b)].x);
+            y -= (sizes[at (b)].y + between_boxes) / 2;
+        }
+        for (const int b : boxes)
+        {
+            places[at (b)] = { x, y };
+            y += sizes[at (b)].y + between_boxes;
+        }
+        return x + widest + between_columns;
     }
 
     void sortByNeighbours (bool on_the_left)

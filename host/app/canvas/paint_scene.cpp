@@ -17,9 +17,10 @@ namespace tactus::host
 namespace
 {
 constexpr float corner = 5.0f, socket_radius = 4.0f;
-constexpr float too_small_to_read = 0.35f;   // zoom below which text is too small to read
-constexpr float labels_too_small = 0.44f;    // zoom below which the labels of ports are too small: less than 5.3 pixels
-constexpr float least_title = 10.0f;         // pixels
+constexpr float too_small_to_read = 0.35f;    // zoom below which text is too small to read: a node is a coloured box with its name
+constexpr float too_small_for_names = 0.2f;   // zoom below which the names do not fit, either: a node is a coloured box
+constexpr float labels_too_small = 0.44f;     // zoom below which the labels of ports are too small: less than 5.3 pixels
+constexpr float least_title = 10.0f;          // pixels
 
 class NodePainter
 {
@@ -33,6 +34,7 @@ public:
     {
         const auto bounds = node.bounds();
         const bool selected = highlights.selected.contains (node.id);
+        if (zoom < too_small_for_names) return boxAlone (node, selected);
         g.setColour (juce::Colours::black.withAlpha (theme.is_dark ? 0.35f : 0.10f));
         g.fillRoundedRectangle (bounds.translated (0.0f, 2.0f).expanded (1.0f), corner);
         g.setColour (is_readable ? theme.raised : headerColour (theme, familyOf (node)).withMultipliedAlpha (node.bypass ? 0.4f : 1.0f));
@@ -42,20 +44,45 @@ public:
         g.setColour (selected ? theme.accent : outline);
         g.drawRoundedRectangle (bounds.reduced (0.5f), corner, selected ? 2.0f : 1.0f);
         for (const auto& s : node.box.sockets)
-            socket (node, s);
+            if (is_readable || highlights.fits) socket (node, s);
         if (node.curve != nullptr && is_readable)
             paintSmallCurve (g, node.box.plot + node.at, *node.curve, theme, node.bypass ? 0.4f : 1.0f);
         if (node.face->kind == Face::Kind::placeholder) frame (bounds, theme.warning);
         if (highlights.live.problems.contains (node.id)) frame (bounds, theme.stop);
         cost (node);
-        if (const auto limit = highlights.live.limits.find (node.id); limit != highlights.live.limits.end())
-            drawLimitLight (g, limitLightOf (node, zoom), limit->second.is_broken, theme);
+        limitLight (node);
     }
 
 private:
     static std::string familyOf (const SceneNode& node)
     {
         return node.face->kind == Face::Kind::subgraph ? std::string ("graph") : node.type.substr (0, node.type.find ('.'));
+    }
+
+    /// Whether the node is selected, has a problem or breaks a limit is seen even if it has few pixels.
+    void boxAlone (const SceneNode& node, bool selected) const
+    {
+        const float pixel = 1.0f / zoom;
+        g.setColour (headerColour (theme, familyOf (node)).withMultipliedAlpha (node.bypass ? 0.4f : 1.0f));
+        g.fillRect (node.bounds());
+        const bool has_problem = highlights.live.problems.contains (node.id), is_unknown = node.face->kind == Face::Kind::placeholder;
+        if (has_problem || is_unknown)
+        {
+            g.setColour (has_problem ? theme.stop : theme.warning);
+            g.drawRect (node.bounds(), 2.0f * pixel);
+        }
+        if (selected || highlights.hovered == node.id)
+        {
+            g.setColour (selected ? theme.accent : theme.dim);
+            g.drawRect (node.bounds().expanded (pixel), 2.0f * pixel);
+        }
+        limitLight (node);
+    }
+
+    void limitLight (const SceneNode& node) const
+    {
+        if (const auto limit = highlights.live.limits.find (node.id); limit != highlights.live.limits.end())
+            drawLimitLight (g, limitLightOf (node, zoom), limit->second.is_broken, theme);
     }
 
     /// The name at a readable size on screen. It may extend over the edges of a small node.

@@ -12,7 +12,8 @@ namespace tactus::host
 struct View
 {
     static constexpr float smallest = 0.1f, largest = 4.0f;
-    static constexpr float readable = 0.5f;   ///< the zoom from which on the labels of ports can be read: they have 6 pixels
+    static constexpr float smallest_framed = 0.002f;   ///< shows all of some thousand nodes
+    static constexpr float readable = 0.5f;            ///< the zoom from which on the labels of ports can be read: they have 6 pixels
 
     float zoom = 1.0f;
     juce::Point<float> origin;   ///< where the canvas has its origin, in pixels of the component
@@ -27,7 +28,7 @@ struct View
     void zoomAt (juce::Point<float> pixel, float factor) noexcept
     {
         const auto fixed = toCanvas (pixel);
-        zoom = std::clamp (zoom * factor, smallest, largest);
+        zoom = std::clamp (zoom * factor, std::min (smallest, zoom), largest);
         origin = pixel - fixed * zoom;
     }
 
@@ -38,7 +39,7 @@ struct View
     {
         if (area.isEmpty() || window.isEmpty()) return;
         const auto inside = withoutMargin (window);
-        zoom = std::clamp (std::min ({ 1.0f, inside.getWidth() / area.getWidth(), inside.getHeight() / area.getHeight() }), smallest, largest);
+        zoom = std::clamp (std::min ({ 1.0f, inside.getWidth() / area.getWidth(), inside.getHeight() / area.getHeight() }), smallest_framed, largest);
         origin = inside.getCentre() - area.getCentre() * zoom;
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "energy_plot.hpp"
 
+#include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
 
 namespace tactus::host
@@ -32,7 +33,9 @@ void EnergyPlot::show (const Signals& signals)
     layOut ({ "J" });
     auto& lane = lanes.front();
     constexpr float least_plot = 40.0f;   // pixels; the numbers and the legend give way to it
-    text = juce::String::fromUTF8 (describe (meter.balance()).c_str());
+    text = context.energies_left_out > 0 ? filled (TRANS ("work of the hand %1; the energy of the nodes is not recorded, because %2 ports report one"),
+                                                   withPrefix (meter.balance().work, "J", 2), context.energies_left_out)
+                                         : juce::String::fromUTF8 (describe (meter.balance()).c_str());
     const auto linesOf = [this] (const juce::String& t) {
         const float width = lookOf (*this).font (12.0f).getStringWidthFloat (t), line = std::max (1.0f, static_cast<float> (getWidth()) - 16.0f);
         return std::clamp (static_cast<int> (std::ceil (1.1f * width / line)), 1, most_lines);
@@ -119,7 +122,7 @@ std::vector<ScopePlot::Action> EnergyPlot::actions()
 juce::String EnergyPlot::emptyText() const
 {
     if (spec.x.empty() || spec.y.empty()) return TRANS ("Energy needs a device.position node for the hand, and a device.force node for the force on it");
-    return juce::translate (not_run_yet);
+    return whyEmpty();
 }
 
 }   // namespace tactus::host

@@ -205,7 +205,7 @@ std::vector<ScopePlot::Action> OverPlot::actions()
 
 juce::String OverPlot::emptyText() const
 {
-    return spec.x.empty() || spec.y.empty() ? TRANS ("Choose the x and y axes above, such as position and force") : juce::translate (not_run_yet);
+    return spec.x.empty() || spec.y.empty() ? TRANS ("Choose the x and y axes above, such as position and force") : whyEmpty();
 }
 
 }   // namespace tactus::host

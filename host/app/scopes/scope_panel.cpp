@@ -205,6 +205,8 @@ void ScopePanel::listPorts()
     context.names = PortNames (context.ports);
     context.energies = energyPorts (context.ports);
     ++context.edits;
+    context.energies_left_out = context.energies.size() > most_energies ? context.energies.size() : 0;
+    if (context.energies_left_out > 0) context.energies.clear();
 }
 
 void ScopePanel::documentChanged()
@@ -315,6 +317,7 @@ juce::String ScopePanel::warning() const
 void ScopePanel::refresh()
 {
     context.samples = client.changes();
+    context.leaves_out = ! traces.leftOut().empty();
     for (auto& v : views)
         v->refresh();
     if (const auto now = warning(); now != warned)

@@ -29,7 +29,9 @@ struct ScopeContext
 {
     std::vector<ScopePort> ports;        ///< all ports that can be probed
     PortNames names;                     ///< of all these ports
-    std::vector<std::string> energies;   ///< the ports that report energies
+    std::vector<std::string> energies;   ///< the ports that report energies; none if there are more than can be recorded
+    std::size_t energies_left_out = 0;   ///< the number of these ports, if there are more than can be recorded
+    bool leaves_out = false;             ///< some ports are not recorded, because the scopes ask for too many
     std::function<void()> onChange;      ///< called when the spec of a scope has changed
     std::uint64_t edits = 0;             ///< counts the changes of the ports
     std::uint64_t samples = 0;           ///< counts what the traces have received
@@ -67,7 +69,6 @@ public:
 
 protected:
     static constexpr float gutter = 44.0f, foot = 18.0f, legend_height = 16.0f;
-    static constexpr const char* not_run_yet = NEEDS_TRANS ("The graph has not run yet");
 
     virtual void paintLane (juce::Graphics&, const Lane&, std::size_t index) = 0;
     virtual void paintOver (juce::Graphics&) {}
@@ -96,6 +97,13 @@ protected:
     Action lengthAction (std::vector<double> seconds, const juce::String& about);
 
     const Theme& theme() const { return themeOf (*this); }
+
+    /// Why there is nothing to plot of the ports.
+    juce::String whyEmpty() const
+    {
+        return context.leaves_out ? TRANS ("Not recorded, because the scopes show too many ports. Close a scope or remove a port")
+                                  : TRANS ("The graph has not run yet");
+    }
 
     ScopeSpec& spec;
     ScopeContext& context;

@@ -2,7 +2,6 @@
 #include "scope_ports.hpp"
 
 #include <tactus/graph/inside.hpp>
-#include <tactus/run/probe_ring.hpp>
 
 #include <algorithm>
 
@@ -143,7 +142,7 @@ std::vector<ScopeSpec> suggestedScopes (const graph::Graph& g, const Catalogue& 
     std::vector<ScopeSpec> all;
     if (auto time = suggestedScope (ScopeKind::time, g, c); ! time.ports.empty()) all.push_back (std::move (time));
     if (auto over = suggestedScope (ScopeKind::over, g, c); ! over.x.empty() && ! over.y.empty()) all.push_back (std::move (over));
-    if (energyPorts (scopePorts (g, c)).empty()) return all;
+    if (const auto count = energyPorts (scopePorts (g, c)).size(); count == 0 || count > most_energies) return all;
     if (auto energy = suggestedScope (ScopeKind::energy, g, c); ! energy.x.empty() && ! energy.y.empty()) all.push_back (std::move (energy));
     return all;
 }

@@ -4,6 +4,7 @@
 #include "scope_model.hpp"
 
 #include <host/app/model/face.hpp>
+#include <tactus/run/probe_ring.hpp>
 
 namespace tactus::host
 {
@@ -22,7 +23,7 @@ struct ScopePort
 std::vector<ScopePort> scopePorts (const graph::Graph&, const Catalogue&);
 
 /// The scopes for a newly opened graph: motor force over time, force against displacement, and energy. Leaves out
-/// scopes for which the graph has no ports.
+/// scopes for which the graph has no ports, and the one for energy if more than most_energies ports report one.
 std::vector<ScopeSpec> suggestedScopes (const graph::Graph&, const Catalogue&);
 
 /// A scope of a kind, with suitable ports of the graph.
@@ -30,6 +31,8 @@ ScopeSpec suggestedScope (ScopeKind, const graph::Graph&, const Catalogue&);
 
 /// The ports of all nodes that report stored or dissipated energy.
 std::vector<std::string> energyPorts (const std::vector<ScopePort>&);
+
+constexpr std::size_t most_energies = ProbeRing::most - 6;   ///< that can be recorded next to the position of the hand and the force on it
 
 /// The state port (stuck or sliding) of the node that a port belongs to, or else of the first friction node; "" if there is none.
 std::string stateFor (const std::string& port, const std::vector<ScopePort>&);

@@ -112,7 +112,7 @@ void SpectrogramPlot::paintOver (juce::Graphics& g)
 
 juce::String SpectrogramPlot::emptyText() const
 {
-    return spec.ports.empty() ? TRANS ("Select a wire and press P, or click + above, to see which frequencies it has") : juce::translate (not_run_yet);
+    return spec.ports.empty() ? TRANS ("Select a wire and press P, or click + above, to see which frequencies it has") : whyEmpty();
 }
 
 }   // namespace tactus::host

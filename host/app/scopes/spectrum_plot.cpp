@@ -141,7 +141,7 @@ void SpectrumPlot::paintOver (juce::Graphics& g)
 
 juce::String SpectrumPlot::emptyText() const
 {
-    return spec.ports.empty() ? TRANS ("Select a wire and press P, or click + above, to plot its spectrum") : juce::translate (not_run_yet);
+    return spec.ports.empty() ? TRANS ("Select a wire and press P, or click + above, to plot its spectrum") : whyEmpty();
 }
 
 }   // namespace tactus::host

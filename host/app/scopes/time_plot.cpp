@@ -146,7 +146,7 @@ void TimePlot::paintOver (juce::Graphics& g)
 
 juce::String TimePlot::emptyText() const
 {
-    return spec.ports.empty() ? TRANS ("Select a wire and press P, or click + above, to plot its signal over time") : juce::translate (not_run_yet);
+    return spec.ports.empty() ? TRANS ("Select a wire and press P, or click + above, to plot its signal over time") : whyEmpty();
 }
 
 }   // namespace tactus::host

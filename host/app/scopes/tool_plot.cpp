@@ -160,7 +160,7 @@ void ToolPlot::paintOver (juce::Graphics& g)
 
 juce::String ToolPlot::emptyText() const
 {
-    return spec.node.empty() ? TRANS ("No friction node. Add friction.elasto_plastic to see its anchor and bristle here") : juce::translate (not_run_yet);
+    return spec.node.empty() ? TRANS ("No friction node. Add friction.elasto_plastic to see its anchor and bristle here") : whyEmpty();
 }
 
 }   // namespace tactus::host

@@ -6,7 +6,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr float thickness = 1.5f;
+constexpr float line_thickness = 1.5f;
 }
 
 void drawTrace (juce::Graphics& g, const Lane& lane, const TraceColumns& columns, double tick_of_zero, double rate_hz, juce::Colour colour)
@@ -30,7 +30,7 @@ void drawTrace (juce::Graphics& g, const Lane& lane, const TraceColumns& columns
             }
             goes_on = ! e.isEmpty();
         }
-        g.strokePath (path, juce::PathStrokeType (thickness));
+        g.strokePath (path, juce::PathStrokeType (line_thickness));
         return;
     }
 
@@ -50,7 +50,7 @@ void drawTrace (juce::Graphics& g, const Lane& lane, const TraceColumns& columns
         if (! before.isEmpty()) e = { std::min (e.low, before.high), std::max (e.high, before.low) };   // joins the previous column
         before = own;
         const float top = lane.toPixels (lane.x.low, e.high).y, bottom = lane.toPixels (lane.x.low, e.low).y;
-        spans.addWithoutMerging ({ x (i), top - 0.5f * thickness, width, bottom - top + thickness });
+        spans.addWithoutMerging ({ x (i), top - 0.5f * line_thickness, width, bottom - top + line_thickness });
     }
     g.fillRectList (spans);
 }

@@ -9,6 +9,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <set>
+
 using namespace tactus;
 using namespace tactus::host;
 using host::test::CanvasRig;
@@ -169,4 +171,68 @@ TEST_CASE ("a mixer is placed left of what it feeds and right of what it mixes, 
     rig.document.undo();
     rig.document.undo();
     CHECK (rig.text() == text);
+}
+
+TEST_CASE ("a canvas that is zoomed out shows names without labels and sockets, then coloured boxes", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto show = [&] (float zoom) {
+        rig.canvas->view().zoom = zoom;
+        rig.canvas->view().centreOn (rig.canvas->scene().bounds().getCentre(), rig.canvas->getLocalBounds().toFloat());
+        return rig.canvas->createComponentSnapshot (rig.canvas->getLocalBounds());
+    };
+    // The colours of a node's body, without its edge and the rest of the wires that end at it.
+    const auto coloursOf = [&] (const juce::Image& image, const std::string& name) {
+        const auto& view = rig.canvas->view();
+        const auto box = rig.node (name).bounds();
+        const auto inside = juce::Rectangle<float> (view.toPixels (box.getTopLeft()), view.toPixels (box.getBottomRight())).reduced (2.0f).toNearestInt();
+        std::set<juce::uint32> all;
+        for (int y = inside.getY(); y < inside.getBottom(); ++y)
+            for (int x = inside.getX(); x < inside.getRight(); ++x)
+                all.insert (image.getPixelAt (x, y).getARGB());
+        return all;
+    };
+    const auto socketsIn = [&] (const juce::Image& image) {
+        int count = 0;
+        const auto place = rig.port ("board", Role::output, "force").toInt();   // the half of the socket that lies on the node
+        for (int x = place.x - 2; x < place.x; ++x)
+            count += image.getPixelAt (x, place.y) == lookOf (*rig.canvas).theme().of (Quantity::force);
+        return count;
+    };
+    CHECK (socketsIn (show (0.6f)) > 0);
+    CHECK (shows (host::test::readTexts (*rig.canvas), "Position"));
+    CHECK (socketsIn (show (0.3f)) == 0);
+    CHECK (shows (host::test::readTexts (*rig.canvas), "board"));
+    CHECK_FALSE (shows (host::test::readTexts (*rig.canvas), "Position"));
+    const auto small = show (0.15f);
+    for (const auto& n : rig.canvas->scene().nodes())
+    {
+        INFO (n.name);
+        CHECK (coloursOf (small, n.name).size() == 1);
+        CHECK_FALSE (shows (host::test::readTexts (*rig.canvas), n.name));
+    }
+    CHECK (coloursOf (small, "board") != coloursOf (small, "drag"));   // another family
+
+    rig.canvas->select ({ rig.node ("board").id });   // still shows what is selected
+    const auto box = rig.node ("board").bounds();
+    const auto selected = show (0.15f);
+    const auto corner = rig.canvas->view().toPixels (box.getTopLeft()).toInt();
+    CHECK (selected.getPixelAt (corner.x, corner.y) == lookOf (*rig.canvas).theme().accent);
+}
+
+TEST_CASE ("all of a graph with two thousand nodes can be seen at once", "[app][canvas]")
+{
+    graph::Graph g;
+    for (int i = 0; i < 2000; ++i)
+    {
+        auto& node = g.root.nodes.emplace_back();
+        node.name = "n" + std::to_string (i);
+        node.type = "signal.gain";
+    }
+    CanvasRig rig { std::move (g) };
+    rig.hand().key ("home");
+    const auto& view = rig.canvas->view();
+    const auto all = rig.canvas->scene().bounds();
+    CHECK (rig.canvas->getLocalBounds().toFloat().contains (juce::Rectangle<float> (view.toPixels (all.getTopLeft()), view.toPixels (all.getBottomRight()))));
+    CHECK (view.zoom * rig.canvas->scene().nodes().front().box.width > 4.0f);   // pixels
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/seen_text.hpp"
 #include "scope_bench.hpp"
 
 #include <host/app/scopes/energy_plot.hpp>
@@ -9,11 +10,14 @@
 
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <iostream>
 
 using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::Bench;
+using tactus::host::test::readTexts;
+using tactus::host::test::SeenText;
 
 namespace
 {
@@ -52,6 +56,54 @@ TEST_CASE ("scopes: a newly opened graph shows scopes, which request only the po
     CHECK (wanted
            == std::vector<std::string> { "board.dissipated_energy", "board.stored_energy", "drag.dissipated_energy", "drag.force", "drag.state",
                                          "drag.stored_energy", "hand.position", "motor.applied", "motor.force" });
+}
+
+TEST_CASE ("scopes: a graph with more energies than can be recorded shows no scope that stays empty", "[app][scopes]")
+{
+    const TemporaryFolder folder;
+    std::string nodes = R"("hand": { "type": "device.position", "role": "stylus" }, "motor": { "type": "device.force", "role": "stylus" })", wires;
+    for (int i = 0; i < 1000; ++i)
+    {
+        const auto name = "pad" + std::to_string (i);
+        nodes += ", \"" + name + R"(": { "type": "deform.plane" })";
+        wires += (i > 0 ? ", \"hand.position -> " : "\"hand.position -> ") + name + ".position\", \"" + name + ".force -> motor.force\"";
+    }
+    std::ofstream (folder / "big.json") << R"({ "format": "tactus-graph", "version": 2, "name": "Big", "devices": { "stylus": { "driver": "sim" } }, "nodes": { )"
+                                        << nodes << R"( }, "wires": [ )" << wires << " ] }";
+    Bench b ((folder / "big").string());
+    REQUIRE (b.document.graph().root.nodes.size() == 1002);
+    auto wanted = b.live_run.traces().ports();
+    std::ranges::sort (wanted);
+    CHECK (wanted == std::vector<std::string> { "hand.position", "motor.force", "pad0.force" });
+    b.run (20);
+    CHECK (b.panel->warning().isEmpty());
+    for (const auto& view : b.panel->shown())
+        CHECK_FALSE (view->plot().shownLanes().empty());
+
+    // On request, it shows the work of the hand, and what it does not show.
+    b.panel->add (ScopeKind::energy);
+    b.run (20);
+    CHECK (b.panel->warning().isEmpty());
+    CHECK_FALSE (b.view (ScopeKind::energy).plot().shownLanes().empty());
+    const auto texts = readTexts (b.view (ScopeKind::energy));
+    const auto says = [&] (const std::vector<SeenText>& all, const char* words) {
+        juce::String lines;
+        for (const auto& t : all)
+            lines << t.text << ' ';
+        return lines.contains (words);
+    };
+    CHECK (says (texts, "not recorded"));
+    CHECK_FALSE (says (texts, "passive"));
+
+    // Of too many ports, the rest is said to be left out, and not that nothing runs.
+    auto& last = b.panel->add (ScopeKind::time);
+    for (int i = 0; i < 20; ++i)
+        b.panel->probe ("pad" + std::to_string (i) + ".force");
+    b.run (20);
+    CHECK (b.panel->warning().isNotEmpty());
+    for (int i = 0; i < 8; ++i)
+        b.panel->probe ("pad" + std::to_string (i) + ".force");
+    CHECK_FALSE (says (readTexts (last), "not run yet"));
 }
 
 TEST_CASE ("scopes: a force along x is plotted in the colour of x", "[app][scopes]")
