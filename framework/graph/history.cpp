@@ -58,6 +58,19 @@ Result<> History::perform (Command command, Step step)
     return {};
 }
 
+void History::insertStep (std::string name)
+{
+    steps.insert (steps.begin() + static_cast<std::ptrdiff_t> (done), Done { std::move (name), {}, {} });
+    ++done;
+}
+
+bool History::removeEmptyStep (std::size_t step)
+{
+    if (step < done || step >= steps.size() || ! steps[step].commands.empty()) return false;
+    steps.erase (steps.begin() + static_cast<std::ptrdiff_t> (step));
+    return true;
+}
+
 bool History::undo()
 {
     if (done == 0) return false;

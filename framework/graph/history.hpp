@@ -41,6 +41,12 @@ public:
     /// errors are those of edit.hpp and of compile().
     Result<> perform (Command, Step = Step::own);
 
+    /// Inserts a step that changes nothing before the steps that could be redone, which can still be redone after it.
+    void insertStep (std::string name);
+
+    /// Removes a step that was undone and changes nothing. Returns false, and leaves it, if it changes something.
+    bool removeEmptyStep (std::size_t step);
+
     bool undo();   ///< false if there is nothing to undo
     bool redo();
 

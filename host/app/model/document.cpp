@@ -28,9 +28,20 @@ bool Document::perform (graph::Command command, graph::Step step)
 
 void Document::addWindowStep (const std::string& name, std::function<void()> undo, std::function<void()> redo)
 {
-    if (is_stepping || ! perform (graph::Batch { name, {} })) return;
-    window_steps.resize (edits.position());
-    window_steps.back() = { std::move (undo), std::move (redo) };
+    if (is_stepping) return;
+    const auto at = edits.position();
+    const auto place = [] (std::size_t i) { return static_cast<std::ptrdiff_t> (i); };
+    for (auto i = window_steps.size(); i-- > at;)
+        if (window_steps[i].first && edits.removeEmptyStep (i))
+        {
+            window_steps.erase (window_steps.begin() + place (i));
+            origins.erase (origins.begin() + place (i) + 1);
+        }
+    edits.insertStep (name);
+    origins.insert (origins.begin() + place (at), std::shared_ptr (origins[at]));
+    window_steps.resize (std::max (window_steps.size(), at));
+    window_steps.insert (window_steps.begin() + place (at), { std::move (undo), std::move (redo) });
+    notifyChanged();
 }
 
 void Document::open (graph::Graph g, Source source, const std::string& step)

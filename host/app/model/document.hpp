@@ -57,7 +57,8 @@ public:
     bool perform (graph::Command, graph::Step = graph::Step::own);
 
     /// Adds a step that changes only the window, such as a closed scope. Undoing and redoing it calls these functions, and leaves the graph alone.
-    /// The change itself has been made.
+    /// The change itself has been made. Edits that could be redone can still be redone, but not
+    /// earlier steps of the window, which began with another window.
     void addWindowStep (const std::string& name, std::function<void()> undo, std::function<void()> redo);
 
     void undo() { goTo (edits.position() - std::min<std::size_t> (1, edits.position())); }

@@ -97,6 +97,55 @@ TEST_CASE ("a jump through the history notifies a listener once")
     d.remove (count);
 }
 
+TEST_CASE ("a step of the window leaves what could be redone")
+{
+    Document d (graphOf ("dry_wood.json"));
+    const auto text = [&] { return writeGraph (d.graph()); };
+    const auto set = [&] (const char* value) { REQUIRE (d.perform (graph::SetParam { {}, "drag", "mu", Json (value) })); };
+    const auto first = text();
+    set ("0.1");
+    const auto second = text();
+    set ("0.2");
+    const auto third = text();
+    d.goTo (0);
+    int shown = 1;
+    d.addWindowStep (
+        "close", [&] { shown = 0; }, [&] { shown = 1; });
+    CHECK (d.history().position() == 1);
+    CHECK (d.history().names().size() == 3);
+    CHECK (text() == first);
+    d.redo();
+    CHECK (text() == second);
+    CHECK (shown == 1);
+    d.redo();
+    CHECK (text() == third);
+    d.goTo (1);
+    CHECK (text() == first);
+    CHECK (shown == 1);
+    d.undo();
+    CHECK (shown == 0);
+    d.redo();
+    CHECK (shown == 1);
+    d.goTo (3);
+    CHECK (text() == third);
+    d.goTo (0);
+    CHECK (shown == 0);
+    d.addWindowStep (
+        "open", [&] { shown = 2; }, [&] { shown = 3; });   // in place of the other one, which began with another window
+    CHECK (d.history().names() == std::vector<std::string> { "open", "set drag.mu", "set drag.mu" });
+    d.goTo (3);
+    CHECK (text() == third);
+    CHECK (shown == 0);
+    d.goTo (0);
+    CHECK (shown == 2);
+    shown = 0;
+    set ("0.3");   // an edit discards them, as always
+    CHECK (d.history().names().size() == 1);
+    d.undo();
+    d.redo();
+    CHECK (shown == 0);
+}
+
 // Longer than 60 lines: it is one random walk, and all its steps share the expected history.
 TEST_CASE ("each history position keeps its graph and file under random edits, opens, saves, undos and redos")
 {
@@ -138,6 +187,15 @@ TEST_CASE ("each history position keeps its graph and file under random edits, o
                 d.open (other, is_copy ? Document::Source { .preset = file } : Document::Source { .file = file }, "open");
                 expected.resize (position + 1);
                 expected.push_back ({ writeGraph (other), is_copy ? fs::path() : fs::path (file), is_copy ? fs::path (file) : fs::path(), d.identity() });
+            }
+            else if (what == 7)
+            {
+                const auto names = d.history().names();
+                for (auto i = names.size(); i-- > position;)   // undone steps of the window go
+                    if (names[i] == "window" && d.history().commandsOf (i).empty()) expected.erase (expected.begin() + static_cast<std::ptrdiff_t> (i) + 1);
+                d.addWindowStep (
+                    "window", [] {}, [] {});
+                expected.insert (expected.begin() + static_cast<std::ptrdiff_t> (position), Moment (expected[position]));
             }
             else if (what == 6)
             {
