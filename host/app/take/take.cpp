@@ -16,26 +16,29 @@ constexpr std::uint64_t ticks_at_once = 64;
 }   // namespace
 
 Take::Take (Playback& p) : playback (p) {}
-Take::~Take() { discard(); }
 
-void Take::discard()
+Take::Recording::~Recording()
 {
     std::error_code ignored;
     if (! file.empty()) std::filesystem::remove_all (file.parent_path(), ignored);
-    file.clear();
+}
+
+void Take::restore (std::shared_ptr<Recording> r)
+{
+    stop();
     reader.reset();
     done = nullptr;
-    length_s = 0.0;
-    now = State::empty;
+    current = std::move (r);
+    now = current ? State::ready : State::empty;
 }
 
 void Take::record()
 {
     playback.endPreview();
-    discard();
+    restore (std::make_shared<Recording>());
     const auto folder = privateFolder ("tactus-take-");
-    file = (folder.empty() ? temporaryFolder() / "tactus-take-without-a-folder" : folder) / "take.jsonl";   // the log says why it cannot be written
-    playback.run().logNextTo (file, program);
+    current->file = (folder.empty() ? temporaryFolder() / "tactus-take-without-a-folder" : folder) / "take.jsonl";   // the log says why it cannot be written
+    playback.run().logNextTo (current->file, program);
     playback.startAgain();
     began = std::chrono::steady_clock::now();
     now = State::recording;
@@ -48,7 +51,7 @@ void Take::stop()
 
 double Take::seconds() const noexcept
 {
-    if (now != State::recording) return length_s;
+    if (now != State::recording) return current ? current->length_s : 0.0;
     return std::chrono::duration<double> (std::chrono::steady_clock::now() - began).count();
 }
 
@@ -58,7 +61,7 @@ void Take::read (StretchReader::Options options, std::function<void (Result<Stre
     options.assets = &assets;
     options.services.nearest_triangle = nearestByEmbree;
     options.program = program;
-    auto opened = StretchReader::open (file.string(), std::move (options));
+    auto opened = StretchReader::open (current->file.string(), std::move (options));
     if (! opened) return then (std::move (opened).error());
     reader = std::move (*opened);
     done = std::move (then);
@@ -72,9 +75,9 @@ void Take::poll()
         if (seconds() > longest_s) stop();
         if (playback.run().isLogging()) return;
         std::error_code failed;
-        const bool is_there = std::filesystem::file_size (file, failed) > 0 && ! failed;
-        length_s = seconds();
-        hand = playback.run().handRole();
+        const bool is_there = std::filesystem::file_size (current->file, failed) > 0 && ! failed;
+        current->length_s = seconds();
+        current->hand = playback.run().handRole();
         now = is_there ? State::ready : State::empty;
         if (is_there && onRecorded) onRecorded();
     }

@@ -29,10 +29,22 @@ public:
     static constexpr double longest_s = 60.0;
 
     explicit Take (Playback&);
-    ~Take();
 
     /// This program and its version, as logs state it.
     std::string program = "tactus";
+
+    /// What was recorded, in a log that is removed with this object.
+    struct Recording
+    {
+        Recording() = default;
+        ~Recording();
+        Recording (const Recording&) = delete;
+        Recording& operator= (const Recording&) = delete;
+
+        std::filesystem::path file;
+        std::string hand;   ///< the role of the hand; empty if it has none
+        double length_s = 0.0;
+    };
 
     void record();   ///< starts the run again, and records it
     void stop();     ///< ends the recording; the run goes on
@@ -47,23 +59,26 @@ public:
 
     std::function<void()> onRecorded;   ///< called when a recording is complete
 
+    /// The recording, complete or not; null if there is none.
+    const std::shared_ptr<Recording>& recorded() const noexcept { return current; }
+
+    /// Goes back to an earlier recording, which is complete, or to none.
+    void restore (std::shared_ptr<Recording>);
+
     /// The role of the hand in the recording; empty if it has none.
-    const std::string& role() const noexcept { return hand; }
+    std::string role() const { return current ? current->hand : std::string(); }
 
     /// The log of the recording; empty if there is none.
-    const std::filesystem::path& log() const noexcept { return file; }
+    std::filesystem::path log() const { return current ? current->file : std::filesystem::path(); }
 
 private:
     bool readOn();
-    void discard();
 
     Playback& playback;
     FileAssets assets;
     State now = State::empty;
-    std::filesystem::path file;
-    std::string hand;
+    std::shared_ptr<Recording> current;
     std::chrono::steady_clock::time_point began;
-    double length_s = 0.0;
     std::unique_ptr<StretchReader> reader;
     std::function<void (Result<Stretch>)> done;
 };

@@ -11,6 +11,7 @@
 #include <tactus/text/read_number.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace tactus::host
 {
@@ -49,7 +50,7 @@ TakePanel::TakePanel (Document& d, Playback& p, const Catalogue& c) : document (
         if (onHint) onHint (text);
     };
     curve.setText (juce::translate (how_to));
-    recording.onRecorded = [this] { readPort(); };
+    recording.onRecorded = [this] { recorded(); };
     for (auto* child : std::initializer_list<juce::Component*> { &curve, &record, &ports, &from, &until, &clip, &gesture, &test })
         addAndMakeVisible (child);
     document.add (*this);
@@ -76,6 +77,11 @@ void TakePanel::listPorts()
         const auto first = names.empty() ? std::string() : names.front();
         shown_port = suggested.empty() ? first : suggested.front();
     }
+    fillPorts();
+}
+
+void TakePanel::fillPorts()
+{
     ports.clear (juce::dontSendNotification);
     auto& menu = *ports.getRootMenu();   // ComboBox::addItem compares each item with all others
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -87,10 +93,36 @@ void TakePanel::listPorts()
 void TakePanel::toggleRecording()
 {
     if (recording.state() == Take::State::recording) return recording.stop();
+    before = shown();
     listPorts();
     curve.show ({});
     recording.record();
     refresh();
+}
+
+void TakePanel::restore (const Shown& to)
+{
+    recording.restore (to.recording);
+    names = to.names;
+    shown_port = to.port;
+    if (! to.recording) listPorts();
+    fillPorts();
+    curve.show ({});
+    if (to.recording) readPort();
+    showMark();
+    refresh();
+}
+
+/// The recording that it replaces comes back by undo.
+void TakePanel::recorded()
+{
+    const auto to = [safe = SafePointer (this)] (const Shown& s) {
+        return [safe, s] {
+            if (safe != nullptr) safe->restore (s);
+        };
+    };
+    readPort();
+    document.addWindowStep (NEEDS_TRANS ("record a take"), to (std::exchange (before, {})), to (shown()));
 }
 
 /// The latest part of what is being recorded, as far as it is kept.

@@ -46,7 +46,18 @@ public:
 
 private:
     void documentChanged() override;
+    /// What the panel shows of a recording.
+    struct Shown
+    {
+        std::shared_ptr<Take::Recording> recording;
+        std::vector<std::string> names;
+        std::string port;
+    };
+    Shown shown() const { return { recording.recorded(), names, shown_port }; }
+    void restore (const Shown&);
+    void recorded();
     void readPort();
+    void fillPorts();
     void showLatest();
     void runTest (const std::filesystem::path&);
     void listPorts();
@@ -73,6 +84,7 @@ private:
     TextField from, until;
     std::vector<std::string> names;   // of the ports to choose from
     std::string shown_port;
+    Shown before;   // the recording that is being made
 };
 
 }   // namespace tactus::host

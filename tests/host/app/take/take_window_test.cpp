@@ -64,3 +64,43 @@ TEST_CASE ("a take shows its curve while it records\\, and Stop ends the take an
     run.letGo();
     unsetenv ("TACTUS_GRAPHS");
 }
+
+TEST_CASE ("a take can be undone\\, which brings back the one before", "[app][take]")
+{
+    WindowRig w ("dry_wood.json", 1280, 720, false);
+    auto& panel = w.view->takePanel();
+    w.click ("Take");
+    const auto record = [&] (double seconds) {
+        w.click ("Record");
+        REQUIRE (waitFor ([&] { return std::filesystem::exists (panel.take().log()); }));   // the run has begun again
+        REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::recording && panel.plot().length() > seconds; }));
+        w.click ("Stop");
+        REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::ready; }));
+        return std::pair (panel.take().log(), panel.plot().length());
+    };
+    const auto shows = [&] (const std::pair<std::filesystem::path, double>& take) {
+        return waitFor ([&] { return panel.take().state() == Take::State::ready && panel.plot().length() == take.second; }) && panel.take().log() == take.first
+               && std::filesystem::exists (take.first);
+    };
+    const auto first = record (0.05), second = record (0.05);
+    CHECK (first.first != second.first);
+    const auto graph = &w.graph();
+    w.view->document().undo();
+    CHECK (shows (first));
+    CHECK (&w.graph() == graph);
+    w.view->document().undo();
+    CHECK (panel.take().state() == Take::State::empty);
+    CHECK (panel.plot().length() == 0.0);
+    w.view->document().goTo (w.view->document().history().names().size());
+    CHECK (shows (second));
+    w.view->document().undo();
+    CHECK (shows (first));
+    const auto third = record (0.05);   // in place of the second one, whose log goes with its step
+    CHECK (shows (third));
+    CHECK_FALSE (std::filesystem::exists (second.first));
+    CHECK (std::filesystem::exists (first.first));
+    w.view->run().letGo();
+    w.view.reset();
+    CHECK_FALSE (std::filesystem::exists (third.first));
+    CHECK_FALSE (std::filesystem::exists (first.first));
+}
