@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <set>
 #include <string_view>
 
 namespace tactus::host
@@ -33,6 +34,16 @@ std::string summaryOf (const NodeType& type)
 
 std::string familyOf (const std::string& type) { return type.substr (0, type.find_first_of (".:")); }
 
+/// True if a subgraph is a patch, or contains it. `seen` are the subgraphs that have been looked into.
+bool holds (const graph::Graph& g, const std::string& subgraph, const std::string& patch, std::set<std::string>& seen)
+{
+    if (subgraph == patch) return true;
+    const auto* inside = seen.insert (subgraph).second ? g.find (subgraph) : nullptr;
+    return inside != nullptr && std::ranges::any_of (inside->nodes, [&] (const graph::Node& n) {
+               return n.type.starts_with ("graph:") && holds (g, n.type.substr (6), patch, seen);
+           });
+}
+
 /// The entries in groups: those that were chosen recently, then all by family. Each group begins with its title.
 std::vector<PaletteEntry> grouped (const std::vector<PaletteEntry>& entries, const std::vector<std::string>& recent)
 {
@@ -57,7 +68,7 @@ std::vector<PaletteEntry> grouped (const std::vector<PaletteEntry>& entries, con
 }   // namespace
 
 std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::Graph& g, const Catalogue& catalogue, const std::vector<WireEnd>& fits,
-                                         const std::vector<std::string>& recent)
+                                         const std::vector<std::string>& recent, const std::string& patch_name)
 {
     std::vector<PaletteEntry> entries;
     std::vector<Findable> searched;
@@ -77,6 +88,7 @@ std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::
         consider ({ std::string (type.info.id), std::string (type.info.name), summaryOf (type) }, type.info.keywords);
     for (const auto& [id, patch] : g.graphs)
     {
+        if (std::set<std::string> seen; ! patch_name.empty() && holds (g, id, patch_name, seen)) continue;   // it would contain itself
         const auto count = patch.nodes.size() == 1 ? TRANS ("A subgraph of this graph with %1 node.") : TRANS ("A subgraph of this graph with %1 nodes.");
         consider ({ "graph:" + id, id, filled (count, patch.nodes.size()).toStdString() }, {});
     }

@@ -37,7 +37,7 @@ void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalog
         purpose = filled (TRANS ("Connect %1 to"), request.start->port);
     const auto at = canvas.view().toPixels (request.at).toInt() + canvas.getPosition();
     const auto search = [&canvas, &catalogue, recent, request] (const std::string& query) {
-        return searchPalette (query, canvas.edited().graph(), catalogue, endsOf (request, canvas.scene()), recent);
+        return searchPalette (query, canvas.edited().graph(), catalogue, endsOf (request, canvas.scene()), recent, canvas.patch());
     };
     palette.open (at, search, purpose, [&canvas, request, onAdded = std::move (onAdded)] (const std::string& type) {
         canvas.commands().addNodeAt (type, request);

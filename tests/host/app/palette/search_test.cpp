@@ -108,3 +108,30 @@ TEST_CASE ("palette: the keywords of every node are lower-case words")
             CHECK ((c == ' ' || c == '-' || (c >= 'a' && c <= 'z')));
         }
 }
+
+TEST_CASE ("palette: a subgraph is not offered inside itself, nor inside one that it contains")
+{
+    graph::Graph g;
+    const auto node = [] (const char* name, const char* type) {
+        graph::Node n;
+        n.name = name;
+        n.type = type;
+        return n;
+    };
+    for (const char* name : { "outer", "inner", "other" })
+        g.graphs.emplace_back (name, graph::Patch {});
+    g.graphs[0].second.nodes.push_back (node ("in", "graph:inner"));
+    const auto subgraphsIn = [&] (const std::string& patch) {
+        std::set<std::string> found;
+        for (const auto& e : searchPalette ("", g, catalogue(), {}, {}, patch))
+            if (e.type.starts_with ("graph:")) found.insert (e.type.substr (6));
+        return found;
+    };
+    using Names = std::set<std::string>;
+    CHECK (subgraphsIn ("") == Names { "outer", "inner", "other" });
+    CHECK (subgraphsIn ("outer") == Names { "inner", "other" });
+    CHECK (subgraphsIn ("inner") == Names { "other" });
+    CHECK (subgraphsIn ("other") == Names { "outer", "inner" });
+    g.graphs[1].second.nodes.push_back (node ("back", "graph:outer"));   // broken: it contains itself
+    CHECK (subgraphsIn ("other") == Names { "outer", "inner" });
+}
