@@ -45,7 +45,10 @@ PresetBrowser::PresetBrowser (const Catalogue& c, Settings& s, PictureStore& p)
     query.setTitle (TRANS ("Search presets"));
     query.setTextToShowWhenEmpty (TRANS ("Search presets"), look.theme().dim);
     query.onTextChange = [this] { update(); };
-    query.onEscapeKey = [this] { search ({}); };
+    query.onEscapeKey = [this] {
+        search ({});
+        if (onLeave) onLeave();
+    };
     query.onReturnKey = [this] {
         for (int i = 0; i < getNumRows(); ++i)
             if (rowAt (i)->preset != nullptr) return openRow (i);

@@ -20,6 +20,7 @@ public:
 
     std::function<void (const Preset&, bool is_own)> onOpen;
     std::function<void()> onSettings;   ///< called when the favourites have changed
+    std::function<void()> onLeave;      ///< called by Esc in the search, which also clears it
 
     /// Preview a preset with its own gesture while the mouse button is held.
     std::function<void (const std::filesystem::path&)> onPreview;

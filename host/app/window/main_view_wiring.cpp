@@ -2,6 +2,8 @@
 // Which panel of the window calls what. All connections between panels are here.
 #include "main_view.hpp"
 
+#include <host/app/look/focus.hpp>
+
 namespace tactus::host
 {
 
@@ -51,6 +53,7 @@ void MainView::connectSides()
 
     presets.onOpen = [this] (const Preset& p, bool is_own) { openPreset (p, is_own); };
     presets.onSettings = [this] { saveSettingsSoon(); };
+    presets.onLeave = [this] { takeFocus (keyboardHome()); };
     presets.onPreview = [this] (const std::filesystem::path& file) { preview (file); };
     presets.onPreviewEnd = [this] { endPreview(); };
 
