@@ -9,6 +9,7 @@
 #include <host/app/storage/language.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/io/clip_io.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <array>
 
@@ -130,8 +131,17 @@ void MainView::askForFile (bool saves, const std::filesystem::path& begin, std::
 {
     const auto [title, patterns] = wordsFor (saves, begin);
     using Choice = juce::FileBrowserComponent;
-    const int how = saves ? Choice::saveMode | Choice::canSelectFiles | Choice::warnAboutOverwriting : Choice::openMode | Choice::canSelectFiles;
-    launchChooser (title, patterns, juce::File (begin.string()), how, std::move (chosen));
+    const int how = (saves ? Choice::saveMode : Choice::openMode) | Choice::canSelectFiles;
+    if (! saves) return launchChooser (title, patterns, juce::File (begin.string()), how, std::move (chosen));
+    launchChooser (title, patterns, juce::File (begin.string()), how, [this, begin, chosen = std::move (chosen)] (std::filesystem::path file) {
+        if (file.extension().empty()) file += begin.extension();
+        std::error_code failed;
+        if (! std::filesystem::exists (file, failed)) return chosen (file);
+        question.ask (filled (TRANS ("Replace %1?"), printableName (file.filename().string())), filled (TRANS ("It is in %1 already."), folderText (file)),
+                      { { TRANS ("Replace"), [chosen, file] { chosen (file); } },
+                        { TRANS ("Choose another name ..."), [this, file, chosen] { askForFile (true, file, chosen); } },
+                        { TRANS ("Cancel"), {} } });
+    });
 }
 
 void MainView::askForRecording()

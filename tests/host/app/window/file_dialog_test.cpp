@@ -6,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <fstream>
+
 using namespace tactus;
 using namespace tactus::host;
 using tactus::host::test::WindowRig;
@@ -81,6 +83,44 @@ TEST_CASE ("Ctrl+S, a name and Return save\\, and the graph\\, the header and th
             CHECK_FALSE (isDialogOpen());
             CHECK (loadGraph (mine / "my board.json").graph.name == "Old oak");
         }
+    }
+    unsetenv ("TACTUS_GRAPHS");
+}
+
+TEST_CASE ("a file is replaced only after a question of the window\\, which offers another name", "[app][files]")
+{
+    const TemporaryFolder mine;
+    setenv ("TACTUS_GRAPHS", mine.path().c_str(), 1);
+    {
+        std::ofstream (mine / "old.json") << "old";
+        WindowRig w ("dry_wood.json");
+        const auto saveAs = [&] {
+            w.key ("ctrl + shift + s");
+            REQUIRE (isDialogOpen());
+            w.stage->type ("old");   // its ending is added
+            w.key ("return");
+            REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
+            CHECK_FALSE (isDialogOpen());
+            CHECK (w.view->asked().title() == "Replace old.json?");
+            CHECK (mine.textOf ("old.json") == "old");
+        };
+        saveAs();
+        w.key ("escape");
+        CHECK_FALSE (w.view->asked().isOpen());
+        CHECK (mine.textOf ("old.json") == "old");
+        CHECK (w.view->document().file().filename() != "old.json");
+
+        saveAs();
+        w.click ("Choose another name ...");
+        REQUIRE (isDialogOpen());
+        CHECK (dynamic_cast<juce::TextEditor&> (*WindowRig::focused()).getText() == "old.json");
+        w.key ("escape");
+        REQUIRE (waitFor ([] { return ! isDialogOpen(); }));
+
+        saveAs();
+        w.key ("return");
+        CHECK (waitFor ([&] { return mine.textOf ("old.json") != "old"; }));
+        CHECK (w.view->document().file() == mine / "old.json");
     }
     unsetenv ("TACTUS_GRAPHS");
 }
