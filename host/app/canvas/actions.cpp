@@ -191,7 +191,7 @@ std::optional<graph::Command> duplicate (const graph::Graph& g, const std::strin
             graph::Wire in = w;
             in.id = graph::newId();
             in.to.node = names[static_cast<std::size_t> (copy - originals.begin())];
-            all.commands.push_back (graph::AddWire { name, std::move (in) });
+            all.commands.push_back (graph::AddWire { name, withBends (std::move (in), {}) });
         }
     }
     made = std::move (copies);
@@ -225,7 +225,7 @@ std::optional<graph::Command> insertInto (const graph::Graph& g, const std::stri
         {
             if (! checkWire ({ start, a.quantityOf (*start) }, { &in, node->quantityOf (in) })) continue;
             if (! checkWire ({ &out, node->quantityOf (out) }, { end, b.quantityOf (*end) })) continue;
-            graph::Wire first = *wire, second;
+            graph::Wire first = withBends (*wire, {}), second;
             first.to = endpoint (node->name, in);
             first.add = false;
             second.from = endpoint (node->name, out);

@@ -25,6 +25,18 @@ juce::Point<float> freePlace (const Scene&, juce::Point<float>);
 /// destinations that it fits ("healed").
 graph::Command removeSelected (const graph::Graph&, const std::string& patch, const Scene&, const Selection&);
 
+/// Lets a wire run through these points.
+graph::Command bendWire (const graph::Graph&, const std::string& patch, graph::Id wire, const std::vector<juce::Point<double>>& bends);
+
+/// Where the nodes of a move, and the bends of the wires between them, are before it.
+struct MovedParts
+{
+    std::vector<std::pair<graph::Id, juce::Point<float>>> nodes;
+    std::vector<std::pair<graph::Id, std::vector<juce::Point<double>>>> bends;   ///< by wire
+};
+MovedParts movedParts (const graph::Graph&, const std::string& patch, const Scene&, const Selection& nodes);
+graph::Batch moved (const graph::Graph&, const std::string& patch, const MovedParts&, juce::Point<float> by);
+
 /// Bypasses all selected nodes. If all of them are already bypassed, turns the bypass off.
 graph::Command toggleBypass (const graph::Graph&, const std::string& patch, const Selection&);
 

@@ -48,6 +48,8 @@ void Canvas::documentChanged()
         if (isNote (id)) return noteOf (id) >= shown->notes().size();
         return shown->find (id) == nullptr && shown->findWire (id) == nullptr;
     });
+    if (const auto& b = highlights.bend)
+        if (const auto* wire = shown->findWire (b->wire); wire == nullptr || ! wire->has_bends || b->number >= wire->waypoints.size()) highlights.bend.reset();
     if (onBreadcrumbs) onBreadcrumbs();
     if (onSelection) onSelection();
 }
@@ -69,8 +71,15 @@ void Canvas::hint (const juce::String& text)
 void Canvas::select (Selection s)
 {
     highlights.selected = std::move (s);
+    highlights.bend.reset();
     repaint();
     if (onSelection) onSelection();
+}
+
+void Canvas::selectBend (const Bend& bend)
+{
+    select (Selection { bend.wire });
+    highlights.bend = bend;
 }
 
 void Canvas::frameAll()

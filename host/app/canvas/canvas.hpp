@@ -54,6 +54,7 @@ public:
     /// The subgraphs entered, from the outside in: the name of each node and of its subgraph.
     using Breadcrumbs = std::vector<std::pair<std::string, std::string>>;
     const Breadcrumbs& breadcrumbs() const noexcept { return entered; }
+    void selectBend (const Bend&);   ///< selects a bend and its wire
     std::string patch() const { return entered.empty() ? std::string {} : entered.back().second; }
     SeenPatch seen() const;   ///< the patch, and the way into it
     void leaveTo (std::size_t depth);

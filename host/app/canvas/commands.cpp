@@ -115,7 +115,8 @@ constexpr CanvasCommand commands[] {
 
     { NEEDS_TRANS ("Increase wire delay"), "]", hasWire, delay<1> },
     { NEEDS_TRANS ("Decrease wire delay"), "[", hasWire, delay<-1> },
-    { NEEDS_TRANS ("Toggle wire"), "e", hasWire, call<&CanvasCommands::toggleWires>, true },
+    { NEEDS_TRANS ("Toggle wire"), "e", hasWire, call<&CanvasCommands::toggleWires> },
+    { NEEDS_TRANS ("Bend wire"), "j", hasWire, call<&CanvasCommands::bendSelection>, true },
 
     { NEEDS_TRANS ("Arrange all"), "l", hasSomeNodes, call<&CanvasCommands::arrangeAll> },
     { NEEDS_TRANS ("Align left"), "alt + cursor left", hasTwoNodes, align<Alignment::left> },

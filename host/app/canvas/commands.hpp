@@ -63,6 +63,10 @@ public:
     void nudgeSelection (juce::Point<float> by);
     void delaySelection (int ticks);
     void toggleWires();
+    void bendSelection();                                               ///< bends a selected wire at the pointer, or else in the middle
+    std::optional<Bend> addBend (graph::Id wire, juce::Point<float>);   ///< bends a wire at a place on it, and selects the bend
+    void removeBend (const Bend&);
+    void nudgeBend (const Bend&, juce::Point<float> by);
     void addNote();
     void recolourNotes();
     void editNote (std::size_t);

@@ -76,22 +76,20 @@ public:
                 if (notes[i].isRegion() && c.selection().contains (noteId (i)) && notes[i].area.contains (n.bounds())) return true;
             return false;
         };
+        Selection nodes;
         for (const auto& n : c.scene().nodes())
-            if (c.selection().contains (n.id) || isCarried (n)) starts.emplace_back (n.id, n.at);
+            if (c.selection().contains (n.id) || isCarried (n)) nodes.insert (n.id);
+        starts = movedParts (c.edited().graph(), c.patch(), c.scene(), nodes);
     }
 
     void move (const juce::MouseEvent& e) override
     {
         auto by = canvas.view().toCanvas (e.position) - grabbed;
         if (! e.mods.isAltDown()) by = (by / Box::grid).roundToInt().toFloat() * Box::grid;
-        if (by == moved) return;
-        moved = by;
-        graph::Batch all { NEEDS_TRANS ("move"), {} };
-        auto places = starts;
-        for (auto& [id, at] : places)
-            at += by;
+        if (by == moved_by) return;
+        moved_by = by;
         const auto& document = canvas.edited();
-        if (! places.empty()) all.commands.push_back (placeNodes (document.graph(), canvas.patch(), places));
+        auto all = moved (document.graph(), canvas.patch(), starts, by);
         auto now = notes;
         bool with_notes = false;
         for (std::size_t i = 0; i < now.size(); ++i)
@@ -107,9 +105,9 @@ public:
 
     void end (const juce::MouseEvent&) override
     {
-        if (! begun || starts.size() != 1) return;
+        if (! begun || starts.nodes.size() != 1) return;
         const auto& scene = canvas.scene();
-        const auto* node = scene.find (starts[0].first);
+        const auto* node = scene.find (starts.nodes[0].first);
         if (node == nullptr) return;
         for (const auto& w : scene.wires())
             for (const int end : { w.start, w.end })
@@ -124,8 +122,8 @@ public:
 
 private:
     Canvas& canvas;
-    juce::Point<float> grabbed, moved;
-    std::vector<std::pair<graph::Id, juce::Point<float>>> starts;
+    juce::Point<float> grabbed, moved_by;
+    MovedParts starts;
     std::vector<Note> notes;
     bool begun = false;
 };

@@ -23,6 +23,9 @@ std::unique_ptr<Drag> replugWire (Canvas&, const SceneNode&, const FacePort&);
 /// Changes a param by dragging up and down. Null if the param is not a single number.
 std::unique_ptr<Drag> dragParam (Canvas&, const SceneNode&, const Socket&);
 
+/// Moves a bend of a wire, on the grid unless alt is held. The move of a new bend belongs to the step that made it.
+std::unique_ptr<Drag> moveBend (Canvas&, const Bend&, bool is_new);
+
 std::unique_ptr<Drag> resizeNote (Canvas&, const juce::MouseEvent&, std::size_t note);
 std::unique_ptr<Drag> panByMap (Canvas&, const juce::MouseEvent&);
 

@@ -62,6 +62,7 @@ graph::Graph CanvasCommands::graphAsShown() const
 void CanvasCommands::removeSelection()
 {
     if (canvas.selection().empty()) return;
+    if (const auto bend = canvas.highlighted().bend) return removeBend (*bend);
     graph::Batch all { NEEDS_TRANS ("delete"), {} };
     if (std::ranges::any_of (canvas.selection(), isNote))
     {
@@ -148,7 +149,10 @@ void CanvasCommands::arrangeAll()
     for (std::size_t i = 0; i < places.size(); ++i)
         to.emplace_back (canvas.scene().nodes()[i].id, places[i]);
     auto command = placeNodes (document.graph(), canvas.patch(), to);
-    std::get<graph::Batch> (command.edit).name = NEEDS_TRANS ("arrange");
+    auto& all = std::get<graph::Batch> (command.edit);
+    all.name = NEEDS_TRANS ("arrange");
+    for (const auto& w : canvas.scene().wires())   // they were made for other places
+        if (w.has_bends) all.commands.push_back (bendWire (document.graph(), canvas.patch(), w.id, {}));
     perform (std::move (command));
     canvas.frameAll();
     canvas.endEdit();
@@ -156,11 +160,8 @@ void CanvasCommands::arrangeAll()
 
 void CanvasCommands::nudgeSelection (juce::Point<float> by)
 {
-    graph::Batch all { NEEDS_TRANS ("move"), {} };
-    std::vector<std::pair<graph::Id, juce::Point<float>>> places;
-    for (const auto* n : selectedNodes())
-        places.emplace_back (n->id, n->at + by);
-    all.commands.push_back (placeNodes (document.graph(), canvas.patch(), places));
+    if (const auto bend = canvas.highlighted().bend) return nudgeBend (*bend, by);
+    auto all = moved (document.graph(), canvas.patch(), movedParts (document.graph(), canvas.patch(), canvas.scene(), canvas.selection()), by);
     if (std::ranges::any_of (canvas.selection(), isNote))
     {
         auto notes = canvas.scene().notes();

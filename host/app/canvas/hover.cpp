@@ -41,7 +41,10 @@ Canvas::Hover Canvas::hoverAt (juce::Point<float> at) const
         if (node->face->type == nullptr) return { node->id, node->type };
         return { node->id, std::string (node->face->type->info.name) + ": " + std::string (node->face->type->info.summary) };
     }
-    if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom)) return { wire->id, wire->text };
+    if (const auto bend = shown->bendAt (at, socket_reach / window.zoom))
+        return { bend->wire, TRANS ("Bend: drag to move; double-click or Delete removes it"), juce::MouseCursor::DraggingHandCursor };
+    if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom))
+        return { wire->id, filled (TRANS ("%1. Double-click inserts a node; Alt+drag bends the wire"), wire->text) };
     const auto note = shown->noteAt (at);
     if (! note) return {};
     const auto shape = shown->isCorner (*note, at) ? juce::MouseCursor::BottomRightCornerResizeCursor : juce::MouseCursor::NormalCursor;

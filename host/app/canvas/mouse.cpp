@@ -55,8 +55,18 @@ std::unique_ptr<Drag> Canvas::dragFor (const juce::MouseEvent& e)
         if (e.mods.isAltDown()) edits.duplicateSelection();
         return moveSelection (*this, e);
     }
+    if (const auto bend = shown->bendAt (at, socket_reach / window.zoom))
+    {
+        selectBend (*bend);
+        return moveBend (*this, *bend, false);
+    }
     if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom))
     {
+        if (e.mods.isAltDown())
+        {
+            const auto bend = edits.addBend (wire->id, at);
+            return bend ? moveBend (*this, *bend, true) : nullptr;
+        }
         auto chosen = add ? highlights.selected : Selection {};
         chosen.insert (wire->id);
         select (std::move (chosen));
@@ -141,6 +151,8 @@ void Canvas::mouseDoubleClick (const juce::MouseEvent& e)
         const auto* socket = node->paramAt (at);
         socket == nullptr ? enter (*node) : edits.editParam (*node, *socket);
     }
+    else if (const auto bend = shown->bendAt (at, socket_reach / window.zoom))
+        edits.removeBend (*bend);
     else if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom))
         edits.requestNode ({ at, {}, wire->id });
     else if (const auto note = shown->noteAt (at))

@@ -272,6 +272,17 @@ void paintProblem (juce::Graphics& g, const SceneWire& w, const Theme& theme)
     g.fillPath (dashed);
 }
 
+void paintBends (juce::Graphics& g, const SceneWire& w, const Highlights& highlights, const Theme& theme)
+{
+    for (std::size_t i = 0; i < w.waypoints.size(); ++i)
+    {
+        const bool is_selected = highlights.bend == Bend { w.id, i };
+        const float size = is_selected ? 10.0f : 7.0f;
+        g.setColour (is_selected ? theme.accent : theme.of (w.quantity));
+        g.fillEllipse (juce::Rectangle<float> (size, size).withCentre (w.waypoints[i]));
+    }
+}
+
 void paintHit (juce::Graphics& g, const SceneWire& w, double along, const Theme& theme)
 {
     const auto path = w.path();
@@ -284,6 +295,7 @@ void paintHit (juce::Graphics& g, const SceneWire& w, double along, const Theme&
 juce::Rectangle<float> boundsOf (const SceneWire& w)
 {
     juce::Rectangle<float> all { w.from, w.to };
+    if (w.has_bends) return w.path().getBounds().expanded (16.0f);
     for (const auto& p : w.waypoints)
         all = all.getUnion (juce::Rectangle<float> (p, p).expanded (1.0f));
     return all.expanded (200.0f, 16.0f);
@@ -377,6 +389,7 @@ void paintScene (juce::Graphics& g, const Scene& scene, const View& view, const 
         if (highlights.live.problems.contains (w.id)) paintProblem (g, w, look.theme());
         if (const auto hit = highlights.live.hits.find (w.id); hit != highlights.live.hits.end()) paintHit (g, w, hit->second, look.theme());
         if (w.delay > 0 && view.zoom > too_small_to_read) paintDelay (g, w, look);
+        if (w.has_bends && view.zoom > too_small_for_names) paintBends (g, w, highlights, look.theme());
     }
     if (view.zoom > too_small_to_read)
         for (const auto& e : scene.exposed())

@@ -42,6 +42,7 @@ struct LiveState
 struct Highlights
 {
     std::set<graph::Id> selected;   ///< ids of nodes, wires and notes
+    std::optional<Bend> bend {};    ///< the selected one; its wire is selected, too
     graph::Id hovered = 0;
     /// While a wire is being drawn: true for the sockets it may connect to. The others are dimmed.
     std::function<bool (const SceneNode&, const FacePort&)> fits {};

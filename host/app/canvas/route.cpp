@@ -50,6 +50,27 @@ juce::Path curveThrough (juce::Point<float> from, const std::vector<juce::Point<
     return path;
 }
 
+juce::Path curveThroughBends (juce::Point<float> from, const std::vector<juce::Point<float>>& by, juce::Point<float> to)
+{
+    std::vector<juce::Point<float>> all { from };
+    all.insert (all.end(), by.begin(), by.end());
+    all.push_back (to);
+    const auto last = all.size() - 1;
+    // The direction at a point is that from the one before it to the one after it. The longer way from it is not curved more than the shorter one.
+    const auto reachAt = [&] (std::size_t i) {
+        const auto before = i > 0 ? all[i].getDistanceFrom (all[i - 1]) : 0.0f, after = i < last ? all[i].getDistanceFrom (all[i + 1]) : 0.0f;
+        if (i == 0 || i == last) return juce::Point<float> (std::max (bend, std::max (before, after)) / 3.0f, 0.0f);
+        const auto along = all[i + 1] - all[i - 1];
+        const float length = along.getDistanceFromOrigin();
+        return length > 0.0f ? along * (std::min (before, after) / (3.0f * length)) : juce::Point<float>();
+    };
+    juce::Path path;
+    path.startNewSubPath (from);
+    for (std::size_t i = 0; i < last; ++i)
+        path.cubicTo (all[i] + reachAt (i), all[i + 1] - reachAt (i + 1), all[i + 1]);
+    return path;
+}
+
 namespace
 {
 /// The bends of a wire to the right that goes around these boxes, and stays clear of the other obstacles there.

@@ -13,7 +13,10 @@ namespace tactus::host
 std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Point<float> to, juce::Rectangle<float> start, juce::Rectangle<float> end,
                                              const std::vector<juce::Rectangle<float>>& obstacles);
 
-/// A smooth curve through all of these points.
+/// A smooth curve through all of these points, which is level at each of them.
 juce::Path curveThrough (juce::Point<float> from, const std::vector<juce::Point<float>>& by, juce::Point<float> to);
+
+/// A smooth curve through points that may lie anywhere. It leaves its start to the right and comes to its end from the left.
+juce::Path curveThroughBends (juce::Point<float> from, const std::vector<juce::Point<float>>& by, juce::Point<float> to);
 
 }   // namespace tactus::host

@@ -181,6 +181,9 @@ void Scene::addWires (const graph::Patch& patch)
             wire.in_role = end->role;
             if (wire.quantity == Quantity::any) wire.quantity = b.quantityOf (*end);
         }
+        for (const auto& b : bendsOf (w))
+            wire.waypoints.push_back (b.toFloat());
+        wire.has_bends = ! wire.waypoints.empty();
         all_wires.push_back (std::move (wire));
     }
 }
@@ -226,6 +229,7 @@ void Scene::routeWires()
     };
     for (auto& w : all_wires)
     {
+        if (w.has_bends) continue;
         std::vector<juce::Rectangle<float>> others;
         for (std::size_t i = 0; i < all_nodes.size(); ++i)
             if (joined[i] && i != at (w.start) && i != at (w.end)) others.push_back (all_nodes[i].bounds());
@@ -321,6 +325,19 @@ SceneSocket Scene::socketAt (juce::Point<float> p, float reach) const noexcept
                 nearest = { &n, &s };
             }
     }
+    return nearest;
+}
+
+std::optional<Bend> Scene::bendAt (juce::Point<float> p, float reach) const noexcept
+{
+    std::optional<Bend> nearest;
+    for (const auto& w : all_wires)
+        for (std::size_t i = 0; w.has_bends && i < w.waypoints.size(); ++i)
+            if (const float distance = w.waypoints[i].getDistanceFrom (p); distance <= reach)
+            {
+                reach = distance;
+                nearest = { w.id, i };
+            }
     return nearest;
 }
 

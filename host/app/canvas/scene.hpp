@@ -40,7 +40,8 @@ struct SceneWire
 {
     graph::Id id = 0;
     juce::Point<float> from, to;
-    std::vector<juce::Point<float>> waypoints {};
+    std::vector<juce::Point<float>> waypoints {};   ///< the bends, if the user has made some; else, what leads the wire around nodes
+    bool has_bends = false;
     int start = -1, end = -1;    ///< indices of nodes in the scene
     std::string out {}, in {};   ///< ids of the ports in their faces; empty if there is no such port
     Role in_role = Role::input;
@@ -51,7 +52,7 @@ struct SceneWire
     std::string source {};   ///< where it begins, as written in the file: "drag.force.x"
     std::string text;        ///< the wire as written in the file
 
-    juce::Path path() const { return curveThrough (from, waypoints, to); }
+    juce::Path path() const { return has_bends ? curveThroughBends (from, waypoints, to) : curveThrough (from, waypoints, to); }
 };
 
 /// Identifies a port across rebuilds of the scene.
@@ -60,6 +61,15 @@ struct PortId
     graph::Id node = 0;
     Role role = Role::output;
     std::string port;
+};
+
+/// A bend of a wire, by its number from the start of the wire.
+struct Bend
+{
+    graph::Id wire = 0;
+    std::size_t number = 0;
+
+    bool operator== (const Bend&) const = default;
 };
 
 /// A port and its node. Null if there is none.
@@ -113,6 +123,7 @@ public:
     const SceneWire* wireAt (juce::Point<float>, float reach) const;
     std::vector<const SceneWire*> wiresAt (juce::Point<float>, float reach) const;   ///< nearest first
     SceneSocket socketAt (juce::Point<float>, float reach) const noexcept;
+    std::optional<Bend> bendAt (juce::Point<float>, float reach) const noexcept;
 
     /// A region is hit only at its title and its corner, so that its contents can be selected.
     std::optional<std::size_t> noteAt (juce::Point<float>) const noexcept;

@@ -116,7 +116,10 @@ Result<graph::Command> paste (const graph::Graph& g, const std::string& patch_na
     {
         rename (wire.from);
         rename (wire.to);
-        batch.commands.push_back (graph::AddWire { patch_name, wire });
+        auto bends = bendsOf (wire);
+        for (auto& b : bends)
+            b += offset;
+        batch.commands.push_back (graph::AddWire { patch_name, bends.empty() ? wire : withBends (wire, bends) });
     }
     return graph::Command (std::move (batch));
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <juce_graphics/juce_graphics.h>
 
@@ -35,5 +36,9 @@ std::optional<juce::Point<double>> readPoint (const Json& object, const char* ke
 
 /// The position stored in a node's `ui`, in canvas units. Empty if there is none.
 std::optional<juce::Point<double>> positionOf (const graph::Node&);
+
+/// The bends stored in a wire's `ui`: the points through which it runs, from its start to its end. None, if one of them is not a point.
+std::vector<juce::Point<double>> bendsOf (const graph::Wire&);
+graph::Wire withBends (graph::Wire, const std::vector<juce::Point<double>>&);
 
 }   // namespace tactus::host
