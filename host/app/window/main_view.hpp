@@ -134,6 +134,7 @@ private:
     void startOpened (bool by_pointer);   ///< runs the graph that has just been opened
     void openPreset (const Preset&, bool is_own);
     void chooseNode (const NodeRequest&);
+    void savePictureAs();
     void choose (const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string&)> chosen);
     void probe (const std::vector<std::string>& ports);
     void showAdded (const std::string& patch, graph::Id node);

@@ -46,6 +46,7 @@ std::pair<juce::String, juce::String> wordsFor (bool saves, const std::filesyste
     if (isClipExtension (begin)) return { TRANS ("Save clip; the ending of the name selects the format"), "*.haptic;*.ahap;*.hjif;*.json;*.wav;*.csv" };
     if (extensionOf (begin) == ".csv") return { TRANS ("Save gesture"), "*.csv" };
     if (extensionOf (begin) == ".jsonl") return { TRANS ("Save test"), "*.jsonl" };
+    if (const auto extension = extensionOf (begin); extension == ".svg" || extension == ".png") return { TRANS ("Save picture"), "*.svg;*.png" };
     return { TRANS ("Save graph"), "*.json" };
 }
 }   // namespace
@@ -108,6 +109,7 @@ void MainView::openMenu (juce::Component& at)
     menu.addItem (menuItem (TRANS ("Fit a recording ..."), {}, [this] { askForRecording(); }));
     menu.addSeparator();
     menu.addItem (menuItem (
+    menu.addItem (menuItem (TRANS ("Save picture of the canvas ..."), {}, [this] { savePictureAs(); }));
         TRANS ("Light theme"), {}, [this] {
         settings.light = light = ! light;
         applyTheme (*getTopLevelComponent(), light ? Theme::light() : Theme::dark());

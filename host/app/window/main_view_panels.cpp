@@ -2,6 +2,7 @@
 // What the window does when its panels call it.
 #include "main_view.hpp"
 
+#include <host/app/canvas/picture/save_picture.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/model/fragment.hpp>
@@ -33,6 +34,16 @@ void MainView::chooseNode (const NodeRequest& request)
         if (catalogue.find (type) == nullptr) return;   // a subgraph, which other graphs do not have
         settings.noteType (type);
         saveSettingsSoon();
+    });
+}
+
+void MainView::savePictureAs()
+{
+    const auto& name = edited.graph().name;
+    const auto legal = juce::File::createLegalFileName (juce::String (name.empty() ? "canvas" : name)).toStdString();
+    chooseOwnFile (legal + ".svg", [this] (const std::filesystem::path& file) {
+        const auto saved = savePicture (patching, file);
+        status.notify (saved ? filled (TRANS ("Saved %1"), file.string()) : juce::String (messageText (saved.error())));
     });
 }
 
