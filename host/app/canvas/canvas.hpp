@@ -31,7 +31,11 @@ public:
 /// pointer; a trackpad pans. Dragging from a port draws a wire: ports that the wire fits are highlighted, the others show why
 /// it does not fit. A clip file dropped on a clip node replaces the file of this node; on
 /// empty canvas, it becomes a new node. Keyboard commands: commands.hpp.
-class Canvas final : public juce::Component, public juce::TooltipClient, public juce::FileDragAndDropTarget, private Document::Listener
+class Canvas final : public juce::Component,
+                     public juce::TooltipClient,
+                     public juce::FileDragAndDropTarget,
+                     public juce::DragAndDropTarget,
+                     private Document::Listener
 {
 public:
     static constexpr float socket_reach = 9.0f, wire_reach = 6.0f;   ///< how many pixels the pointer may be from a port or a wire
@@ -50,11 +54,11 @@ public:
     Highlights& highlighted() noexcept { return highlights; }
     const Selection& selection() const noexcept { return highlights.selected; }
     void select (Selection);
+    void selectBend (const Bend&);   ///< selects a bend and its wire
 
     /// The subgraphs entered, from the outside in: the name of each node and of its subgraph.
     using Breadcrumbs = std::vector<std::pair<std::string, std::string>>;
     const Breadcrumbs& breadcrumbs() const noexcept { return entered; }
-    void selectBend (const Bend&);   ///< selects a bend and its wire
     std::string patch() const { return entered.empty() ? std::string {} : entered.back().second; }
     SeenPatch seen() const;   ///< the patch, and the way into it
     void leaveTo (std::size_t depth);
@@ -108,8 +112,9 @@ public:
 
     std::function<void (std::vector<std::string> ports)> onProbe;   ///< receives the full paths of the ports
 
-    std::function<void (const std::filesystem::path&)> onFileDropped;   ///< receives a file that is not a clip
-    std::function<void (const std::filesystem::path&)> onSaveClip;      ///< receives the clip of a node, to be saved in another format
+    std::function<void (const std::filesystem::path&)> onFileDropped;                  ///< receives a file that is not a clip
+    std::function<void (const std::string& type, const NodeRequest&)> onTypeDropped;   ///< a node is dragged here from the list of nodes
+    std::function<void (const std::filesystem::path&)> onSaveClip;                     ///< receives the clip of a node, to be saved in another format
 
     std::function<void (const juce::String&)> onNotice;   ///< receives the reason why an edit was not made
 
@@ -135,6 +140,10 @@ public:
     void fileDragMove (const juce::StringArray&, int x, int y) override;
     void fileDragExit (const juce::StringArray&) override;
     void filesDropped (const juce::StringArray&, int x, int y) override;
+    bool isInterestedInDragSource (const SourceDetails&) override;
+    void itemDragMove (const SourceDetails&) override;
+    void itemDragExit (const SourceDetails&) override;
+    void itemDropped (const SourceDetails&) override;
 
 private:
     void documentChanged() override;

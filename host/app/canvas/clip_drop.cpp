@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Clip files that are dropped on the canvas, and the clip of a node as a file.
+// What is dropped on the canvas: clip files, and nodes from the list of nodes.
 #include "canvas.hpp"
 
 #include <host/app/model/clip_graph.hpp>
+#include <host/app/palette/node_list.hpp>
 #include <host/app/text/file_path.hpp>
 #include <host/app/text/filled.hpp>
 #include <host/io/clip_io.hpp>
@@ -75,6 +76,31 @@ void Canvas::dropClip (const fs::path& file, juce::Point<float> pixel)
     if (! edits.perform (std::move (add))) return;
     select ({ made });
     notice (filled (TRANS ("Added a node that plays %1 over and over. Wire its value to a motor to feel it."), printableName (file.filename().string())));
+}
+
+bool Canvas::isInterestedInDragSource (const SourceDetails& dragged) { return ! NodeList::typeOf (dragged.description).empty(); }
+
+void Canvas::itemDragMove (const SourceDetails& dragged)
+{
+    const auto* wire = shown->wireAt (window.toCanvas (dragged.localPosition.toFloat()), wire_reach / window.zoom);
+    highlights.hovered = wire != nullptr ? wire->id : 0;
+    hint (wire != nullptr ? filled (TRANS ("Drop it to insert it into %1"), wire->text) : TRANS ("Drop it to add it here"));
+    repaint();
+}
+
+void Canvas::itemDragExit (const SourceDetails&)
+{
+    highlights.hovered = 0;
+    hint ({});
+    repaint();
+}
+
+void Canvas::itemDropped (const SourceDetails& dragged)
+{
+    itemDragExit (dragged);
+    const auto at = window.toCanvas (dragged.localPosition.toFloat());
+    const auto* wire = shown->nodeAt (at) == nullptr ? shown->wireAt (at, wire_reach / window.zoom) : nullptr;
+    if (onTypeDropped) onTypeDropped (NodeList::typeOf (dragged.description), { at, {}, wire != nullptr ? wire->id : 0 });
 }
 
 void Canvas::paintFileOver (juce::Graphics& g) const

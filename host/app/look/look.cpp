@@ -164,8 +164,13 @@ void dimWindow (juce::Graphics& g, const Theme& theme) { g.fillAll (juce::Colour
 
 void drawDialog (juce::Graphics& g, const Theme& theme, juce::Rectangle<int> box)
 {
-    constexpr float corner = 8.0f;
     dimWindow (g, theme);
+    drawCard (g, theme, box);
+}
+
+void drawCard (juce::Graphics& g, const Theme& theme, juce::Rectangle<int> box)
+{
+    constexpr float corner = 8.0f;
     g.setColour (theme.panel);
     g.fillRoundedRectangle (box.toFloat(), corner);
     g.setColour (theme.hairline);

@@ -65,6 +65,9 @@ void drawNumber (juce::Graphics&, const juce::String&, juce::Rectangle<float>);
 /// Dims what is behind a dialog.
 void dimWindow (juce::Graphics&, const Theme&);
 
+/// Draws a box over the window.
+void drawCard (juce::Graphics&, const Theme&, juce::Rectangle<int> box);
+
 /// Dims the window, and draws the box of a dialog over it.
 void drawDialog (juce::Graphics&, const Theme&, juce::Rectangle<int> box);
 

@@ -111,6 +111,7 @@ ReadSettings readSettings (const std::string& text)
         return fits;
     });
     flag ("welcomed", s.welcomed);
+    flag ("toured", s.toured);
     flag ("scene", s.scene);
     reader.take ("film_s", &Json::is_number, [&] (const Json& v) {
         const auto seconds = v.get<double>();
@@ -148,6 +149,7 @@ std::string writeSettings (const Settings& s)
         { "scale", s.scale },
         { "language", s.language },
         { "welcomed", s.welcomed },
+        { "toured", s.toured },
         { "scene", s.scene },
         { "film_s", s.film_s },
         { "fuse", s.fuse },

@@ -21,6 +21,7 @@ struct Settings
     double scale = 0.0;     ///< scale of the user interface; 0: automatic
     std::string language;   ///< "de" for the translation in text/de.txt, "en" for English; empty: the language of the system
     bool welcomed = false;
+    bool toured = false;                         ///< the guided tour was taken or skipped
     bool scene = false;                          ///< the hand is shown in space, not from above
     double film_s = 10.0;                        ///< how much of the past a film shows
     bool fuse = false;                           ///< runs the graph as compiled code

@@ -118,14 +118,20 @@ WelcomePage::WelcomePage (PictureStore& p) : pictures (p)
     open.onClick = [this] {
         if (onOpen) onOpen();
     };
+    tour.onClick = [this] {
+        if (onTour) onTour();
+    };
+    tour.setTooltip (TRANS ("A tour of the window in five steps. It is in the menu, too."));
     addAndMakeVisible (create);
     addAndMakeVisible (open);
+    addChildComponent (tour);
 }
 
 WelcomePage::~WelcomePage() = default;
 
-void WelcomePage::show (const std::vector<Preset>& presets, const std::vector<std::filesystem::path>& recent)
+void WelcomePage::show (const std::vector<Preset>& presets, const std::vector<std::filesystem::path>& recent, bool offers_tour)
 {
+    tour.setVisible (offers_tour && ! presets.empty());
     chosen = firstOnes (presets, most_cards);
     all.clear();
     for (const auto& p : chosen)
@@ -173,6 +179,11 @@ void WelcomePage::resized()
     create.setBounds (low_row.removeFromLeft (create.widthFor()));
     low_row.removeFromLeft (8);
     open.setBounds (low_row.removeFromLeft (open.widthFor()));
+    if (tour.isVisible())
+    {
+        low_row.removeFromLeft (8);
+        tour.setBounds (low_row.removeFromLeft (tour.widthFor()));
+    }
     low_row.removeFromLeft (24);
     recent_title = files.empty() ? juce::Rectangle<int>() : low_row.removeFromLeft (52);
     for (auto& f : files)

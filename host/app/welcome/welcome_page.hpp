@@ -19,13 +19,13 @@ public:
     ~WelcomePage() override;
 
     /// Shows a few of the presets as cards, and the recent files.
-    void show (const std::vector<Preset>& presets, const std::vector<std::filesystem::path>& recent);
+    void show (const std::vector<Preset>& presets, const std::vector<std::filesystem::path>& recent, bool offers_tour = false);
     void refresh();   ///< call many times a second
 
     /// A preset is chosen: by the mouse, which is then the hand, or by a key.
     std::function<void (const std::filesystem::path&, bool by_pointer)> onFeel;
     std::function<void (const std::filesystem::path&)> onOpenFile;
-    std::function<void()> onNew, onOpen;
+    std::function<void()> onNew, onOpen, onTour;
 
     const std::vector<Preset>& cards() const noexcept { return chosen; }
 
@@ -43,7 +43,7 @@ private:
     std::vector<std::unique_ptr<Card>> all;
     std::vector<std::unique_ptr<RecentFile>> files;
     juce::Rectangle<int> title, recent_title;
-    PlainButton create { TRANS ("New empty graph") }, open { TRANS ("Open ...") };
+    PlainButton create { TRANS ("New empty graph") }, open { TRANS ("Open ...") }, tour { TRANS ("Show me around") };
 };
 
 /// The presets to start with, as different from each other as possible.

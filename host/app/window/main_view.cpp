@@ -29,6 +29,7 @@ MainView::MainView (const Catalogue& c)
       limits (edited, device_setup, playback.run(), c),
       patching (edited, c), inspector (edited, c), live (patching, playback.run()),
       presets (left.add<PresetBrowser> (TRANS ("Presets"), c, settings, pictures)),
+      nodes (left.add<NodeList> (TRANS ("Nodes"))),
       scopes (bottom.add<ScopePanel> (TRANS ("Scopes"), edited, playback.run().traces(), c)),
       takes (bottom.add<TakePanel> (TRANS ("Take"), edited, playback, c)),
       layers (bottom.add<LayersPanel> (TRANS ("Layers"), edited, playback.run().traces(), c)),
@@ -65,7 +66,7 @@ void MainView::addPanels()
         addAndMakeVisible (c);
     for (auto* edge : { &left_edge, &right_edge, &bottom_edge })
         addAndMakeVisible (*edge);
-    for (auto* over : std::initializer_list<juce::Component*> { &palette, &welcome, &help, &fitting, &question, &shade })
+    for (auto* over : std::initializer_list<juce::Component*> { &templates, &palette, &welcome, &help, &tour, &fitting, &question, &shade })
         addChildComponent (over);
     resized();
 }
@@ -79,6 +80,7 @@ void MainView::begin (const StartOptions& how)
     light = how.light || settings.light;
     applySettings();
     presets.reload();
+    templates.show (templatesIn (presetFolder(), catalogue));
     files.setSafe (how.safe);
     if (how.stops_directly) direct_stop.emplace (playback.stopSwitch());
     if (how.osc) openOscPort (*how.osc);
@@ -90,7 +92,7 @@ void MainView::begin (const StartOptions& how)
     if (is_asked) playback.current().letGo();   // no forces while a question is open
     if (how.files.empty())
     {
-        welcome.show (presets.shipped(), settings.recent);
+        welcome.show (presets.shipped(), settings.recent, ! settings.toured);
         welcome.setVisible (true);
         if (how.safe && ! is_asked) status.notify (TRANS ("Safe mode: nothing runs until you press START."));
     }
@@ -278,8 +280,10 @@ void MainView::documentChanged()
         scopes.suggest();
         presets.showOpen (edited.file().empty() ? edited.preset() : edited.file());
     }
+    nodes.refresh();
     const bool is_begun = edited.identity() != first_identity || edited.isChanged();
     if (welcome.isVisible() && is_begun) welcome.setVisible (false);
+    showBeginnings();
     std::vector<juce::String> trail { edited.graph().name.empty() ? TRANS ("Untitled graph") : juce::String (printableName (edited.graph().name)) };
     const auto saved = top.savedText();
     if (onTitle) onTitle (trail.front() + (saved.isEmpty() ? saved : " (" + saved + ")"));
@@ -308,9 +312,13 @@ void MainView::resized()
     patching.setBounds (area);
     patching.setVisible (! hand.isEnlarged());
     if (hand.isEnlarged()) hand.setBounds (area);
+    templates.setBounds (area.withTop (area.getCentreY() + 20).removeFromTop (56));
+    showBeginnings();
     welcome.setBounds (area.withRight (getWidth()));
     help.setArea (area.withRight (getWidth()).withBottom (hand.getBottom()).reduced (16));
     fitting.setBounds (getLocalBounds().withTrimmedTop (SafetyStrip::height));
+    tour.setBounds (getLocalBounds());
+    tour.resized();                                                               // what it frames may have moved
     question.setBounds (getLocalBounds().withTrimmedTop (SafetyStrip::height));   // STOP stays within reach
     shade.setBounds (question.getBounds());
 }

@@ -15,6 +15,7 @@
 #include <host/app/history/history_panel.hpp>
 #include <host/app/inspector/inspector.hpp>
 #include <host/app/layers/layers_panel.hpp>
+#include <host/app/palette/node_list.hpp>
 #include <host/app/presets/browser.hpp>
 #include <host/app/problems/problem_list.hpp>
 #include <host/app/problems/unfelt.hpp>
@@ -28,6 +29,8 @@
 #include <host/app/scopes/scope_panel.hpp>
 #include <host/app/take/take_panel.hpp>
 #include <host/app/welcome/help_panel.hpp>
+#include <host/app/welcome/template_row.hpp>
+#include <host/app/welcome/tour.hpp>
 #include <host/app/welcome/welcome_page.hpp>
 #include <tactus/kit/signal/clip.hpp>
 
@@ -40,6 +43,7 @@ namespace tactus::host
 /// The content of the main window: all panels around the canvas, and what connects them.
 class MainView final : public juce::Component,
                        public juce::FileDragAndDropTarget,
+                       public juce::DragAndDropContainer,
                        private Document::Listener,
                        private juce::Timer,
                        private juce::FocusChangeListener,
@@ -89,6 +93,10 @@ public:
     PresetBrowser& browser() noexcept { return presets; }
     const ProblemList& problemList() const noexcept { return problems; }
     TakePanel& takePanel() noexcept { return takes; }
+    NodeList& nodeList() noexcept { return nodes; }
+    TemplateRow& templateRow() noexcept { return templates; }
+    Tour& guidedTour() noexcept { return tour; }
+    void beginTour();   ///< if nothing is open, with a preset to feel
     Inspector& inspected() noexcept { return inspector; }
     juce::String statusText() const { return status.text(); }
     bool isAtRest() const noexcept { return awake_for == 0; }   ///< nothing runs, and there was no input for a while
@@ -134,6 +142,9 @@ private:
     void startOpened (bool by_pointer);   ///< runs the graph that has just been opened
     void openPreset (const Preset&, bool is_own);
     void chooseNode (const NodeRequest&);
+    void addNode (const std::string& type, const NodeRequest&);
+    void noteType (const std::string&);
+    void showBeginnings();   ///< the templates, if the graph is empty
     void savePictureAs();
     void choose (const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string&)> chosen);
     void probe (const std::vector<std::string>& ports);
@@ -209,15 +220,18 @@ private:
     Inspector inspector;
     LiveFeed live;
     PresetBrowser& presets;
+    NodeList& nodes;
     ScopePanel& scopes;
     TakePanel& takes;
     LayersPanel& layers;
     DevicesPanel& devices;
     ProblemList& problems;
+    TemplateRow templates;
     Palette palette;
     WelcomePage welcome { pictures };
     HelpPanel help;
     FitPanel fitting;
+    Tour tour;
     Shade shade;
     std::unique_ptr<juce::FileChooser> chooser;
     juce::File recordings;                                   // the folder of the last recording that was chosen

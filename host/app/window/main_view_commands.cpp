@@ -72,7 +72,7 @@ bool MainView::keyPressed (const juce::KeyPress& key)
 /// bring the keyboard from the inspector back to the canvas.
 bool MainView::isAnythingOpen() const
 {
-    return inspector.hasKeyboardFocus (true) || question.isOpen() || fitting.isOpen() || help.isOpen() || palette.isVisible()
+    return inspector.hasKeyboardFocus (true) || question.isOpen() || fitting.isOpen() || help.isOpen() || tour.isOpen() || palette.isVisible()
            || juce::Component::getNumCurrentlyModalComponents() > 0
            || dynamic_cast<juce::TextEditor*> (juce::Component::getCurrentlyFocusedComponent()) != nullptr;
 }
@@ -111,6 +111,7 @@ void MainView::escape (const juce::KeyPress& key)
     if (question.isOpen()) return question.cancel();
     if (fitting.isOpen()) return fitting.close();
     if (help.isOpen()) return help.close();
+    if (tour.isOpen() && ! palette.isVisible()) return tour.close();
     if (hand.isEnlarged() && ! palette.isVisible()) return hand.enlarge (false);
     palette.close();
     takeFocus (keyboardHome());

@@ -85,7 +85,9 @@ void MainView::openMenu (juce::Component& at)
 {
     constexpr float widest = 280.0f;   // of a part of an entry, in pixels
     const auto font = lookOf (*this).getPopupMenuFont();
-    juce::PopupMenu menu, recent, size;
+    juce::PopupMenu menu, recent, size, fresh;
+    for (const auto& t : templates.all())
+        fresh.addItem (menuItem (juce::translate (juce::String (t.name)), {}, [this, file = t.file] { feel (file, true); }));
     for (const auto& file : settings.recent)
         recent.addItem (menuItem (fittedPath (fromUtf8 (file.filename().string()), font, widest), fittedPath (folderText (file), font, widest),
                                   [this, file] { files.open (file); }));
@@ -102,14 +104,15 @@ void MainView::openMenu (juce::Component& at)
         addSize (juce::String (juce::roundToInt (100.0 * scale)) + " %", scale);
 
     menu.addItem (menuItem (TRANS ("New"), keyText ("ctrl + n"), [this] { files.create(); }));
+    menu.addSubMenu (TRANS ("New from template"), fresh, fresh.getNumItems() > 0);
     menu.addItem (menuItem (TRANS ("Open ..."), keyText ("ctrl + o"), [this] { files.open(); }));
     menu.addSubMenu (TRANS ("Open recent"), recent, ! settings.recent.empty());
     menu.addItem (menuItem (TRANS ("Save"), keyText ("ctrl + s"), [this] { files.save(); }));
     menu.addItem (menuItem (TRANS ("Save as ..."), keyText ("ctrl + shift + s"), [this] { files.saveAs(); }));
+    menu.addItem (menuItem (TRANS ("Save picture of the canvas ..."), {}, [this] { savePictureAs(); }));
     menu.addItem (menuItem (TRANS ("Fit a recording ..."), {}, [this] { askForRecording(); }));
     menu.addSeparator();
     menu.addItem (menuItem (
-    menu.addItem (menuItem (TRANS ("Save picture of the canvas ..."), {}, [this] { savePictureAs(); }));
         TRANS ("Light theme"), {}, [this] {
         settings.light = light = ! light;
         applyTheme (*getTopLevelComponent(), light ? Theme::light() : Theme::dark());
@@ -125,6 +128,7 @@ void MainView::openMenu (juce::Component& at)
         settings.fuse));
     menu.addSeparator();
     menu.addItem (menuItem (TRANS ("Help on selected node"), "F1", [this] { helpOnSelection(); }));
+    menu.addItem (menuItem (TRANS ("Guided tour"), {}, [this] { beginTour(); }));
     menu.addItem (menuItem (TRANS ("Keyboard shortcuts"), {}, [this] { help.showKeys(); }));
     menu.showMenuAsync (juce::PopupMenu::Options().withParentComponent (this).withTargetComponent (at).withMinimumWidth (240).withStandardItemHeight (28));
 }

@@ -30,12 +30,27 @@ void MainView::openPreset (const Preset& p, bool is_own)
 
 void MainView::chooseNode (const NodeRequest& request)
 {
-    openNodePalette (palette, patching, catalogue, request, settings.recent_types, [this] (const std::string& type) {
-        if (catalogue.find (type) == nullptr) return;   // a subgraph, which other graphs do not have
-        settings.noteType (type);
-        saveSettingsSoon();
+    openNodePalette (palette, patching, catalogue, request, settings.recent_types, templates.all(), [this, request] (const std::string& type) {
+        if (const auto file = templateOf (type); ! file.empty()) return feel (file, false);
+        addNode (type, request);
     });
 }
+
+void MainView::addNode (const std::string& type, const NodeRequest& request)
+{
+    patching.commands().addNodeAt (type, request);
+    noteType (type);
+    takeFocus (patching);
+}
+
+void MainView::noteType (const std::string& type)
+{
+    if (catalogue.find (type) == nullptr) return;   // a subgraph, which other graphs do not have
+    settings.noteType (type);
+    saveSettingsSoon();
+}
+
+void MainView::showBeginnings() { templates.setVisible (edited.graph().root.nodes.empty() && patching.patch().empty() && patching.isVisible()); }
 
 void MainView::savePictureAs()
 {
@@ -45,6 +60,26 @@ void MainView::savePictureAs()
         const auto saved = savePicture (patching, file);
         status.notify (saved ? filled (TRANS ("Saved %1"), file.string()) : juce::String (messageText (saved.error())));
     });
+}
+
+void MainView::beginTour()
+{
+    if (welcome.isVisible() && ! welcome.cards().empty()) feel (welcome.cards().front().file, true);
+    tour.begin ({ { &hand, TRANS ("Feel it"),
+                    TRANS ("Press and drag on this surface: the mouse is your hand, and the arrow is the force on it. The list below it lets a gesture move the "
+                           "hand instead.") },
+                  { &inspector, TRANS ("Turn a knob"),
+                    TRANS ("While nothing is selected, the controls of the graph are here. Drag one while you press. With a node selected, its "
+                           "parameters are here.") },
+                  { &patching, TRANS ("Change how it is made"),
+                    TRANS ("A box is a node, and a wire carries what one node gives to the next. Space adds a node. Drag from port to port to wire them; "
+                           "ports that fit light up. Ctrl+Z undoes anything.") },
+                  { &bottom, TRANS ("See what you feel"),
+                    TRANS ("Scopes plot the force while you feel it. Select a wire and press P to plot what it carries. Takes, layers, devices and problems are "
+                           "beside them.") },
+                  { &strip, TRANS ("Stop at any time"),
+                    TRANS ("Esc or STOP lets all forces go to zero, and F5 or START begins again. Other presets and all nodes are at the left, and F1 "
+                           "helps. The tour is in the menu.") } });
 }
 
 void MainView::choose (const juce::String& purpose, std::vector<PaletteEntry> entries, std::function<void (const std::string&)> chosen)

@@ -42,6 +42,7 @@ void MainView::connectCanvas()
     patching.onChoose = [this] (const auto& purpose, auto entries, auto chosen) { choose (purpose, std::move (entries), std::move (chosen)); };
     patching.onProbe = [this] (const auto& ports) { probe (ports); };
     patching.onFileDropped = [this] (const std::filesystem::path& file) { files.open (file); };
+    patching.onTypeDropped = [this] (const std::string& type, const NodeRequest& request) { addNode (type, request); };
     patching.onSaveClip = [this] (const std::filesystem::path& file) { saveClipAs (file); };
 }
 
@@ -53,7 +54,10 @@ void MainView::connectSides()
 
     presets.onOpen = [this] (const Preset& p, bool is_own) { openPreset (p, is_own); };
     presets.onSettings = [this] { saveSettingsSoon(); };
-    presets.onLeave = [this] { takeFocus (keyboardHome()); };
+    presets.onLeave = nodes.onLeave = [this] { takeFocus (keyboardHome()); };
+
+    nodes.onSearch = [this] (const std::string& query) { return searchPalette (query, edited.graph(), catalogue, {}, {}, patching.patch()); };
+    nodes.onAdd = [this] (const std::string& type) { addNode (type, { patching.view().toCanvas (patching.getLocalBounds().getCentre().toFloat()) }); };
     presets.onPreview = [this] (const std::filesystem::path& file) { preview (file); };
     presets.onPreviewEnd = [this] { endPreview(); };
 
@@ -101,6 +105,16 @@ void MainView::connectPages()
     welcome.onOpenFile = [this] (const std::filesystem::path& file) { files.open (file); };
     welcome.onNew = [this] { files.create(); };
     welcome.onOpen = [this] { files.open(); };
+    welcome.onTour = [this] { beginTour(); };
+    templates.onChoose = [this] (const Preset& chosen) { feel (chosen.file, true); };
+
+    tour.onStep = [this] (const Tour::Step& step) {
+        if (step.part == &bottom) bottom.show (scopes);
+    };
+    tour.onEnd = [this] {
+        settings.toured = true;
+        saveSettingsSoon();
+    };
 
     help.onExample = [this] (const std::string& type) { openExample (type); };
 

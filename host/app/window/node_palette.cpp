@@ -25,23 +25,50 @@ std::vector<WireEnd> endsOf (const NodeRequest& request, const Scene& scene)
     }
     return found;
 }
+
+constexpr std::string_view template_prefix = "template:";
+
+/// The entries whose name begins like this.
+std::vector<PaletteEntry> withName (std::vector<PaletteEntry> entries, const std::string& query)
+{
+    std::erase_if (entries, [&] (const PaletteEntry& e) { return ! juce::String (e.name).startsWithIgnoreCase (juce::String (query).trim()); });
+    return entries;
+}
 }   // namespace
 
-void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalogue, const NodeRequest& request, const std::vector<std::string>& recent,
-                      std::function<void (const std::string&)> onAdded)
+std::filesystem::path templateOf (const std::string& entry)
 {
+    return entry.starts_with (template_prefix) ? std::filesystem::path (entry.substr (template_prefix.size())) : std::filesystem::path();
+}
+
+void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalogue, const NodeRequest& request, const std::vector<std::string>& recent,
+                      const std::vector<Preset>& templates, std::function<void (const std::string&)> chosen)
+{
+    std::vector<PaletteEntry> beginnings;
+    if (canvas.edited().graph().root.nodes.empty() && canvas.patch().empty())
+        for (const auto& t : templates)
+            beginnings.push_back ({ std::string (template_prefix) + t.file.string(), t.name, t.about });
     auto purpose = TRANS ("Add node");
     if (request.wire != 0)
         purpose = TRANS ("Insert into wire");
     else if (request.start)
         purpose = filled (TRANS ("Connect %1 to"), request.start->port);
     const auto at = canvas.view().toPixels (request.at).toInt() + canvas.getPosition();
-    const auto search = [&canvas, &catalogue, recent, request] (const std::string& query) {
-        return searchPalette (query, canvas.edited().graph(), catalogue, endsOf (request, canvas.scene()), recent, canvas.patch());
+    const auto search = [&canvas, &catalogue, recent, request, beginnings] (const std::string& query) {
+        auto found = searchPalette (query, canvas.edited().graph(), catalogue, endsOf (request, canvas.scene()), recent, canvas.patch());
+        if (beginnings.empty()) return found;
+        auto all = withName (beginnings, query);
+        if (! juce::String (query).trim().isEmpty())   // what the user types is the name of a node first
+        {
+            found.insert (found.end(), all.begin(), all.end());
+            return found;
+        }
+        all.insert (all.begin(), PaletteEntry { {}, TRANS ("Begin with").toStdString(), {} });
+        all.insert (all.end(), found.begin(), found.end());
+        return all;
     };
-    palette.open (at, search, purpose, [&canvas, request, onAdded = std::move (onAdded)] (const std::string& type) {
-        canvas.commands().addNodeAt (type, request);
-        onAdded (type);
+    palette.open (at, search, purpose, [&canvas, chosen = std::move (chosen)] (const std::string& type) {
+        chosen (type);
         takeFocus (canvas);
     });
 }

@@ -3,13 +3,18 @@
 
 #include <host/app/canvas/canvas.hpp>
 #include <host/app/palette/palette.hpp>
+#include <host/app/presets/preset_list.hpp>
 
 namespace tactus::host
 {
 
-/// Opens the palette with the node types that fit a request from the canvas, those in `recent` first, and adds the chosen node.
-void openNodePalette (Palette&, Canvas&, const Catalogue&, const NodeRequest&, const std::vector<std::string>& recent,
-                      std::function<void (const std::string& type)> onAdded);
+/// Opens the palette with the node types that fit a request from the canvas, those in `recent` first. If the graph is empty, it offers the templates,
+/// too. `chosen` receives a type, or the entry of a template.
+void openNodePalette (Palette&, Canvas&, const Catalogue&, const NodeRequest&, const std::vector<std::string>& recent, const std::vector<Preset>& templates,
+                      std::function<void (const std::string& entry)> chosen);
+
+/// The file of the template that an entry of the palette stands for; empty if it is a node.
+std::filesystem::path templateOf (const std::string& entry);
 
 /// Opens the palette at the pointer with the given entries to choose from.
 void openPalette (Palette&, Canvas&, const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string& type)> chosen);

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What helps to begin: templates, the tour, and the list of nodes.
+#include "host/app/support/seen_text.hpp"
+#include "host/app/support/window_rig.hpp"
+
+#include <host/app/storage/settings.hpp>
+#include <tactus/file/graph_file.hpp>
+
+#include <catch2/catch.hpp>
+
+using namespace tactus;
+using namespace tactus::host;
+using tactus::host::test::WindowRig;
+
+namespace
+{
+const std::filesystem::path templates = TACTUS_SOURCE_DIR "/graphs/templates";
+
+template <typename F>
+bool waitFor (F&& isSo)
+{
+    for (int i = 0; i < 1000 && ! isSo(); ++i)
+        WindowRig::settle (10);
+    return isSo();
+}
+
+/// Where a node of the list is on the screen.
+juce::Point<float> rowOf (WindowRig& w, const std::string& type)
+{
+    auto& nodes = w.view->nodeList();
+    juce::ListBox* list = nullptr;
+    for (auto* child : nodes.getChildren())
+        if (auto* l = dynamic_cast<juce::ListBox*> (child)) list = l;
+    const auto at = std::ranges::find (nodes.entries(), type, &PaletteEntry::type);
+    REQUIRE (list != nullptr);
+    REQUIRE (at != nodes.entries().end());
+    const auto row = static_cast<int> (at - nodes.entries().begin());
+    list->scrollToEnsureRowIsOnscreen (row);
+    WindowRig::settle();
+    return w.stage->getLocalPoint (list, list->getRowPosition (row, true).getCentre()).toFloat();
+}
+}   // namespace
+
+TEST_CASE ("an empty graph offers five templates, each of which can be felt at once", "[app][beginnings]")
+{
+    WindowRig w;
+    w.key ("ctrl + n");
+    auto& row = w.view->templateRow();
+    REQUIRE (row.isShowing());
+    std::vector<std::string> names;
+    for (const auto& t : row.all())
+        names.push_back (t.name);
+    CHECK (names == std::vector<std::string> { "Press", "Stroke", "Tap", "Cut", "Clip" });
+    for (const auto& p : w.view->browser().shipped())
+        CHECK (std::ranges::count (names, p.name) == 0);   // they are no presets
+
+    const auto name = GENERATE (as<juce::String>(), "Press", "Stroke", "Tap", "Cut", "Clip");
+    INFO (name);
+    w.click (name);
+    CHECK (w.graph().name == name.toStdString());
+    CHECK (w.view->document().file().empty());   // it has to be saved elsewhere
+    CHECK_FALSE (w.view->document().isChanged());
+    CHECK_FALSE (row.isShowing());
+    CHECK_FALSE (hasErrors (w.view->run().messages()));
+    for (const auto& m : unfelt (w.graph(), catalogue()))
+        FAIL_CHECK (m.text);
+    w.key ("ctrl + z");
+    CHECK (w.graph().root.nodes.empty());
+    CHECK (row.isShowing());
+}
+
+TEST_CASE ("each template gives a force or a vibration when its own hand moves", "[app][beginnings]")
+{
+    for (const auto& entry : std::filesystem::directory_iterator (templates))
+    {
+        if (entry.path().extension() != ".json") continue;
+        INFO (entry.path().filename().string());
+        WindowRig w;
+        w.key ("ctrl + n");
+        w.view->open (entry.path());
+        w.key ("f5");
+        double most = 0.0;
+        CHECK (waitFor ([&] {
+            if (const auto tool = w.view->run().tool()) most = std::max (most, tool->force.norm());
+            return most > 0.1;
+        }));
+        w.view->run().letGo();
+    }
+}
+
+TEST_CASE ("a template is chosen by keys in the palette, where the name of a node comes first", "[app][beginnings]")
+{
+    WindowRig w;
+    w.key ("ctrl + n");
+    w.key ("spacebar");
+    w.stage->type ("strok");
+    w.key ("return");
+    CHECK (w.graph().name == "Stroke");
+
+    w.key ("ctrl + n");
+    w.key ("spacebar");
+    w.stage->type ("clip");
+    w.key ("return");
+    REQUIRE (w.graph().root.nodes.size() == 1);
+    CHECK (w.graph().root.nodes[0].type == "signal.clip");
+    w.key ("spacebar");   // no longer empty: no templates
+    w.stage->type ("strok");
+    for (const auto& t : test::readTexts (*w.view))
+        CHECK (t.text != "Stroke");
+    w.key ("escape");
+}
+
+TEST_CASE ("the tour has five steps on parts of the window, goes on by keys, and is offered until it was seen", "[app][beginnings]")
+{
+    WindowRig w;
+    auto& tour = w.view->guidedTour();
+    w.click ("Show me around");
+    REQUIRE (tour.isOpen());
+    CHECK (w.graph().name == "Dry wood");   // something to feel
+    CHECK (tour.hasKeyboardFocus (true));
+    std::set<juce::String> titles;
+    for (std::size_t i = 0; i < 5; ++i)
+    {
+        REQUIRE (tour.isOpen());
+        CHECK (tour.step() == i);
+        titles.insert (tour.getDescription());
+        i % 2 == 0 ? w.key ("return") : w.click (i == 4 ? "Done" : "Next");
+    }
+    CHECK (titles.size() == 5);
+    CHECK_FALSE (tour.isOpen());
+    CHECK (w.view->canvas().hasKeyboardFocus (true));
+
+    WindowRig::settle (1500);   // the settings are saved a little later
+    CHECK (loadSettings (w.home.path()).settings.toured);
+
+    w.view->beginTour();   // again
+    REQUIRE (tour.isOpen());
+    w.key ("cursor right");
+    w.key ("cursor left");
+    CHECK (tour.step() == 0);
+    const auto node = w.view->canvas().scene().nodes().front().bounds().getCentre();   // the window stays usable
+    w.stage->click (w.stage->getLocalPoint (&w.view->canvas(), w.view->canvas().view().toPixels (node)));
+    CHECK (w.view->canvas().selection().size() == 1);
+    CHECK (tour.isOpen());
+    w.key ("escape");
+    CHECK_FALSE (tour.isOpen());
+    CHECK (w.view->canvas().selection().size() == 1);
+}
+
+TEST_CASE ("the tour that was seen is not offered at the next start", "[app][beginnings]")
+{
+    const TemporaryFolder home;
+    Settings seen;
+    seen.toured = true;
+    REQUIRE (saveSettings (seen, home.path()));
+    WindowRig w;
+    CHECK (WindowRig::buttonIn (*w.view, "Show me around") != nullptr);
+    MainView other (catalogue());
+    w.stage->fill (other);
+    other.begin ({ .home = home.path(), .safe = true });
+    CHECK (other.welcomePage().isShowing());
+    CHECK (WindowRig::buttonIn (other, "Show me around") == nullptr);
+    CHECK (WindowRig::buttonIn (other, "New empty graph") != nullptr);
+}
+
+TEST_CASE ("a node is dragged from the list to the canvas, and into a wire", "[app][beginnings]")
+{
+    WindowRig w ("dry_wood.json", 1600, 900);
+    w.click ("Nodes");
+    REQUIRE (w.view->nodeList().isShowing());
+    auto& canvas = w.view->canvas();
+    const auto onStage = [&] (juce::Point<float> pixel) { return w.stage->getLocalPoint (&canvas, pixel); };
+    const auto count = w.graph().root.nodes.size();
+    const juce::Point<float> free { 16.0f, static_cast<float> (canvas.getHeight()) - 40.0f };
+    w.stage->drag (rowOf (w, "signal.lfo"), onStage (free));
+    WindowRig::settle();
+    REQUIRE (w.graph().root.nodes.size() == count + 1);
+    CHECK (w.graph().root.nodes.back().type == "signal.lfo");
+    CHECK (canvas.view().toPixels (canvas.scene().nodes().back().at).getDistanceFrom (free) < 40.0f);
+    CHECK (canvas.hasKeyboardFocus (true));
+    w.key ("ctrl + z");
+    CHECK (w.graph().root.nodes.size() == count);
+
+    const auto wire = std::ranges::find (canvas.scene().wires(), "drag.force -> motor.force", &SceneWire::text);
+    REQUIRE (wire != canvas.scene().wires().end());
+    const auto path = wire->path();
+    w.stage->drag (rowOf (w, "filter.reconstruction"), onStage (canvas.view().toPixels (path.getPointAlongPath (path.getLength() / 2))));
+    WindowRig::settle();
+    REQUIRE (w.graph().root.nodes.size() == count + 1);
+    CHECK (std::ranges::count (canvas.scene().wires(), "drag.force -> motor.force", &SceneWire::text) == 0);
+    CHECK (std::ranges::count (canvas.scene().wires(), "drag.force -> reconstruction.in", &SceneWire::text) == 1);
+}
+
+TEST_CASE ("the list of nodes finds as the palette does, and Return adds; Esc gives the keyboard back", "[app][beginnings]")
+{
+    WindowRig w ("dry_wood.json");
+    w.click ("Nodes");
+    auto* search = w.titled ("Search nodes");
+    REQUIRE (search != nullptr);
+    w.stage->click (w.middleOf (*search));
+    w.stage->type ("grating");
+    REQUIRE (waitFor ([&] { return w.view->nodeList().entries().front().type == "texture.grating"; }));   // JUCE tells of typed text later
+    const auto count = w.graph().root.nodes.size();
+    w.key ("return");
+    CHECK (w.graph().root.nodes.size() == count + 1);
+    w.stage->click (w.middleOf (*search));
+    w.key ("escape");
+    CHECK (w.view->canvas().hasKeyboardFocus (true));
+
+    w.click ("Presets");
+    w.key ("ctrl + f");
+    w.stage->type ("steel");
+    w.key ("escape");
+    CHECK (w.view->canvas().hasKeyboardFocus (true));
+    w.key ("ctrl + z");   // for the canvas
+    CHECK (w.graph().root.nodes.size() == count);
+}
