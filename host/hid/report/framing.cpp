@@ -5,6 +5,7 @@
 #include <host/hid/bits.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace tactus::host::hid
 {
@@ -148,12 +149,13 @@ void FrameReader::pause() noexcept
     const bool is_whole = shape != nullptr && waiting().size() >= shape->length;
     if (! is_whole) drop (end - begin);
     in_step = true;
+    is_overlong = false;
 }
 
 void FrameReader::reset() noexcept
 {
     begin = end = 0;
-    in_step = false;
+    in_step = is_overlong = false;
 }
 
 void FrameReader::drop (std::size_t bytes) noexcept
@@ -225,10 +227,13 @@ FrameReader::Report FrameReader::nextCobs() noexcept
         const auto zero = static_cast<std::size_t> (std::ranges::find (all, std::uint8_t { 0 }) - all.begin());
         if (zero == all.size())
         {
-            if (all.size() > longest) drop (all.size());   // no frame is that long; its end will not have the right CRC
+            if (all.size() <= longest) return {};
+            drop (all.size());   // no frame is that long
+            is_overlong = true;
             return {};
         }
-        const auto size = zero > 0 && zero <= longest ? readCobs (all.first (zero), decoded) : 0;
+        const bool is_end = std::exchange (is_overlong, false);
+        const auto size = zero > 0 && zero <= longest && ! is_end ? readCobs (all.first (zero), decoded) : 0;
         const auto summed = size > crc_size ? size - crc_size : 0;
         if (summed == 0 || crc32 (std::span (decoded).first (summed)) != crcAt (std::span (decoded).subspan (summed)))
         {

@@ -83,7 +83,8 @@ private:
     std::vector<std::uint8_t> buffer;   // what is waiting lies from `begin` to `end`
     std::vector<std::uint8_t> decoded;
     std::size_t begin = 0, end = 0;
-    bool in_step = false;   // without framing: `begin` is known to be the beginning of a report
+    bool is_overlong = false;   // COBS: the beginning of a frame that is too long has been dropped
+    bool in_step = false;       // without framing: `begin` is known to be the beginning of a report
     Counts tally;
 };
 
