@@ -8,7 +8,7 @@ packages=(build-essential cmake ninja-build pkg-config clang-14
           libcli11-dev librapidcheck-dev libmpfr-dev
           libembree-dev libsamplerate0-dev libspng-dev libturbojpeg0-dev libbenchmark-dev faust
           fonts-inter fonts-dejavu-core
-          python3-dev pybind11-dev python3-numpy)
+          libboost-dev python3-dev pybind11-dev python3-numpy)
 
 say () { printf '\n== %s\n' "$*"; }
 

@@ -2,6 +2,9 @@
 #include "commands.hpp"
 #include "report.hpp"
 
+#if defined(TACTUS_FAKE_INVERSE3)
+#include <host/haply/fake_inverse3.hpp>
+#endif
 #include <host/hid/hex.hpp>
 #include <host/hid_link/fake_device.hpp>
 #include <host/hid_link/profile_library.hpp>
@@ -17,6 +20,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <string_view>
 #include <thread>
 
 namespace tactus::host
@@ -26,6 +30,8 @@ namespace
 {
 using namespace hid;
 using Clock = std::chrono::steady_clock;
+
+[[maybe_unused]] constexpr std::string_view inverse3 = "haply_inverse3";
 
 struct FakeOptions
 {
@@ -80,15 +86,79 @@ void play (FakeDevice& fake, double duration_s, std::ofstream& log)
     }
 }
 
+#if defined(TACTUS_FAKE_INVERSE3)
+/// The fault of the fake service that a fault of the option means.
+FakeInverse3::Fault faultOfService (DeviceFault::Kind kind, const std::string& text)
+{
+    switch (kind)
+    {
+    case DeviceFault::Kind::stall:
+        return FakeInverse3::Fault::silent;
+    case DeviceFault::Kind::garbage:
+        return FakeInverse3::Fault::garbage;
+    case DeviceFault::Kind::away:
+        return FakeInverse3::Fault::restart;
+    case DeviceFault::Kind::push:
+        return FakeInverse3::Fault::push;
+    case DeviceFault::Kind::rename:
+        return FakeInverse3::Fault::rename;
+    default:
+        fail (Message::error ("fake/fault", text, "a service cannot do this", "choose stall, garbage, away, push or rename"));
+    }
+}
+
+/// Plays the service of an Inverse3, whose messages no profile describes.
+void runInverse3 (const FakeOptions& o)
+{
+    if (! o.link.empty() || ! o.log.empty() || ! o.wire.empty()) throw UsageError ("--link, --log, --wire", "only the device of a profile has them");
+    struct Timed
+    {
+        DeviceFault when;
+        FakeInverse3::Fault what;
+    };
+    std::vector<Timed> faults;
+    for (const auto& text : o.faults)
+    {
+        const auto fault = orFail (readFault (text));
+        faults.push_back ({ fault, faultOfService (fault.kind, text) });
+    }
+    const auto service = orFail (FakeInverse3::make (o.port, handOf (o.hand)));
+    std::cout << "a fake Inverse3 is at localhost:" << service->port() << "; play on it: --device ROLE=haply:localhost:" << service->port() << "\n"
+              << std::flush;
+    const auto begin = Clock::now();
+    auto fault = FakeInverse3::Fault::none;
+    for (;;)
+    {
+        const double now = std::chrono::duration<double> (Clock::now() - begin).count();
+        if (stopRequested() || (o.duration_s > 0.0 && now >= o.duration_s)) break;
+        auto due = FakeInverse3::Fault::none;
+        for (const auto& f : faults)
+            if (now >= f.when.from && now < f.when.to) due = f.what;
+        if (due != fault) service->fail (due);
+        fault = due;
+        std::this_thread::sleep_for (std::chrono::milliseconds (1));
+    }
+    const auto n = service->counts();
+    std::cout << n.clients << " clients; " << n.heard << " messages heard, " << n.forces << " with a force of at most " << numberText (n.largest) << " N, "
+              << n.answered << " answered, " << n.together << " sent before the answer, " << n.refused << " refused\n";
+}
+#endif
+
 void run (const FakeOptions& o)
 {
     watchForStop();
+#if defined(TACTUS_FAKE_INVERSE3)
+    if (o.profile == inverse3) return runInverse3 (o);
+#endif
     const auto profile = profileOf (o.profile);
     const bool is_udp = o.wire == "udp" || (o.wire.empty() && ! profile->wires.serial);
     FakeDevice::Options options { .wire = is_udp ? Wire::udp : Wire::serial, .link = o.link, .port = o.port, .faults = {} };
     if (options.wire == Wire::udp && ! o.link.empty()) throw UsageError ("--link", "only a serial line has a name to link to");
     for (const auto& text : o.faults)
+    {
         options.faults.push_back (orFail (readFault (text)));
+        if (isOfService (options.faults.back().kind)) fail (Message::error ("fake/fault", text, "only a service can do this", "choose another fault"));
+    }
     auto fake = orFail (FakeDevice::make (profile, handOf (o.hand), options));
 
     std::ofstream log;
@@ -114,21 +184,22 @@ void addFakeDevice (const Command& app)
 {
     const auto options = std::make_shared<FakeOptions>();
     const auto command = app.add ("fake-device", "Play a device from the outside, to test programs without hardware");
-    command.addOption ("profile", options->profile, "The id of a profile that names a wire, such as tactus_board").required();
+    command.addOption ("profile", options->profile, "The id of a profile that names a wire, such as tactus_board; or haply_inverse3, the service of Haply's arm").required();
     command.addOption ("--wire", options->wire, "The wire; default: the first that the profile knows").check (oneOf ({ "serial", "udp" }));
     command.addOption ("--link", options->link, "A symbolic link to the serial line, so that its name stays the same").type ("PATH");
-    command.addOption ("--port", options->port, "The UDP port on this computer; default: a free one").check (within (0, 65535));
+    command.addOption ("--port", options->port, "The port on this computer, of UDP or of a service; default: a free one").check (within (0, 65535));
     command.addOption ("--hand", options->hand, "The hand: gesture:NAME, trace:FILE.csv, sim, or FILE.json with a simulated device; default: gesture:stroke");
     command.addOption ("--fault", options->faults,
-                       "A fault, KIND, KIND@FROM or KIND@FROM:DURATION, in s; kinds: stall, garbage, half, lost_byte, late, lie, away; may be given more "
-                       "than once")
+                       "A fault, KIND, KIND@FROM or KIND@FROM:DURATION, in s; kinds: stall, garbage, half, lost_byte, late, lie, away, and of a "
+                       "service push and rename; may be given more than once")
         .oneValueEach();
     command.addOption ("--log", options->log, "A file for each report: its step, > if sent or < if heard, and its bytes").type ("FILE");
     command.addOption ("--duration", options->duration_s, "Length in s; default: until Ctrl-C").check (finiteWithin (0.0, 1e9));
     command.footer ("Examples:\n"
                     "  tactus fake-device tactus_board --link /tmp/board --log heard.txt\n"
                     "  tactus play graphs/dry_wood.json --device stylus=serial:tactus_board@/tmp/board\n"
-                    "  tactus fake-device tactus_board --wire udp --port 9750 --fault stall@5:0.2 --fault away@8:1");
+                    "  tactus fake-device tactus_board --wire udp --port 9750 --fault stall@5:0.2 --fault away@8:1\n"
+                    "  tactus fake-device haply_inverse3 --port 10001");
     command.callback ([options] { run (*options); });
 }
 

@@ -16,7 +16,17 @@ namespace
 {
 using FaultKind = DeviceFault::Kind;
 
-constexpr std::pair<std::string_view, FaultKind> fault_names[] { { "stall", FaultKind::stall }, { "garbage", FaultKind::garbage }, { "half", FaultKind::half }, { "lost_byte", FaultKind::lost_byte }, { "late", FaultKind::late }, { "lie", FaultKind::lie }, { "away", FaultKind::away } };
+constexpr std::pair<std::string_view, FaultKind> fault_names[] {
+    { "stall", FaultKind::stall },
+    { "garbage", FaultKind::garbage },
+    { "half", FaultKind::half },
+    { "lost_byte", FaultKind::lost_byte },
+    { "late", FaultKind::late },
+    { "lie", FaultKind::lie },
+    { "away", FaultKind::away },
+    { "push", FaultKind::push },
+    { "rename", FaultKind::rename },
+};
 
 constexpr double usual_rate = 1000.0, usual_watchdog = 0.02;   // Hz, s
 

@@ -33,12 +33,17 @@ struct DeviceFault
         lost_byte,   ///< leaves out a byte in the middle of it
         late,        ///< sends the report before last again after each one
         lie,         ///< an encoder, or else the first coordinate, stays where it was
-        away         ///< is unplugged; comes back as if switched on again, and a serial line then has another name
+        away,        ///< is unplugged; comes back as if switched on again, and a serial line then has another name
+        push,        ///< only a service: sends without being asked, and answers nothing
+        rename       ///< only a service: its device has another name
     };
 
     Kind kind = Kind::stall;
     double from = 0.0, to = std::numeric_limits<double>::infinity();
 };
+
+/// True for what only a service can do wrong, not the device of a profile.
+constexpr bool isOfService (DeviceFault::Kind kind) noexcept { return kind == DeviceFault::Kind::push || kind == DeviceFault::Kind::rename; }
 
 /// Reads "stall", "stall@2" (from 2 s on) or "stall@2:0.5" (for half a second). Id: fake/fault.
 Result<DeviceFault> readFault (std::string_view);

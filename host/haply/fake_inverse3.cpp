@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include "fake_inverse3.hpp"
+
+#include <tactus/text/caught.hpp>
+#include <tactus/text/json_text.hpp>
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/websocket.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <poll.h>
+#include <thread>
+#include <utility>
+
+namespace tactus::host
+{
+namespace
+{
+namespace beast = boost::beast;
+namespace asio = boost::asio;
+using tcp = asio::ip::tcp;
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto tick = 1ms;
+constexpr int look_ms = 2;   // how often it looks whether it must end
+
+Json jsonOf (const Vec3& v) { return { { "x", v.x() }, { "y", v.y() }, { "z", v.z() } }; }
+
+bool waitFor (int socket, int ms)
+{
+    pollfd p { .fd = socket, .events = POLLIN, .revents = 0 };
+    return ::poll (&p, 1, ms) > 0;
+}
+
+std::optional<Vec3> vectorIn (const Json& command)
+{
+    for (const auto* key : { "values", "vector" })
+        if (const auto at = command.find (key); at != command.end() && at->is_object())
+        {
+            Vec3 v;
+            const char* names[] { "x", "y", "z" };
+            for (int i = 0; i < 3; ++i)
+            {
+                const auto number = at->find (names[i]);
+                if (number == at->end() || ! number->is_number()) return std::nullopt;
+                v[i] = number->get<double>();
+            }
+            return v;
+        }
+    return std::nullopt;
+}
+
+class Service final : public FakeInverse3
+{
+public:
+    Service (int p, std::unique_ptr<Device> h, int delay) : acceptor (io, { asio::ip::address_v4::loopback(), static_cast<std::uint16_t> (p) }), hand (std::move (h)), delay_ms (delay)
+    {
+        hand->prepare (1e-3);
+        runs = std::jthread ([this] (const std::stop_token& stop) {
+            while (! stop.stop_requested())
+                static_cast<void> (caught ("the fake service", [&] { serveNext (stop); }));   // a client may do anything
+        });
+    }
+
+    int port() const noexcept override
+    {
+        boost::system::error_code failed;
+        return acceptor.local_endpoint (failed).port();
+    }
+
+    void fail (Fault f) noexcept override { fault = f; }
+
+    Counts counts() const override
+    {
+        const std::lock_guard lock (mutex);
+        return tally;
+    }
+
+    Vec3 force() const override
+    {
+        const std::lock_guard lock (mutex);
+        return Clock::now() - commanded_at < tick ? commanded : Vec3 (Vec3::Zero());
+    }
+
+private:
+    void serveNext (const std::stop_token& stop)
+    {
+        if (! waitFor (acceptor.native_handle(), look_ms)) return;
+        beast::websocket::stream<tcp::socket> client (acceptor.accept());
+        client.next_layer().set_option (tcp::no_delay (true));
+        client.accept();
+        count ([] (Counts& n) { ++n.clients; });
+        send (client, true);
+        beast::flat_buffer buffer;
+        auto pushed = Clock::now();
+        while (! stop.stop_requested() && fault != Fault::restart)
+        {
+            if (fault == Fault::push && Clock::now() - pushed >= 2ms)
+            {
+                pushed = Clock::now();
+                send (client, false);
+            }
+            if (! waitFor (client.next_layer().native_handle(), look_ms)) continue;
+            buffer.clear();
+            client.read (buffer);
+            hear (beast::buffers_to_string (buffer.data()));
+            if (fault == Fault::silent || fault == Fault::push) continue;
+            // What comes before the answer has gone out was sent without waiting for it.
+            if (waitFor (client.next_layer().native_handle(), delay_ms)) count ([] (Counts& n) { ++n.together; });
+            send (client, false);
+            count ([] (Counts& n) { ++n.answered; });
+        }
+        auto restarting = Fault::restart;
+        fault.compare_exchange_strong (restarting, Fault::none);
+    }
+
+    template <typename F>
+    void count (F&& f)
+    {
+        const std::lock_guard lock (mutex);
+        f (tally);
+    }
+
+    std::string id() const { return fault == Fault::rename ? "1F2E" : "04BA"; }
+
+    void hear (const std::string& text)
+    {
+        move();
+        const std::lock_guard lock (mutex);
+        ++tally.heard;
+        is_pushed = false;
+        const auto read = readJson (text);
+        const auto arms = read.root.is_object() ? read.root.find ("inverse3") : read.root.end();
+        if (! read.messages.empty() || ! read.root.is_object() || arms == read.root.end() || ! arms->is_array())
+        {
+            ++tally.refused;
+            return;
+        }
+        for (const auto& arm : *arms)
+        {
+            const auto commands = arm.is_object() ? arm.find ("commands") : arm.end();
+            if (! arm.is_object() || arm.value ("device_id", std::string()) != id() || commands == arm.end() || ! commands->is_object())
+            {
+                ++tally.refused;
+                continue;
+            }
+            if (commands->contains ("probe_position")) ++tally.probes;
+            const auto push = commands->find ("set_cursor_force");
+            if (push == commands->end()) continue;
+            const auto force = push->is_object() && fault != Fault::deaf ? vectorIn (*push) : std::nullopt;
+            if (! force)
+            {
+                ++tally.refused;
+                continue;
+            }
+            ++tally.forces;
+            tally.largest = std::max (tally.largest, force->norm());
+            is_pushed = true;
+            commanded = *force;
+            commanded_at = Clock::now();
+        }
+    }
+
+    /// Moves the hand up to now. Only the first tick after a command has its force.
+    void move()
+    {
+        const std::lock_guard lock (mutex);
+        const auto now = Clock::now();
+        if (now - moved_to > 100ms) moved_to = now - 100ms;   // nobody has looked
+        while (moved_to + tick <= now)
+        {
+            moved_to += tick;
+            Effort effort;
+            if (moved_to - commanded_at <= tick && moved_to >= commanded_at) effort.force = commanded;
+            hand->write (effort);
+            reading = hand->read();
+        }
+    }
+
+    void send (beast::websocket::stream<tcp::socket>& client, bool is_full)
+    {
+        if (fault == Fault::garbage && ! is_full)
+        {
+            client.write (asio::buffer (std::string ("{\"inverse3\": [")));
+            return;
+        }
+        move();
+        Json state { { "cursor_position", jsonOf (reading.position) },
+                     { "cursor_velocity", jsonOf (Vec3 (Vec3::Zero())) },
+                     { "current_cursor_force", jsonOf (force()) },
+                     { "control_domain", "cartesian" },
+                     { "control_mode", is_pushed ? "cursor_force" : "idle" } };
+        Json arm { { "device_id", id() }, { "state", std::move (state) } };
+        Json grip { { "device_id", "A7C1" },
+                    { "state",
+                      { { "orientation", { { "x", 0.0 }, { "y", 0.0 }, { "z", 0.0 }, { "w", 1.0 } } },
+                        { "buttons", { { "a", false }, { "b", false }, { "c", false } } },
+                        { "hall", 0 },
+                        { "battery_level", 0.9 } } } };
+        if (is_full)
+        {
+            arm["config"] = { { "type", "inverse3" }, { "handedness", "right" } };
+            arm["status"] = { { "calibrated", true }, { "in_use", false }, { "power_supply", true }, { "ready", true }, { "started", true } };
+            grip["status"] = { { "connected", true }, { "awake", true }, { "ready", true }, { "error", false } };
+        }
+        const Json message { { "session_id", 1 },
+                             { "inverse3", Json::array ({ arm }) },
+                             { "verse_grip", Json::array() },
+                             { "custom_verse_grip", Json::array() },
+                             { "wireless_verse_grip", Json::array ({ grip }) } };
+        client.write (asio::buffer (message.dump()));
+    }
+
+    asio::io_context io;
+    tcp::acceptor acceptor;
+    const std::unique_ptr<Device> hand;   // moves with `mutex` held
+    const int delay_ms;
+    std::atomic<Fault> fault = Fault::none;
+    mutable std::mutex mutex;
+    Counts tally;
+    Reading reading;
+    Vec3 commanded = Vec3::Zero();
+    bool is_pushed = false;   // by the last message   [service thread]
+    Clock::time_point commanded_at, moved_to = Clock::now();
+    std::jthread runs;   // last: it uses the other members
+};
+}   // namespace
+
+Result<std::unique_ptr<FakeInverse3>> FakeInverse3::make (int port, std::unique_ptr<Device> hand, int answer_after_ms)
+{
+    std::unique_ptr<FakeInverse3> made;
+    if (auto done = caught ("the fake service", [&] { made = std::make_unique<Service> (port, std::move (hand), answer_after_ms); }); ! done)
+        return Message::error ("device/wire", "port " + std::to_string (port), done.error().text, "choose another port");
+    return made;
+}
+
+}   // namespace tactus::host
