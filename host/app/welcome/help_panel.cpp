@@ -158,6 +158,7 @@ constexpr std::array key_list {
     Keys { NEEDS_TRANS ("H"), NEEDS_TRANS ("holds the tool pressed where it is, or releases it") },
     Keys { NEEDS_TRANS ("X"), NEEDS_TRANS ("freezes or unfreezes all scopes") },
     Keys { NEEDS_TRANS ("C"), NEEDS_TRANS ("shows the CPU cost of each node") },
+    Keys { NEEDS_TRANS ("Shift+F1"), NEEDS_TRANS ("guided tour of the window") },
     Keys { NEEDS_TRANS ("F1 or ?"), NEEDS_TRANS ("help on the selected node, or this list") },
 };
 constexpr std::array mouse_list {

@@ -36,6 +36,11 @@ bool MainView::keyPressed (const juce::KeyPress& key)
     }
     if (fitting.isOpen()) return true;   // the panel has had the key
     if (fileKey (key) || panelKey (key)) return true;
+    if (key == juce::KeyPress::createFromDescription ("shift + F1"))
+    {
+        beginTour();
+        return true;
+    }
     if (key == juce::KeyPress::F1Key || key.getTextCharacter() == '?')
     {
         help.isOpen() ? help.close() : helpOnSelection();

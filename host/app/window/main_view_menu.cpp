@@ -128,7 +128,7 @@ void MainView::openMenu (juce::Component& at)
         settings.fuse));
     menu.addSeparator();
     menu.addItem (menuItem (TRANS ("Help on selected node"), "F1", [this] { helpOnSelection(); }));
-    menu.addItem (menuItem (TRANS ("Guided tour"), {}, [this] { beginTour(); }));
+    menu.addItem (menuItem (TRANS ("Guided tour"), keyText ("shift + F1"), [this] { beginTour(); }));
     menu.addItem (menuItem (TRANS ("Keyboard shortcuts"), {}, [this] { help.showKeys(); }));
     menu.showMenuAsync (juce::PopupMenu::Options().withParentComponent (this).withTargetComponent (at).withMinimumWidth (240).withStandardItemHeight (28));
 }

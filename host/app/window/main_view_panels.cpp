@@ -31,7 +31,7 @@ void MainView::openPreset (const Preset& p, bool is_own)
 void MainView::chooseNode (const NodeRequest& request)
 {
     openNodePalette (palette, patching, catalogue, request, settings.recent_types, templates.all(), [this, request] (const std::string& type) {
-        if (const auto file = templateOf (type); ! file.empty()) return feel (file, false);
+        if (const auto* chosen = templateOf (type, templates.all())) return feel (chosen->file, false);
         addNode (type, request);
     });
 }

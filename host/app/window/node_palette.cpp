@@ -4,6 +4,8 @@
 #include <host/app/look/focus.hpp>
 #include <host/app/text/filled.hpp>
 
+#include <algorithm>
+
 namespace tactus::host
 {
 
@@ -26,7 +28,8 @@ std::vector<WireEnd> endsOf (const NodeRequest& request, const Scene& scene)
     return found;
 }
 
-constexpr std::string_view template_prefix = "template:";
+/// How the palette calls a template, as it calls a subgraph "graph:grain".
+std::string idOf (const Preset& t) { return "template:" + t.file.stem().string(); }
 
 /// The entries whose name begins like this.
 std::vector<PaletteEntry> withName (std::vector<PaletteEntry> entries, const std::string& query)
@@ -36,9 +39,10 @@ std::vector<PaletteEntry> withName (std::vector<PaletteEntry> entries, const std
 }
 }   // namespace
 
-std::filesystem::path templateOf (const std::string& entry)
+const Preset* templateOf (const std::string& entry, const std::vector<Preset>& templates)
 {
-    return entry.starts_with (template_prefix) ? std::filesystem::path (entry.substr (template_prefix.size())) : std::filesystem::path();
+    const auto found = std::ranges::find (templates, entry, idOf);
+    return found == templates.end() ? nullptr : &*found;
 }
 
 void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalogue, const NodeRequest& request, const std::vector<std::string>& recent,
@@ -47,7 +51,7 @@ void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalog
     std::vector<PaletteEntry> beginnings;
     if (canvas.edited().graph().root.nodes.empty() && canvas.patch().empty())
         for (const auto& t : templates)
-            beginnings.push_back ({ std::string (template_prefix) + t.file.string(), t.name, t.about });
+            beginnings.push_back ({ idOf (t), t.name, t.about });
     auto purpose = TRANS ("Add node");
     if (request.wire != 0)
         purpose = TRANS ("Insert into wire");

@@ -13,8 +13,8 @@ namespace tactus::host
 void openNodePalette (Palette&, Canvas&, const Catalogue&, const NodeRequest&, const std::vector<std::string>& recent, const std::vector<Preset>& templates,
                       std::function<void (const std::string& entry)> chosen);
 
-/// The file of the template that an entry of the palette stands for; empty if it is a node.
-std::filesystem::path templateOf (const std::string& entry);
+/// The template that an entry of the palette stands for; null if it is a node.
+const Preset* templateOf (const std::string& entry, const std::vector<Preset>& templates);
 
 /// Opens the palette at the pointer with the given entries to choose from.
 void openPalette (Palette&, Canvas&, const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string& type)> chosen);

@@ -66,8 +66,9 @@ TEST_CASE ("a drag with Alt bends a wire, which then runs through the place; a d
         const auto start = rig.port ("board", Role::output, "force"), end = rig.port ("motor", Role::input, "force");
         const auto bendAt = [&] (float part) {
             const auto& wires = rig.canvas->scene().wires();
-            const auto path = std::ranges::find (wires, wire, &SceneWire::text)->path();
-            rig.hand().click (rig.canvas->view().toPixels (path.getPointAlongPath (path.getLength() * part)), Hand::left (alt()));
+            const auto shown = std::ranges::find (wires, wire, &SceneWire::text);
+            const auto path = shown->path();
+            CHECK (rig.canvas->commands().addBend (shown->id, path.getPointAlongPath (path.getLength() * part)));
         };
         bendAt (0.2f);
         bendAt (0.85f);

@@ -132,7 +132,7 @@ TEST_CASE ("a step of the window leaves what could be redone")
     CHECK (shown == 0);
     d.addWindowStep (
         "open", [&] { shown = 2; }, [&] { shown = 3; });   // in place of the other one, which began with another window
-    CHECK (d.history().names() == std::vector<std::string> { "open", "set drag.mu", "set drag.mu" });
+    CHECK (d.history().names() == std::vector<std::string> { "open", "set 'drag.mu'", "set 'drag.mu'" });
     d.goTo (3);
     CHECK (text() == third);
     CHECK (shown == 0);

@@ -93,6 +93,9 @@ TEST_CASE ("a template is chosen by keys in the palette, where the name of a nod
     WindowRig w;
     w.key ("ctrl + n");
     w.key ("spacebar");
+    WindowRig::settle();
+    for (const auto& t : test::readTexts (*w.view))
+        CHECK_FALSE (t.text.contains (TACTUS_SOURCE_DIR));
     w.stage->type ("strok");
     w.key ("return");
     CHECK (w.graph().name == "Stroke");
@@ -133,7 +136,7 @@ TEST_CASE ("the tour has five steps on parts of the window, goes on by keys, and
     WindowRig::settle (1500);   // the settings are saved a little later
     CHECK (loadSettings (w.home.path()).settings.toured);
 
-    w.view->beginTour();   // again
+    w.key ("shift + F1");   // again
     REQUIRE (tour.isOpen());
     w.key ("cursor right");
     w.key ("cursor left");
@@ -171,16 +174,22 @@ TEST_CASE ("a node is dragged from the list to the canvas, and into a wire", "[a
     auto& canvas = w.view->canvas();
     const auto onStage = [&] (juce::Point<float> pixel) { return w.stage->getLocalPoint (&canvas, pixel); };
     const auto count = w.graph().root.nodes.size();
-    const juce::Point<float> free { 16.0f, static_cast<float> (canvas.getHeight()) - 40.0f };
+    const juce::Point<float> free { 16.0f, 16.0f };
+    const auto place = canvas.view().toCanvas (free);
     w.stage->drag (rowOf (w, "signal.lfo"), onStage (free));
     WindowRig::settle();
     REQUIRE (w.graph().root.nodes.size() == count + 1);
     CHECK (w.graph().root.nodes.back().type == "signal.lfo");
-    CHECK (canvas.view().toPixels (canvas.scene().nodes().back().at).getDistanceFrom (free) < 40.0f);
+    CHECK (canvas.scene().nodes().back().at.getDistanceFrom (place) < 40.0f);
     CHECK (canvas.hasKeyboardFocus (true));
     w.key ("ctrl + z");
     CHECK (w.graph().root.nodes.size() == count);
 
+    auto* search = w.titled ("Search nodes");
+    REQUIRE (search != nullptr);
+    w.stage->click (w.middleOf (*search));
+    w.stage->type ("reconstruction");
+    REQUIRE (waitFor ([&] { return w.view->nodeList().entries().front().type == "filter.reconstruction"; }));
     const auto wire = std::ranges::find (canvas.scene().wires(), "drag.force -> motor.force", &SceneWire::text);
     REQUIRE (wire != canvas.scene().wires().end());
     const auto path = wire->path();
