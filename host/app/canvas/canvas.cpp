@@ -12,6 +12,7 @@ namespace tactus::host
 
 Canvas::Canvas (Document& d, const Catalogue& c) : document (d), catalogue (c), seen_position (d.history().position())
 {
+    setOpaque (true);
     setWantsKeyboardFocus (true);
     setTitle (TRANS ("Canvas"));
     document.add (*this);

@@ -13,6 +13,7 @@ namespace tactus::host
 
 Inspector::Inspector (Document& d, const Catalogue& c) : document (d), catalogue (c)
 {
+    setOpaque (true);
     setTitle (TRANS ("Inspector"));
     setFocusContainerType (FocusContainerType::keyboardFocusContainer);
     scroll.setScrollBarsShown (true, false);

@@ -97,6 +97,7 @@ public:
 
 ScopePanel::ScopePanel (Document& d, Traces& t, const Catalogue& c) : document (d), catalogue (c), traces (t), client (t)
 {
+    setOpaque (true);
     setTitle (TRANS ("Scopes"));
     setWantsKeyboardFocus (true);
     for (const auto kind : scope_kinds)

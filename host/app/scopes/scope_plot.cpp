@@ -29,7 +29,11 @@ double Lane::xAt (float pixel) const noexcept
 
 double Lane::yAt (float pixel) const noexcept { return y.low + static_cast<double> ((area.getBottom() - pixel) / area.getHeight()) * y.size(); }
 
-ScopePlot::ScopePlot (ScopeSpec& s, ScopeContext& c) : spec (s), context (c) { setMouseCursor (juce::MouseCursor::CrosshairCursor); }
+ScopePlot::ScopePlot (ScopeSpec& s, ScopeContext& c) : spec (s), context (c)
+{
+    setMouseCursor (juce::MouseCursor::CrosshairCursor);
+    setOpaque (true);
+}
 
 void ScopePlot::layOut (const std::vector<std::string>& units)
 {

@@ -76,6 +76,7 @@ std::unique_ptr<ScopePlot> makePlot (ScopeSpec& s, ScopeContext& d)
 
 ScopeView::ScopeView (ScopeSpec& s, ScopeContext& c, Signals from) : spec (s), context (c), live (std::move (from)), drawing (makePlot (s, c))
 {
+    setOpaque (true);
     setTitle (titleOf (s.kind));
     setMouseCursor (juce::MouseCursor::DraggingHandCursor);   // of its title, which can be dragged to another place
     freeze_button = std::make_unique<FlatButton> (TRANS ("Freeze this scope"), twoBars());

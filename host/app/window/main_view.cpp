@@ -37,6 +37,7 @@ MainView::MainView (const Catalogue& c)
       problems (bottom.add<ProblemList> (TRANS ("Problems"), edited)),
       help (c)
 {
+    setOpaque (true);
     left.add<HistoryPanel> (TRANS ("History"), edited);
     setTitle ("Tactus");
     setWantsKeyboardFocus (true);

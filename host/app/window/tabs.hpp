@@ -15,7 +15,11 @@ class Tabs final : public juce::Component
 public:
     static constexpr int row_height = 32;
 
-    Tabs() { setMouseClickGrabsKeyboardFocus (false); }   // JUCE would give the focus to the first field of the panel
+    Tabs()
+    {
+        setMouseClickGrabsKeyboardFocus (false);   // JUCE would give the focus to the first field of the panel
+        setOpaque (true);
+    }
 
     /// Creates a panel from the arguments, and adds a tab for it.
     template <typename Panel, typename... Args>

@@ -74,6 +74,7 @@ public:
 
 HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (std::make_unique<PlayButton>()), listen (std::make_unique<SoundButton>())
 {
+    setOpaque (true);
     setTitle (TRANS ("Hand"));
     source.setTitle (TRANS ("What moves the tool"));
     source.addItem (TRANS ("Device of the graph"), as_described);

@@ -112,6 +112,7 @@ private:
 SafetyStrip::SafetyStrip (Playback& p)
     : playback (p), button (std::make_unique<StopButton> (TRANS ("STOP"), true)), rearm (std::make_unique<StopButton> (TRANS ("REARM"), false))
 {
+    setOpaque (true);
     setTitle (TRANS ("Safety"));
     rearm->setTooltip (TRANS ("Lets the forces rise again, slowly. Press it only when it is safe."));
     rearm->onClick = [this] { playback.current().rearm(); };
