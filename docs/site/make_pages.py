@@ -34,6 +34,8 @@ SECTIONS = {
     "Decisions": ("Why things are as they are, and what was measured.", ["decisions/index"]),
 }
 
+GESTURES = ("stroke", "circle", "press", "tap", "cut")   # tags of presets, and the parts of the gallery
+
 
 def run(*command):
     return subprocess.run([str(part) for part in command], check=True, capture_output=True, text=True).stdout
@@ -101,6 +103,8 @@ class Site:
             if name == "glossary":
                 head, terms = text.split("\n- ", 1)
                 text = head + "\n\n:::{glossary}\n" + "\n\n".join(re.sub(r"\*\*(.*?)\*\*: ", r"\1\n  ", term.rstrip()) for term in terms.split("\n- ")) + "\n:::\n"
+            if name == "playground":
+                text = text.replace("\n\n", "\n\n<a href=\"playground/index.html\">Open the playground</a>\n\n", 1)
             self.write(name, text)
 
     def index(self):
@@ -176,10 +180,12 @@ class Site:
             text += f"\n<a href=\"../playground/index.html#preset={users[0]}\">Open in the playground</a>, in the preset {self.presets[users[0]]['name']}.\n"
         if law:
             text += f"\n## Law\n\n{law}\n"
-        figure = next((name for name, types in self.figures.items() if node["id"] in types and not node["id"].startswith(("signal.", "device.", "vector."))), None)
+        is_model = not node["id"].startswith(("signal.", "device.", "vector."))
+        figure = next((name for name, types in self.figures.items() if is_model and node["id"] in types), None)
         if figure:
             picture = self.copied(f"docs/figures/{figure}.png")
-            text += f"\n## Figure\n\n![{node['name']}, in the figure {figure}](../{picture})\n\n[The graph of the figure](../{self.copied(f'docs/figures/{figure}.json')}).\n"
+            graph = self.copied(f"docs/figures/{figure}.json")
+            text += f"\n## Figure\n\n![{node['name']}, in the figure {figure}](../{picture})\n\n[The graph of the figure](../{graph}).\n"
         for title in ("inputs", "params", "settings", "outputs"):
             text += self.table(title.capitalize(), node[title])
         if users:
@@ -226,16 +232,15 @@ class Site:
 
     def gallery(self):
         with ThreadPoolExecutor(os.cpu_count()) as pool:
-            cards = list(pool.map(self.preset_page, self.presets))
+            cards = dict(zip(self.presets, pool.map(self.preset_page, self.presets)))
+        gestures = {}
+        for name, graph in self.presets.items():
+            gestures.setdefault(next((tag for tag in graph.get("tags", []) if tag in GESTURES), "more"), []).append(cards[name])
         text = "# Gallery\n\nEach preset: what it feels like, its forces in its own gesture, its sound, and where its numbers come from.\n\n"
-        text += "::::{container} gallery\n" + "".join(cards) + "::::\n"
+        for gesture in (*GESTURES, "more"):
+            if gesture in gestures:
+                text += f"\n## {gesture.capitalize()}\n\n::::{{container}} gallery\n" + "".join(gestures[gesture]) + "::::\n"
         self.write("gallery/index", text + "\n```{toctree}\n:hidden:\n\n" + "\n".join(self.presets) + "\n```\n")
-        self.write("playground", "# Playground\n\n<a href=\"playground/index.html\">Open the playground</a>. A mouse and headphones are enough: press and drag in the "
-                   "picture, and listen.\n\nEach preset is the C++ code that `tactus export --to wasm` writes, as a [WebAssembly module](export.md#in-a-browser). It computes "
-                   "the forces of `tactus render`, bit for bit, and has the same guard. Gamepads rumble. In Chromium and Edge, a board or a DualSense connects "
-                   "by WebHID, with its [profile](devices.md); its motors get only what has passed the guard, and STOP or Escape lets them go.\n\n"
-                   "The hand on the mouse is a spring that holds a simulated tool, so you see the force instead of feeling it: the tool stays behind. "
-                   "*Record* keeps a movement and its forces as CSV; `tactus render --device ROLE=trace:FILE` plays the movement again.\n")
 
     # ------------------------------------------------------------------ reference
 

@@ -40,7 +40,8 @@ window.has_pad = false;
 navigator.getGamepads = () => window.has_pad ? [window.pad] : [];
 class Board extends EventTarget
 {
-    vendorId = 0x16c0; productId = 0x0486; productName = 'Mock board'; collections = [{ usagePage: 0xffab, usage: 0x0200 }]; sent = []; z = 0.003; number = 0;
+    vendorId = 0x16c0; productId = 0x0486; productName = 'Mock board'; collections = [{ usagePage: 0xffab, usage: 0x0200 }];
+    sent = []; z = 0.003; number = 0;
     async open()
     {
         this.timer = setInterval (() => {
@@ -59,7 +60,8 @@ class Board extends EventTarget
     }
 }
 window.board = new Board();
-Object.defineProperty (navigator, 'hid', { value: Object.assign (new EventTarget(), { requestDevice: async options => { window.filters = options.filters; return [window.board]; } }) });
+Object.defineProperty (navigator, 'hid', { value: Object.assign (new EventTarget(), {
+    requestDevice: async options => { window.filters = options.filters; return [window.board]; } }) });
 """
 
 UNNAMED = """
@@ -72,9 +74,14 @@ FAINT = """
 const parts = text => text.match (/[\\d.]+/g).map (Number);
 const light = ([r, g, b]) => [r, g, b].map (c => c / 255).map (c => c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
                                      .reduce ((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
-const behind = one => { const c = parts (getComputedStyle (one).backgroundColor); return c.length === 3 || c[3] === 1 || ! one.parentElement ? c : behind (one.parentElement); };
-return [...document.querySelectorAll ('body *')].filter (one => ! one.closest ('[hidden], noscript') && [...one.childNodes].some (node => node.nodeType === 3 && node.data.trim()))
-    .map (one => { const [a, b] = [light (parts (getComputedStyle (one).color)), light (behind (one))]; return [one.outerHTML, (Math.max (a, b) + 0.05) / (Math.min (a, b) + 0.05)]; })
+const behind = one => {
+    const c = parts (getComputedStyle (one).backgroundColor);
+    return c.length === 3 || c[3] === 1 || ! one.parentElement ? c : behind (one.parentElement);
+};
+const hasText = one => ! one.closest ('[hidden], noscript') && [...one.childNodes].some (node => node.nodeType === 3 && node.data.trim());
+return [...document.querySelectorAll ('body *')].filter (hasText)
+    .map (one => [one.outerHTML, ...[light (parts (getComputedStyle (one).color)), light (behind (one))].sort ((a, b) => a - b)])
+    .map (([text, dark, bright]) => [text, (bright + 0.05) / (dark + 0.05)])
     .filter (([, contrast]) => contrast < 4.5);
 """
 
@@ -145,7 +152,8 @@ class Playground(unittest.TestCase):
                         "knob.dispatchEvent (new Event ('change'));", "knob-" + knob, value)
 
     def text_of(self, link):
-        return self.page.execute_async_script("const done = arguments[1]; fetch (document.getElementById ('of-' + arguments[0]).href).then (a => a.text()).then (done)", link)
+        return self.page.execute_async_script("const [link, done] = arguments; fetch (document.getElementById ('of-' + link).href).then (a => a.text()).then (done)",
+                                              link)
 
     def record(self, act, role="stylus"):
         self.id("record").click()
@@ -324,8 +332,8 @@ class Playground(unittest.TestCase):
             self.assertGreater(pad.size["width"], 300)
             stop = self.id("stop")
             self.assertGreaterEqual(min(stop.size["width"], stop.size["height"]), 44)
-            edges = self.run_script("const edges = document.getElementById ('pad').getBoundingClientRect(); return [edges.left, edges.top, edges.width, edges.height]")
-            point = {"x": edges[0] + edges[2] / 2, "y": edges[1] + 0.99 * edges[3], "force": 0.8}
+            edges = self.run_script("return document.getElementById ('pad').getBoundingClientRect().toJSON()")
+            point = {"x": edges["left"] + edges["width"] / 2, "y": edges["top"] + 0.99 * edges["height"], "force": 0.8}
             self.touch("touchStart", point)   # a tap starts the engine
             self.touch("touchEnd")
             self.until("return document.getElementById ('status').textContent.includes ('is running')")

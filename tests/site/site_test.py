@@ -85,8 +85,9 @@ class Site(unittest.TestCase):
         for node in json.loads(subprocess.run([self.tactus, "nodes", "--json"], check=True, capture_output=True, text=True).stdout):
             with self.subTest(node["id"]):
                 text = (self.site / "nodes" / f"{node['id']}.html").read_text(encoding="utf-8")
-                for part in ('id="law"', *[f'id="{kind}"' for kind in ("inputs", "params", "settings", "outputs") if node[kind]],
-                             *[f"<span class=\"pre\">{port['id']}</span>" for kind in ("inputs", "params", "settings", "outputs") for port in node[kind]], "Source: "):
+                kinds = [kind for kind in ("inputs", "params", "settings", "outputs") if node[kind]]
+                ports = [f"<span class=\"pre\">{port['id']}</span>" for kind in kinds for port in node[kind]]
+                for part in ('id="law"', "Source: ", *[f'id="{kind}"' for kind in kinds], *ports):
                     self.assertIn(part, text)
 
     def test_every_preset_has_a_card_and_a_page(self):

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 import { HidDevice } from './hid.js';
+import { drawPad, drawScope } from './picture.js';
+import { linksOf } from './recording.js';
 import { heightsOf } from './scene.js';
 
 const $ = id => document.getElementById (id);
 const pad = $('pad'), scope = $('scope');
-const words = { none: '', not_finite: 'a reading is not a number', stale: 'the device is silent', starved: 'the engine is too slow', released: 'a button is released',
-                halted: 'it is halted', speed: 'the hand was too fast', impulse: 'it pushed for too long', energy: 'it gave too much energy', emergency: 'you stopped it' };
+const words = { none: '', not_finite: 'a reading is not a number', stale: 'the device is silent', starved: 'the engine is too slow',
+                released: 'a button is released', halted: 'it is halted', speed: 'the hand was too fast', impulse: 'it pushed for too long',
+                energy: 'it gave too much energy', emergency: 'you stopped it' };
 
 let presets = [], preset = null, about = null, module_bytes = null;
-let engine = null, context = null, device = null, recording = null;
+let engine = null, context = null, device = null, recording = false;
 let state = { positions: [], efforts: [], stops: [], rumble: 0 };
 let heights = null, wanted = [], chosen = 0, pressing = new Map(), forces = [], trail = [];
 
@@ -109,7 +112,8 @@ async function begin()
         await context.resume();
         return;
     }
-    if (! window.AudioWorkletNode || ! window.isSecureContext) throw new Error ('this page needs an AudioWorklet, which browsers have only on https and on localhost');
+    if (! window.AudioWorkletNode || ! window.isSecureContext)
+        throw new Error ('this page needs an AudioWorklet, which browsers have only on https and on localhost');
     context = new AudioContext ({ latencyHint: 'interactive' });
     await context.audioWorklet.addModule ('engine.js');
     engine = new AudioWorkletNode (context, 'tactus-engine', { numberOfInputs: 0, outputChannelCount: [1] });
@@ -306,28 +310,14 @@ addEventListener ('pagehide', () => { device?.stop(); quiet(); });
 document.addEventListener ('visibilitychange', () => { if (document.hidden && device) stop(); });
 
 //==============================================================================
-// Recording: the movement is a trace that `tactus render --device ROLE=trace:FILE` plays, and the forces are what that renders.
+// Recording.
 
-function link (name, lines, text)
-{
-    const made = document.createElement ('a');
-    made.id = 'of-' + name;
-    made.href = URL.createObjectURL (new Blob ([lines.join ('\n') + '\n'], { type: 'text/csv' }));
-    made.download = `${preset.id}_${name}.csv`;
-    made.textContent = text;
-    return made;
-}
-
-function keepRecording ({ positions, records })
+function keepRecording (recorded)
 {
     for (const old of $('traces').querySelectorAll ('a'))
         URL.revokeObjectURL (old.href);
-    const count = about.records.length, times = Array.from ({ length: positions[0].length / 3 }, (_, k) => k / about.rate_hz);
-    $('traces').replaceChildren (...about.roles.flatMap (({ name }, i) => [
-        link (name, ['t,x,y,z', ...times.map ((t, k) => [t, ...positions[i].slice (3 * k, 3 * k + 3)].join (','))], `the movement of ${name}`), ' ']),
-        link ('forces', [['t', ...about.records.map (record => record.name)].join (','),
-                         ...times.map ((t, k) => [t, ...records.slice (count * k, count * (k + 1))].join (','))], 'the forces'));
-    recording = null;
+    $('traces').replaceChildren (...linksOf (preset.id, about, recorded));
+    recording = false;
     $('record').setAttribute ('aria-pressed', 'false');
     $('record').textContent = 'Record';
 }
@@ -343,127 +333,18 @@ $('record').addEventListener ('click', async () => {
 });
 
 //==============================================================================
-// Pictures.
-
-function colour (name) { return getComputedStyle (document.documentElement).getPropertyValue ('--' + name); }
-
-function sized (canvas)
-{
-    const ratio = devicePixelRatio, { clientWidth, clientHeight } = canvas;
-    if (canvas.width !== Math.round (clientWidth * ratio) || canvas.height !== Math.round (clientHeight * ratio))
-    {
-        canvas.width = Math.round (clientWidth * ratio);
-        canvas.height = Math.round (clientHeight * ratio);
-    }
-    const painter = canvas.getContext ('2d');
-    painter.setTransform (ratio, 0, 0, ratio, 0, 0);
-    painter.clearRect (0, 0, clientWidth, clientHeight);
-    return [painter, clientWidth, clientHeight];
-}
-
-function line (painter, points)
-{
-    painter.beginPath();
-    points.forEach (([x, y], k) => k ? painter.lineTo (x, y) : painter.moveTo (x, y));
-    painter.stroke();
-}
-
-function drawSurface (painter, width, height, role, is_side)
-{
-    if (! heights) return;
-    if (is_side)
-    {
-        const points = heights[0].map ((z, i) => [i / (heights[0].length - 1) * width, (z === null ? 1 : toPicture (role, [0, 0, z])[1]) * height]);
-        painter.fillStyle = colour ('panel');
-        painter.beginPath();
-        [[0, height], ...points, [width, height]].forEach (([x, y], k) => k ? painter.lineTo (x, y) : painter.moveTo (x, y));
-        painter.fill();
-        painter.strokeStyle = colour ('line');
-        painter.lineWidth = 2;
-        line (painter, points);
-        return;
-    }
-    const [, , [low, high]] = box (role), rows = heights.length, columns = heights[0].length;
-    painter.fillStyle = colour ('line');
-    heights.forEach ((row, j) => row.forEach ((z, i) => {
-        painter.globalAlpha = z === null ? 0 : 0.1 + 0.5 * (z - low) / (high - low);
-        painter.fillRect (i / columns * width, (rows - 1 - j) / rows * height, width / columns + 1, height / rows + 1);
-    }));
-    painter.globalAlpha = 1;
-}
-
-function drawPad()
-{
-    const [painter, width, height] = sized (pad), [across, up] = axes(), side = up === 2;
-    const role = about.roles[chosen].name;
-    drawSurface (painter, width, height, role, side);
-    about.roles.forEach (({ name }, i) => {
-        const place = (at) => { const [x, y] = toPicture (name, at); return [x * width, y * height]; };
-        const force = state.efforts[i]?.force ?? [0, 0, 0], tool = place (state.positions[i]), hand = place (wanted[i]);
-        if (i === chosen)
-        {
-            trail.push ([...tool, Math.hypot (...force)]);
-            trail.splice (0, Math.max (0, trail.length - 400));
-            painter.fillStyle = colour ('strong');
-            for (const [x, y, size] of trail)
-                if (size > 0) painter.fillRect (x - 1, y - 1, 2 + Math.min (6, size), 2 + Math.min (6, size));
-        }
-        painter.strokeStyle = colour ('line');
-        painter.lineWidth = 1;
-        line (painter, [hand, tool]);
-        painter.fillStyle = colour ('text');
-        painter.beginPath();
-        painter.arc (...tool, 8, 0, 2 * Math.PI);
-        painter.fill();
-        painter.strokeStyle = colour ('x');
-        painter.fillStyle = colour ('x');
-        painter.lineWidth = 4;
-        const tip = [tool[0] + 25 * force[across], tool[1] - 25 * force[up]];   // 25 pixels per newton
-        const length = Math.hypot (tip[0] - tool[0], tip[1] - tool[1]);
-        if (length > 2)
-        {
-            const [dx, dy] = [(tip[0] - tool[0]) / length, (tip[1] - tool[1]) / length];
-            line (painter, [tool, tip]);
-            painter.beginPath();
-            painter.moveTo (tip[0] + 8 * dx, tip[1] + 8 * dy);
-            painter.lineTo (tip[0] - 6 * dy, tip[1] + 6 * dx);
-            painter.lineTo (tip[0] + 6 * dy, tip[1] - 6 * dx);
-            painter.fill();
-        }
-    });
-}
-
-function drawScope()
-{
-    const [painter, width, height] = sized (scope);
-    let most = 0.5;
-    for (const force of forces)
-        most = Math.max (most, ...force.map (Math.abs));
-    painter.strokeStyle = colour ('line');
-    painter.lineWidth = 1;
-    line (painter, [[0, height / 2], [width, height / 2]]);
-    'xyz'.split ('').forEach ((name, i) => {
-        painter.strokeStyle = colour (name);
-        painter.lineWidth = 1.5;
-        line (painter, forces.map ((force, k) => [(k + 2000 - forces.length) / 2000 * width, height / 2 - force[i] / most * (height / 2 - 4)]));
-    });
-    painter.fillStyle = colour ('soft');
-    painter.fillText (`${most.toFixed (1)} N`, 4, 12);
-    const force = state.efforts[chosen]?.force;
-    $('force').textContent = `${(force ? Math.hypot (...force) : 0).toFixed (2)} N`;
-}
 
 function draw()
 {
     if (about)
     {
-        drawPad();
-        drawScope();
+        drawPad (pad, { about, heights, state, wanted, chosen, trail, axes: axes(), depths: box (about.roles[chosen].name)[2], toPicture });
+        drawScope (scope, forces);
+        const force = state.efforts[chosen]?.force ?? [0, 0, 0];
+        $('force').textContent = `${Math.hypot (...force).toFixed (2)} N`;
     }
     requestAnimationFrame (draw);
 }
-
-//==============================================================================
 
 $('stop').addEventListener ('click', stop);
 $('rearm').addEventListener ('click', rearm);

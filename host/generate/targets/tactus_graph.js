@@ -72,8 +72,10 @@ export class Graph
 {
     constructor (module, about)
     {
-        const wasm = new WebAssembly.Instance (module).exports, memory = wasm.memory.buffer;   // nothing takes memory, so it stays where it is
+        const wasm = new WebAssembly.Instance (module).exports;
         wasm._initialize();
+        wasm.prepare (about.rate_hz);            // sorting a mesh may make the memory grow, once
+        const memory = wasm.memory.buffer;
         this.about = about;
         this.wasm = wasm;
         this.inputs = {};

@@ -74,8 +74,9 @@ EXPORT (lose_time) void wasmLoseTime (double seconds) { @S@_lose_time (&wasm_gra
 
 #include <cstddef>
 
-// What libc++ calls when it cannot go on. Its own functions print, for which the module would have to import a system.
+// What the libraries call when they cannot go on. Their own functions print, for which the module would have to import a system.
 extern "C" void __abort_message (const char*, ...) { __builtin_trap(); }
+extern "C" void __assert_fail (const char*, const char*, int, const char*) { __builtin_trap(); }
 void std::__libcpp_verbose_abort (const char*, ...) noexcept { __builtin_trap(); }
 
 @CHECKS@
