@@ -14,7 +14,10 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
+#include <set>
 #include <string_view>
+#include <vector>
 
 namespace tactus::host
 {
@@ -45,6 +48,11 @@ public:
     Wired (const graph::Graph& graph, std::string name, const graph::Patch& p, const Catalogue& c)
         : g (graph), catalogue (c), subgraph (std::move (name)), patch (p)
     {
+        for (const auto& w : patch.wires)
+        {
+            sources.insert (graph::firstNameOf (w.from.node));
+            ends[graph::firstNameOf (w.to.node)].push_back (&w.to);
+        }
         if (subgraph.empty()) return;
         const auto note = [this] (const graph::Endpoint& e) {
             if (const auto slash = e.node.rfind ('/'); slash != std::string::npos) named_outside.emplace (graph::firstStep (e.node.substr (slash + 1)).name);
@@ -57,9 +65,12 @@ public:
         noteAll (g.root);
         for (const auto& [id, any] : g.graphs)
             noteAll (any);
-        for (const auto* ends : { &patch.expose.inputs, &patch.expose.outputs })
-            for (const auto& [id, e] : *ends)
-                exposed.push_back (e);
+        for (const auto* exposed : { &patch.expose.inputs, &patch.expose.outputs })
+            for (const auto& [id, e] : *exposed)
+            {
+                sources.insert (e.node);
+                ends[graph::firstNameOf (e.node)].push_back (&e);
+            }
     }
 
     void warn (Messages& all) const
@@ -86,8 +97,9 @@ private:
     const Catalogue& catalogue;
     std::string subgraph;
     const graph::Patch& patch;
-    std::vector<graph::Endpoint> exposed;
-    std::set<std::string, std::less<>> named_outside;   ///< nodes that a wire outside of this patch names
+    std::set<std::string, std::less<>> sources;                                     ///< nodes at which a wire begins, or that are exposed
+    std::map<std::string, std::vector<const graph::Endpoint*>, std::less<>> ends;   ///< by node: where wires end, and what is exposed
+    std::set<std::string, std::less<>> named_outside;                               ///< nodes that a wire outside of this patch names
 
     static bool hasClip (const graph::Node& n)
     {
@@ -95,19 +107,15 @@ private:
         return clip != n.settings.end() && ! (clip->is_string() && clip->asString().empty());
     }
 
-    bool leads (const std::string& node) const
-    {
-        return std::ranges::any_of (patch.wires, [&] (const graph::Wire& w) { return graph::firstNameOf (w.from.node) == node; })
-               || std::ranges::count (exposed, node, &graph::Endpoint::node) > 0;
-    }
+    bool leads (const std::string& node) const { return sources.contains (node); }
 
     /// True if something is wired into the port, or into any port without one.
     bool hears (const std::string& node, std::string_view port, int index = -1) const
     {
-        const auto isThis = [&] (const graph::Endpoint& e) {
-            return graph::firstNameOf (e.node) == node && (port.empty() || e.port == port) && (index < 0 || e.index == index);
-        };
-        return std::ranges::any_of (patch.wires, [&] (const graph::Wire& w) { return isThis (w.to); }) || std::ranges::any_of (exposed, isThis);
+        const auto its = ends.find (node);
+        return its != ends.end() && std::ranges::any_of (its->second, [&] (const graph::Endpoint* e) {
+                   return (port.empty() || e->port == port) && (index < 0 || e->index == index);
+               });
     }
 
     void add (Messages& all, const graph::Node& n, const char* id, const juce::String& text, const juce::String& remedy) const
