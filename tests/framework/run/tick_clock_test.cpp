@@ -51,8 +51,10 @@ TEST_CASE ("an absolute timer never begins a tick early, and does not catch up o
 
 TEST_CASE ("ticks of simulated devices are due together a millisecond at a time, and none begins before its millisecond", "[runtime]")
 {
-    for (const auto& [rate_hz, together] : { std::pair { 4000.0, 4 }, { 20e3, 20 }, { 1000.0, 1 }, { 500.0, 1 }, { 1500.0, 1 } })
+    for (const auto& row : { std::pair { 4000.0, 4 }, { 20e3, 20 }, { 1000.0, 1 }, { 500.0, 1 }, { 1500.0, 1 } })
     {
+        const double rate_hz = row.first;
+        const int together = row.second;
         AbsoluteTimer timer { 1.0 / rate_hz, AbsoluteTimer::Wait::idle };
         const double begin = timer.now();
         std::vector<double> lates;

@@ -68,7 +68,7 @@ TEST_CASE ("a device hears nothing in a damaged report, and no force in a neutra
     Bytes report (wire.begin() + 1, wire.end());
     REQUIRE (device.output (report));
     CHECK (device.output (report)->effort.force.x() == Approx (1.0));
-    for (const std::size_t at : { 2, 9, 60, 63 })
+    for (const std::size_t at : { 2u, 9u, 60u, 63u })
     {
         auto damaged = report;
         damaged[at] ^= 0x40;
