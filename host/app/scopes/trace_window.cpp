@@ -11,11 +11,11 @@ namespace
 std::uint64_t tickAtOrAfter (double t) { return t <= 0.0 ? 0 : static_cast<std::uint64_t> (std::ceil (t)); }
 
 /// The columns of a window. Numbers of columns count from tick 0: that of a tick is floor (tick / ticks_each).
-struct Grid
+struct ColumnGrid
 {
     double ticks_each, first, end;   // the last two are numbers
 
-    Grid (double from, double to, std::size_t at_most)
+    ColumnGrid (double from, double to, std::size_t at_most)
         : ticks_each (std::max (1.0, (to - from) / static_cast<double> (std::max<std::size_t> (1, at_most)))), first (std::floor (from / ticks_each)),
           end (std::ceil (to / ticks_each))
     {
@@ -58,7 +58,7 @@ struct Grid
 
 TraceColumns columnsOf (const Trace& trace, double from, double to, std::size_t at_most)
 {
-    const Grid grid { from, to, at_most };
+    const ColumnGrid grid { from, to, at_most };
     auto columns = grid.empty();
     grid.each (trace, from, to, [&] (std::size_t i, std::uint64_t tick, std::uint64_t next) { columns.all[i].extent = extentOf (trace, tick, next); });
     return columns;
@@ -66,7 +66,7 @@ TraceColumns columnsOf (const Trace& trace, double from, double to, std::size_t 
 
 const TraceColumns& MovingColumns::update (const std::shared_ptr<const Trace>& trace, double from, double to, std::size_t at_most)
 {
-    const Grid grid { from, to, at_most };
+    const ColumnGrid grid { from, to, at_most };
     auto columns = grid.empty();
     const bool goes_on = of == trace && beginnings == trace->beginnings() && shown.ticks_each == columns.ticks_each;
     const double known_from = goes_on ? whole_from : 0.0, known_to = goes_on ? whole_to : 0.0, first_before = std::round (shown.first / shown.ticks_each);
