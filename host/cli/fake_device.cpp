@@ -77,7 +77,7 @@ void play (FakeDevice& fake, double duration_s, std::ofstream& log)
     while (! stopRequested() && (duration_s <= 0.0 || fake.time() < duration_s))
     {
         fake.step();
-        log.flush();   // whoever reads it sees what has happened
+        log.flush();   // a program that reads the file meanwhile sees each line at once
         due += period;
         while (Clock::now() < due && fake.hear (due))
             ;
@@ -184,7 +184,10 @@ void addFakeDevice (const Command& app)
 {
     const auto options = std::make_shared<FakeOptions>();
     const auto command = app.add ("fake-device", "Play a device from the outside, to test programs without hardware");
-    command.addOption ("profile", options->profile, "The id of a profile that names a wire, such as tactus_board; or haply_inverse3, the service of Haply's arm").required();
+    command
+        .addOption ("profile", options->profile,
+                    "The id of a profile that names a wire, such as tactus_board; or haply_inverse3, the service of Haply's arm")
+        .required();
     command.addOption ("--wire", options->wire, "The wire; default: the first that the profile knows").check (oneOf ({ "serial", "udp" }));
     command.addOption ("--link", options->link, "A symbolic link to the serial line, so that its name stays the same").type ("PATH");
     command.addOption ("--port", options->port, "The port on this computer, of UDP or of a service; default: a free one").check (within (0, 65535));
@@ -196,8 +199,8 @@ void addFakeDevice (const Command& app)
     command.addOption ("--log", options->log, "A file for each report: its step, > if sent or < if heard, and its bytes").type ("FILE");
     command.addOption ("--duration", options->duration_s, "Length in s; default: until Ctrl-C").check (finiteWithin (0.0, 1e9));
     command.footer ("Examples:\n"
-                    "  tactus fake-device tactus_board --link /tmp/board --log heard.txt\n"
-                    "  tactus play graphs/dry_wood.json --device stylus=serial:tactus_board@/tmp/board\n"
+                    "  tactus fake-device tactus_board --link board --log heard.txt\n"
+                    "  tactus play graphs/dry_wood.json --device stylus=serial:tactus_board@board\n"
                     "  tactus fake-device tactus_board --wire udp --port 9750 --fault stall@5:0.2 --fault away@8:1\n"
                     "  tactus fake-device haply_inverse3 --port 10001");
     command.callback ([options] { run (*options); });

@@ -59,7 +59,8 @@ std::optional<Vec3> vectorIn (const Json& command)
 class Service final : public FakeInverse3
 {
 public:
-    Service (int p, std::unique_ptr<Device> h, int delay) : acceptor (io, { asio::ip::address_v4::loopback(), static_cast<std::uint16_t> (p) }), hand (std::move (h)), delay_ms (delay)
+    Service (int p, std::unique_ptr<Device> h, int delay)
+        : acceptor (io, { asio::ip::address_v4::loopback(), static_cast<std::uint16_t> (p) }), hand (std::move (h)), delay_ms (delay)
     {
         hand->prepare (1e-3);
         runs = std::jthread ([this] (const std::stop_token& stop) {
@@ -172,7 +173,7 @@ private:
     {
         const std::lock_guard lock (mutex);
         const auto now = Clock::now();
-        if (now - moved_to > 100ms) moved_to = now - 100ms;   // nobody has looked
+        if (now - moved_to > 100ms) moved_to = now - 100ms;   // there was no message for a while
         while (moved_to + tick <= now)
         {
             moved_to += tick;

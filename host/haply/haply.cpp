@@ -34,7 +34,7 @@ using tactus::Json;
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto until_probe = 5ms;     // after an answer, if nobody pushes: longer than a tick, so a probe never comes between two forces
+constexpr auto until_probe = 5ms;     // after an answer without a new force; longer than a tick, so a probe never comes between two forces
 constexpr auto until_late = 20ms;     // without an answer: efforts are refused
 constexpr auto until_gone = 100ms;    // the service is not there any more
 constexpr auto until_rested = 15ms;   // `rest` may take 20 ms
@@ -369,8 +369,8 @@ private:
             const std::lock_guard lock (mutex);
             std::array<char, 200> command {};
             if (pushes)
-                std::snprintf (command.data(), command.size(), R"("set_cursor_force":{"%s":{"x":%.15g,"y":%.15g,"z":%.15g}})", wanted.spelling.c_str(), force[0], force[1],
-                               force[2]);
+                std::snprintf (command.data(), command.size(), R"("set_cursor_force":{"%s":{"x":%.15g,"y":%.15g,"z":%.15g}})", wanted.spelling.c_str(),
+                               force[0], force[1], force[2]);
             else
                 std::snprintf (command.data(), command.size(), R"("probe_position":{})");
             outgoing = R"({"inverse3":[{"device_id":")" + id + R"(","commands":{)" + command.data() + "}}]}";

@@ -57,8 +57,8 @@ struct PortCounts
     double latency_min = 0.0, latency_mean = 0.0, latency_max = 0.0;   ///< from the arrival of a report until its answer was sent, in s
 };
 
-/// An open device with a profile, over HID or another wire, with a reading thread and a writing thread. Incoming reports queue up until a tick takes them. Only the
-/// latest of each outgoing report is kept, so nothing ever queues up on the way out.
+/// An open device with a profile, over HID or another wire, with a reading thread and a writing thread. Incoming reports queue up until a tick
+/// takes them. Only the latest of each outgoing report is kept, so nothing ever queues up on the way out.
 ///
 /// The tick thread of a run that the device ticks reads the device itself, which saves the report a change of threads (readHere).
 /// Meanwhile the reading thread sleeps; it returns to its work when the device is gone, to open it again.

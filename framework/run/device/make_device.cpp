@@ -321,7 +321,8 @@ namespace
 Message badOption (std::string_view text, std::string what)
 {
     return Message::error ("device/option", "--device " + std::string (text), std::move (what),
-                           "write ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME, ROLE=hid:PROFILE, ROLE=serial:PROFILE@PORT, ROLE=udp:PROFILE@ADDRESS:PORT, ROLE=audio:CARD or ROLE=DRIVER:PORT");
+                           "write ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME, ROLE=hid:PROFILE, ROLE=serial:PROFILE@PORT, "
+                           "ROLE=udp:PROFILE@ADDRESS:PORT, ROLE=audio:CARD or ROLE=DRIVER:PORT");
 }
 
 Json simulated (std::string_view role, const std::vector<std::pair<std::string, Json>>& described)

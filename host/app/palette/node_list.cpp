@@ -134,7 +134,8 @@ void NodeList::paintListBoxItem (int row, juce::Graphics& g, int w, int h, bool 
     }
     g.setColour (entry.isTitle() ? theme.dim : theme.text);
     g.setFont (look.font (entry.isTitle() ? 12.0f : 13.0f, entry.isTitle()));
-    g.drawText (juce::String::fromUTF8 (entry.name.c_str()), area.withTrimmedLeft (entry.isTitle() ? 6 : 28).withTrimmedRight (4), juce::Justification::centredLeft, true);
+    g.drawText (juce::String::fromUTF8 (entry.name.c_str()), area.withTrimmedLeft (entry.isTitle() ? 6 : 28).withTrimmedRight (4),
+                juce::Justification::centredLeft, true);
     if (entry.isTitle()) return;
     g.setColour (theme.dim);
     const auto family = entry.type.substr (0, entry.type.find_first_of (".:"));

@@ -20,7 +20,8 @@ struct PaletteEntry
 
 /// Finds the node types of the catalogue and the subgraphs of a graph, as text/find.hpp says, by their names and ids, the names that new nodes of
 /// them get, their keywords, and their summaries, ports, units and quantities. Each result has a port for every wire end in `fits`: one end for a
-/// dropped wire, two for inserting into a wire. Subgraphs that are or contain `patch`, where the node will be, are left out. Without a query, all entries come in groups: the types in `recent`, then the families.
+/// dropped wire, two for inserting into a wire. Subgraphs that are or contain `patch`, where the node will be, are left out. Without a query, all
+/// entries come in groups: the types in `recent`, then the families.
 std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::Graph&, const Catalogue&, const std::vector<WireEnd>& fits,
                                          const std::vector<std::string>& recent = {}, const std::string& patch = {});
 

@@ -31,7 +31,7 @@ public:
 
     std::uint64_t begin() const noexcept { return end_tick - std::min<std::uint64_t> (end_tick - first_tick, values.size()); }
     std::uint64_t end() const noexcept { return end_tick; }             ///< one after the latest tick
-    std::uint64_t beginnings() const noexcept { return times_begun; }   ///< how often it began anew
+    std::uint64_t beginnings() const noexcept { return times_begun; }   ///< the number of times it was started over
     double at (std::uint64_t tick) const noexcept { return values[tick % values.size()]; }
 
     /// Calls f (tick, value) for each tick in [from, to) that is stored.

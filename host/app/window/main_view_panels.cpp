@@ -65,21 +65,22 @@ void MainView::savePictureAs()
 void MainView::beginTour()
 {
     if (welcome.isVisible() && ! welcome.cards().empty()) feel (welcome.cards().front().file, true);
-    tour.begin ({ { &hand, TRANS ("Feel it"),
-                    TRANS ("Press and drag on this surface: the mouse is your hand, and the arrow is the force on it. The list below it lets a gesture move the "
-                           "hand instead.") },
-                  { &inspector, TRANS ("Turn a knob"),
-                    TRANS ("While nothing is selected, the controls of the graph are here. Drag one while you press. With a node selected, its "
-                           "parameters are here.") },
-                  { &patching, TRANS ("Change how it is made"),
-                    TRANS ("A box is a node, and a wire carries what one node gives to the next. Space adds a node. Drag from port to port to wire them; "
-                           "ports that fit light up. Ctrl+Z undoes anything.") },
-                  { &bottom, TRANS ("See what you feel"),
-                    TRANS ("Scopes plot the force while you feel it. Select a wire and press P to plot what it carries. Takes, layers, devices and problems are "
-                           "beside them.") },
-                  { &strip, TRANS ("Stop at any time"),
-                    TRANS ("Esc or STOP lets all forces go to zero, and F5 or START begins again. Other presets and all nodes are at the left, and F1 "
-                           "helps. The tour is in the menu.") } });
+    tour.begin (
+        { { &hand, TRANS ("Feel it"),
+            TRANS ("Press and drag on this surface: the mouse is your hand, and the arrow is the force on it. The list below it lets a gesture move the "
+                   "hand instead.") },
+          { &inspector, TRANS ("Turn a knob"),
+            TRANS ("While nothing is selected, the controls of the graph are here. Drag one while you press. With a node selected, its "
+                   "parameters are here.") },
+          { &patching, TRANS ("Change how it is made"),
+            TRANS ("A box is a node, and a wire carries what one node gives to the next. Space adds a node. Drag from port to port to wire them; "
+                   "ports that fit light up. Ctrl+Z undoes anything.") },
+          { &bottom, TRANS ("See what you feel"),
+            TRANS ("Scopes plot the force while you feel it. Select a wire and press P to plot what it carries. Takes, layers, devices and problems are "
+                   "beside them.") },
+          { &strip, TRANS ("Stop at any time"),
+            TRANS ("Esc or STOP lets all forces go to zero, and F5 or START begins again. Other presets and all nodes are at the left, and F1 "
+                   "helps. The tour is in the menu.") } });
 }
 
 void MainView::choose (const juce::String& purpose, std::vector<PaletteEntry> entries, std::function<void (const std::string&)> chosen)

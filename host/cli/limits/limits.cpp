@@ -155,9 +155,10 @@ void run (LimitsOptions& options)
         return orFail (table.commit());
     }
     const auto& here = limits.workingPoint();
-    Json all {
-        { "graph", graph.loaded.graph.name }, { "role", contact.device().device.role }, { "device", contact.device().device.name }, { "rate_hz", contact.rate() }
-    };
+    Json all { { "graph", graph.loaded.graph.name },
+               { "role", contact.device().device.role },
+               { "device", contact.device().device.name },
+               { "rate_hz", contact.rate() } };
     all["node"] = contact.node();
     all["t"] = contact.time();
     all["stiffness"] = here.stiffness;

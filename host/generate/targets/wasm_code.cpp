@@ -114,7 +114,12 @@ Json paramsOf (const Exported& e)
     auto all = Json::array();
     for (const auto& p : e.parameters)
     {
-        auto param = Json::object ({ { "name", p.name }, { "unit", p.unit }, { "about", std::string (p.sheet->about) }, { "value", limit (p.value) }, { "min", limit (p.sheet->limits.usual.min) }, { "max", limit (p.sheet->limits.usual.max) } });
+        auto param = Json::object ({ { "name", p.name },
+                                     { "unit", p.unit },
+                                     { "about", std::string (p.sheet->about) },
+                                     { "value", limit (p.value) },
+                                     { "min", limit (p.sheet->limits.usual.min) },
+                                     { "max", limit (p.sheet->limits.usual.max) } });
         if (! p.sheet->choices.empty()) param["choices"] = names (p.sheet->choices);
         all.push_back (std::move (param));
     }
@@ -140,7 +145,15 @@ Json rolesOf (const Exported& e)
     for (std::size_t i = 0; i < e.roles.size(); ++i)
     {
         const auto& l = e.roles[i].layout;
-        all.push_back (Json::object ({ { "name", e.roles[i].name }, { "member", e.wiring.role_ports[i] }, { "axes", names (l.axes) }, { "efforts", names (l.efforts) }, { "signal_inputs", l.signal_inputs }, { "signal_outputs", l.signal_outputs }, { "has_brake", l.brake > 0.0 }, { "mass", l.mechanics.mass }, { "damping", l.mechanics.damping } }));
+        all.push_back (Json::object ({ { "name", e.roles[i].name },
+                                       { "member", e.wiring.role_ports[i] },
+                                       { "axes", names (l.axes) },
+                                       { "efforts", names (l.efforts) },
+                                       { "signal_inputs", l.signal_inputs },
+                                       { "signal_outputs", l.signal_outputs },
+                                       { "has_brake", l.brake > 0.0 },
+                                       { "mass", l.mechanics.mass },
+                                       { "damping", l.mechanics.damping } }));
     }
     return all;
 }
@@ -174,7 +187,17 @@ std::string aboutOf (const Exported& e)
         feeds.push_back (Json::object ({ { "name", e.wiring.feed_names[i] }, { "member", e.wiring.feed_names[i] }, { "unit", e.feed_units[i] } }));
     for (const auto& hit : e.wiring.hit_names)
         hits.push_back (Json::object ({ { "name", hit } }));
-    return Json::object ({ { "name", e.stem }, { "title", e.graph.name.empty() ? e.stem : e.graph.name }, { "about", e.graph.about }, { "rate_hz", e.wiring.plan.rateHz() }, { "roles", rolesOf (e) }, { "feeds", std::move (feeds) }, { "records", recordsOf (e) }, { "params", paramsOf (e) }, { "controls", controlsOf (e) }, { "hits", std::move (hits) }, { "limits", names (limitNames()) } })
+    return Json::object ({ { "name", e.stem },
+                           { "title", e.graph.name.empty() ? e.stem : e.graph.name },
+                           { "about", e.graph.about },
+                           { "rate_hz", e.wiring.plan.rateHz() },
+                           { "roles", rolesOf (e) },
+                           { "feeds", std::move (feeds) },
+                           { "records", recordsOf (e) },
+                           { "params", paramsOf (e) },
+                           { "controls", controlsOf (e) },
+                           { "hits", std::move (hits) },
+                           { "limits", names (limitNames()) } })
         .dump (2);
 }
 

@@ -64,11 +64,12 @@ TEST_CASE ("a graph in WebAssembly gives the bits of render through its JavaScri
     REQUIRE (exported.status == 0);
     REQUIRE (runProgram ("make", { "-s", "-C", folder, "wasm", "WASM_CXXFLAGS=-O1" }).status == 0);
 
-    const auto here = runTactus ({ "render", "canvas_weave", "--device", "stylus=trace:" + trace, "--set", "drag.d_max=0.0005", "--set", "weave=0.8", "--out", out });
+    const auto here =
+        runTactus ({ "render", "canvas_weave", "--device", "stylus=trace:" + trace, "--set", "drag.d_max=0.0005", "--set", "weave=0.8", "--out", out });
     INFO (here.err);
     REQUIRE (here.status == 0);
-    const auto there = runProgram ("node", { TACTUS_SOURCE_DIR "/tests/host/generate/wasm/render_in_node.mjs", folder + "/canvas_weave.js", trace, "drag.d_max=0.0005",
-                                             "weave=0.8" });
+    const auto there = runProgram ("node", { TACTUS_SOURCE_DIR "/tests/host/generate/wasm/render_in_node.mjs", folder + "/canvas_weave.js", trace,
+                                             "drag.d_max=0.0005", "weave=0.8" });
     INFO (there.err);
     REQUIRE (there.status == 0);
     const auto csv = textOf (out);
@@ -93,8 +94,8 @@ TEST_CASE ("a module for WebAssembly has doubles, types and a class with the nam
     checkRefused ({ "export", "two_fingers", "-o", folder, "--to", "wasm", "--float" }, 1, "export/float", folder);
     REQUIRE (runTactus ({ "export", "two_fingers", "-o", folder, "--to", "wasm" }).status == 0);
     const auto types = textOf (folder + "/two_fingers.d.ts");
-    for (const auto* text : { "export class TwoFingers extends Graph<", "    readonly thumb: Effort;", "export type Control = \"firmness\" | ", "export type Hit = \"creak.hit\";",
-                              "export type Role = \"index\" | \"thumb\";" })
+    for (const auto* text : { "export class TwoFingers extends Graph<", "    readonly thumb: Effort;", "export type Control = \"firmness\" | ",
+                              "export type Hit = \"creak.hit\";", "export type Role = \"index\" | \"thumb\";" })
         CHECK (types.find (text) != std::string::npos);
     for (const auto* file : { "two_fingers.js", "tactus_graph.js", "tactus_graph.d.ts", "two_fingers_wasm.cpp", "two_fingers.h" })
         CHECK (std::filesystem::exists (folder + "/" + file));

@@ -70,7 +70,8 @@ TEST_CASE ("a program that is killed while it pushes leaves the device on a wire
     Running play { { "play", graph, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off" } };
     REQUIRE (play.says ("Ctrl-C stops"));
     // 0.5 N are 500000 uN, 0007a120.
-    REQUIRE (eventually ([&] { return linesOf (fake.log, drives).size() > 100 && linesOf (fake.log, drives).back().find (" 20 a1 07 00 ") != std::string::npos; }));
+    REQUIRE (eventually (
+        [&] { return linesOf (fake.log, drives).size() > 100 && linesOf (fake.log, drives).back().find (" 20 a1 07 00 ") != std::string::npos; }));
     play.signal (SIGKILL);
     CHECK (eventually ([&] { return ! linesOf (fake.log, "< ").empty() && linesOf (fake.log, "< ").back().starts_with (rests); }));
     if (wire == "udp") CHECK (eventually ([&] { return linesOf (fake.log, rests).size() >= 3; }));   // a datagram may be lost

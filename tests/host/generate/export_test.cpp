@@ -266,7 +266,8 @@ TEST_CASE ("presets give the bits of the engine in WebAssembly, at most three ti
     for (const auto& [name, times] : shortest)
     {
         const double ratio = times.second / times.first;
-        table += name + ": " + std::to_string (times.first) + " ns natively, " + std::to_string (times.second) + " ns in node, ratio " + std::to_string (ratio) + "\n";
+        table += name + ": " + std::to_string (times.first) + " ns natively, " + std::to_string (times.second) + " ns in node, ratio "
+                 + std::to_string (ratio) + "\n";
         most = std::max (most, ratio);
     }
     WARN (table);

@@ -42,7 +42,8 @@ std::string dataOf (const juce::Path& path, double per_unit)
 
 std::string rectangle (juce::Rectangle<float> r)
 {
-    return "<rect x=\"" + number (r.getX()) + "\" y=\"" + number (r.getY()) + "\" width=\"" + number (r.getWidth()) + "\" height=\"" + number (r.getHeight()) + '"';
+    return "<rect x=\"" + number (r.getX()) + "\" y=\"" + number (r.getY()) + "\" width=\"" + number (r.getWidth()) + "\" height=\""
+           + number (r.getHeight()) + '"';
 }
 
 bool isUpright (const juce::AffineTransform& t) { return t.mat01 == 0.0f && t.mat10 == 0.0f; }

@@ -68,8 +68,9 @@ TEST_CASE ("scopes: a graph with more energies than can be recorded shows no sco
         nodes += ", \"" + name + R"(": { "type": "deform.plane" })";
         wires += (i > 0 ? ", \"hand.position -> " : "\"hand.position -> ") + name + ".position\", \"" + name + ".force -> motor.force\"";
     }
-    std::ofstream (folder / "big.json") << R"({ "format": "tactus-graph", "version": 2, "name": "Big", "devices": { "stylus": { "driver": "sim" } }, "nodes": { )"
-                                        << nodes << R"( }, "wires": [ )" << wires << " ] }";
+    std::ofstream (folder / "big.json")
+        << R"({ "format": "tactus-graph", "version": 2, "name": "Big", "devices": { "stylus": { "driver": "sim" } }, "nodes": { )" << nodes
+        << R"( }, "wires": [ )" << wires << " ] }";
     Bench b ((folder / "big").string());
     REQUIRE (b.document.graph().root.nodes.size() == 1002);
     auto wanted = b.live_run.traces().ports();
