@@ -5,7 +5,7 @@
 #include "support/tested_types.hpp"
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
+#include <support/property.hpp>
 #include <tactus/examine/examination.hpp>
 
 #include <string>
@@ -24,7 +24,7 @@ void hold (std::string_view id)
         DYNAMIC_SECTION (type.info.id)
         {
             if (promise.random)
-                rc::prop (std::string (promise.promise), [&] (unsigned seed) {
+                test::property (std::string (promise.promise), [&] (unsigned seed) {
                     if (const auto fault = promise.fault (type, seed); ! fault.empty()) RC_FAIL (fault);
                 });
             else

@@ -2,11 +2,11 @@
 // Tests of what an expert tries first: touching, releasing and touching again.
 
 #include "hands.hpp"
+#include <support/property.hpp>
 #include <support/rig.hpp>
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -113,7 +113,7 @@ Rig skin (const std::shared_ptr<const Surface>& surface, bool rubs)
 // Long because it checks two properties of the same surface, each with its own path of the hand.
 TEST_CASE ("expert 6: sliding across an edge from a soft to a stiff triangle causes no step in force and generates no energy", "[expert][deform]")
 {
-    rc::prop ("smaller position steps give smaller force steps, so the force itself has no step", [] (unsigned seed) {
+    test::property ("smaller position steps give smaller force steps, so the force itself has no step", [] (unsigned seed) {
         Dice dice { seed };
         const double mu = dice.uniform (0.2, 1.0);
         const auto surface = flesh (dice, mu, true);
@@ -149,7 +149,7 @@ TEST_CASE ("expert 6: sliding across an edge from a soft to a stiff triangle cau
         RC_ASSERT (finer);
     });
 
-    rc::prop ("any closed path: without friction it costs no energy, with enough friction it costs some", [] (unsigned seed) {
+    test::property ("any closed path: without friction it costs no energy, with enough friction it costs some", [] (unsigned seed) {
         Dice dice { seed };
         const double mu = dice.uniform (0.6, 1.0), depth = dice.uniform (0.2e-3, 2e-3), lift = dice.uniform (-0.8, 0.8), phase = dice.uniform (0.0, 2.0 * M_PI);
         const double size[] { dice.uniform (1e-3, 0.012), dice.uniform (1e-3, 0.012) };
@@ -196,7 +196,7 @@ TEST_CASE ("expert 7: a touch that follows a touch elsewhere starts without a ki
     graph.wire ("hand.position -> floor.position").wire ("hand.position -> drag.position");
     graph.wire ("floor.resistance -> drag.normal_force").wire ("floor.force -> motor.force").wire ("drag.force -> motor.force");
 
-    rc::prop ("a hand that taps in different places and drags while it is down", [&] (unsigned seed) {
+    test::property ("a hand that taps in different places and drags while it is down", [&] (unsigned seed) {
         Dice dice { seed };
         const double reach = dice.uniform (0.01, 0.1), deepest = dice.size (1e-4, 1e-2);
         const double taps = dice.uniform (5.0, 20.0), strokes = dice.uniform (0.5, 3.0), phase = dice.uniform (0.0, 6.0);
@@ -225,7 +225,7 @@ TEST_CASE ("expert 7: a touch that follows a touch elsewhere starts without a ki
 
 TEST_CASE ("expert 8: in an existing cut the blade feels no force down to the end of the cut, and nothing ruptures again", "[expert][cut]")
 {
-    rc::prop ("any sample; tracking of the hand may be lost in between", [] (unsigned seed) {
+    test::property ("any sample; tracking of the hand may be lost in between", [] (unsigned seed) {
         Dice dice { seed };
         const Potato potato { dice };
         Rig rig = potato.blade();
@@ -247,7 +247,7 @@ TEST_CASE ("expert 8: in an existing cut the blade feels no force down to the en
 
 TEST_CASE ("expert 9: a blade that passes the rupture in one sample ends where a slow one would", "[expert][cut]")
 {
-    rc::prop ("any sample, any depth", [] (unsigned seed) {
+    test::property ("any sample, any depth", [] (unsigned seed) {
         Dice dice { seed };
         const Potato potato { dice };
         Rig jumps = potato.blade(), creeps = potato.blade();

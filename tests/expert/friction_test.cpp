@@ -2,10 +2,10 @@
 // Tests of what an expert tries first: friction.
 
 #include "hands.hpp"
+#include <support/property.hpp>
 #include <support/rig.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <bit>
@@ -97,7 +97,7 @@ TEST_CASE ("expert 2: every node gives a finite and steady response to a tool at
         const bool in_pairs = type.info.id == "hold.deadbeat";
         DYNAMIC_SECTION (type.info.id)
         {
-            rc::prop ("after any motion", [&] (unsigned seed) {
+            test::property ("after any motion", [&] (unsigned seed) {
                 Dice dice { seed };
                 Rig rig { type };
                 rig.prepare();
@@ -137,7 +137,7 @@ TEST_CASE ("expert 2: every node gives a finite and steady response to a tool at
 
 TEST_CASE ("expert 3: in a slow slide, neither the state nor the force chatters", "[expert][friction]")
 {
-    rc::prop ("any adhesion, either integrator, any direction, steps much smaller and much larger than d_max", [] (unsigned seed) {
+    test::property ("any adhesion, either integrator, any direction, steps much smaller and much larger than d_max", [] (unsigned seed) {
         Dice dice { seed };
         const double d_max = dice.size (1e-6, 1e-2), step = dice.size (0.02, 4.0) * d_max;
         Rig rig { "friction.elasto_plastic" };
@@ -164,7 +164,7 @@ TEST_CASE ("expert 3: in a slow slide, neither the state nor the force chatters"
 
 TEST_CASE ("expert 4: a reversal longer than d_max within one sample does not reverse the force", "[expert][friction]")
 {
-    rc::prop ("any adhesion, either integrator, any initial deflection", [] (unsigned seed) {
+    test::property ("any adhesion, either integrator, any initial deflection", [] (unsigned seed) {
         Dice dice { seed };
         const auto adhesion = dice.of (adhesions), integrator = dice.of (integrators);
         const double d_max = 1e-5, stretch = dice.uniform (0.05, 0.95) * d_max;
@@ -187,7 +187,7 @@ TEST_CASE ("expert 4: a reversal longer than d_max within one sample does not re
 
 TEST_CASE ("expert 5: a cycle of pressing, shearing and lifting generates no energy", "[expert][friction]")
 {
-    rc::prop ("any adhesion and integrator, any closed path of position and load", [] (unsigned seed) {
+    test::property ("any adhesion and integrator, any closed path of position and load", [] (unsigned seed) {
         Dice dice { seed };
         const auto adhesion = dice.of (adhesions), integrator = dice.of (integrators), rule = dice.of (passive_loads);
         const double d_max = 1e-4, reach = dice.size (0.1, 10.0) * d_max, press = dice.uniform (0.5, 3.0), lift = dice.uniform (0.0, 1.2) * press;

@@ -3,8 +3,9 @@
 
 #include "hands.hpp"
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <bit>
@@ -116,7 +117,7 @@ TEST_CASE ("expert 16: millimetres are not mistaken for metres, nor radians for 
     CHECK (has (rings ("628 rad/s"), "setting/value"));
 
     // With k cycles per metre, one ridge is 1 / k long, so the force repeats after 1 / k, not after 2 pi / k.
-    rc::prop ("any pitch, any position", [] (unsigned seed) {
+    test::property ("any pitch, any position", [] (unsigned seed) {
         Dice dice { seed };
         const double k = dice.size (20.0, 5000.0), x = dice.uniform (-0.1, 0.1);
         Sketch grain;
@@ -135,7 +136,7 @@ TEST_CASE ("expert 17: a motion of a tenth of a nanometre, ten centimetres from 
 {
     // Ten centimetres from the origin, a float has steps of 7 nm.
     const double stiffness = 1e6, step = 1e-10;
-    rc::prop ("along each axis, anywhere on a desk", [&] (unsigned seed) {
+    test::property ("along each axis, anywhere on a desk", [&] (unsigned seed) {
         Dice dice { seed };
         const Vec3 axis = Vec3::Unit (dice.below (3)), from { dice.uniform (-0.2, 0.2), dice.uniform (-0.2, 0.2), dice.uniform (-0.2, 0.2) };
         Sketch graph;
@@ -158,7 +159,7 @@ TEST_CASE ("expert 18: the force for a sample reaches the motor within the same 
     CHECK (plan->delays()[0].shortest == 0);
     CHECK (plan->delays()[0].longest == 0);
 
-    rc::prop ("a hand that jumps in and out at any tick", [] (unsigned seed) {
+    test::property ("a hand that jumps in and out at any tick", [] (unsigned seed) {
         Dice dice { seed };
         std::vector<double> z (64);
         for (double& v : z)
@@ -234,7 +235,7 @@ TEST_CASE ("expert 20: a nan from the device is neither stored nor sent to the m
     const double most = std::ranges::max (well, {}, [] (const Vec3& f) { return f.norm(); })
                             .norm();
 
-    rc::prop ("tracking is lost for some ticks, reported or not, in any component", [&] (unsigned seed) {
+    test::property ("tracking is lost for some ticks, reported or not, in any component", [&] (unsigned seed) {
         Dice dice { seed };
         const int from = 1 + dice.below (400), to = from + 1 + dice.below (4), which = dice.below (3);
         const bool told = dice.below (2) == 0;

@@ -2,10 +2,10 @@
 // Tests of what an expert tries first: textures, shocks and rings.
 
 #include "hands.hpp"
+#include <support/property.hpp>
 #include <support/rig.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +65,7 @@ TEST_CASE ("expert 10: a scan too fast for the tick rate does not alias into a s
     };
     const auto loudest = [] (const std::vector<Vec3>& forces) { return std::ranges::max (forces, {}, along).x(); };
 
-    rc::prop ("any speed", [&] (unsigned seed) {
+    test::property ("any speed", [&] (unsigned seed) {
         const double speed = Dice { seed }.uniform (-1.0, 1.0), pitch = k * std::abs (speed);
         const auto forces = scan (speed);
         if (pitch >= f_max) RC_ASSERT (std::ranges::all_of (forces, [] (const Vec3& f) { return f.isZero (0.0); }));
@@ -86,7 +86,7 @@ TEST_CASE ("expert 11: a texture fades in at the touch and does not start with a
     const double rate = 4000.0, k = 500.0, window = 1e-3, amplitude = 0.2;
     auto graph = ridges (k, "contact.window", { { "window", window } }, "floor.depth -> fade.depth");
 
-    rc::prop ("any path in and out", [&] (unsigned seed) {
+    test::property ("any path in and out", [&] (unsigned seed) {
         Dice dice { seed };
         const double down = dice.size (1e-3, 0.2), across = dice.uniform (-0.2, 0.2), from = dice.uniform (-0.1, 0.1);
         const auto path = [=] (int tick) { return Vec3 { from + across * tick / rate, 0, down * (std::abs (tick - 1000) - 700) / rate }; };
@@ -110,7 +110,7 @@ TEST_CASE ("expert 11: a texture fades in at the touch and does not start with a
 
 TEST_CASE ("expert 12: nothing is louder on the rebound than on the way in", "[expert][shock][deform]")
 {
-    rc::prop ("a wall, pushed in and released at any speed", [] (unsigned seed) {
+    test::property ("a wall, pushed in and released at any speed", [] (unsigned seed) {
         Dice dice { seed };
         Rig rig { "deform.plane", 4000.0 };
         rig.param ("stiffness", dice.size (100.0, 1e4)).param ("dissipation", dice.size (0.01, 5.0)).param ("damping", dice.uniform (0.0, 3.0));
@@ -127,7 +127,7 @@ TEST_CASE ("expert 12: nothing is louder on the rebound than on the way in", "[e
             RC_ASSERT (out[100 - k] < in[k]);
     });
 
-    rc::prop ("a mass leaves a shock with less energy than it arrived with", [] (unsigned seed) {
+    test::property ("a mass leaves a shock with less energy than it arrived with", [] (unsigned seed) {
         Dice dice { seed };
         const double m = dice.size (0.005, 0.5), v = dice.size (0.05, 2.0), d_max = dice.size (1e-4, 5e-3);
         const double n = dice.uniform (1.0, 2.5), x = dice.size (0.05, 3.0);
@@ -152,7 +152,7 @@ TEST_CASE ("expert 12: nothing is louder on the rebound than on the way in", "[e
 
 TEST_CASE ("expert 13: a double tap is two complete shocks without a click", "[expert][shock]")
 {
-    rc::prop ("any speeds, any time between them", [] (unsigned seed) {
+    test::property ("any speeds, any time between them", [] (unsigned seed) {
         Dice dice { seed };
         const double first = dice.size (0.01, 2.0), second = dice.size (0.01, 2.0);
         const std::size_t later = static_cast<std::size_t> (1 + dice.below (100));
@@ -180,7 +180,7 @@ TEST_CASE ("expert 13: a double tap is two complete shocks without a click", "[e
 
 TEST_CASE ("expert 14: an object hit again while it rings does not click, and ends in silence without denormal numbers", "[expert][vibration]")
 {
-    rc::prop ("any modes, any hits", [] (unsigned seed) {
+    test::property ("any modes, any hits", [] (unsigned seed) {
         Dice dice { seed };
         const double rate = 4000.0;
         std::vector<Mode> modes (static_cast<std::size_t> (1 + dice.below (5)));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The reasons why a guard stops the force: speed, impulse, energy, the dead-man's switch, the emergency stop.
 
+#include <support/property.hpp>
 #include <tactus/run/guard.hpp>
 #include <tactus/run/guard/guard_log.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <numbers>
@@ -67,7 +67,7 @@ TEST_CASE ("guard: a tool that is too fast causes a stop, but one quantum of noi
 {
     constexpr double limit = 1.0, quantum = 1e-4;
 
-    rc::prop ("any speed that is 5 % below or above the limit, measured in quanta", [] {
+    test::property ("any speed that is 5 % below or above the limit, measured in quanta", [] {
         const bool too_fast = *rc::gen::arbitrary<bool>();
         const double speed = too_fast ? *rc::gen::element (1.05, 1.5, 4.0) : *rc::gen::element (0.95, 0.5, 0.01);
         const double sign = *rc::gen::element (-1.0, 1.0);
@@ -117,7 +117,7 @@ TEST_CASE ("guard: a jump in position after a silence does not count as motion",
 
 TEST_CASE ("guard: an impulse above the limit within the window causes a stop, no sooner and at most a sixteenth later", "[framework][guard]")
 {
-    rc::prop ("any pushes", [] {
+    test::property ("any pushes", [] {
         const double window = *rc::gen::element (0.032, 0.1, 0.5), limit = *rc::gen::element (0.05, 0.2);
         const auto pushes = *rc::gen::container<std::vector<int>> (40, rc::gen::inRange (0, 60));
         auto guard = guardWith ({ .max_impulse = limit, .impulse_window = window });
@@ -145,7 +145,7 @@ TEST_CASE ("guard: an impulse above the limit within the window causes a stop, n
 
 TEST_CASE ("guard: a passive load never trips the energy watchdog", "[framework][guard]")
 {
-    rc::prop ("any spring and damper in any hand", [] {
+    test::property ("any spring and damper in any hand", [] {
         const auto hand = anyHand();
         const double stiffness = *rc::gen::element (10.0, 200.0, 1000.0), damping = *rc::gen::element (0.0, 0.5, 2.0);
 
@@ -170,7 +170,7 @@ TEST_CASE ("guard: a passive load never trips the energy watchdog", "[framework]
 
 TEST_CASE ("guard: an active load trips the energy watchdog exactly when it has delivered more than the limit", "[framework][guard]")
 {
-    rc::prop ("any negative damping in any hand", [] {
+    test::property ("any negative damping in any hand", [] {
         const auto hand = anyHand();
         const double limit = *rc::gen::element (1e-4, 1e-3, 1e-2), window = *rc::gen::element (0.0, 0.1, 1.0), drive = *rc::gen::element (0.5, 2.0, 10.0);
         auto guard = guardWith ({ .max_energy = limit, .energy_window = window });
@@ -388,7 +388,7 @@ TEST_CASE ("the log of stops keeps the latest ones, and can be read while new on
 
 TEST_CASE ("guard: a rearm without a latched stop does not reset what the watches have counted", "[framework][guard]")
 {
-    rc::prop ("rearmed at any rate", [] {
+    test::property ("rearmed at any rate", [] {
         const int every = *rc::gen::inRange (1, 100);
         auto guard = guardWith ({ .max_impulse = 0.5, .impulse_window = 10.0 });
         const int stopped = ticksUntilStop (guard, 2000, [&] (int k) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Random loops: none that explodes may pass the check.
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include "loops.hpp"
 
@@ -134,7 +135,7 @@ void log (const Loops& loops, const std::vector<check::Condition>& conditions)
 
 TEST_CASE ("no loop that explodes passes the check", "[check]")
 {
-    rc::prop ("random loops", [] {
+    test::property ("random loops", [] {
         const auto loops = randomLoops();
         if (loops.pushesAway()) return;
         const double growth = loops.growth (10'000);
@@ -150,7 +151,7 @@ TEST_CASE ("no loop that explodes passes the check", "[check]")
 
 TEST_CASE ("no wall, friction or texture on which a tool that is let go never rests passes the check", "[check]")
 {
-    rc::prop ("random contacts", [] {
+    test::property ("random contacts", [] {
         const auto loops = randomContacts();
         if (loops.pushesAwayFromOrigin()) return;
         // The tool starts 1 um away from its position of rest. A contact bounds how far it swings, so a swing that does not die counts,

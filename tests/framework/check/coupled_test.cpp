@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/check/sampled_loop.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include "loops.hpp"
 
@@ -34,7 +34,7 @@ TEST_CASE ("two hands that are stable alone but explode together break 'coupling
 
 TEST_CASE ("two hands on a spring begin to swing where the sampled loop of both does, within 2 %", "[check]")
 {
-    rc::prop ("masses, dampings, delays, rates", [] {
+    test::property ("masses, dampings, delays, rates", [] {
         const auto pick = [] (double low, double high) { return low * std::pow (high / low, 1e-6 * *rc::gen::inRange (0, 1'000'001)); };
         Loops loops { .rate_hz = pick (1e3, 10e3), .tools = {} };
         std::vector<DeviceNumbers> numbers;

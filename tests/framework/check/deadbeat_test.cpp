@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The condition `deadbeat` covers what a wall of hold.deadbeat does in a simulation, if the mass of the tool is not what it assumes.
+#include <support/property.hpp>
 #include <tactus/check/deadbeat_loop.hpp>
 #include <tactus/check/judge.hpp>
 #include <tactus/check/sampled_loop.hpp>
@@ -7,7 +8,6 @@
 #include <tactus/run/device/sim.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -136,7 +136,7 @@ struct Trial
 
 TEST_CASE ("a deadbeat wall whose mass is off by no more than 'deadbeat' allows comes to rest", "[check]")
 {
-    rc::prop ("any mass, damping, stiffness, rate, delay and mistake", [] {
+    test::property ("any mass, damping, stiffness, rate, delay and mistake", [] {
         Trial t { .rate_hz = spread (500.0, 10e3), .mass = spread (0.02, 1.0), .loss = spread (3e-3, 0.1) };
         t.delay = *rc::gen::element (0, 0, 1, 2, 5, 16);
         t.turn = spread (0.003, 2.0) / (1.0 + t.delay);
@@ -155,7 +155,7 @@ TEST_CASE ("a deadbeat wall whose mass is off by no more than 'deadbeat' allows 
 
 TEST_CASE ("a tool that is pressed into a deadbeat wall begins to swing where its loop does, within 2 % of the error of the mass", "[check]")
 {
-    rc::prop ("any mass, damping, stiffness, rate and delay", [] {
+    test::property ("any mass, damping, stiffness, rate and delay", [] {
         Trial t { .rate_hz = spread (1e3, 20e3), .mass = spread (0.02, 1.0), .loss = spread (3e-3, 0.1), .delay = *rc::gen::inRange (0, 6) };
         t.turn = spread (0.05, 1.0) / (1.0 + t.delay);
         const double sign = *rc::gen::element (1.0, -1.0);
@@ -227,7 +227,7 @@ TEST_CASE ("on the wall of 3 times 2B/T on which the test of the node stays boun
 
 TEST_CASE ("a deadbeat wall within 'deadbeat' comes to rest in spite of the steps of the sensor", "[check]")
 {
-    rc::prop ("any mass, damping, stiffness, rate, delay, mistake, quantum and friction", [] {
+    test::property ("any mass, damping, stiffness, rate, delay, mistake, quantum and friction", [] {
         Trial t { .rate_hz = spread (500.0, 10e3), .mass = spread (0.02, 1.0), .loss = spread (5e-3, 0.3) };
         t.delay = *rc::gen::element (0, 0, 1, 2, 5);
         t.turn = spread (0.003, 1.0) / std::pow (1.0 + t.delay, 2.0);

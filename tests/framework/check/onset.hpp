@@ -6,7 +6,7 @@
 
 #include "support/sketch.hpp"
 
-#include <rapidcheck/catch.h>
+#include <rapidcheck.h>
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The sampled loop of contacts other than a plain wall, with the response that measure() finds.
+#include <support/property.hpp>
 #include <tactus/check/hands.hpp>
 #include <tactus/check/judge.hpp>
 #include <tactus/check/sampled_loop.hpp>
@@ -8,7 +9,6 @@
 #include "onset.hpp"
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -99,7 +99,7 @@ check::Condition stiffnessOf (const graph::Graph& graph, const Simulation& press
 
 TEST_CASE ("damped walls, walls with the predictive hold and virtual couplings begin to swing where their measured loops do", "[check]")
 {
-    rc::prop ("kinds, rates, delays", [] {
+    property ("kinds, rates, delays", [] {
         const double rate_hz = *between (500.0, 20e3), mass = *between (0.03, 0.5), share = *between (0.01, 0.3);
         const int kind = *rc::gen::inRange (0, 4), delay = *rc::gen::inRange (0, 6);
         const Simulation sim { .mass = mass, .damping = share * mass * rate_hz, .delay = delay };
@@ -172,7 +172,7 @@ TEST_CASE ("a wall that is damped along another axis than it is stiff is judged 
 
 TEST_CASE ("a wall that rests at the corners of the range of fingertips rests with every fingertip between them", "[check]")
 {
-    rc::prop ("walls, devices, fingertips", [] {
+    property ("walls, devices, fingertips", [] {
         const double rate_hz = *between (500.0, 20e3), mass = *between (0.01, 1.0), b = *rc::gen::element (0.0, 1.0) * *between (1e-3, 1.5) * mass * rate_hz;
         Simulation sim { .mass = mass, .damping = *between (1e-3, 0.5) * mass * rate_hz, .delay = *rc::gen::inRange (0, 6) };
         if (*rc::gen::arbitrary<bool>()) sim.first_mode = *between (0.005, 0.1) * rate_hz;

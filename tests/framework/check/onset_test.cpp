@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/check/hands.hpp>
 #include <tactus/check/judge.hpp>
 #include <tactus/check/sampled_loop.hpp>
@@ -6,7 +7,6 @@
 #include "onset.hpp"
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <array>
@@ -84,7 +84,7 @@ double swing (const Simulation& sim, double stiffness, double rate_hz)
 TEST_CASE ("a wall on a light damped tool starts to oscillate within 10 % of where the condition says", "[check]")
 {
     // The condition is exact if the damping takes many ticks to stop the tool (B T << M), and the delay is short compared with the period.
-    rc::prop ("onset", [] {
+    property ("onset", [] {
         const double rate_hz = *between (500.0, 10e3), mass = *between (0.02, 1.0), share = *between (0.003, 0.02);
         const int delay = *rc::gen::inRange (0, 4);
         const Simulation sim { .mass = mass, .damping = share * mass * rate_hz, .delay = delay };
@@ -130,7 +130,7 @@ TEST_CASE ("the sampled loop of a wall begins to swing where simulations do, wit
         CHECK (onset (numbersOf (arm), virtual_damping, 1000.0) == Approx (limit).epsilon (0.02));
     }
 
-    rc::prop ("a wall, a delay, a structure that bends", [] {
+    property ("a wall, a delay, a structure that bends", [] {
         const double rate_hz = *between (1000.0, 20e3), mass = *between (0.02, 1.0), share = *between (0.01, 1.0);
         Simulation sim { .mass = mass, .damping = share * mass * rate_hz, .delay = *rc::gen::inRange (0, 6) };
         if (*rc::gen::arbitrary<bool>()) sim.first_mode = *between (0.005, 0.1) * rate_hz;
@@ -191,7 +191,7 @@ TEST_CASE ("a virtual damper on any tool starts to swing within 1 % of where the
         }
         return second_half / first_half;
     };
-    rc::prop ("damper", [&] {
+    property ("damper", [&] {
         const double rate_hz = *between (500.0, 20e3), mass = *between (0.01, 1.0), share = *between (0.01, 20.0);
         const Simulation sim { .mass = mass, .damping = share * mass * rate_hz };
         const double limit = check::largestDamper (mass, sim.damping, 1.0 / rate_hz);
@@ -206,7 +206,7 @@ TEST_CASE ("a virtual damper on any tool starts to swing within 1 % of where the
 
 TEST_CASE ("on a heavily damped or compliant tool, a wall that meets the condition never oscillates", "[check]")
 {
-    rc::prop ("safe side", [] {
+    property ("safe side", [] {
         const double rate_hz = *between (500.0, 10e3), mass = *between (0.02, 1.0), share = *between (0.02, 1.5);
         Simulation sim { .mass = mass, .damping = share * mass * rate_hz, .delay = *rc::gen::inRange (0, 4) };
         if (*rc::gen::arbitrary<bool>()) sim.first_mode = *between (10.0, 400.0);
@@ -217,7 +217,7 @@ TEST_CASE ("on a heavily damped or compliant tool, a wall that meets the conditi
 
 TEST_CASE ("on a wall that meets the conditions for quanta and damping, no tool swings for ever", "[check]")
 {
-    rc::prop ("rest", [] {
+    property ("rest", [] {
         const double rate_hz = *between (500.0, 10e3), mass = *between (0.02, 0.5), share = *between (0.005, 0.5);
         Simulation sim { .mass = mass, .damping = share * mass * rate_hz };
         sim.quantum = *between (1e-7, 5e-5);
@@ -229,7 +229,7 @@ TEST_CASE ("on a wall that meets the conditions for quanta and damping, no tool 
 
 TEST_CASE ("on a wall at the limit of the conditions, no tool swings for ever, whatever the seven quantities of the device", "[check]")
 {
-    rc::prop ("all at once", [] {
+    property ("all at once", [] {
         const double rate_hz = *between (500.0, 10e3), mass = *between (0.02, 0.5), share = *between (0.005, 0.5);
         Simulation sim { .mass = mass, .damping = share * mass * rate_hz, .delay = *rc::gen::inRange (0, 4) };
         sim.quantum = *between (1e-7, 5e-5);

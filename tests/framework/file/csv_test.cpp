@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/file/csv.hpp>
 
 #include "support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <array>
@@ -154,8 +154,8 @@ TEST_CASE ("csv: no text crashes the reader", "[host][io][csv]")
             RC_ASSERT (table.error().id.starts_with ("csv/"));
     };
 
-    rc::prop ("any bytes", bytes);
-    rc::prop ("almost tables", almost_tables);
+    test::property ("any bytes", bytes);
+    test::property ("almost tables", almost_tables);
 }
 
 TEST_CASE ("csv: every number reads back to the same double", "[host][io][csv]")
@@ -182,7 +182,7 @@ TEST_CASE ("csv: every number reads back to the same double", "[host][io][csv]")
         RC_ASSERT (std::ranges::equal (table->values, written, sameNumber));
     };
 
-    rc::prop ("any bit pattern", round_trip);
+    test::property ("any bit pattern", round_trip);
 }
 
 TEST_CASE ("csv: numbers are written in their shortest form, and lines end in LF", "[host][io][csv]")

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/text/json_writer.hpp>
 
 #include <framework/graph/wild_graph.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <charconv>
 #include <cstring>
@@ -77,7 +77,7 @@ TEST_CASE ("numbers are short and read back to the same double")
     CHECK (jsonNumber (1e22) == "1e22");
     CHECK (jsonNumber (-2.5e100) == "-2.5e100");
     CHECK (jsonNumber (5e-324) == "5e-324");
-    rc::prop ("any finite double", [] {
+    test::property ("any finite double", [] {
         const auto bits = *rc::gen::arbitrary<std::uint64_t>();
         double value = 0.0, back = 0.0;
         std::memcpy (&value, &bits, sizeof value);
@@ -91,7 +91,7 @@ TEST_CASE ("numbers are short and read back to the same double")
 
 TEST_CASE ("files do not change when loaded and saved, byte for byte")
 {
-    rc::prop ("random graphs", [] {
+    test::property ("random graphs", [] {
         const auto seed = *rc::gen::arbitrary<std::uint64_t>();
         const auto text = writeGraph (test::wildGraph (seed));
         const auto loaded = readGraph (text);

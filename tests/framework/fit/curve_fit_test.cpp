@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/fit/curve_fit.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,7 +77,7 @@ TEST_CASE ("curve fit: without a way out, the curve is the way in", "[kit][fit]"
 
 TEST_CASE ("curve fit: whatever was recorded, the curve never falls and never pulls", "[kit][fit]")
 {
-    rc::prop ("noise, snaps and forces below 0", [] (unsigned seed) {
+    test::property ("noise, snaps and forces below 0", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         const double noise = 0.05 * (1.0 + one (dice)), snap = 2e-3 * (1.0 + one (dice)), fall = 0.1 * one (dice);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/fit/shock_fit.hpp>
 #include <tactus/kit/free_impact.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +81,7 @@ std::string problem (const RecordedLoop& loop, double mass = 0.05)
 
 TEST_CASE ("fit of a shock: it finds the law of an impact, its mass and its speed", "[kit][shock]")
 {
-    rc::prop ("any impact", [] (unsigned seed) {
+    tactus::test::property ("any impact", [] (unsigned seed) {
         std::mt19937 random { seed };
         const auto blow = randomBlow (random);
         const auto fit = fitShock (record (blow));
@@ -98,7 +98,7 @@ TEST_CASE ("fit of a shock: it finds the law of an impact, its mass and its spee
 
 TEST_CASE ("fit of a shock: without times it needs only the mass", "[kit][shock]")
 {
-    rc::prop ("any impact", [] (unsigned seed) {
+    tactus::test::property ("any impact", [] (unsigned seed) {
         std::mt19937 random { seed };
         const auto blow = randomBlow (random);
         auto loop = record (blow);
@@ -158,7 +158,7 @@ TEST_CASE ("fit of a shock: a damping lambda K is never taken for B0 d, under no
 
 TEST_CASE ("fit of a shock: the areas match, whatever law, noise and path the recording has", "[kit][shock][energy]")
 {
-    rc::prop ("an indentation driven by the hand, with a loop that no k d^n fits", [] (unsigned seed) {
+    tactus::test::property ("an indentation driven by the hand, with a loop that no k d^n fits", [] (unsigned seed) {
         std::mt19937 random { seed };
         std::normal_distribution<double> noise;
         const double deepest = std::uniform_real_distribution { 1e-4, 5e-3 }(random), loss = std::uniform_real_distribution { 0.05, 0.8 }(random);

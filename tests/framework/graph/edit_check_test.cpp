@@ -6,12 +6,12 @@
 #include "support/random_graph.hpp"
 #include "support/sketch.hpp"
 
+#include <support/property.hpp>
 #include <tactus/graph/history.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/compile.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <limits>
 #include <random>
@@ -55,7 +55,7 @@ Command anyEdit (std::mt19937& random, const Graph& g)
 
 TEST_CASE ("a graph without errors has none after any edit that is accepted, and only edits that add one are refused", "[edit_check]")
 {
-    rc::prop ("random edits of random graphs that compile", [] {
+    test::property ("random edits of random graphs that compile", [] {
         const auto seed = *rc::gen::arbitrary<unsigned>();
         std::mt19937 random (seed);
         History history (anyGraph (seed));
@@ -79,7 +79,7 @@ TEST_CASE ("a graph without errors has none after any edit that is accepted, and
 
 TEST_CASE ("a graph with errors can be edited like any other: no accepted edit adds an error", "[edit_check]")
 {
-    rc::prop ("random edits of random graphs, some of which do not compile", [] {
+    test::property ("random edits of random graphs, some of which do not compile", [] {
         const auto seed = *rc::gen::arbitrary<unsigned>();
         std::mt19937 random (seed);
         History broken (anyGraph (seed), nullptr);

@@ -3,6 +3,7 @@
 #include "meddler.hpp"
 #include "wild_graph.hpp"
 
+#include <support/property.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/edit.hpp>
 #include <tactus/graph/endpoint_text.hpp>
@@ -10,7 +11,6 @@
 #include <tactus/graph/param_edit.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <limits>
 
@@ -207,7 +207,7 @@ TEST_CASE ("history names its steps, and turning a knob is one step")
 
 TEST_CASE ("every edit can be undone and redone, with the same bytes and ids")
 {
-    rc::prop ("random edits of random graphs", [] {
+    property ("random edits of random graphs", [] {
         const auto seed = *rc::gen::arbitrary<std::uint64_t>();
         auto start = wildGraph (seed);
         if (! start.root.nodes.empty() && seed % 3 == 0) start.root.nodes[0].name = "ghost";   // its wires now refer to a node that does not exist

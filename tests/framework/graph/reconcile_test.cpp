@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/endpoint_text.hpp>
 #include <tactus/graph/reconcile.hpp>
@@ -7,7 +8,6 @@
 #include "wild_graph.hpp"
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <random>
@@ -85,7 +85,7 @@ TEST_CASE ("a delayed wire with the same text is preferred to one with a differe
 
 TEST_CASE ("a file that is shuffled and read again gets all its ids back, including in subgraphs, and none twice", "[graph]")
 {
-    rc::prop ("any graph", [] (std::uint64_t seed) {
+    test::property ("any graph", [] (std::uint64_t seed) {
         const auto before = test::wildGraph (seed);
         auto now = readGraph (writeGraph (before)).graph;
         std::mt19937_64 chance { seed };
@@ -103,7 +103,7 @@ TEST_CASE ("a file that is shuffled and read again gets all its ids back, includ
 
 TEST_CASE ("for any two graphs, no id is assigned twice", "[graph]")
 {
-    rc::prop ("any two", [] (std::uint64_t a, std::uint64_t b) {
+    test::property ("any two", [] (std::uint64_t a, std::uint64_t b) {
         const auto before = test::wildGraph (a);
         auto now = test::wildGraph (b);
         const auto text = writeGraph (now);

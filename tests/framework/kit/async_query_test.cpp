@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/run/log/replayed_queries.hpp>
 #include <tactus/run/query_thread.hpp>
 
 #include "support/no_allocation.hpp"
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <chrono>
 #include <deque>
@@ -104,7 +104,7 @@ void checkAnswers (const std::vector<bool>& asks, const Run& run, int ticks, std
 
 TEST_CASE ("without a thread, a question is answered after exactly the given number of ticks, and nothing is late", "[slow]")
 {
-    rc::prop ("any questions", [] {
+    test::property ("any questions", [] {
         const int ticks = *rc::gen::inRange (1, 9);
         const auto asks = asksFrom (*rc::gen::container<std::vector<int>> (rc::gen::inRange (0, 3)));
         Slow slow { square, ticks, nullptr };
@@ -173,7 +173,7 @@ TEST_CASE ("a late answer is dropped, and its slot stays occupied until the answ
 TEST_CASE ("a run with several queries can be repeated exactly from the record of its late answers", "[slow]")
 {
     int late_runs = 0, answered_runs = 0;
-    rc::prop ("any late answers", [&] {
+    test::property ("any late answers", [&] {
         const auto lengths = *rc::gen::container<std::vector<int>> (3, rc::gen::inRange (1, 7));
         const auto asks = asksFrom (*rc::gen::container<std::vector<int>> (30, rc::gen::inRange (0, 4)));
         const auto lags = *rc::gen::container<std::vector<Question>> (asks.size(), rc::gen::inRange<Question> (0, 8));

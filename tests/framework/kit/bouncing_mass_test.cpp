@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/kit/bouncing_mass.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <numbers>
@@ -37,7 +37,7 @@ TEST_CASE ("bouncing mass: without damping it leaves as fast as it came, after h
 
 TEST_CASE ("bouncing mass: two steps give the same result as one step of the same length", "[kit]")
 {
-    rc::prop ("any mass, spring and force", [] {
+    test::property ("any mass, spring and force", [] {
         const auto body = anyBody();
         const BouncingMass::State start { .depth = between (-1e-3, 2e-4), .speed = between (-0.5, 0.5) };
         const double t = between (1e-4, 4e-3), share = between (0.1, 0.9);
@@ -50,7 +50,7 @@ TEST_CASE ("bouncing mass: two steps give the same result as one step of the sam
 
 TEST_CASE ("bouncing mass: it follows an independent integration in small steps", "[kit]")
 {
-    rc::prop ("any mass, spring and force", [] {
+    test::property ("any mass, spring and force", [] {
         auto body = anyBody();
         body.stiffness = std::min (body.stiffness, 1e5);
         const BouncingMass::State start { .depth = between (-1e-3, 2e-4), .speed = between (-0.5, 0.5) };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/kit/expression.hpp>
 #include <tactus/kit/math/math.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +62,7 @@ TEST_CASE ("expression: the branch that is not taken may be invalid", "[framewor
 
 TEST_CASE ("expression: functions are those of kit/math and the standard library", "[framework][expression]")
 {
-    rc::prop ("at any two numbers", [] {
+    test::property ("at any two numbers", [] {
         const double a = *rc::gen::inRange (-1000, 1000) / 100.0, b = *rc::gen::inRange (-1000, 1000) / 100.0;
         const auto same = [&] (const std::string& text, double wanted) {
             const double got = valueOf (text, a, b);
@@ -128,7 +128,7 @@ TEST_CASE ("expression: nesting is limited, so that no text can exhaust the stac
 
 TEST_CASE ("expression: any text either compiles or is refused", "[framework][expression]")
 {
-    rc::prop ("text from its alphabet", [] {
+    test::property ("text from its alphabet", [] {
         static const std::string words[] { "in0", "in1", "in[", "]", "(", ")", "+", "-", "*", "/", "^", "?",
                                            ":", "<", "==", ",", "1", "2.5", "pi", "clamp", "min", "sin", " " };
         const auto picks = *rc::gen::container<std::vector<std::size_t>> (rc::gen::inRange<std::size_t> (0, std::size (words)));

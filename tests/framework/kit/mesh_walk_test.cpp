@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/kit/geometry/mesh_walk.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using namespace tactus;
 
@@ -65,7 +65,7 @@ Spot stepFrom (const MeshWalk& walk, const Spot& here, const Vec3& p)
 
 TEST_CASE ("the nearest of all triangles does not depend on the initial guess", "[nearest]")
 {
-    rc::prop ("any sheet", [] {
+    test::property ("any sheet", [] {
         const MeshWalk walk { anySheet() };
         const Vec3 p = anyPoint() * *rc::gen::element (1e-12, 1.0, 1e6);
         const int guess = *rc::gen::inRange (-1, static_cast<int> (walk.mesh().triangles.size()));
@@ -75,7 +75,7 @@ TEST_CASE ("the nearest of all triangles does not depend on the initial guess", 
 
 TEST_CASE ("a walk skips no nearer triangle", "[nearest]")
 {
-    rc::prop ("any sheet", [] {
+    test::property ("any sheet", [] {
         const MeshWalk walk { anySheet() };
         const Vec3 p = anyPoint();
         const int from = *rc::gen::inRange (0, static_cast<int> (walk.mesh().triangles.size()));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/kit/geometry/nearest_by_boxes.hpp>
 
 #include "support/no_allocation.hpp"
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <limits>
@@ -36,7 +36,7 @@ std::shared_ptr<const Mesh> field (int n, double bumps)
 
 TEST_CASE ("a tree of boxes finds exactly the triangle that a search through all of them finds", "[kit][nearest]")
 {
-    rc::prop ("any mesh, of any size and at any place, from near and far", [] {
+    test::property ("any mesh, of any size and at any place, from near and far", [] {
         std::mt19937 dice (*rc::gen::arbitrary<unsigned>());
         std::normal_distribution<double> normal;
         const double size = std::pow (10.0, *rc::gen::inRange (-9, 10)), off = std::pow (10.0, *rc::gen::inRange (-3, 9));

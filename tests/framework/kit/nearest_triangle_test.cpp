@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/kit/geometry/nearest_triangle.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using namespace tactus;
 
@@ -35,14 +35,14 @@ TEST_CASE ("the weights of the nearest point are valid, and no other point is ne
 {
     // A point of a convex body is nearest to p if and only if no other point of the body lies in front of it, as seen from p.
     // For a triangle it is enough to check the corners.
-    rc::prop ("any triangle, even one without area", [] {
+    test::property ("any triangle, even one without area", [] {
         const Vec3 a = anyPoint(), b = anyPoint(), c = anyPoint(), p = anyPoint();
         const auto on = checkWeights (a, b, c, p);
         for (const auto& corner : { a, b, c })
             RC_ASSERT ((p - on.point).dot (corner - on.point) < 1e-10);
     });
 
-    rc::prop ("slivers", [] {
+    test::property ("slivers", [] {
         const Vec3 a = anyPoint(), b = anyPoint(), p = anyPoint();
         const double t = *rc::gen::inRange (-3, 14) * 0.1, thin = std::pow (10.0, -*rc::gen::inRange (1, 17));
         const Vec3 c = a + t * (b - a) + thin * anyPoint();
@@ -64,7 +64,7 @@ TEST_CASE ("a point above a triangle, next to it, and beyond its corner", "[near
 
 TEST_CASE ("the nearest of all triangles is found; if there are several, the first one", "[nearest]")
 {
-    rc::prop ("any mesh", [] {
+    test::property ("any mesh", [] {
         Mesh mesh;
         for (int i = *rc::gen::inRange (1, 9); i > 0; --i)
             for (int corner = 0; corner < 3; ++corner)

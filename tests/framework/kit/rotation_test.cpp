@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/kit/geometry/rotation.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <numbers>
@@ -28,19 +28,19 @@ double errorOf (const Eigen::Quaterniond& q, const Vec3& from, const Vec3& to)
 
 TEST_CASE ("shortestRotation: rotates one direction to another", "[framework][rotation]")
 {
-    rc::prop ("any two directions, to rounding", [] {
+    test::property ("any two directions, to rounding", [] {
         const Vec3 from = anyDirection(), to = anyDirection();
         const double cosine = from.dot (to);
         RC_ASSERT (errorOf (shortestRotation (from, to), from, to) <= 1e-15 + 1e-14 / (1.0 + std::max (cosine, -0.99)));
     });
 
-    rc::prop ("two directions that are opposite to within 1e-6", [] {
+    test::property ("two directions that are opposite to within 1e-6", [] {
         const Vec3 from = anyDirection();
         const Vec3 to = (-from + std::pow (10.0, -*rc::gen::inRange (7, 18)) * anyDirection()).normalized();
         RC_ASSERT (errorOf (shortestRotation (from, to), from, to) <= 1e-14);
     });
 
-    rc::prop ("two vectors of any lengths", [] {
+    test::property ("two vectors of any lengths", [] {
         const Vec3 from = anyDirection(), to = anyDirection();
         const double scale = std::pow (10.0, *rc::gen::inRange (-100, 101));
         RC_ASSERT (shortestRotation (scale * from, to / scale).isApprox (shortestRotation (from, to), 1e-9));
@@ -49,7 +49,7 @@ TEST_CASE ("shortestRotation: rotates one direction to another", "[framework][ro
 
 TEST_CASE ("shortestRotation: bit-identical to Eigen's, unless the directions are opposite", "[framework][rotation]")
 {
-    rc::prop ("any two directions, including nearly opposite ones", [] {
+    test::property ("any two directions, including nearly opposite ones", [] {
         const Vec3 from = 3.0 * anyDirection();
         Vec3 to = anyDirection();
         if (*rc::gen::arbitrary<bool>()) to = -from + std::pow (10.0, -*rc::gen::inRange (1, 6)) * to;
@@ -63,7 +63,7 @@ TEST_CASE ("shortestRotation: opposite directions take a half turn about z, or a
     CHECK (shortestRotation (Vec3::UnitX(), -Vec3::UnitX()).vec() == Vec3::UnitZ());
     CHECK (shortestRotation (Vec3::UnitY(), -Vec3::UnitY()).vec() == Vec3::UnitZ());
     CHECK (shortestRotation (-Vec3::UnitZ(), Vec3::UnitZ()).vec() == Vec3::UnitX());
-    rc::prop ("the axis is at right angles to any direction", [] {
+    test::property ("the axis is at right angles to any direction", [] {
         const Vec3 v = anyDirection(), axis = perpendicularTo (v);
         RC_ASSERT (std::abs (axis.norm() - 1.0) < 1e-15);
         RC_ASSERT (std::abs (axis.dot (v)) < 1e-15);

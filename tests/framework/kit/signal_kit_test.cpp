@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The parts shared by nodes that play recordings and noise: lattice, stream resampler, recording, windowed sinc.
 
+#include <support/property.hpp>
 #include <tactus/kit/geometry/lattice.hpp>
 #include <tactus/kit/random.hpp>
 #include <tactus/kit/signal/recording.hpp>
 #include <tactus/kit/signal/stream_resampler.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <bit>
 #include <cmath>
@@ -106,7 +106,7 @@ TEST_CASE ("recording: the forward-backward low-pass is 6 dB down at its cutoff 
 
 TEST_CASE ("the value between two entries of a table has the bits of std::lerp", "[framework][signal]")
 {
-    rc::prop ("any entries and place", [] {
+    test::property ("any entries and place", [] {
         const auto entry = rc::gen::oneOf (rc::gen::element (0.0, -0.0, 1.0, -1.0, 1e-200, -1e-200, 5e-324), rc::gen::arbitrary<double>(),
                                            rc::gen::map (rc::gen::inRange (-5, 6), [] (int n) { return 1.0 + 0x1p-52 * n; }));
         const double table[] { 7.0, *entry, *entry };

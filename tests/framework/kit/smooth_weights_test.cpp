@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/kit/geometry/placed_surface.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <numeric>
 #include <random>
@@ -39,7 +39,7 @@ Vec3 slope (const Corners& corners, const Values& values, const Vec3& p)
 
 TEST_CASE ("smooth weights: neither the value nor its gradient steps across an edge, and the weights add up to 1", "[kit]")
 {
-    rc::prop ("two triangles that share an edge", [] (unsigned seed) {
+    test::property ("two triangles that share an edge", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         const Vec3 a (-1.0, 0.1 * one (dice), 0.0), b (1.0, 0.1 * one (dice), 0.0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/kit/geometry/spline_surface.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <numbers>
@@ -60,7 +60,7 @@ TEST_CASE ("mirrored grid: a wave below the cutoff remains, and one above it is 
 
 TEST_CASE ("spline surface: it passes through its points, and its slopes match its heights", "[framework][grid]")
 {
-    rc::prop ("any grid", [] {
+    test::property ("any grid", [] {
         const auto grid = anyGrid();
         const SplineSurface surface { grid };
         for (int row = 0; row < grid.y.points(); ++row)
@@ -76,7 +76,7 @@ TEST_CASE ("spline surface: it passes through its points, and its slopes match i
 
 TEST_CASE ("spline surface: no slope changes faster than the largest curvature allows", "[framework][grid]")
 {
-    rc::prop ("any grid, along x and along y", [] {
+    test::property ("any grid, along x and along y", [] {
         const SplineSurface surface { anyGrid() };
         const double most = surface.largestCurvature() * (1.0 + 1e-9) + 1e-6, h = 1e-6;
         const double x = 1e-5 * *rc::gen::inRange (-2000, 2001), y = 1e-5 * *rc::gen::inRange (-2000, 2001);

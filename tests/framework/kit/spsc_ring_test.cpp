@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/kit/threads/spsc_ring.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <array>
 #include <atomic>
@@ -13,7 +13,7 @@ using tactus::SpscRing;
 
 TEST_CASE ("pieces arrive whole and in order, or not at all", "[runtime]")
 {
-    rc::prop ("pieces of any length, fetched occasionally", [] {
+    tactus::test::property ("pieces of any length, fetched occasionally", [] {
         const auto capacity = *rc::gen::inRange<std::size_t> (1, 30);
         SpscRing<std::uint64_t> ring { capacity };
         std::vector<std::uint64_t> sent, got;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/kit/vec3.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <limits>
@@ -11,7 +11,7 @@ using namespace tactus;
 
 TEST_CASE ("length: correct for vectors of any size", "[framework][length]")
 {
-    rc::prop ("scaling a vector by a power of two scales its length, from tiny to huge", [] {
+    test::property ("scaling a vector by a power of two scales its length, from tiny to huge", [] {
         const auto component = rc::gen::map (rc::gen::inRange (-1000, 1001), [] (int i) { return 1e-3 * i; });
         const Vec3 v { *component, *component, *component };
         const int exponent = *rc::gen::inRange (-1000, 1001);

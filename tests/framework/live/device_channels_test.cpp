@@ -5,10 +5,10 @@
 #include "support/sketch.hpp"
 
 #include "support/live.hpp"
+#include <support/property.hpp>
 #include <tactus/plan/rules/missing_parts.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <bit>
 #include <random>
@@ -101,7 +101,7 @@ TEST_CASE ("a missing part of a device is reported once per role and name, with 
 
 TEST_CASE ("efforts and signals of several nodes have bit-identical sums in any order", "[live][property]")
 {
-    rc::prop ("any values", [] {
+    test::property ("any values", [] {
         const auto values = *rc::gen::container<std::vector<double>> (6, rc::gen::element (1e-17, 0.1, 0.2, 0.3, -0.7, 1e9));
         std::vector<std::size_t> order { 0, 1, 2, 3, 4, 5 };
         const auto run = [&] {

@@ -5,11 +5,11 @@
 #include "support/sketch.hpp"
 
 #include "support/live.hpp"
+#include <support/property.hpp>
 #include <tactus/plan/find_hit.hpp>
 #include <tactus/run/turn.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <limits>
 #include <numeric>
@@ -107,7 +107,7 @@ TEST_CASE ("an edit neither loses nor doubles a hit", "[live][hit]")
     test::Live live { sketch.graph, catalogue(), watched, sketch.compile (watched).plan };
     auto& engine = live.engine();
     ticked (engine, 2);
-    rc::prop ("before and after any edit", [&] {
+    test::property ("before and after any edit", [&] {
         double asked = 0.0, heard = 0.0;
         for (int k = 0; k < 20; ++k)
         {

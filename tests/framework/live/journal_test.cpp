@@ -5,11 +5,11 @@
 #include "support/sketch.hpp"
 
 #include "support/live.hpp"
+#include <support/property.hpp>
 #include <tactus/graph/ids.hpp>
 #include <tactus/plan/find_param.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using namespace tactus;
 using test::Sketch;
@@ -130,7 +130,7 @@ TEST_CASE ("a plan can be picked up before its tick, and values set later apply 
 
 TEST_CASE ("every knob of a graph is found by its name", "[plan][property]")
 {
-    rc::prop ("any graph", [] {
+    test::property ("any graph", [] {
         const auto graph = test::randomGraph (*rc::gen::arbitrary<unsigned>(), 15);
         const auto plan = compile (graph, catalogue()).plan;
         RC_ASSERT (plan);

@@ -6,8 +6,9 @@
 
 #include "support/live.hpp"
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <numbers>
@@ -83,7 +84,7 @@ TEST_CASE ("a new target during a ramp starts a ramp from the current value", "[
 
 TEST_CASE ("no matter how it is turned, a parameter never steps by more than one tick of a 20 ms ramp", "[live][property]")
 {
-    rc::prop ("targets from 0 to 1 at any ticks, between edits of another node", [] {
+    test::property ("targets from 0 to 1 at any ticks, between edits of another node", [] {
         Bench bench { amplified().node ("other", "signal.abs") };
         bench.tick();
         double last = 1.0, target = 1.0;

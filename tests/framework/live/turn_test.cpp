@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/run/turn.hpp>
 
 #include "support/sketch.hpp"
@@ -6,7 +7,6 @@
 #include <tactus/file/graph_file.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using namespace tactus;
 
@@ -56,7 +56,7 @@ TEST_CASE ("a control turned live moves all its targets to the same values as th
     const auto graph = wood();
     Engine engine { compile (graph, catalogue()).plan };
     engine.tick();
-    rc::prop ("any value of the control", [&] {
+    test::property ("any value of the control", [&] {
         const double at = *rc::gen::inRange (0, 1001) / 1000.0;
         RC_ASSERT (idOf (turnControl (engine, graph, "roughness", at)) == "");
         for (const auto* target : { "grain.amplitude", "drag.mu" })

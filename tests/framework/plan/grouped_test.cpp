@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/plan/flat/grouped.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@ using namespace tactus::plan;
 
 TEST_CASE ("grouped: each group keeps its items in order", "[plan][grouped]")
 {
-    rc::prop ("like a list per group", [] {
+    tactus::test::property ("like a list per group", [] {
         constexpr std::size_t groups = 7;
         const auto items = *rc::gen::container<std::vector<std::pair<std::size_t, int>>> (
             rc::gen::pair (rc::gen::inRange<std::size_t> (0, groups), rc::gen::arbitrary<int>()));

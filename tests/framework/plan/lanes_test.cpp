@@ -3,13 +3,13 @@
 #include "support/no_allocation.hpp"
 #include "support/sketch.hpp"
 
+#include <support/property.hpp>
 #include <tactus/graph/instances.hpp>
 #include <tactus/kit/random.hpp>
 #include <tactus/plan/find_param.hpp>
 #include <tactus/plan/steps/lane_group.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <array>
 #include <bit>
@@ -205,7 +205,7 @@ int groupsOf (const Plan& plan)
 
 TEST_CASE ("lanes have the bits of single instances", "[plan][lanes][property]")
 {
-    rc::prop ("for random contacts with faults, turned knobs, and edits that change the number of instances and of lanes, and the rate", [] {
+    test::property ("for random contacts with faults, turned knobs, and edits that change the number of instances and of lanes, and the rate", [] {
         const auto seed = *rc::gen::arbitrary<unsigned>();
         Contacts contacts { seed };
         Player single, lanes;

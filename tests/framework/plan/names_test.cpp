@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/plan/flat/names.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <map>
 
@@ -10,7 +10,7 @@ using namespace tactus::plan;
 
 TEST_CASE ("names: each name keeps its number, and a name that was not added is not found", "[plan][names]")
 {
-    rc::prop ("numbers are the same as in a map", [] {
+    tactus::test::property ("numbers are the same as in a map", [] {
         const auto word = rc::gen::container<std::string> (rc::gen::elementOf (std::string ("ab/")));
         const auto added = *rc::gen::container<std::vector<std::string>> (word), asked = *rc::gen::container<std::vector<std::string>> (word);
 

@@ -6,10 +6,10 @@
 #include "support/random_graph.hpp"
 #include "support/sketch.hpp"
 
+#include <support/property.hpp>
 #include <tactus/graph/edit.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <bit>
 #include <map>
@@ -127,7 +127,7 @@ TEST_CASE ("each record of a plan has an owner, and each node that runs on its o
 
 TEST_CASE ("a plan is bit-identical to an interpreter of the graph", "[plan][property]")
 {
-    rc::prop ("on random graphs of up to 200 nodes", [] {
+    test::property ("on random graphs of up to 200 nodes", [] {
         const auto seed = *rc::gen::arbitrary<unsigned>();
         const auto g = test::randomGraph (seed, *rc::gen::inRange (2, 200));
         const auto lanes = std::min (std::size_t { 1 } << (seed % 4), widestLanes());
@@ -138,7 +138,7 @@ TEST_CASE ("a plan is bit-identical to an interpreter of the graph", "[plan][pro
 
 TEST_CASE ("the order of nodes and wires in the file does not change a single bit", "[plan][property]")
 {
-    rc::prop ("on random graphs of up to 200 nodes", [] {
+    test::property ("on random graphs of up to 200 nodes", [] {
         const auto seed = *rc::gen::arbitrary<unsigned>();
         const auto g = test::randomGraph (seed, *rc::gen::inRange (2, 200));
         const auto other = test::shuffled (g, seed + 1);
@@ -149,7 +149,7 @@ TEST_CASE ("the order of nodes and wires in the file does not change a single bi
 
 TEST_CASE ("a subgraph with several instances is bit-identical to separate nodes", "[plan][property]")
 {
-    rc::prop ("on random graphs of up to 200 nodes", [] {
+    test::property ("on random graphs of up to 200 nodes", [] {
         const auto seed = *rc::gen::arbitrary<unsigned>();
         const auto g = test::randomGraph (seed, *rc::gen::inRange (13, 200));
         auto drawn = g;

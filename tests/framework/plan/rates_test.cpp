@@ -3,8 +3,9 @@
 
 #include "support/parted.hpp"
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <utility>
@@ -51,7 +52,7 @@ void addCounter (Sketch& sketch, graph::Patch& patch)
 
 TEST_CASE ("`every k` runs on the inputs of every k-th tick, and holds its outputs", "[plan][rates][property]")
 {
-    rc::prop ("for any signal", [] {
+    property ("for any signal", [] {
         const int k = *rc::gen::inRange (2, 9);
         const auto in = randomSignal (40);
         PlanRun run { doubling (every (k)), { "sec.in" }, { "after.out", "sec/amp.in" } };
@@ -66,7 +67,7 @@ TEST_CASE ("`every k` runs on the inputs of every k-th tick, and holds its outpu
 
 TEST_CASE ("`every k` prepares nodes for its own rate: a filter inside is that filter on every k-th sample", "[plan][rates][property]")
 {
-    rc::prop ("for any signal", [] {
+    property ("for any signal", [] {
         const int k = *rc::gen::inRange (2, 9);
         const auto in = randomSignal (60);
         Parted slow { every (k) };
@@ -84,7 +85,7 @@ TEST_CASE ("`every k` prepares nodes for its own rate: a filter inside is that f
 
 TEST_CASE ("`linear` is exact on ramps, delayed by k ticks", "[plan][rates][property]")
 {
-    rc::prop ("for any slope", [] {
+    property ("for any slope", [] {
         const int k = *rc::gen::inRange (2, 9);
         const double slope = 1e-3 * *rc::gen::inRange (-1000, 1000);
         PlanRun run { doubling (every (k, "linear")), { "sec.in" }, { "after.out" } };
@@ -95,7 +96,7 @@ TEST_CASE ("`linear` is exact on ramps, delayed by k ticks", "[plan][rates][prop
 
 TEST_CASE ("`linear` ends each line on the value itself", "[plan][rates][property]")
 {
-    rc::prop ("for any signal", [] {
+    property ("for any signal", [] {
         const int k = *rc::gen::inRange (2, 9);
         const auto in = randomSignal (40);
         PlanRun run { doubling (every (k, "linear")), { "sec.in" }, { "after.out" } };
@@ -132,7 +133,7 @@ TEST_CASE ("states are held, even with linear hold", "[plan][rates]")
 
 TEST_CASE ("each hit enters and leaves a section once, and none is lost", "[plan][rates][property]")
 {
-    rc::prop ("every k", [] {
+    property ("every k", [] {
         const int k = *rc::gen::inRange (2, 9);
         const auto hits = randomHits (5 * k);
         PlanRun run { knocking (every (k, *rc::gen::arbitrary<bool>() ? "linear" : "latch")), { "before.in" }, { "bar.hit" } };
@@ -144,7 +145,7 @@ TEST_CASE ("each hit enters and leaves a section once, and none is lost", "[plan
             RC_ASSERT (there == (n % static_cast<std::size_t> (k) == 0 ? std::exchange (waiting, 0.0) : 0.0));
         }
     });
-    rc::prop ("times m", [] {
+    property ("times m", [] {
         const int m = *rc::gen::inRange (2, 9);
         PlanRun run { knocking (times (m)), { "before.in" }, { "bar.hit", "sec/amp.out" } };
         for (const double hit : randomHits (40))
@@ -156,7 +157,7 @@ TEST_CASE ("each hit enters and leaves a section once, and none is lost", "[plan
                 RC_ASSERT (inside.samples[i] == (i == 0 ? hit : 0.0));
         }
     });
-    rc::prop ("several ticks of a section deliver one hit", [] {
+    property ("several ticks of a section deliver one hit", [] {
         const int m = *rc::gen::inRange (2, 5), k = *rc::gen::inRange (2, 5);
         Parted sketch { times (m), Json::object(), Json::object() };
         sketch.subgraph ("inner");
@@ -182,7 +183,7 @@ TEST_CASE ("each hit enters and leaves a section once, and none is lost", "[plan
 
 TEST_CASE ("a bar inside `times m` equals a bar at m times the rate, hit on the first of m samples", "[plan][rates][property]")
 {
-    rc::prop ("bit for bit", [] {
+    property ("bit for bit", [] {
         const int m = *rc::gen::inRange (2, 7);
         const Json modes = Json::array (
             { { { "frequency", 180.0 }, { "decay", 20.0 }, { "amplitude", 0.5 } }, { { "frequency", 2900.0 }, { "decay", 90.0 }, { "amplitude", 0.2 } } });
@@ -210,7 +211,7 @@ TEST_CASE ("a bar inside `times m` equals a bar at m times the rate, hit on the 
 
 TEST_CASE ("signals enter `times m` as straight lines that end on the value of the tick; the first line is level", "[plan][rates][property]")
 {
-    rc::prop ("for any signal", [] {
+    property ("for any signal", [] {
         const int m = *rc::gen::inRange (2, 7);
         const auto in = randomSignal (30);
         PlanRun run { doubling (times (m)), { "sec.in" }, { "sec.out", "after.out" } };

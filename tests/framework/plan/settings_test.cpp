@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "support/sketch.hpp"
 
+#include <support/property.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/plan/settings.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using namespace tactus;
 
@@ -440,7 +440,7 @@ TEST_CASE ("no value of a setting breaks the reader", "[plan][settings]")
                                      { 0, 0, 0 },
                                      { { "mesh", "m" } },
                                      { { "frequency", 1 } } };
-    rc::prop ("any nesting of fragments", [&] {
+    test::property ("any nesting of fragments", [&] {
         Json value = *rc::gen::elementOf (scraps);
         for (int depth = *rc::gen::inRange (0, 5); depth > 0; --depth)
         {

@@ -6,11 +6,11 @@
 #include "support/random_graph.hpp"
 #include "support/sketch.hpp"
 
+#include <support/property.hpp>
 #include <tactus/graph/history.hpp>
 #include <tactus/plan/find_param.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <bit>
 #include <cmath>
@@ -256,7 +256,7 @@ std::optional<std::string> playRandomGraph (unsigned seed)
 TEST_CASE ("settled nodes change no bit of random graphs", "[plan][settled][property]")
 {
     CHECK (playRandomGraph (117623) == "");   // an edit overrides a choice
-    rc::prop ("while parameters move and wires, nodes and values are edited", [] {
+    test::property ("while parameters move and wires, nodes and values are edited", [] {
         const auto found = playRandomGraph (*rc::gen::arbitrary<unsigned>());
         if (! found) RC_DISCARD ("the graph does not compile");
         RC_LOG (*found);

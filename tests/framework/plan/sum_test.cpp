@@ -3,10 +3,10 @@
 
 #include "support/sketch.hpp"
 
+#include <support/property.hpp>
 #include <tactus/plan/steps/sum_step.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <bit>
@@ -48,7 +48,7 @@ double gainOf (std::size_t w, bool with_gains) { return with_gains ? 0.7 + 0.4 *
 
 TEST_CASE ("a sum of wires has the bits of the sum in order of value, whatever the values and their order", "[plan][property]")
 {
-    rc::prop ("any values", [] {
+    test::property ("any values", [] {
         auto values = *rc::gen::container<std::vector<double>> (anyNumber());
         const auto expected = bits (inOrder (values));
         for (int turn = 0; turn < static_cast<int> (values.size()) + 1; ++turn)
@@ -63,7 +63,7 @@ TEST_CASE ("a sum of wires has the bits of the sum in order of value, whatever t
 
 TEST_CASE ("a sum that starts from the order of the last tick has the same bits, however the values move", "[plan][property]")
 {
-    rc::prop ("values that creep and jump", [] {
+    test::property ("values that creep and jump", [] {
         const auto n = *rc::gen::inRange<std::size_t> (1, 40);
         auto values = *rc::gen::container<std::vector<double>> (n, anyNumber());
         std::vector<plan::Placed> placed;

@@ -12,7 +12,7 @@
 #include <tactus/run/run.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
+#include <rapidcheck.h>
 
 #include <algorithm>
 #include <bit>

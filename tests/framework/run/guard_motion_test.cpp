@@ -2,11 +2,11 @@
 // The guard's limits on rotation, axes and signals, and how limits are read and combined.
 #include "support/sketch.hpp"
 
+#include <support/property.hpp>
 #include <tactus/run/device/guard_limits.hpp>
 #include <tactus/run/run.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <limits>
@@ -77,7 +77,7 @@ private:
 
 TEST_CASE ("guard: a torque that drives the hand counts as energy, whatever the axis, and one that brakes does not", "[framework][guard]")
 {
-    rc::prop ("any axis, past any number of turns", [] {
+    test::property ("any axis, past any number of turns", [] {
         const Vec3 axis = anyDirection();
         const double speed = *rc::gen::element (0.5, 3.0, 20.0), torque = *rc::gen::element (-0.4, 0.05, 1.0);
         constexpr double most = 0.02;
@@ -189,7 +189,7 @@ TEST_CASE ("guard: bad readings in between do not hide motion, and an axis that 
 
 TEST_CASE ("guard: a tool that turns too fast, or an axis that moves too fast, causes a stop with its numbers", "[framework][guard]")
 {
-    rc::prop ("5 % below or above the limit", [] {
+    test::property ("5 % below or above the limit", [] {
         const bool too_fast = *rc::gen::arbitrary<bool>();
         const double limit = *rc::gen::element (0.5, 6.0), speed = limit * (too_fast ? 1.05 : 0.95);
         const Vec3 axis = anyDirection();
@@ -223,7 +223,7 @@ TEST_CASE ("guard: a torque, or efforts on axes, that push for too long cause a 
 
 TEST_CASE ("guard: a signal never changes faster than its slew limit, even in stops", "[framework][guard]")
 {
-    rc::prop ("any signal, with stops in between", [] {
+    test::property ("any signal, with stops in between", [] {
         auto guard = guardWith ({ .max_signal = 2.0, .max_signal_slew = 100.0 });
         double before = 0.0;
         for (const int v : *rc::gen::container<std::vector<int>> (60, rc::gen::inRange (-50, 51)))

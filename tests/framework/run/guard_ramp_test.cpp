@@ -3,7 +3,7 @@
 #include <tactus/run/guard.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
+#include <rapidcheck.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,11 @@
 // Guards count seconds, not ticks: what happens to stops and limits when ticks are missing, or come too fast.
 #include "support/sketch.hpp"
 
+#include <support/property.hpp>
 #include <tactus/run/clock/passed_time.hpp>
 #include <tactus/run/runner.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <vector>
@@ -32,7 +32,7 @@ Guard pushed (const GuardLimits& limits)
 
 TEST_CASE ("the time that passes is the wall time, in periods as far as it can be", "[framework][guard]")
 {
-    rc::prop ("whatever the pauses and batches, the sum is never more than the wall time, and never less by more than a period and two blocks", [] {
+    test::property ("whatever the pauses and batches, the sum is never more than the wall time, and never less by more than a period and two blocks", [] {
         const double block = *rc::gen::element (0.0, 5.0 * dt);
         PassedTime passed { dt };
         double wall = 1e5, sum = -passed (wall, block) + dt;
@@ -48,7 +48,7 @@ TEST_CASE ("the time that passes is the wall time, in periods as far as it can b
         }
     });
 
-    rc::prop ("with jitter of less than a period, each tick takes one period, to the last bit", [] {
+    test::property ("with jitter of less than a period, each tick takes one period, to the last bit", [] {
         PassedTime passed { dt };
         for (int k = 0; k < 1000; ++k)
             RC_ASSERT (passed ((k + (k > 0 ? *rc::gen::inRange (0, 1000) / 1000.0 : 0.0)) * dt, 0.0) == dt);
@@ -78,7 +78,7 @@ TEST_CASE ("the time that passes is the wall time, in periods as far as it can b
 
 TEST_CASE ("guard: a stop takes the same time in seconds, however few ticks there are", "[framework][guard]")
 {
-    rc::prop ("any pauses", [] {
+    test::property ("any pauses", [] {
         const double slew = *rc::gen::element (GuardLimits::none, 100.0, 400.0);
         auto guard = pushed ({ .max_force = 1.0, .max_slew = slew });
         const double most = std::max (Guard::fade_s, slew == GuardLimits::none ? 0.0 : 1.0 / slew);
@@ -114,7 +114,7 @@ TEST_CASE ("guard: a force does not rise faster, and does not step, after a paus
 
 TEST_CASE ("guard: ticks that come too fast, in batches or late raise the force no faster than its limits allow per second", "[framework][guard]")
 {
-    rc::prop ("the force rises by at most the slew times the time that has passed, and by one period's worth in a tick", [] {
+    test::property ("the force rises by at most the slew times the time that has passed, and by one period's worth in a tick", [] {
         const bool ramps = *rc::gen::arbitrary<bool>();
         constexpr double slew = 10.0, watchdog = 0.02;
         Guard guard;
@@ -162,7 +162,7 @@ TEST_CASE ("guard: ticks that come too fast, in batches or late raise the force 
 
 TEST_CASE ("guard: a tool that moves too fast is stopped, however fast its device reports", "[framework][guard]")
 {
-    rc::prop ("any rate of reports, with jitter", [] {
+    test::property ("any rate of reports, with jitter", [] {
         const double per_period = *rc::gen::element (1.0, 2.0, 4.0, 8.0, 16.0);
         const double limit = 2.0, speed = *rc::gen::element (1.8, 3.0);
         Guard guard;
@@ -187,7 +187,7 @@ TEST_CASE ("guard: a tool that moves too fast is stopped, however fast its devic
 
 TEST_CASE ("guard: impulse and energy count the time without ticks, during which the last effort was on the device", "[framework][guard]")
 {
-    rc::prop ("the same stop at the same time, whatever share of the ticks is run", [] {
+    test::property ("the same stop at the same time, whatever share of the ticks is run", [] {
         const int every = *rc::gen::inRange (1, 30);   // a tick comes every so many periods
         const bool by_energy = *rc::gen::arbitrary<bool>();
         auto guard = pushed (by_energy ? GuardLimits { .max_energy = 0.05, .energy_window = 1.0 } : GuardLimits { .max_impulse = 0.3, .impulse_window = 1.0 });
@@ -209,7 +209,7 @@ TEST_CASE ("guard: impulse and energy count the time without ticks, during which
 TEST_CASE ("guard: a starved run has no force within twice its watchdog, and says so", "[framework][guard]")
 {
     constexpr double watchdog = 0.1;
-    rc::prop ("with a quarter of the ticks or fewer", [] {
+    test::property ("with a quarter of the ticks or fewer", [] {
         const int every = *rc::gen::inRange (4, 60);
         auto guard = pushed ({ .watchdog = watchdog });
         double t = 0.0, force = 1.0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/run/clock/tick_account.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <thread>
@@ -12,7 +12,7 @@ using namespace tactus;
 
 TEST_CASE ("a quantile is accurate to within one bin and never exceeds the longest duration", "[runtime]")
 {
-    rc::prop ("any durations", [] (std::vector<std::uint32_t> microseconds, std::uint32_t permille) {
+    test::property ("any durations", [] (std::vector<std::uint32_t> microseconds, std::uint32_t permille) {
         RC_PRE (! microseconds.empty());
         Durations durations;
         for (auto& us : microseconds)

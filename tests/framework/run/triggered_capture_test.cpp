@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "support/no_allocation.hpp"
 
+#include <support/property.hpp>
 #include <tactus/run/probe/triggered_capture.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <limits>
 #include <thread>
@@ -42,7 +42,7 @@ bool isEdge (double before, double now, const Trigger& t)
 TEST_CASE ("a window holds the ticks around the first edge that has enough ticks before it", "[runtime][property]")
 {
     int complete = 0;
-    rc::prop ("any signal, any trigger", [&] {
+    test::property ("any signal, any trigger", [&] {
         const Trigger trigger {
             .level = 1.0,
             .edge = *rc::gen::element (Trigger::Edge::rising, Trigger::Edge::falling, Trigger::Edge::either),

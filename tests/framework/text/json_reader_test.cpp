@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/text/json_text.hpp>
 #include <tactus/text/utf8.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <array>
 #include <random>
@@ -146,7 +146,7 @@ bool isAccepted (std::string_view text) { return readJson (text, most).messages.
 TEST_CASE ("JSON reads as what it means, and each part is where it was written", "[json][property]")
 {
     int cases = 0, refused = 0;
-    rc::prop ("any text", [&] {
+    test::property ("any text", [&] {
         OddWriter odd (*rc::gen::arbitrary<unsigned>());
         const auto meaning = odd.value (4, "");
         const auto read = readJson (odd.text, most);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/text/json.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <array>
 #include <bit>
@@ -240,12 +240,12 @@ TEST_CASE ("Json: text that is not UTF-8 is written with replacement characters"
 
 TEST_CASE ("Json: any value that is written reads back as itself", "[json]")
 {
-    rc::prop ("written and read", [] {
+    test::property ("written and read", [] {
         const auto v = onlyAscii (randomJson (4));
         RC_ASSERT (Json::parse (v.dump()) == v);
         RC_ASSERT (Json::parse (v.dump (4)) == v);
     });
-    rc::prop ("a copy is equal and independent", [] {
+    test::property ("a copy is equal and independent", [] {
         const auto v = randomJson (3);
         auto copy = v;
         RC_ASSERT (copy == v);
@@ -254,7 +254,7 @@ TEST_CASE ("Json: any value that is written reads back as itself", "[json]")
         copy = Json (copy[0]);   // a part replaces the whole
         RC_ASSERT (copy == v);
     });
-    rc::prop ("flattened, each leaf is where its pointer says", [] {
+    test::property ("flattened, each leaf is where its pointer says", [] {
         const auto v = randomJson (4);
         const auto flat = v.flatten();
         for (const auto& [pointer, leaf] : flat.items())

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using namespace tactus;
 
@@ -41,7 +41,7 @@ TEST_CASE ("quote: a name takes one line of at most 200 characters and is never 
 
 TEST_CASE ("quote: any bytes become text without control characters", "[text]")
 {
-    rc::prop ("any bytes", [] (const std::string& bytes) {
+    test::property ("any bytes", [] (const std::string& bytes) {
         for (const auto& out : { quote (bytes), printable (bytes), printableName (bytes) })
             for (const char c : out)
                 RC_ASSERT (static_cast<unsigned char> (c) >= 0x20u || c == '\n');

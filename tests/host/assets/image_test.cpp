@@ -3,8 +3,9 @@
 
 #include "pictures.hpp"
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using namespace tactus;
 using host::readImage;
@@ -31,7 +32,7 @@ std::string problem (const std::string& bytes)
 
 TEST_CASE ("a 16-bit PNG keeps every grey value, row by row from the top", "[host][assets][image]")
 {
-    rc::prop ("any picture", [] {
+    test::property ("any picture", [] {
         const int rows = *rc::gen::inRange (1, 6), columns = *rc::gen::inRange (1, 6);
         const auto values = *rc::gen::container<Words> (static_cast<std::size_t> (rows * columns), rc::gen::arbitrary<std::uint16_t>());
         const auto grid =
@@ -94,7 +95,7 @@ TEST_CASE ("no damaged image crashes the reader", "[host][assets][image]")
     const std::vector<std::string> all { test::png (9, 7, SPNG_COLOR_TYPE_TRUECOLOR_ALPHA, Words (9 * 7 * 4, 300)),
                                          test::png (9, 7, SPNG_COLOR_TYPE_GRAYSCALE, Bytes (9 * 7, 3)),
                                          test::jpeg (9, 7, std::vector<unsigned char> (9 * 7, 3)) };
-    rc::prop ("any bytes changed or cut off", [&] {
+    test::property ("any bytes changed or cut off", [&] {
         auto bytes = *rc::gen::elementOf (all);
         for (const auto& [at, value] : *rc::gen::container<std::vector<std::pair<std::uint16_t, char>>> (rc::gen::arbitrary<std::pair<std::uint16_t, char>>()))
             bytes[at % bytes.size()] = value;

@@ -3,8 +3,9 @@
 
 #include "support/no_allocation.hpp"
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <limits>
 #include <random>
@@ -37,7 +38,7 @@ std::shared_ptr<const Mesh> shared (Mesh mesh) { return std::make_shared<const M
 
 TEST_CASE ("Embree finds exactly the triangle that a search through all of them finds", "[host][assets][nearest]")
 {
-    rc::prop ("any mesh, of any size and at any place, from near and far", [] {
+    test::property ("any mesh, of any size and at any place, from near and far", [] {
         std::mt19937 dice (*rc::gen::arbitrary<unsigned>());
         std::normal_distribution<double> normal;
         const double size = std::pow (10.0, *rc::gen::inRange (-9, 10)), off = std::pow (10.0, *rc::gen::inRange (-3, 7));

@@ -5,11 +5,11 @@
 #include "program.hpp"
 
 #include <host/io/plot.hpp>
+#include <support/property.hpp>
 #include <tactus/file/csv.hpp>
 #include <tactus/text/number_text.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <Eigen/QR>
 #include <unsupported/Eigen/FFT>
@@ -214,7 +214,7 @@ std::string figure (const std::string& name)
 
 TEST_CASE ("the fit recovers a decaying tone under noise and drift", "[cli]")
 {
-    rc::prop ("frequency within 0.1 %, decay within 2 %, amplitude within 2 %", [] {
+    test::property ("frequency within 0.1 %, decay within 2 %, amplitude within 2 %", [] {
         const Tone tone { .frequency = 1.0 * *rc::gen::inRange (400, 3000),
                           .decay = 1.0 * *rc::gen::inRange (15, 90),
                           .amplitude = 100.0,

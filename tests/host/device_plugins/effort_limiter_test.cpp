@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <host/device_plugins/effort_limiter.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <limits>
@@ -27,7 +28,7 @@ double number() { return *rc::gen::element (0.0, 1e-3, -0.5, 1.0, -2.0, 1e9, -1e
 TEST_CASE ("no effort exceeds the hard limits, or changes faster than its slew by the wall clock, whatever is asked and however much time passes",
            "[plugins][safety]")
 {
-    rc::prop ("for any efforts and times", [] {
+    test::property ("for any efforts and times", [] {
         EffortLimiter limiter { hard };
         Effort last;
         for (int k = 0; k < 40; ++k)

@@ -2,9 +2,9 @@
 #include "hid.hpp"
 #include "pid_wheel.hpp"
 
-#include <fuzz/descriptor_target.hpp>
+#include <support/property.hpp>
 
-#include <rapidcheck/catch.h>
+#include <fuzz/descriptor_target.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -159,8 +159,8 @@ TEST_CASE ("a broken or oversized descriptor is refused at little cost, and the 
 
 TEST_CASE ("any bytes give either a descriptor or errors, and any descriptor with force feedback can be driven")
 {
-    rc::prop ("any bytes", [] { fuzz::tryDescriptor (*rc::gen::container<std::string> (rc::gen::arbitrary<char>())); });
-    rc::prop ("a wheel with one byte changed", [] {
+    test::property ("any bytes", [] { fuzz::tryDescriptor (*rc::gen::container<std::string> (rc::gen::arbitrary<char>())); });
+    test::property ("a wheel with one byte changed", [] {
         auto bytes = test::wheel();
         bytes[*rc::gen::inRange<std::size_t> (0, bytes.size())] = *rc::gen::arbitrary<std::uint8_t>();
         fuzz::tryDescriptor ({ reinterpret_cast<const char*> (bytes.data()), bytes.size() });

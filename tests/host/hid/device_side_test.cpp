@@ -3,9 +3,9 @@
 
 #include "hid.hpp"
 
-#include <host/hid/device_side.hpp>
+#include <support/property.hpp>
 
-#include <rapidcheck/catch.h>
+#include <host/hid/device_side.hpp>
 
 using namespace tactus;
 using namespace tactus::host::hid;
@@ -27,7 +27,7 @@ TEST_CASE ("what a device says is what the host reads, and what the host asks fo
     {
         const auto profile = test::profileOf (id);
         REQUIRE (pushes (*profile));
-        rc::prop (std::string ("any reading and any force of ") + id, [&] {
+        test::property (std::string ("any reading and any force of ") + id, [&] {
             DeviceSide device (profile);
             HidModel host (profile);
             const bool is_board = profile->id == "tactus_board";

@@ -4,9 +4,9 @@
 #include "hid.hpp"
 #include "support/corpus.hpp"
 
-#include <fuzz/framing_target.hpp>
+#include <support/property.hpp>
 
-#include <rapidcheck/catch.h>
+#include <fuzz/framing_target.hpp>
 
 #include <algorithm>
 #include <string>
@@ -62,7 +62,7 @@ TEST_CASE ("frames have the bytes that the manual describes", "[hid][wires]")
 
 TEST_CASE ("every report arrives as it was sent, however its bytes come", "[hid][wires][property]")
 {
-    rc::prop ("reports of any content", [] {
+    test::property ("reports of any content", [] {
         const auto framing = *rc::gen::elementOf (std::vector<Framing> (all_framings));
         const auto size = static_cast<std::size_t> (*rc::gen::element (2, 8, 64, 253, 254, 255, 600, 1024));
         const Shapes shapes { { {}, size, size, { { Bits { .at = 0 }, 0x54 } } } };
@@ -90,7 +90,7 @@ TEST_CASE ("every report arrives as it was sent, however its bytes come", "[hid]
 
 TEST_CASE ("a fault on the line costs only the reports that it touches", "[hid][wires][property]")
 {
-    rc::prop ("lost, changed and additional bytes", [] {
+    test::property ("lost, changed and additional bytes", [] {
         const auto framing = *rc::gen::element (Framing::cobs, Framing::length);
         constexpr std::size_t size = 24;
         const Shapes shapes { { {}, size, size, {} } };

@@ -6,9 +6,8 @@
 
 #include <host/hid/bits.hpp>
 
+#include <support/property.hpp>
 #include <tactus/run/engine.hpp>
-
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 
@@ -170,7 +169,7 @@ TEST_CASE ("no report on the wire exceeds a limit or a slew of its device, whate
 {
     const auto kind = GENERATE (Arm::shipped, Arm::linear, Arm::five_bars);
     int driven = 0, turned = 0;
-    rc::prop ("any graph and device " + std::to_string (static_cast<int> (kind)), [&] {   // rapidcheck runs a property once per name
+    test::property ("any graph and device " + std::to_string (static_cast<int> (kind)), [&] {   // rapidcheck runs a property once per name
         const auto profile = anyProfile (kind);
         Wired device (profile);
         device.reports = anyReports (*profile);
@@ -231,7 +230,7 @@ TEST_CASE ("no report on the wire exceeds a limit or a slew of its device, whate
 TEST_CASE ("device.force.applied shows the force that the motors render, decoded from the wire", "[hid][property]")
 {
     int limited = 0, whole = 0;
-    rc::prop ("any graph", [&] {
+    test::property ("any graph", [&] {
         auto changed = *anyProfile();
         changed.kinematics = DirectKinematics {};
         changed.axes = Mat3::Identity();

@@ -5,10 +5,10 @@
 
 #include <host/hid/bits.hpp>
 
+#include <support/property.hpp>
 #include <tactus/run/guard.hpp>
 
 #include <Eigen/LU>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 
@@ -67,7 +67,7 @@ TEST_CASE ("no report carries more force, or a larger step of it, than the profi
 {
     int tested = 0;
     for (const std::string id : { "tactus_board", "woodenhaptics_usb" })
-        rc::prop (id + ": any efforts", [&] {
+        test::property (id + ": any efforts", [&] {
             const auto profile = test::profileOf (id);
             HidModel model (profile);
             const auto sample = std::ranges::find_if (profile->samples, [] (const GoldenSample& s) { return s.output.empty() && ! s.input.empty(); });

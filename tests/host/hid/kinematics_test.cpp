@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "hid.hpp"
 
+#include <support/property.hpp>
+
 #include <Eigen/LU>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <numbers>
@@ -119,7 +120,7 @@ TEST_CASE ("the work of the joints equals the work of the tool")
 {
     // tau · dq = F · dx for any small step. Central differences avoid any derivative from the code under test.
     for (const auto& m : mechanisms())
-        rc::prop (m.name + ": any pose, force and step", [&] {
+        test::property (m.name + ": any pose, force and step", [&] {
             const Kinematics k (m.model);
             const Vec3 q = anyJoints (m), force = anyVector (5.0);
             const bool flat = std::holds_alternative<FiveBar> (m.model);
@@ -140,7 +141,7 @@ TEST_CASE ("the work of the motors equals the work of the tool, for gears and en
     for (const auto& m : mechanisms())
     {
         if (! std::holds_alternative<SerialArm> (m.model) && ! std::holds_alternative<FiveBar> (m.model)) continue;
-        rc::prop (m.name + ": any pose", [&] {
+        test::property (m.name + ": any pose", [&] {
             const Kinematics k (m.model);
             const Vec3 q = anyJoints (m), force = anyVector (0.5);
             const Vec3 counts = k.counts (q);
@@ -164,7 +165,7 @@ TEST_CASE ("the work of the motors equals the work of the tool, for gears and en
 TEST_CASE ("joints to position and back are inverse")
 {
     for (const auto& m : mechanisms())
-        rc::prop (m.name + ": any pose", [&] {
+        test::property (m.name + ": any pose", [&] {
             const Kinematics k (m.model);
             const Vec3 q = anyJoints (m);
             RC_ASSERT (k.joints (k.counts (q)).isApprox (q, 1e-12));
@@ -197,7 +198,7 @@ TEST_CASE ("in every pose, even a singular one, forces give finite and bounded e
     for (const auto& m : mechanisms())
     {
         const Kinematics k (m.model);
-        rc::prop (m.name + ": any joints and force", [&] {
+        test::property (m.name + ": any joints and force", [&] {
             // Straight angles, at which the links are in line, occur as often as other angles.
             Vec3 q;
             for (int i = 0; i < 3; ++i)
@@ -267,7 +268,7 @@ TEST_CASE ("if one motor saturates, all are reduced and the force keeps its dire
 {
     const auto arm = woody();
     const Kinematics k (arm);
-    rc::prop ("any force", [&] {
+    test::property ("any force", [&] {
         const Vec3 torques = anyVector (20.0);
         const Vec3 currents = k.motors (torques);
         RC_ASSERT (currents.cwiseAbs().maxCoeff() <= 3.0 * (1.0 + 1e-12));
@@ -283,7 +284,7 @@ TEST_CASE ("if one motor saturates, all are reduced and the force keeps its dire
 TEST_CASE ("a force in Tactus axes does work along positions in Tactus axes")
 {
     // The whole chain: currents in the report times motor rotation equals the work of the force on the tool.
-    rc::prop ("any position of a WoodenHaptics", [] {
+    test::property ("any position of a WoodenHaptics", [] {
         HidModel model (test::profileOf ("woodenhaptics_usb"));
         const auto report = [] (const Vec3& counts) {
             Bytes bytes (8);

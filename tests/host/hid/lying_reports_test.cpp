@@ -2,9 +2,9 @@
 // Reports that are well-formed but cannot be trusted: what their alarms, numbers, clock, losses and pose say.
 #include "hid.hpp"
 
-#include <host/hid/report_record.hpp>
+#include <support/property.hpp>
 
-#include <rapidcheck/catch.h>
+#include <host/hid/report_record.hpp>
 
 #include <cstring>
 #include <string>
@@ -128,7 +128,7 @@ TEST_CASE ("without numbers, losses are counted by the time of arrival, and burs
     CHECK (ReportRecord::missingAfter (15e-3, 1000.0) == 14);
     CHECK (ReportRecord::missingAfter (1e30, 1000.0) > 1000);
 
-    rc::prop ("any bursts shorter than the record", [] {
+    test::property ("any bursts shorter than the record", [] {
         ReportRecord record;
         for (int i = 0; i < 20; ++i)
         {

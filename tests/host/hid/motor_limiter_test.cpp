@@ -5,10 +5,9 @@
 
 #include <host/hid/bits.hpp>
 
+#include <support/property.hpp>
 #include <tactus/run/guard.hpp>
 #include <tactus/text/json_text.hpp>
-
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <fstream>
@@ -66,7 +65,7 @@ Vec3 motorsIn (const Profile& profile, std::span<const std::uint8_t> wire)
 TEST_CASE ("no motor exceeds its limit or changes faster than its slew on the wire, whatever the efforts and the poses", "[hid][property]")
 {
     for (const std::string id : { "tactus_board", "woodenhaptics_usb" })
-        rc::prop (id, [&] {
+        test::property (id, [&] {
             const double most = *rc::gen::element (0.2, 1.0, 2.5), slew = *rc::gen::element (20.0, 100.0, 600.0);
             const auto profile = with (id, most, slew);
             HidModel model (profile);
@@ -96,7 +95,7 @@ TEST_CASE ("no motor exceeds its limit or changes faster than its slew on the wi
 
 TEST_CASE ("a motor at its limit scales all mechanical efforts of the device, so the direction of the force is kept", "[hid][property]")
 {
-    rc::prop ("any force at any pose of a WoodenHaptics", [] {
+    test::property ("any force at any pose of a WoodenHaptics", [] {
         const auto limited = with ("woodenhaptics_usb", 0.3, GuardLimits::none), plain = with ("woodenhaptics_usb", GuardLimits::none, GuardLimits::none);
         HidModel a (limited), b (plain);
         const auto report = anyReport (*plain, 1000);

@@ -2,9 +2,8 @@
 #include "hid.hpp"
 
 #include <fuzz/profile_target.hpp>
+#include <support/property.hpp>
 #include <tactus/text/json_text.hpp>
-
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <fstream>
@@ -324,7 +323,7 @@ TEST_CASE ("all errors in a profile are reported together, with line and column"
 
 TEST_CASE ("hexadecimal bytes read back as written")
 {
-    rc::prop ("any bytes", [] (const Bytes& bytes) {
+    test::property ("any bytes", [] (const Bytes& bytes) {
         RC_PRE (bytes.size() <= longest_report);
         RC_ASSERT (bytesOf (hexOf (bytes)) == bytes);
     });
@@ -359,11 +358,11 @@ TEST_CASE ("profiles with any value anywhere are read or refused, and those that
                                      { 1, 2, 3 },
                                      { "x", "x", "x" } };
 
-    rc::prop ("one value replaced by another", [&] {
+    test::property ("one value replaced by another", [&] {
         const auto json = with (*rc::gen::elementOf (pointers), *rc::gen::elementOf (values));
         fuzz::tryProfile (json.dump());
     });
-    rc::prop ("a piece of the text removed", [&] {
+    test::property ("a piece of the text removed", [&] {
         auto text = *rc::gen::elementOf (texts);
         const auto at = *rc::gen::inRange<std::size_t> (0, text.size());
         text.erase (at, *rc::gen::inRange<std::size_t> (1, 40));

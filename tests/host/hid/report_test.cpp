@@ -2,11 +2,11 @@
 #include "hid.hpp"
 #include "support/no_allocation.hpp"
 
+#include <support/property.hpp>
+
 #include <fuzz/report_target.hpp>
 #include <host/hid/bits.hpp>
 #include <host/hid/report/crc32.hpp>
-
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <cstring>
@@ -52,7 +52,7 @@ rc::Gen<Bits> anyBits()
 
 TEST_CASE ("bits read back as written, and their neighbours do not change")
 {
-    rc::prop ("any bits of any report", [] {
+    test::property ("any bits of any report", [] {
         const auto b = *anyBits();
         const auto before = *rc::gen::container<Bytes> (12, rc::gen::arbitrary<std::uint8_t>());
         const auto raw = *rc::gen::arbitrary<std::uint32_t>();
@@ -75,7 +75,7 @@ TEST_CASE ("bits read back as written, and their neighbours do not change")
 
 TEST_CASE ("a counter of any size is unwrapped if each step is less than half its range")
 {
-    rc::prop ("any walk", [] {
+    test::property ("any walk", [] {
         const auto size = *rc::gen::inRange<std::size_t> (2, 33);
         auto bits = Bits { .size = size, .is_signed = *rc::gen::arbitrary<bool>() };
         auto field = fieldOf ("count", bits);
@@ -110,7 +110,7 @@ TEST_CASE ("lost reports are counted; repeated reports and restarts are not")
     CHECK (model.counts().lost == 4);
     CHECK (model.counts().restarts == 2);
 
-    rc::prop ("any losses", [&] {
+    test::property ("any losses", [&] {
         HidModel any (profile);
         std::uint8_t n = *rc::gen::arbitrary<std::uint8_t>();
         any.decode (Bytes { n });
@@ -226,7 +226,7 @@ TEST_CASE ("a hat presses one button or two")
 
 TEST_CASE ("an effort is encoded as the nearest number of its field; if it is not finite, the field stays neutral")
 {
-    rc::prop ("any effort", [] {
+    test::property ("any effort", [] {
         OutputField field;
         field.name = "push";
         field.bits = *anyBits();
@@ -293,7 +293,7 @@ TEST_CASE ("the checksum is a CRC-32 over a prefix and the bytes before it")
     CHECK (crc32 (std::span (bytes).subspan (4), crc32 (std::span (bytes).first (4))) == 0xcbf43926u);
 
     // The remainder over a message and its checksum is the same for all messages.
-    rc::prop ("any efforts", [] {
+    test::property ("any efforts", [] {
         HidModel pad (test::profileOf ("dualsense_bluetooth"));
         HidEffort effort;
         for (auto& e : effort.efforts)
@@ -339,7 +339,7 @@ TEST_CASE ("decoding and encoding neither allocate nor lock")
 
 TEST_CASE ("every profile decodes or refuses any bytes")
 {
-    rc::prop ("any bytes, for any profile", [] {
+    test::property ("any bytes, for any profile", [] {
         const auto data = *rc::gen::container<std::string> (rc::gen::arbitrary<char>());
         const auto blown_up = data + data + data + data;
         for (const auto& profile : test::profiles())

@@ -7,10 +7,9 @@
 #include <host/hid_link/hid_device.hpp>
 #include <host/hid_link/open_device.hpp>
 
+#include <support/property.hpp>
 #include <tactus/run/guard.hpp>
 #include <tactus/text/json.hpp>
-
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <chrono>
@@ -548,7 +547,7 @@ TEST_CASE ("a force feedback device that cannot be driven gives an error with a 
 
 TEST_CASE ("no force exceeds what the calibration allows", "[hid]")
 {
-    rc::prop ("any requested force", [] {
+    test::property ("any requested force", [] {
         Messages messages;
         const auto pid = PidDevice::from (readDescriptor (test::wheel()).descriptor, messages);
         PidCalibration calibration { .full_force = *rc::gen::inRange (1, 1000) * 0.1 };

@@ -5,11 +5,11 @@
 #include "host/hid/hid.hpp"
 #include "support/no_allocation.hpp"
 
+#include <support/property.hpp>
+
 #include <host/hid/report/crc32.hpp>
 #include <host/hid_link/stream_feed.hpp>
 #include <host/hid_link/vibration_tracker.hpp>
-
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <numbers>
@@ -47,7 +47,7 @@ void tick (HidDevice& device, const Channels& signals)
 
 TEST_CASE ("a stream gets its frames at its own rate, interpolated linearly between ticks", "[hid]")
 {
-    rc::prop ("any two rates", [] {
+    test::property ("any two rates", [] {
         const double rate = *rc::gen::inRange (100, 9000), dt = 1.0 / *rc::gen::inRange (100, 9000);
         const auto frames = *rc::gen::inRange<std::size_t> (1, 40);
         StreamFeed feed ({ .at = 0, .frames = frames, .rate = rate, .channels = { "a", "b" }, .is_signed = true, .bits = 8 }, 1);
@@ -71,7 +71,7 @@ TEST_CASE ("a stream gets its frames at its own rate, interpolated linearly betw
 
 TEST_CASE ("the amplitude and frequency of a tone are found at any rate", "[hid]")
 {
-    rc::prop ("any tone", [] {
+    test::property ("any tone", [] {
         const double hertz = *rc::gen::inRange (41, 600), dt = 1.0 / *rc::gen::inRange (4000, 10000), loud = *rc::gen::inRange (1, 100) * 0.01;
         VibrationTracker tracker;
         tracker.prepare (dt, 12.5e-3);

@@ -3,11 +3,11 @@
 
 #include "fake_board.hpp"
 
+#include <support/property.hpp>
 #include <tactus/run/clock/passed_time.hpp>
 #include <tactus/run/guard.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <optional>
 
@@ -54,7 +54,7 @@ struct Bench
 TEST_CASE ("on the wire, no force changes faster than the slew per second of wall time", "[hid][safety]")
 {
     for (const bool counts : { true, false })
-        rc::prop (counts ? "at any rate of ticks" : "even if the run does not count its time", [&] {
+        test::property (counts ? "at any rate of ticks" : "even if the run does not count its time", [&] {
             Bench b;
             b.tick (dt, 0.0, counts);
             double last = b.tick (dt, 0.0, counts);

@@ -11,6 +11,7 @@
 #include <host/hid_link/stale_datagrams.hpp>
 #include <host/hid_link/wires.hpp>
 
+#include <support/property.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/node/catalogue.hpp>
@@ -19,7 +20,6 @@
 #include <tactus/text/json_text.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -520,7 +520,7 @@ TEST_CASE ("a datagram that comes late or twice is dropped, and a device that ha
         std::memcpy (bytes.data() + 4, &number, sizeof number);
         return bytes;
     };
-    rc::prop ("numbers in any order within a window", [&] {
+    test::property ("numbers in any order within a window", [&] {
         StaleDatagrams stale (*profile);
         const auto first = *rc::gen::arbitrary<std::uint32_t>();
         std::uint32_t newest = first;

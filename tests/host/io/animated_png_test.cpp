@@ -4,7 +4,7 @@
 #include "host/io/played_png.hpp"
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
+#include <rapidcheck.h>
 
 #include <juce_events/juce_events.h>
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <host/io/axis.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 
@@ -107,5 +108,5 @@ TEST_CASE ("axis: a range is never empty, and ticks and scale are finite for any
         for (const auto& tick : ticks)
             RC_ASSERT (tick.text.size() < 16u);
     };
-    rc::prop ("any two values", anything);
+    tactus::test::property ("any two values", anything);
 }

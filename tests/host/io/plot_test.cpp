@@ -3,8 +3,9 @@
 
 #include "support/temporary_folder.hpp"
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <juce_graphics/juce_graphics.h>
 
@@ -186,7 +187,7 @@ TEST_CASE ("plot: any values can be drawn", "[host][io][plot]")
         }
         RC_ASSERT (writeFigure ({ .panels = { forceOverTime ({ series }) }, .width = 200 }, folder / "plot.png").has_value());
     };
-    rc::prop ("any bit pattern", drawn);
+    tactus::test::property ("any bit pattern", drawn);
 }
 
 TEST_CASE ("plot: invalid figures are refused, each error with its id", "[host][io][plot]")

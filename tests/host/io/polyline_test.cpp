@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <host/io/figure/polyline.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -75,7 +76,7 @@ TEST_CASE ("polyline: every pixel column keeps its first, lowest, highest and la
             RC_ASSERT (std::ranges::any_of (lines[0], isBelow));
         }
     };
-    rc::prop ("any heights", kept);
+    tactus::test::property ("any heights", kept);
 }
 
 TEST_CASE ("polyline: nan and inf are gaps", "[host][io][plot]")

@@ -3,7 +3,7 @@
 #include <host/io/spectrogram.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
+#include <rapidcheck.h>
 
 #include <cmath>
 #include <numbers>

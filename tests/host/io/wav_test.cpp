@@ -3,8 +3,9 @@
 
 #include "support/temporary_folder.hpp"
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <bit>
 #include <cmath>
@@ -97,7 +98,7 @@ TEST_CASE ("wav: every float reads back bit for bit, at any size and number of c
         }
     };
 
-    rc::prop ("any bit pattern", round_trip);
+    tactus::test::property ("any bit pattern", round_trip);
 }
 
 TEST_CASE ("wav: forces beyond 1 N are neither clipped nor scaled", "[host][io][wav]")
@@ -351,5 +352,5 @@ TEST_CASE ("wav: no damaged header crashes the reader", "[host][io][wav]")
             RC_ASSERT (recording.error().id.starts_with ("wav/"));
     };
 
-    rc::prop ("any bytes changed", damaged);
+    tactus::test::property ("any bytes changed", damaged);
 }

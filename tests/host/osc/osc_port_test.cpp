@@ -2,8 +2,9 @@
 #include <host/osc/osc_port.hpp>
 #include <host/osc/read_packet.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <string>
 #include <vector>
@@ -138,7 +139,7 @@ TEST_CASE ("any bytes are either a packet or refused, and nothing beyond their e
     const auto right =
         padded ("#bundle") + std::string (8, '\0') + word (36) + padded ("/tactus/param") + padded (",sif") + padded ("ab") + word (7) + word (0x3f000000);
     CHECK (readPacket (right).right);
-    rc::prop ("any damage", [&] (std::vector<std::pair<std::uint16_t, char>> changes, std::uint16_t cut, std::string more) {
+    tactus::test::property ("any damage", [&] (std::vector<std::pair<std::uint16_t, char>> changes, std::uint16_t cut, std::string more) {
         auto bytes = right;
         for (const auto& [place, c] : changes)
             bytes[place % bytes.size()] = c;
@@ -211,7 +212,7 @@ TEST_CASE ("malformed packets are harmless and counted", "[osc]")
     SECTION ("packets that are almost right")
     {
         const auto right = padded ("/tactus/param") + padded (",sfib") + padded ("drag.mu") + word (0x3f000000) + word (7) + word (4) + "abcd";
-        rc::prop ("any damage", [&] (std::vector<std::pair<std::uint16_t, char>> changes, std::uint16_t cut) {
+        tactus::test::property ("any damage", [&] (std::vector<std::pair<std::uint16_t, char>> changes, std::uint16_t cut) {
             auto bytes = right;
             for (const auto& [place, c] : changes)
                 bytes[place % bytes.size()] = c;
@@ -244,7 +245,7 @@ TEST_CASE ("the listening address is a port, or an address with a port", "[osc]"
     }
     CHECK (warningOf (*readListen ("7770")).empty());
     CHECK (warningOf (*readListen ("0.0.0.0:7770")).find ("0.0.0.0") != std::string::npos);
-    rc::prop ("any text", [] {
+    tactus::test::property ("any text", [] {
         const auto text = *rc::gen::container<std::string> (rc::gen::elementOf (std::string ("0129.:-x")));
         if (const auto listen = readListen (text)) RC_ASSERT (listen->port >= 0 && listen->port <= 65535 && isAddress (listen->address));
     });

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <host/platform/status_line.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 
@@ -23,7 +24,7 @@ TEST_CASE ("status line: what matters least is left out first\\, and what is sti
 
 TEST_CASE ("status line: it never fills the row, whatever the parts", "[host][platform]")
 {
-    rc::prop ("its letters are fewer than the columns", [] (const std::vector<std::string>& texts) {
+    tactus::test::property ("its letters are fewer than the columns", [] (const std::vector<std::string>& texts) {
         const int columns = *rc::gen::inRange (2, 60);
         std::vector<StatusPart> parts;
         for (const auto& text : texts)

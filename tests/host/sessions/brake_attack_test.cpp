@@ -8,13 +8,13 @@
 
 #include <expert/hands.hpp>
 #include <host/sessions/binding.hpp>
+#include <support/property.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/run/device/guard_limits.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/run/run.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +76,7 @@ GraphHandle handle (const std::string& text, const MessageList& m)
 
 TEST_CASE ("brake attacked by graph and C API: knobs of any value, late ticks and lost readings", "[sessions][c_api][brake][safety]")
 {
-    rc::prop ("the damping stays between 0 and the limit, and changes no faster than its slew limit", [] (unsigned seed) {
+    property ("the damping stays between 0 and the limit, and changes no faster than its slew limit", [] (unsigned seed) {
         Dice dice { seed };
         const MessageList m { tactus_messages_create() };
         const auto g = handle (braking(), m);
@@ -221,7 +221,7 @@ TEST_CASE ("brake attacked by a graph's own guard, and by edits: they only tight
 
 TEST_CASE ("brake attacked by a session: at any workspace and guard, the tool loses no more speed than its own brake can take", "[sessions][brake][safety]")
 {
-    rc::prop ("a simulated tool of 0.1 kg with a brake of 5 N s/m, without a force", [] (unsigned seed) {
+    property ("a simulated tool of 0.1 kg with a brake of 5 N s/m, without a force", [] (unsigned seed) {
         Dice dice { seed };
         Json description { { "driver", "sim" }, { "mass", 0.1 }, { "damping", 0.0 }, { "brake", 5.0 } };
         description["velocity"] = { 0.5, 0.0, 0.0 };

@@ -5,12 +5,12 @@
 
 #include <fuzz/session_target.hpp>
 #include <host/sessions/session_file.hpp>
+#include <support/property.hpp>
 #include <tactus/text/json_text.hpp>
 
 #include "support/corpus.hpp"
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <sys/stat.h>
 
@@ -150,7 +150,7 @@ TEST_CASE ("a session is read, changed and written, and unknown entries are kept
 
 TEST_CASE ("any session reads back byte for byte", "[sessions]")
 {
-    rc::prop ("round trip", [] {
+    test::property ("round trip", [] {
         const auto s = anySession();
         const auto text = writeSession (s);
         const auto read = readSession (text);
@@ -162,7 +162,7 @@ TEST_CASE ("any session reads back byte for byte", "[sessions]")
 
 TEST_CASE ("a damaged session is either read, or refused with a position; it is never used in part", "[sessions]")
 {
-    rc::prop ("damage", [] {
+    test::property ("damage", [] {
         std::string text = example;
         for (int n = *rc::gen::inRange (1, 4); n > 0; --n)
         {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <host/sessions/rate_meter.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 
@@ -10,7 +11,7 @@ using namespace tactus::host;
 
 TEST_CASE ("a rate is accurate to a few millionths within ten seconds, even if readings are late", "[sessions]")
 {
-    rc::prop ("rate", [] {
+    tactus::test::property ("rate", [] {
         const double hz = *rc::gen::element (60.0, 125.0, 1000.0, 8000.0) * (1.0 + 1e-6 * *rc::gen::inRange (-300, 301));
         const double begin = *rc::gen::inRange (0, 1'000'000);
         RateMeter meter;

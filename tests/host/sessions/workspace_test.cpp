@@ -2,13 +2,13 @@
 // A device's workspace in a graph: scaling, the force on the hand, and limits that must not be loosened.
 
 #include <host/sessions/workspace.hpp>
+#include <support/property.hpp>
 #include <tactus/run/device/sim.hpp>
 
 #include "support/no_allocation.hpp"
 #include "support/sketch.hpp"
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <array>
 #include <cmath>
@@ -61,7 +61,7 @@ struct Placed
 
 TEST_CASE ("positions are scaled and shifted, and everything else is unchanged", "[sessions]")
 {
-    rc::prop ("reading", [] {
+    test::property ("reading", [] {
         const auto w = anyWorkspace();
         Placed placed { w };
         auto& there = placed.put->reading;
@@ -104,7 +104,7 @@ TEST_CASE ("a wall of stiffness K in the graph feels like K times the scale to a
                             .node ("motor", "device.force")
                             .wire ("hand.position -> wall.position")
                             .wire ("wall.force -> motor.force");
-    rc::prop ("stiffness", [&] {
+    test::property ("stiffness", [&] {
         const double scale = std::pow (10.0, within (-0.6, 0.4)), push = within (0.2, 1.0);
         const Workspace w { scale, { 0.0, 0.0, within (-0.05, 0.05) } };
         // The position, on the device, of the surface that is at 0 in the graph.
@@ -124,7 +124,7 @@ TEST_CASE ("a wall of stiffness K in the graph feels like K times the scale to a
 
 TEST_CASE ("at any scale, a guard stops a device exactly at the device's own limits", "[sessions]")
 {
-    rc::prop ("limits", [] {
+    test::property ("limits", [] {
         const auto w = anyWorkspace();
         GuardLimits limits { .max_force = 3.0 };
         const bool by_speed = *rc::gen::arbitrary<bool>();

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/nodes/contact/impact.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <random>
@@ -268,7 +269,7 @@ TEST_CASE ("impact: a tool that is inside from the start, or after a fault, trig
 
 TEST_CASE ("impact: no input breaks it", "[nodes][contact]")
 {
-    rc::prop ("hits are finite and not negative", [] {
+    tactus::test::property ("hits are finite and not negative", [] {
         auto node = impact ({ .release = *rc::gen::element (0.0, 1e-5, 1e300), .refractory = *rc::gen::element (0.0, 0.01, 1e300) });
         for (int k = 0; k < 60; ++k)
         {

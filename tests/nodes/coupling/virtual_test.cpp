@@ -2,10 +2,10 @@
 #include <tactus/nodes/coupling/virtual.hpp>
 
 #include <golden/golden.hpp>
+#include <support/property.hpp>
 #include <support/ready.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -161,7 +161,7 @@ TEST_CASE ("coupling: after the tool leaves, the proxy catches up and does not p
 
 TEST_CASE ("coupling: it never pulls, and its force equals the force of the wall", "[nodes][coupling]")
 {
-    rc::prop ("any motion, any wall", [] {
+    tactus::test::property ("any motion, any wall", [] {
         const double wall = *rc::gen::element (0.0, 10.0, 1e4, 1e6, 1e8), kc = *rc::gen::element (0.0, 100.0, 3000.0),
                      bc = *rc::gen::element (0.0, 0.5, 10.0);
         auto node = ready<VirtualCoupling> ({ .stiffness = kc, .damping = bc, .wall_stiffness = wall });
@@ -223,7 +223,7 @@ TEST_CASE ("coupling: a fault gives 0, and the next sample counts as the first",
 
 TEST_CASE ("coupling: no input breaks it", "[nodes][coupling]")
 {
-    rc::prop ("outputs are finite", [] {
+    tactus::test::property ("outputs are finite", [] {
         const auto number = rc::gen::element (0.0, 1.0, -1.0, -1e-3, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
         const auto size = rc::gen::element (0.0, 1e-320, 1.0, 1e3, 1e300);
         const double kc = *size, bc = *size, wall = *size;

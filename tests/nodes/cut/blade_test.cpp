@@ -3,8 +3,9 @@
 
 #include <golden/golden.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <limits>
@@ -195,7 +196,7 @@ TEST_CASE ("blade: rupture at the cutting force makes no crack and no dip", "[no
 
 TEST_CASE ("blade: rupture balances the energies of any two laws", "[nodes][cut][energy]")
 {
-    rc::prop ("G0 (d_r) = G1 (d_r - c1) + J_c w c1 + excess, with an excess only if the whole indentation opens", [] (unsigned seed) {
+    tactus::test::property ("G0 (d_r) = G1 (d_r - c1) + J_c w c1 + excess, with an excess only if the whole indentation opens", [] (unsigned seed) {
         const Stuff s = Dice { seed }.stuff();
         const Law& g0 = s.settings.law;
         const Law& g1 = s.settings.cracked_law ? s.settings.cracked_law : g0;
@@ -220,7 +221,7 @@ TEST_CASE ("blade: rupture balances the energies of any two laws", "[nodes][cut]
 
 TEST_CASE ("blade: on a dense path the work of the hand is U + J_c w c + excess", "[nodes][cut][energy]")
 {
-    rc::prop ("any sample, any strokes", [] (unsigned seed) {
+    tactus::test::property ("any sample, any strokes", [] (unsigned seed) {
         Dice dice { seed };
         const Stuff s = dice.stuff();
         Bench bench (s.params, s.settings);
@@ -244,7 +245,7 @@ TEST_CASE ("blade: on a dense path the work of the hand is U + J_c w c + excess"
 
 TEST_CASE ("blade: a closed path never generates energy", "[nodes][cut][energy]")
 {
-    rc::prop ("loops of random steps, far below and far beyond rupture, until cut through", [] (unsigned seed) {
+    tactus::test::property ("loops of random steps, far below and far beyond rupture, until cut through", [] (unsigned seed) {
         Dice dice { seed };
         Stuff s = dice.stuff();
         if (dice.below (3) == 0) s.params.thickness = dice.uniform (0.2, 5.0) * s.d_rupture;
@@ -271,7 +272,7 @@ TEST_CASE ("blade: a closed path never generates energy", "[nodes][cut][energy]"
 
 TEST_CASE ("blade: one jump past rupture ends where a slow blade does", "[nodes][cut]")
 {
-    rc::prop ("any sample, thick or thin, any depth", [] (unsigned seed) {
+    tactus::test::property ("any sample, thick or thin, any depth", [] (unsigned seed) {
         Dice dice { seed };
         Stuff s = dice.stuff();
         if (dice.below (2) == 0) s.params.thickness = dice.uniform (0.01, 4.0) * s.d_rupture;
@@ -293,7 +294,7 @@ TEST_CASE ("blade: one jump past rupture ends where a slow blade does", "[nodes]
 
 TEST_CASE ("blade: back in its cut, it feels nothing down to the tip and does not rupture the sample again", "[nodes][cut]")
 {
-    rc::prop ("any sample", [] (unsigned seed) {
+    tactus::test::property ("any sample", [] (unsigned seed) {
         Dice dice { seed };
         const Stuff s = dice.stuff();
         const Law& g1 = s.settings.cracked_law ? s.settings.cracked_law : s.settings.law;
@@ -319,7 +320,7 @@ TEST_CASE ("blade: back in its cut, it feels nothing down to the tip and does no
 
 TEST_CASE ("blade: the cutting force is J_c w, however stiff the sample", "[nodes][cut]")
 {
-    rc::prop ("any laws", [] (unsigned seed) {
+    tactus::test::property ("any laws", [] (unsigned seed) {
         const Stuff s = Dice { seed }.stuff();
         Bench bench (s.params, s.settings);
         bench.tick (5.0 * s.d_rupture);
@@ -346,7 +347,7 @@ TEST_CASE ("blade: a slow blade does not chatter between cutting and holding", "
 
 TEST_CASE ("blade: repeating a tick changes nothing but the state", "[nodes][cut]")
 {
-    rc::prop ("virgin, bursting, elastic, cutting, cut through", [] (unsigned seed) {
+    tactus::test::property ("virgin, bursting, elastic, cutting, cut through", [] (unsigned seed) {
         Dice dice { seed };
         Stuff s = dice.stuff();
         if (dice.below (2) == 0) s.params.thickness = dice.uniform (1.0, 6.0) * s.d_rupture;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/kit/geometry/rotation.hpp>
 #include <tactus/nodes/cut/blade.hpp>
 #include <tactus/nodes/cut/edge.hpp>
@@ -6,7 +7,6 @@
 #include <golden/golden.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -177,7 +177,7 @@ TEST_CASE ("edge: pressed in level, it matches the golden columns of the blade",
 
 TEST_CASE ("edge: pressed in level, it is a blade, in any direction and with any grid", "[nodes][cut]")
 {
-    rc::prop ("random strokes and jumps, thick and thin samples", [] (unsigned seed) {
+    tactus::test::property ("random strokes and jumps, thick and thin samples", [] (unsigned seed) {
         Dice dice { seed };
         const double long_ = dice.uniform (0.002, 0.05);
         const Edge::Params params { .width = long_,
@@ -308,7 +308,7 @@ TEST_CASE ("edge: drawn along itself at a depth, it feels the cost of the surfac
 
 TEST_CASE ("edge: the work of the hand is stored or spent on cracks, however it moves and turns", "[nodes][cut][energy]")
 {
-    rc::prop ("any sample, any closed path; the error is at most that of the trapezoid rule, which falls with the step", [] (unsigned seed) {
+    tactus::test::property ("any sample, any closed path; the error is at most that of the trapezoid rule, which falls with the step", [] (unsigned seed) {
         for (const int n : { 1'500, 40'000 })
         {
             const Balance balance (seed, n);
@@ -417,7 +417,7 @@ TEST_CASE ("edge: until it cracks the body it slides over the surface, and the c
 
 TEST_CASE ("edge: repeating a tick changes nothing but the state", "[nodes][cut]")
 {
-    rc::prop ("any pose", [] (unsigned seed) {
+    tactus::test::property ("any pose", [] (unsigned seed) {
         Dice dice { seed };
         Bench bench ({ .thickness = dice.below (2) ? 0.01 : 0.0 });
         for (int k = 0; k < 100; ++k)

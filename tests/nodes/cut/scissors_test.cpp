@@ -3,8 +3,9 @@
 
 #include <golden/golden.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <limits>
@@ -96,7 +97,7 @@ TEST_CASE ("scissors: they match the golden columns", "[nodes][cut][golden]")
 
 TEST_CASE ("scissors: while they cut, the torque is J_c h x / sin (theta), however stiff the plate", "[nodes][cut]")
 {
-    rc::prop ("any plate", [] (unsigned seed) {
+    tactus::test::property ("any plate", [] (unsigned seed) {
         auto params = Dice { seed }.plate();
         for (const double k : { 1.0, 3.0, 100.0 })
         {
@@ -120,7 +121,7 @@ TEST_CASE ("scissors: while they cut, the torque is J_c h x / sin (theta), howev
 
 TEST_CASE ("scissors: the work of the hand is U + J_c h (x - x0)", "[nodes][cut][energy]")
 {
-    rc::prop ("any plate, any strokes", [] (unsigned seed) {
+    tactus::test::property ("any plate, any strokes", [] (unsigned seed) {
         Dice dice { seed };
         const auto params = dice.plate();
         Bench bench (params);
@@ -137,7 +138,7 @@ TEST_CASE ("scissors: the work of the hand is U + J_c h (x - x0)", "[nodes][cut]
 
 TEST_CASE ("scissors: a closed path never generates energy", "[nodes][cut][energy]")
 {
-    rc::prop ("any plate, strokes that end open", [] (unsigned seed) {
+    tactus::test::property ("any plate, strokes that end open", [] (unsigned seed) {
         Dice dice { seed };
         Bench bench (dice.plate());
         for (int stroke = 0; stroke < 10; ++stroke)
@@ -153,7 +154,7 @@ TEST_CASE ("scissors: a closed path never generates energy", "[nodes][cut][energ
 
 TEST_CASE ("scissors: one jump cuts as far as closing slowly", "[nodes][cut]")
 {
-    rc::prop ("any plate, even when nearly closed", [] (unsigned seed) {
+    tactus::test::property ("any plate, even when nearly closed", [] (unsigned seed) {
         Dice dice { seed };
         const auto params = dice.plate();
         Bench jump (params), slow (params);
@@ -176,7 +177,7 @@ TEST_CASE ("scissors: too parallel to cut, they leave the front at k h / (16 J_c
 
 TEST_CASE ("scissors: opened and closed again, they feel nothing down to the front", "[nodes][cut]")
 {
-    rc::prop ("any plate", [] (unsigned seed) {
+    tactus::test::property ("any plate", [] (unsigned seed) {
         const auto params = Dice { seed }.plate();
         Bench bench (params);
         bench.move (0.2, 1000);
@@ -196,7 +197,7 @@ TEST_CASE ("scissors: opened and closed again, they feel nothing down to the fro
 
 TEST_CASE ("scissors: repeating a tick changes nothing but the state", "[nodes][cut]")
 {
-    rc::prop ("open, elastic, cutting", [] (unsigned seed) {
+    tactus::test::property ("open, elastic, cutting", [] (unsigned seed) {
         Dice dice { seed };
         Bench bench (dice.plate());
         for (int k = 0; k < 50; ++k)

@@ -2,10 +2,10 @@
 #include <tactus/nodes/deform/plane.hpp>
 
 #include <golden/golden.hpp>
+#include <support/property.hpp>
 #include <support/ready.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -228,7 +228,7 @@ TEST_CASE ("plane: the dissipated energy is the area of the loop, m v^2 (1 - e^2
 
 TEST_CASE ("plane: the hand's work is what is stored plus what is dissipated, on any path", "[nodes][deform][energy]")
 {
-    rc::prop ("any law, damping and path", [] (unsigned seed) {
+    tactus::test::property ("any law, damping and path", [] (unsigned seed) {
         std::mt19937 random { seed };
         const auto uniform = [&] (double from, double to) { return std::uniform_real_distribution { from, to }(random); };
         const double dt = 1e-5;
@@ -343,7 +343,7 @@ TEST_CASE ("plane: a fault gives 0, and the next sample counts as the first", "[
 
 TEST_CASE ("plane: no input breaks it", "[nodes][deform]")
 {
-    rc::prop ("outputs are finite", [] {
+    tactus::test::property ("outputs are finite", [] {
         const auto number = rc::gen::element (0.0, 1.0, -1.0, -1e-3, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
         auto node = ready<Plane> ({ .stiffness = *rc::gen::element (0.0, 1e3, 1e300),
                                     .damping = *rc::gen::element (0.0, 5.0, 1e300),
@@ -412,7 +412,7 @@ TEST_CASE ("plane: with a window, the damping of a coarse position is the same a
 
 TEST_CASE ("plane: with a window, the damping never gives energy", "[nodes][deform][energy]")
 {
-    rc::prop ("any tremor, seen exactly or in steps", [] {
+    tactus::test::property ("any tremor, seen exactly or in steps", [] {
         std::mt19937 random (*rc::gen::arbitrary<unsigned>());
         std::uniform_real_distribution<double> uniform;
         Plane node;

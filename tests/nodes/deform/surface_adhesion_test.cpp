@@ -3,8 +3,9 @@
 #include "bodies.hpp"
 #include "surface_rig.hpp"
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <random>
@@ -115,7 +116,7 @@ TEST_CASE ("surface: with static_ratio above 1 the contact sticks and slips with
 TEST_CASE ("surface: with every adhesion function, moves of the contact point only lose energy", "[nodes][deform][energy]")
 {
     const auto all = bodies (0.3);
-    rc::prop ("random strokes over uneven pads, bumps and boxes", [&] (unsigned seed) {
+    property ("random strokes over uneven pads, bumps and boxes", [&] (unsigned seed) {
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         const auto& body = all[seed % all.size()];

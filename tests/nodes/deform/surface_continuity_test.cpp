@@ -5,8 +5,9 @@
 
 #include "support/rounds.hpp"
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -121,7 +122,7 @@ TEST_CASE ("surface: on a sphere without friction, the force does not step where
 
 TEST_CASE ("surface: a repeated sample changes nothing", "[nodes][deform]")
 {
-    rc::prop ("random strokes over all bodies, at any friction and adhesion", [] (unsigned seed) {
+    property ("random strokes over all bodies, at any friction and adhesion", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         const double mus[] { 0.0, 0.01, 0.1, 0.5, 1.0 };

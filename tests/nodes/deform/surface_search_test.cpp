@@ -5,9 +5,9 @@
 #include <tactus/run/query_thread.hpp>
 
 #include <support/no_allocation.hpp>
+#include <support/property.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <chrono>
 #include <cmath>
@@ -20,7 +20,7 @@ using Frictions = ElasticSurface::Friction;
 
 TEST_CASE ("surface: a ball is felt from all sides, with a search of any length", "[nodes][deform]")
 {
-    rc::prop ("presses from random directions", [] (unsigned seed) {
+    property ("presses from random directions", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::normal_distribution<double> bell;
         auto node = made (body (ball (0.03, 3), { { curves (400.0, 1000.0) } }, { { .number = 0.5 } }));
@@ -43,7 +43,7 @@ TEST_CASE ("surface: a ball is felt from all sides, with a search of any length"
 
 TEST_CASE ("surface: a search changes no force in contact, and costs only the first ticks", "[nodes][deform]")
 {
-    rc::prop ("the same strokes, searched immediately or later", [] (unsigned seed) {
+    property ("the same strokes, searched immediately or later", [] (unsigned seed) {
         const auto surface = uneven (grid (12, 0.04, [] (double x, double y) { return 0.002 * std::sin (90.0 * x) * std::sin (80.0 * y); }), seed);
         auto at_once = made (surface), later = made (surface);
         later.settings.search_ticks = 8;

@@ -3,8 +3,9 @@
 #include "bodies.hpp"
 #include "surface_rig.hpp"
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <random>
@@ -63,7 +64,7 @@ TEST_CASE ("surface: a tool that jumps through the middle of a ball and out agai
 
 TEST_CASE ("surface: fast or slow, a tool that goes into a plate is pushed back in the same direction", "[nodes][deform]")
 {
-    rc::prop ("straight paths from above into the plate", [] (unsigned seed) {
+    property ("straight paths from above into the plate", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         const Vec3 from (0.012 * one (dice), 0.012 * one (dice), 0.0012 + 0.001 * std::abs (one (dice)));
@@ -97,7 +98,7 @@ TEST_CASE ("surface: a contact that opens inside a body does not begin again bef
 
 TEST_CASE ("mesh walk: a line into a box crosses one triangle of the side that it enters, and a line out crosses none", "[kit]")
 {
-    rc::prop ("straight paths from outside to inside", [] (unsigned seed) {
+    property ("straight paths from outside to inside", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::normal_distribution<double> bell;
         std::uniform_real_distribution<double> one (-1.0, 1.0);

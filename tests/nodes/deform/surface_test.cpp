@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "surface_rig.hpp"
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <limits>
@@ -68,7 +69,7 @@ TEST_CASE ("surface: tools are mixed, and the mix is latched", "[nodes][deform]"
 
 TEST_CASE ("surface: a closed path that sticks gives and takes nothing, whatever the mesh, frames and curves", "[nodes][deform]")
 {
-    rc::prop ("work over loops", [] (unsigned seed) {
+    property ("work over loops", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         const double bump = 0.003 * one (dice);
@@ -101,7 +102,7 @@ TEST_CASE ("surface: a closed path that sticks gives and takes nothing, whatever
 
 TEST_CASE ("surface: the work of the hand is the stored plus the lost energy", "[nodes][deform]")
 {
-    rc::prop ("random strokes in and out", [] (unsigned seed) {
+    property ("random strokes in and out", [] (unsigned seed) {
         const auto surface = uneven (flat(), seed);
         double moved = 0.0;
         const auto missing = [&] (int steps) {
@@ -125,7 +126,7 @@ TEST_CASE ("surface: the work of the hand is the stored plus the lost energy", "
 
 TEST_CASE ("surface: a pad of uniform softness never generates energy on a closed path", "[nodes][deform]")
 {
-    rc::prop ("random strokes", [] (unsigned seed) {
+    property ("random strokes", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         auto node = made (body (flat(), { { { power (400.0), power (900.0), exponential (0.5, 300.0) } } }, { { .number = std::abs (one (dice)) } }));
@@ -142,7 +143,7 @@ TEST_CASE ("surface: a pad of uniform softness never generates energy on a close
 
 TEST_CASE ("surface: without friction, moving from soft to stiff and back costs nothing", "[nodes][deform]")
 {
-    rc::prop ("closed paths over level frames", [] (unsigned seed) {
+    property ("closed paths over level frames", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         Hand hand { made (uneven (flat(), seed), Frictions::frictionless) };
@@ -166,7 +167,7 @@ TEST_CASE ("surface: without friction, moving from soft to stiff and back costs 
 
 TEST_CASE ("surface: without friction, the force does not step where a slide crosses an edge", "[nodes][deform]")
 {
-    rc::prop ("slides over pads whose stiffness varies by half", [] (unsigned seed) {
+    property ("slides over pads whose stiffness varies by half", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         const auto mesh = flat();
@@ -197,7 +198,7 @@ TEST_CASE ("surface: without friction, the force does not step where a slide cro
 
 TEST_CASE ("surface: the force does not step where a slide crosses an edge", "[nodes][deform]")
 {
-    rc::prop ("slides over uneven meshes", [] (unsigned seed) {
+    property ("slides over uneven meshes", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         const auto mesh = grid (4, 0.04, [&] (double x, double y) { return 0.001 * std::sin (100.0 * x + y * 70.0); });

@@ -3,11 +3,11 @@
 #include "surface_rig.hpp"
 
 #include <expert/hands.hpp>
+#include <support/property.hpp>
 #include <tactus/kit/geometry/tool_faces.hpp>
 #include <tactus/nodes/deform/tool.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -104,7 +104,7 @@ TEST_CASE ("tool: between its tip and its side, its number follows the closed fo
 
 TEST_CASE ("tool: the shares of any faces are convex and exact at each face, and the gradient is that of the number", "[nodes][deform]")
 {
-    rc::prop ("any faces, rotation and body", [] (unsigned seed) {
+    property ("any faces, rotation and body", [] (unsigned seed) {
         Dice dice { seed };
         const auto faces = anyFaces (dice);
         const auto [least, most] = std::ranges::minmax_element (faces, {}, &ToolFace::tool);
@@ -156,7 +156,7 @@ TEST_CASE ("tool: the tilt at the touch counts until the tool has let go, howeve
     s.curves = { { curves (100.0, 1000.0) }, { curves (700.0, 8000.0) } };
     s.mu = { { .number = 0.5 } };
     const auto surface = std::make_shared<const Surface> (s);
-    rc::prop ("any tilt at the touch, and any tilts after it: the same bits as with the first tilt held", [&] (unsigned seed) {
+    property ("any tilt at the touch, and any tilts after it: the same bits as with the first tilt held", [&] (unsigned seed) {
         Dice dice { seed };
         auto faces = tool();
         auto tilted = made (surface), held = made (surface);
@@ -189,7 +189,7 @@ TEST_CASE ("tool: the tilt at the touch counts until the tool has let go, howeve
 
 TEST_CASE ("tool: if its number follows the tilt within a contact, the hand pays dU/dw as a torque: work = change of energy", "[nodes][deform][energy]")
 {
-    rc::prop ("any faces, stiffnesses and smooth motion; the rest falls with the square of the tick, at 1, 4 and 20 kHz", [] (unsigned seed) {
+    property ("any faces, stiffnesses and smooth motion; the rest falls with the square of the tick, at 1, 4 and 20 kHz", [] (unsigned seed) {
         Dice dice { seed };
         const auto faces = anyFaces (dice);
         const Motion motion { dice };

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/nodes/field/viscous.hpp>
 
+#include <support/property.hpp>
 #include <tactus/check/factors.hpp>
 #include <tactus/run/device/sim.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <random>
@@ -57,7 +57,7 @@ TEST_CASE ("viscous: the drag is linear plus quadratic, up to the largest slope"
     CHECK (dragAt ({ .linear = 2.0, .quadratic = 5.0, .max_damping = 4.0 }, 0.5) == Approx (0.6 + 0.3 * 4.0));   // straight from 0.2 m/s on
     CHECK (dragAt ({ .linear = 20.0, .max_damping = 4.0 }, 0.5) == Approx (2.0));
 
-    rc::prop ("its slope is never below `linear` nor above `max_damping`", [] (unsigned seed) {
+    tactus::test::property ("its slope is never below `linear` nor above `max_damping`", [] (unsigned seed) {
         std::mt19937 random (seed);
         std::uniform_real_distribution<double> uniform;
         const double b = 10.0 * uniform (random), most = b + 10.0 * uniform (random), v = 2.0 * uniform (random), more = 1e-3 + uniform (random);
@@ -87,7 +87,7 @@ TEST_CASE ("viscous: a tool that a force pulls comes to the speed at which the d
 
 TEST_CASE ("viscous: a liquid at rest only brakes, and takes exactly the work of the hand", "[nodes][field][viscous][energy]")
 {
-    rc::prop ("any path, quantum, window, rate and amount", [] (unsigned seed) {
+    tactus::test::property ("any path, quantum, window, rate and amount", [] (unsigned seed) {
         std::mt19937 random (seed);
         std::uniform_real_distribution<double> uniform;
         std::normal_distribution<double> gauss;

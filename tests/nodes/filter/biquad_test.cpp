@@ -3,10 +3,10 @@
 
 #include <tactus/nodes/filter/biquad.hpp>
 
+#include <support/property.hpp>
 #include <support/ready.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using tactus::nodes::BiquadFilter;
 using tactus::test::ready;
@@ -43,7 +43,7 @@ std::complex<double> prototype (const BiquadFilter::Params& p, std::complex<doub
 
 TEST_CASE ("biquad: every kind has the response of its prototype in the cookbook", "[nodes][filter]")
 {
-    rc::prop ("any kind, cutoff, q, gain and frequency", [] {
+    tactus::test::property ("any kind, cutoff, q, gain and frequency", [] {
         const BiquadFilter::Params params {
             .cutoff = static_cast<double> (*rc::gen::inRange (10, 490)),
             .q = *rc::gen::inRange (30, 500) / 100.0,

@@ -6,10 +6,10 @@
 #include <tactus/nodes/filter/butterworth2.hpp>
 #include <tactus/nodes/filter/one_pole.hpp>
 
+#include <support/property.hpp>
 #include <support/ready.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <limits>
 
@@ -25,7 +25,7 @@ std::complex<double> prototypeOf (const Butterworth2&, std::complex<double> s) {
 
 TEMPLATE_TEST_CASE ("low-pass: the response is the response of the analogue filter, after the bilinear transform", "[nodes][filter]", OnePole, Butterworth2)
 {
-    rc::prop ("any cutoff and frequency", [] {
+    tactus::test::property ("any cutoff and frequency", [] {
         const double cutoff = *rc::gen::inRange (5, 495) / 1000.0, turns = *rc::gen::inRange (0, 500) / 1000.0;
         const auto filter = ready<TestType> ({ .cutoff = 1000.0 * cutoff });
         RC_ASSERT (std::abs (Response { filter }(turns)-prototypeOf (filter, bilinear (turns, cutoff))) < 1e-9);

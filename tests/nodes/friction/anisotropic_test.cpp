@@ -5,8 +5,9 @@
 #include <tactus/nodes/friction/anisotropic.hpp>
 #include <tactus/nodes/friction/elasto_plastic.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <initializer_list>
@@ -103,7 +104,7 @@ struct Handling
 
 TEST_CASE ("anisotropic: with three equal coefficients it is friction.elasto_plastic, bit for bit", "[nodes][friction][anisotropic]")
 {
-    rc::prop ("any path, load, normal, grain and changes of the params", [] (unsigned seed) {
+    tactus::test::property ("any path, load, normal, grain and changes of the params", [] (unsigned seed) {
         Dice dice (seed);
         Anisotropic grained;
         ElastoPlastic plain;
@@ -140,7 +141,7 @@ TEST_CASE ("anisotropic: with three equal coefficients it is friction.elasto_pla
 
 TEST_CASE ("anisotropic: a slide at any angle is held back against its motion, by the ellipse", "[nodes][friction][anisotropic]")
 {
-    rc::prop ("any coefficients, angle, load, step and plane", [] (unsigned seed) {
+    tactus::test::property ("any coefficients, angle, load, step and plane", [] (unsigned seed) {
         Dice dice (seed);
         Anisotropic node;
         node.params.mu_along = 0.05 + dice.uniform();
@@ -174,7 +175,7 @@ TEST_CASE ("anisotropic: a slide at any angle is held back against its motion, b
 
 TEST_CASE ("anisotropic: over many random ticks it never generates energy, and its heat never falls", "[nodes][friction][anisotropic][energy]")
 {
-    rc::prop ("load, coefficients, d_max, normal and grain jump at each tick", [] (unsigned seed) {
+    tactus::test::property ("load, coefficients, d_max, normal and grain jump at each tick", [] (unsigned seed) {
         Dice dice (seed);
         Bench bench;
         auto& params = bench.node.params;
@@ -211,7 +212,7 @@ TEST_CASE ("anisotropic: over many random ticks it never generates energy, and i
 
 TEST_CASE ("anisotropic: on any closed path the work of the hand is the stored plus the lost energy", "[nodes][friction][anisotropic][energy]")
 {
-    rc::prop ("loops of a turning grain, pressed and eased, over a turning surface", [] (unsigned seed) {
+    tactus::test::property ("loops of a turning grain, pressed and eased, over a turning surface", [] (unsigned seed) {
         // The error is of first order in the step over the stretch at which the contact slides. If it is above 1 %, the steps are too long.
         const Handling handling { seed };
         const double error = handling.error (8000);
@@ -243,7 +244,7 @@ TEST_CASE ("anisotropic: a stroke to and fro costs what both directions cost", "
 
 TEST_CASE ("anisotropic: a tool that leans on it in any direction does not walk, however the load trembles", "[nodes][friction][anisotropic]")
 {
-    rc::prop ("a stretch below the bound stays", [] (unsigned seed) {
+    tactus::test::property ("a stretch below the bound stays", [] (unsigned seed) {
         Dice dice (seed);
         Anisotropic node;
         const double angle = 2.0 * M_PI * dice.uniform();
@@ -295,7 +296,7 @@ TEST_CASE ("anisotropic: a grain along the normal, or of length 0, drags as acro
 
 TEST_CASE ("anisotropic: no step changes the force by more than the claimed stiffness allows", "[nodes][friction][anisotropic]")
 {
-    rc::prop ("any coefficients and path", [] (unsigned seed) {
+    tactus::test::property ("any coefficients and path", [] (unsigned seed) {
         Dice dice (seed);
         Anisotropic node;
         node.params = { .mu_along = 0.1 + dice.uniform(), .mu_against = 0.1 + dice.uniform(), .mu_across = 0.1 + dice.uniform() };

@@ -3,8 +3,9 @@
 // slides. Also tested: what position noise does to the adhesion functions.
 #include <tactus/nodes/friction/elasto_plastic.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <random>
@@ -145,7 +146,7 @@ TEST_CASE ("friction: with load bound, a hand that leans on a trembling load for
     for (const double rate : { 1000.0, 20'000.0 })
         CHECK (Lean { .rate = rate, .depth = 0.3, .frequency = 10.0, .quantum = 1e-5 }.walk() < 1e-12);
 
-    rc::prop ("at any rate, frequency and quantum", [] (unsigned seed) {
+    tactus::test::property ("at any rate, frequency and quantum", [] (unsigned seed) {
         std::mt19937 random (seed);
         std::uniform_real_distribution<double> uniform;
         Lean lean { .seconds = 15.0 };

@@ -3,8 +3,9 @@
 
 #include <tactus/nodes/friction/elasto_plastic.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <initializer_list>
@@ -182,7 +183,7 @@ TEST_CASE ("friction: on a dense path the work of the hand is the stored plus th
 
 TEST_CASE ("friction: along any path, under any load, the work of the hand is the stored plus the lost energy", "[nodes][friction][energy]")
 {
-    rc::prop ("strokes, circles and tremor, pressed, eased and lifted, over a turning surface", [] (unsigned seed) {
+    tactus::test::property ("strokes, circles and tremor, pressed, eased and lifted, over a turning surface", [] (unsigned seed) {
         // The error is of first order in the step over the stretch at which the contact slides. If it is above 1 %, the steps are too long.
         const Handling handling { seed };
         const double error = handling.error (8000);

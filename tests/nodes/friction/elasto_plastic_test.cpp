@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/nodes/friction/elasto_plastic.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cstring>
 #include <initializer_list>
@@ -426,7 +427,7 @@ TEST_CASE ("friction: a new instance continues without a step in force", "[nodes
 
 TEST_CASE ("friction: no input breaks it", "[nodes][friction]")
 {
-    rc::prop ("outputs are finite and the state is known", [] {
+    tactus::test::property ("outputs are finite and the state is known", [] {
         const auto number = rc::gen::element (0.0, -0.0, 1.0, -1.0, 1e-5, -3e-5, 1e-4, 1e-320, 1e-200, -1e160, 1e300, -1e308,
                                               not_a_number, tactus::inf, -tactus::inf);
         const auto positive = rc::gen::element (1e-9, 1e-5, 1e-4, 1.0, 1e150, 1e300);

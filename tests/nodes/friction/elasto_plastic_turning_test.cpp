@@ -2,8 +2,9 @@
 // A normal that turns or trembles, as on rough ground, takes the stretch along: a held contact does not walk.
 #include <tactus/nodes/friction/elasto_plastic.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <random>
@@ -89,7 +90,7 @@ struct Lean
 
 TEST_CASE ("friction: however the normal trembles, a tool that is held in place keeps its force and costs nothing", "[nodes][friction][energy]")
 {
-    rc::prop ("any tremor of up to 19 degrees and any direction of the stretch", [] {
+    tactus::test::property ("any tremor of up to 19 degrees and any direction of the stretch", [] {
         std::mt19937 random (*rc::gen::arbitrary<unsigned>());
         std::uniform_real_distribution<double> uniform;
         std::normal_distribution<double> gauss;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/nodes/hold/deadbeat.hpp>
 
+#include <support/property.hpp>
 #include <tactus/nodes/deform/plane.hpp>
 #include <tactus/run/device/sim.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +65,7 @@ BouncingMass continuous (const Trial& t, double stiffness) { return { .mass = t.
 
 TEST_CASE ("deadbeat: a tool bounces as it would off a continuous wall, wherever the samples fall", "[nodes][hold]")
 {
-    rc::prop ("any start, speed and rate", [] {
+    test::property ("any start, speed and rate", [] {
         const double times = *rc::gen::element (0.5, 3.0, 10.0, 30.0);
         Trial t;
         t.dt = *rc::gen::element (1e-4, 2.5e-4, 1e-3);
@@ -124,7 +124,7 @@ TEST_CASE ("deadbeat: with a mass that is off by 20 %, a tool bounces within 1 %
 
 TEST_CASE ("deadbeat: with a mass that is off by 20 %, it stays bounded", "[nodes][hold]")
 {
-    rc::prop ("any hand, quantum and start", [] {
+    test::property ("any hand, quantum and start", [] {
         Trial t;
         t.believed = *rc::gen::element (0.8, 1.2);
         t.start = between (-2e-3, 0.0);
@@ -242,7 +242,7 @@ TEST_CASE ("deadbeat: with a delay that the node does not know, a bounce gains s
 
 TEST_CASE ("deadbeat: a position quantum changes the speed of a tool that leaves by less than the header says", "[nodes][hold]")
 {
-    rc::prop ("any mass, damping, stiffness, period, quantum and delay", [] {
+    test::property ("any mass, damping, stiffness, period, quantum and delay", [] {
         const auto spread = [] (double low, double high) { return low * std::pow (high / low, between (0.0, 1.0)); };
         Trial t;
         t.delay = *rc::gen::element (0, 0, 1, 4);

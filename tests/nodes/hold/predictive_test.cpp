@@ -3,8 +3,9 @@
 
 #include <golden/golden.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +48,7 @@ TEST_CASE ("hold: on a steady slope it gives the force in the middle of the samp
 
 TEST_CASE ("hold: a steady force passes bit for bit", "[nodes][hold]")
 {
-    rc::prop ("any force", [] {
+    tactus::test::property ("any force", [] {
         const double f = 1e-3 * *rc::gen::inRange (-50'000, 50'000);
         auto node = hold();
         for (int k = 0; k < 5; ++k)
@@ -104,7 +105,7 @@ TEST_CASE ("hold: a force of 0 is not a change of contact", "[nodes][hold]")
 
 TEST_CASE ("hold: a force beyond the limit keeps its direction", "[nodes][hold]")
 {
-    rc::prop ("any two forces", [] {
+    tactus::test::property ("any two forces", [] {
         const auto force = [] {
             const auto number = rc::gen::element (0.0, 1.0, -3.0, 40.0, -1e-9, 1e200, -1.7e308);
             const double x = *number, y = *number, z = *number;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/nodes/layer/mix.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -190,7 +191,7 @@ TEST_CASE ("layer: the level rises immediately and decays over 50 ms", "[nodes][
 
 TEST_CASE ("layer: the ceiling is never exceeded, and below it nothing changes", "[nodes][layer]")
 {
-    rc::prop ("any layers", [] {
+    tactus::test::property ("any layers", [] {
         const double ceiling = *rc::gen::element (0.5, 2.0, 20.0);
         Desk desk { 3, params ([&] (auto& p) { p.ceiling = ceiling; }) };
         Desk open { 3 };
@@ -214,7 +215,7 @@ TEST_CASE ("layer: the ceiling is never exceeded, and below it nothing changes",
 
 TEST_CASE ("layer: it mixes millinewtons as well as newtons", "[nodes][layer]")
 {
-    rc::prop ("a thousandth in, a thousandth out", [] {
+    tactus::test::property ("a thousandth in, a thousandth out", [] {
         const auto priorities = params ([] (auto& p) { p.priority[1] = 1.0; });
         Desk large { 2, priorities }, small { 2, priorities };
         for (int k = 0; k < 200; ++k)
@@ -243,7 +244,7 @@ TEST_CASE ("layer: a fault silences everything, and the next sample counts as th
 
 TEST_CASE ("layer: no input breaks it", "[nodes][layer]")
 {
-    rc::prop ("outputs are finite", [] {
+    tactus::test::property ("outputs are finite", [] {
         const auto number = rc::gen::element (0.0, 1.0, -1.0, 1e-320, -1e160, 1e300, -1.7e308, 1.7e308, not_a_number, tactus::inf);
         const auto param = rc::gen::element (0.0, 1.0, -2.0, 1e300);
         LayerMix::Params p;

@@ -2,8 +2,9 @@
 #include <tactus/nodes/layer/mix.hpp>
 #include <tactus/nodes/layer/mix_vectors.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <Eigen/Geometry>
 
@@ -91,7 +92,7 @@ TEST_CASE ("layer vectors: by default the layers are added, each with its own ga
 
 TEST_CASE ("layer vectors: layers along one axis are mixed as layer.mix mixes numbers, except for the last bits at the ceiling", "[nodes][layer]")
 {
-    rc::prop ("any axis, params and layers", [] {
+    tactus::test::property ("any axis, params and layers", [] {
         const int axis = *rc::gen::inRange (0, 3);
         NumberDesk numbers { 3, anyParams (3) };
         VectorDesk vectors { 3, numbers.node.params };
@@ -121,7 +122,7 @@ TEST_CASE ("layer vectors: layers along one axis are mixed as layer.mix mixes nu
 
 TEST_CASE ("layer vectors: a layer keeps its direction through gain, mute, solo and ceiling", "[nodes][layer]")
 {
-    rc::prop ("the mix of one layer is parallel to it", [] {
+    tactus::test::property ("the mix of one layer is parallel to it", [] {
         auto p = anyParams (1);
         p.gain[0] = std::abs (p.gain[0]);
         VectorDesk desk { 1, p };
@@ -139,7 +140,7 @@ TEST_CASE ("layer vectors: a layer keeps its direction through gain, mute, solo 
 
 TEST_CASE ("layer vectors: the mix is never longer than the ceiling, and below it nothing changes", "[nodes][layer]")
 {
-    rc::prop ("any layers", [] {
+    tactus::test::property ("any layers", [] {
         DeskParams p;
         p.ceiling = *rc::gen::element (1e-3, 2.0, 20.0);
         VectorDesk desk { 2, p }, open { 2 };
@@ -205,7 +206,7 @@ TEST_CASE ("layer vectors: a ceiling that is a denormal number holds but for the
 
 TEST_CASE ("layer vectors: no input breaks it", "[nodes][layer]")
 {
-    rc::prop ("outputs are finite", [] {
+    tactus::test::property ("outputs are finite", [] {
         const auto number = rc::gen::element (0.0, 1.0, -1.0, 1e-320, -1e160, 1e300, -1.7e308, 1.7e308, std::nan (""), tactus::inf);
         const auto param = rc::gen::element (0.0, 1.0, -2.0, 1e300);
         DeskParams p;

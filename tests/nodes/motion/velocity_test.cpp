@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/nodes/motion/velocity.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <bit>
@@ -36,7 +37,7 @@ double quantised (double x) { return q * std::floor (x / q + 0.5); }
 
 TEST_CASE ("velocity: exact on ramps, whatever the noise setting", "[nodes][motion]")
 {
-    rc::prop ("any speed, position, noise and window", [] {
+    tactus::test::property ("any speed, position, noise and window", [] {
         const double v = 1e-4 * *rc::gen::inRange (-10'000, 10'000), from = 1e-3 * *rc::gen::inRange (-200, 200);
         auto node = velocity (*rc::gen::element (0.0, 1e-6, 1e-5, 1e-3), *rc::gen::inRange (2, 64));
         for (int k = 0; k < 100; ++k)
@@ -59,7 +60,7 @@ TEST_CASE ("velocity: a ramp is exact on the second sample if it exceeds the noi
 
 TEST_CASE ("velocity: half a quantum of noise never becomes speed", "[nodes][motion]")
 {
-    rc::prop ("a tool at rest, with noise", [] (unsigned seed) {
+    tactus::test::property ("a tool at rest, with noise", [] (unsigned seed) {
         std::mt19937 random { seed };
         std::uniform_real_distribution noise { -0.5 * q, 0.5 * q };
         auto node = velocity (q);
@@ -70,7 +71,7 @@ TEST_CASE ("velocity: half a quantum of noise never becomes speed", "[nodes][mot
 
 TEST_CASE ("velocity: a position between two quanta never becomes speed either, without knowing the quantum", "[nodes][motion]")
 {
-    rc::prop ("a tool at rest between two quanta, with noise", [] (unsigned seed) {
+    tactus::test::property ("a tool at rest between two quanta, with noise", [] (unsigned seed) {
         std::mt19937 random { seed };
         std::uniform_real_distribution noise { -0.5 * q, 0.5 * q };
         auto node = velocity();
@@ -84,7 +85,7 @@ TEST_CASE ("velocity: a position between two quanta never becomes speed either, 
 
 TEST_CASE ("velocity: a steady quantised motion is exact to one quantum per window", "[nodes][motion]")
 {
-    rc::prop ("any speed", [] {
+    tactus::test::property ("any speed", [] {
         const double v = 1e-5 * *rc::gen::inRange (-20'000, 20'000);
         const int window = *rc::gen::inRange (4, 33);
         auto known = velocity (q, window);
@@ -185,7 +186,7 @@ TEST_CASE ("velocity: a fault gives 0, and the motion across it does not count",
 
 TEST_CASE ("velocity: no input breaks it", "[nodes][motion]")
 {
-    rc::prop ("outputs are finite", [] {
+    tactus::test::property ("outputs are finite", [] {
         const auto number = rc::gen::element (0.0, 1.0, -1.0, 1e-3, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
         auto node = velocity (*rc::gen::element (0.0, 1e-320, 1e-5, 1e300), *rc::gen::element (1, 2, 16, Velocity::longest_window));
         for (int k = 0; k < 20; ++k)
@@ -265,7 +266,7 @@ double endFit (const std::vector<double>& past, std::size_t longest, double nois
 
 TEST_CASE ("velocity: the bits of the definition, also where positions repeat", "[nodes][motion]")
 {
-    rc::prop ("any positions of a few quanta", [] (unsigned seed) {
+    tactus::test::property ("any positions of a few quanta", [] (unsigned seed) {
         const double noise = *rc::gen::element (q, 3.0 * q);
         const int window = *rc::gen::inRange (1, 12);
         auto node = velocity (noise, window);

@@ -2,10 +2,10 @@
 #include <tactus/nodes/safety/passivity.hpp>
 
 #include <golden/golden.hpp>
+#include <support/property.hpp>
 #include <support/ready.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -167,7 +167,7 @@ TEST_CASE ("passivity: no alpha_max raises the damper above what the mass can be
 
 TEST_CASE ("passivity: a force that takes energy passes bit for bit", "[nodes][safety]")
 {
-    rc::prop ("a damper, moved any way", [] {
+    tactus::test::property ("a damper, moved any way", [] {
         auto node = ready<PassivityObserver> ({});
         double p = 0.0, before = 0.0;
         for (int k = 0; k < 50; ++k)
@@ -187,7 +187,7 @@ TEST_CASE ("passivity: a force that takes energy passes bit for bit", "[nodes][s
 
 TEST_CASE ("passivity: the energy is the work of the hand against the held force", "[nodes][safety][energy]")
 {
-    rc::prop ("any motion and force", [] {
+    tactus::test::property ("any motion and force", [] {
         auto node = ready<PassivityObserver> ({ .alpha_max = 20.0 });
         double work = 0.0;
         Vec3 p = Vec3::Zero(), held = Vec3::Zero();
@@ -276,7 +276,7 @@ TEST_CASE ("passivity: a change of pairing waits for the end of the contact", "[
 
 TEST_CASE ("passivity: no input breaks it", "[nodes][safety]")
 {
-    rc::prop ("outputs are finite", [] {
+    tactus::test::property ("outputs are finite", [] {
         const auto number = rc::gen::element (0.0, 1.0, -1.0, 1e-3, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
         const auto size = rc::gen::element (0.0, 1e-320, 0.1, 12.0, 1e300);
         const double alpha_max = *size, mass = *size;

@@ -3,10 +3,10 @@
 #include <tactus/nodes/shock/handover.hpp>
 #include <tactus/nodes/shock/hunt_crossley.hpp>
 
+#include <support/property.hpp>
 #include <support/ready.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ struct Tap
 
 TEST_CASE ("handover: the force does not jump in either direction, at any speed and rate", "[nodes][shock]")
 {
-    rc::prop ("a tap that goes in, stays and leaves", [] (unsigned seed) {
+    tactus::test::property ("a tap that goes in, stays and leaves", [] (unsigned seed) {
         std::mt19937 random { seed };
         const auto size = [&] (double from, double to) { return std::exp (std::uniform_real_distribution { std::log (from), std::log (to) }(random)); };
         const double rate = size (500.0, 20'000.0), v = size (0.02, 2.0), fade = size (2e-3, 0.1), deepest = size (1e-3, 5e-3);
@@ -133,7 +133,7 @@ TEST_CASE ("handover: while the shock is played, the measured position has no ef
 
 TEST_CASE ("handover: handing back to the contact gives at most the energy that the contact stores at the deepest point", "[nodes][shock][energy]")
 {
-    rc::prop ("any spring and path", [] (unsigned seed) {
+    tactus::test::property ("any spring and path", [] (unsigned seed) {
         std::mt19937 random { seed };
         const auto uniform = [&] (double from, double to) { return std::uniform_real_distribution { from, to }(random); };
         const double rate = 20'000.0, K = uniform (200.0, 5000.0), at = uniform (1e-4, 3e-3), swing = uniform (0.0, 2e-3), w = uniform (5.0, 200.0);

@@ -3,8 +3,9 @@
 
 #include <golden/golden.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <limits>
@@ -124,7 +125,7 @@ TEST_CASE ("shock: the closed form of restitution has its known values", "[nodes
 
 TEST_CASE ("shock: restitution, impulse and loop area follow Hunt and Crossley, whatever mass, stiffness and power", "[nodes][shock][energy]")
 {
-    rc::prop ("with a dissipation, or with the same as a law", [] (unsigned seed) {
+    tactus::test::property ("with a dissipation, or with the same as a law", [] (unsigned seed) {
         Dice dice { seed };
         const double m = dice.size (0.005, 0.5), v = dice.size (0.02, 2.0), d_max = dice.size (1e-4, 5e-3), n = dice.uniform (1.0, 2.5);
         const double k = 0.5 * (n + 1.0) * m * v * v / std::pow (d_max, n + 1.0), x = dice.size (0.01, 5.0), e = restitution (x);
@@ -151,7 +152,7 @@ TEST_CASE ("shock: without damping the mass returns at its initial speed", "[nod
 
 TEST_CASE ("shock: a contact shorter than a tick still gives its impulse and takes its energy", "[nodes][shock][energy]")
 {
-    rc::prop ("any law, mass, speed and rate at which it lasts fewer than four samples", [] (unsigned seed) {
+    tactus::test::property ("any law, mass, speed and rate at which it lasts fewer than four samples", [] (unsigned seed) {
         Dice dice { seed };
         const double m = dice.size (0.005, 0.5), v = dice.size (0.02, 2.0), d_max = dice.size (1e-4, 5e-3), n = dice.uniform (1.0, 2.5);
         const double k = 0.5 * (n + 1.0) * m * v * v / std::pow (d_max, n + 1.0), x = dice.size (0.01, 3.0), e = restitution (x);
@@ -196,7 +197,7 @@ TEST_CASE ("shock: the impulse is right at any rate", "[nodes][shock]")
 
 TEST_CASE ("shock: the dissipated energy adds up over hits, never falls, and ignores the gain", "[nodes][shock][energy]")
 {
-    rc::prop ("any hits", [] (unsigned seed) {
+    tactus::test::property ("any hits", [] (unsigned seed) {
         Dice dice { seed };
         const HuntCrossley::Settings settings { .damping = dissipation (dice.size (1e-3, 3.0)), .voices = 16 };
         const double rate = dice.size (200.0, 20'000.0);
@@ -239,7 +240,7 @@ TEST_CASE ("shock: a mass of 0 means that of the device, or 50 g if that is unkn
 
 TEST_CASE ("shock: a hit starts and ends at exactly 0, and never pulls", "[nodes][shock]")
 {
-    rc::prop ("any speed, mass, rate and damping", [] (unsigned seed) {
+    tactus::test::property ("any speed, mass, rate and damping", [] (unsigned seed) {
         Dice dice { seed };
         auto node = shock ({ .damping = dissipation (dice.size (1e-3, 10.0)) }, dice.size (1000.0, 50'000.0), { .mass = dice.size (1e-3, 1.0) });
         RC_ASSERT (node.tick ({ .hit = dice.size (1e-3, 10.0) }).resistance == 0.0);

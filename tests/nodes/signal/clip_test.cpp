@@ -2,9 +2,9 @@
 #include <tactus/nodes/signal/clip.hpp>
 
 #include <support/no_allocation.hpp>
+#include <support/property.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -133,7 +133,7 @@ double largestStep (const std::vector<double>& v)
 
 TEST_CASE ("clip: its signal is that of its envelopes, sampled naively", "[nodes][signal][clip]")
 {
-    rc::prop ("any tracks", [] {
+    test::property ("any tracks", [] {
         Clip clip;
         for (int n = *rc::gen::inRange (1, 4); n > 0; --n)
         {
@@ -228,7 +228,7 @@ TEST_CASE ("clip: no start, stop or leap clicks", "[nodes][signal][clip]")
     // missing, which is up to twice the peak and this step, along a curve whose slope is at most 1.5 per 2 ms.
     const double rate = 48000.0, peak = 0.8 + 0.7, slope = 1.5 / (2e-3 * rate), least_leap = 2.0 * pi * 0.02 * peak;
     const double largest = (two_tones_step + least_leap + slope * 2.0 * peak) / (1.0 - slope);
-    rc::prop ("random hits, gates, times and drives", [&] {
+    test::property ("random hits, gates, times and drives", [&] {
         const Clip clip = twoTones();
         const auto drive = static_cast<SignalClip::Drive> (*rc::gen::inRange (0, 3));
         const auto repeat = static_cast<SignalClip::Repeat> (*rc::gen::inRange (0, 2));
@@ -373,7 +373,7 @@ TEST_CASE ("clip: the envelope ducks under a transient", "[nodes][signal][clip]"
 
 TEST_CASE ("clip: it never exceeds the amplitude that it claims, and allocates nothing", "[nodes][signal][clip]")
 {
-    rc::prop ("random starts", [] {
+    test::property ("random starts", [] {
         Clip clip = tone (0.05, 0.9, 0.7);
         clip.tracks[0].taps = { { 0.01, 1.0, 0.2 }, { 0.012, 0.7, 0.9 } };
         auto node = playing (clip, { .gain = 0.5 }, 2000.0);

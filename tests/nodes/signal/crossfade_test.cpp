@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/nodes/signal/crossfade.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using tactus::nodes::SignalCrossfade;
 
 TEST_CASE ("crossfade: is a at 0 and b at 1, bit for bit", "[nodes][signal]")
 {
-    rc::prop ("any two signals", [] {
+    tactus::test::property ("any two signals", [] {
         const auto [a, b] = *rc::gen::pair (rc::gen::arbitrary<int>(), rc::gen::arbitrary<int>());
         RC_ASSERT (SignalCrossfade { .params = { .amount = 0.0 } }.tick ({ .a = a / 7.0, .b = b / 7.0 }).out == a / 7.0);
         RC_ASSERT (SignalCrossfade { .params = { .amount = 1.0 } }.tick ({ .a = a / 7.0, .b = b / 7.0 }).out == b / 7.0);

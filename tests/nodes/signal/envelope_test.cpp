@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/nodes/signal/envelope.hpp>
 
+#include <support/property.hpp>
 #include <support/ready.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using tactus::nodes::SignalEnvelope;
 using tactus::test::ready;
@@ -60,7 +60,7 @@ TEST_CASE ("envelope: times of 0 make it the gate itself", "[nodes][signal]")
 
 TEST_CASE ("envelope: stays within 0 to 1 and never steps further than its fastest segment", "[nodes][signal]")
 {
-    rc::prop ("random gates", [] (const std::vector<bool>& gates) {
+    tactus::test::property ("random gates", [] (const std::vector<bool>& gates) {
         auto node = ready<SignalEnvelope> ({ .attack = 0.004, .decay = 0.003, .sustain = 0.3, .release = 0.005 });
         double before = 0.0;
         for (const bool gate : gates)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/nodes/signal/lfo.hpp>
 
+#include <support/property.hpp>
 #include <support/ready.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <numbers>
 
@@ -50,7 +50,7 @@ TEST_CASE ("lfo: shapes start at their phase, in step with the sine", "[nodes][s
 
 TEST_CASE ("lfo: a new frequency continues from the current phase", "[nodes][signal]")
 {
-    rc::prop ("any sequence of frequencies", [] (const std::vector<unsigned char>& frequencies) {
+    tactus::test::property ("any sequence of frequencies", [] (const std::vector<unsigned char>& frequencies) {
         auto node = ready<SignalLfo> ({ .shape = SignalLfo::Shape::sine });
         double turn = 0.0;
         for (const double f : frequencies)

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/nodes/signal/slew.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using tactus::nodes::SignalSlew;
 
@@ -38,7 +39,7 @@ TEST_CASE ("slew: starts at the first sample, and again after a nan", "[nodes][s
 
 TEST_CASE ("slew: never changes faster than its rate", "[nodes][signal]")
 {
-    rc::prop ("any signal", [] (const std::vector<short>& signal, unsigned short rate) {
+    tactus::test::property ("any signal", [] (const std::vector<short>& signal, unsigned short rate) {
         auto node = slewOf (rate);
         double before = node.tick ({ .in = 0.0 }).out;
         for (const short s : signal)

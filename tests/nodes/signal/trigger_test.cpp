@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/nodes/signal/trigger.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using tactus::nodes::SignalTrigger;
 
@@ -30,7 +31,7 @@ TEST_CASE ("trigger: a gate of 0 and 1 works by default", "[nodes][signal]")
 
 TEST_CASE ("trigger: noise narrower than the hysteresis makes no second hit", "[nodes][signal]")
 {
-    rc::prop ("any jitter", [] (const std::vector<signed char>& jitter) {
+    tactus::test::property ("any jitter", [] (const std::vector<signed char>& jitter) {
         SignalTrigger node;
         node.params = { .threshold = 1.0, .hysteresis = 0.3 };
         node.tick ({ .in = 0.0 });

@@ -3,10 +3,10 @@
 #include <tactus/nodes/texture/grating.hpp>
 
 #include <golden/golden.hpp>
+#include <support/property.hpp>
 #include <support/ready.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ TEST_CASE ("antialias: a slow hand feels the whole texture, a fast one feels not
 
 TEST_CASE ("antialias: the faster, the softer, without a step", "[nodes][texture]")
 {
-    rc::prop ("two speeds", [] {
+    tactus::test::property ("two speeds", [] {
         const auto node = ready<AntiAlias> ({ .spatial_frequency = *rc::gen::element (0.0, 10.0, 200.0, 3000.0),
                                               .f_max = *rc::gen::element (1.0, 100.0, 400.0) });
         const double slow = 1e-4 * *rc::gen::inRange (0, 10'000), more = 1e-6 * *rc::gen::inRange (0, 100);
@@ -123,7 +123,7 @@ TEST_CASE ("antialias: a fault gives 0, and the next sample has no speed", "[nod
 
 TEST_CASE ("antialias: no input breaks it", "[nodes][texture]")
 {
-    rc::prop ("outputs are finite", [] {
+    tactus::test::property ("outputs are finite", [] {
         const auto number = rc::gen::element (0.0, 1.0, -0.02, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
         const double k = *rc::gen::element (0.0, 200.0, 1e300), angle = *rc::gen::element (0.0, 3.0, 1e300),
                      f_max = *rc::gen::element (0.0, 1e-320, 100.0, 1e300);

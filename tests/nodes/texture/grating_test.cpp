@@ -2,10 +2,10 @@
 #include <tactus/nodes/texture/grating.hpp>
 
 #include <golden/golden.hpp>
+#include <support/property.hpp>
 #include <support/ready.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 
@@ -89,7 +89,7 @@ TEST_CASE ("grating: its steepest slope is 2 pi A k, as it claims", "[nodes][tex
 
 TEST_CASE ("grating: no input breaks it", "[nodes][texture]")
 {
-    rc::prop ("outputs are finite", [] {
+    tactus::test::property ("outputs are finite", [] {
         const auto number = rc::gen::element (0.0, 1.0, -0.02, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
         const double amplitude = *rc::gen::element (0.0, 0.3, 1e300), k = *rc::gen::element (0.0, 200.0, 1e300),
                      angle = *rc::gen::element (0.0, 3.0, 1e300);

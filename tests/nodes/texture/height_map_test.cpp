@@ -2,11 +2,11 @@
 #include <tactus/nodes/texture/height_map.hpp>
 
 #include <support/no_allocation.hpp>
+#include <support/property.hpp>
 #include <support/rig.hpp>
 #include <tactus/node/catalogue.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <unsupported/Eigen/FFT>
 
@@ -115,7 +115,7 @@ TEST_CASE ("height map: it passes through every point of the map", "[nodes][text
 
 TEST_CASE ("height map: the force is minus gain times the slope", "[nodes][texture]")
 {
-    rc::prop ("anywhere, inside and outside the map", [] {
+    test::property ("anywhere, inside and outside the map", [] {
         auto node = over (rough (*rc::gen::arbitrary<unsigned>()));
         node.params.gain = 0.1 * *rc::gen::inRange (-30, 30);
         const double x = 1e-6 * *rc::gen::inRange (-9000, 9000), y = 1e-6 * *rc::gen::inRange (-9000, 9000), h = 1e-8;
@@ -142,7 +142,7 @@ TEST_CASE ("height map: a wave on the map is felt as the same wave", "[nodes][te
 
 TEST_CASE ("height map: the force never steps, and changes no faster than claimed", "[nodes][texture]")
 {
-    rc::prop ("two points, near or far", [] {
+    test::property ("two points, near or far", [] {
         auto node = over (rough (*rc::gen::arbitrary<unsigned>()));
         node.params.gain = 2.0;
         const double claimed = node.claims().stiffness;
@@ -165,7 +165,7 @@ TEST_CASE ("height map: the force never steps, and changes no faster than claime
 
 TEST_CASE ("height map: scanned at any speed it has no energy above f_max", "[nodes][texture]")
 {
-    rc::prop ("a straight scan in any direction, from slow to far beyond half the tick rate", [] {
+    test::property ("a straight scan in any direction, from slow to far beyond half the tick rate", [] {
         auto node = over (rough (*rc::gen::arbitrary<unsigned>()));
         const double angle = *rc::gen::inRange (0, 628) / 100.0;
         const double points_a_tick = std::pow (2.0, 0.1 * *rc::gen::inRange (-45, 90));
@@ -471,7 +471,7 @@ TEST_CASE ("height map: an invalid map is refused with a sentence", "[nodes][tex
 
 TEST_CASE ("height map: no input breaks it, and a tick allocates nothing", "[nodes][texture]")
 {
-    rc::prop ("the outputs are finite", [] {
+    test::property ("the outputs are finite", [] {
         auto node = over (rough (13, *rc::gen::inRange (1, 6), *rc::gen::inRange (1, 6)), *rc::gen::element (10.0, 4000.0, 48'000.0));
         node.params.gain = *rc::gen::element (0.0, 1.0, -1e300);
         for (int k = 0; k < 40; ++k)

@@ -2,11 +2,11 @@
 #include <tactus/nodes/texture/noise.hpp>
 
 #include <support/no_allocation.hpp>
+#include <support/property.hpp>
 #include <support/rig.hpp>
 #include <tactus/node/catalogue.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <unsupported/Eigen/FFT>
 
@@ -139,7 +139,7 @@ const Model hiss = model (0.1, 1.0, coefficientsOf ({ -0.3, -0.4, 0.2, -0.1 }), 
 
 TEST_CASE ("texture noise: it is the process that its coefficients describe", "[nodes][texture]")
 {
-    rc::prop ("each sample is the weighted sum of the last ones plus new noise of the given variance", [] (unsigned seed) {
+    test::property ("each sample is the weighted sum of the last ones plus new noise of the given variance", [] (unsigned seed) {
         std::mt19937 random { seed };
         const auto a = coefficientsOf (randomReflections (random, 12, 0.9));
         const double variance = std::pow (10.0, std::uniform_real_distribution { -6.0, 0.0 }(random));
@@ -167,7 +167,7 @@ TEST_CASE ("texture noise: it is the process that its coefficients describe", "[
 
 TEST_CASE ("texture noise: it has the variance of the process, starting at the first sample", "[nodes][texture]")
 {
-    rc::prop ("over a long run", [] (unsigned seed) {
+    test::property ("over a long run", [] (unsigned seed) {
         std::mt19937 random { seed };
         const auto a = coefficientsOf (randomReflections (random, 6, 0.8));
         const auto c = covariance (a, 400);
@@ -210,7 +210,7 @@ TEST_CASE ("texture noise: between models the logarithm of the variance is inter
             models.push_back (model (v, f, {}, corners (v, f)));
     std::reverse (models.begin(), models.end());
 
-    rc::prop ("at any speed and force", [&] (unsigned seed) {
+    test::property ("at any speed and force", [&] (unsigned seed) {
         std::mt19937 random { seed };
         auto node = sounding (models);
         node.params.gain = 2.0;
@@ -236,7 +236,7 @@ TEST_CASE ("texture noise: between models the logarithm of the variance is inter
 
 TEST_CASE ("texture noise: every model in between is stable, however fast speed and force change", "[nodes][texture]")
 {
-    rc::prop ("random models of different orders, inside, at the edges and far outside", [] (unsigned seed) {
+    test::property ("random models of different orders, inside, at the edges and far outside", [] (unsigned seed) {
         std::mt19937 random { seed };
         std::vector<Model> models;
         std::vector<double> largest (20);
@@ -410,7 +410,7 @@ TEST_CASE ("texture noise: models it cannot play are refused with a sentence", "
 
 TEST_CASE ("texture noise: no input breaks it, and a tick allocates nothing", "[nodes][texture]")
 {
-    rc::prop ("the output is finite", [] {
+    test::property ("the output is finite", [] {
         auto node = sounding ({ rumble, model (0.2, 3.0, { 0.5 }, 1e30) }, *rc::gen::element (10.0, 1000.0, 48'000.0));
         node.params.gain = *rc::gen::element (0.0, 1.0, -1e300);
         for (int k = 0; k < 40; ++k)

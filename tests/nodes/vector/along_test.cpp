@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/nodes/vector/along.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 namespace
 {
@@ -17,7 +18,7 @@ using tactus::nodes::VectorAlong;
 
 TEST_CASE ("along: the parts add up to the vector, and have the right directions", "[nodes][vector]")
 {
-    rc::prop ("any vector and direction", [] {
+    tactus::test::property ("any vector and direction", [] {
         const auto in = anyVector(), direction = anyVector();
         const auto out = VectorAlong {}.tick ({ .in = in, .direction = direction });
         const auto u = tactus::direction (direction);

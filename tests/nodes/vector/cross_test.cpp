@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/nodes/vector/cross.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 namespace
 {
@@ -20,7 +21,7 @@ TEST_CASE ("cross: is right-handed", "[nodes][vector]")
 
 TEST_CASE ("cross: is at right angles to both, and changes sign with their order", "[nodes][vector]")
 {
-    rc::prop ("any two vectors", [] {
+    tactus::test::property ("any two vectors", [] {
         const auto a = anyVector(), b = anyVector();
         tactus::nodes::VectorCross node;
         const auto c = node.tick ({ .a = a, .b = b }).out;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/nodes/vector/from_frame.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <numbers>
 
@@ -37,7 +38,7 @@ TEST_CASE ("from frame: a quarter turn about z takes right to away", "[nodes][ve
 
 TEST_CASE ("from frame: rotation keeps lengths, angles and handedness", "[nodes][vector]")
 {
-    rc::prop ("any rotation", [] {
+    tactus::test::property ("any rotation", [] {
         const Vec3 rotation = anyVector() * 1e-4;
         const auto node = frameOf (Vec3::Zero(), rotation);
         tactus::Mat3 turn;

@@ -2,8 +2,9 @@
 #include <tactus/nodes/vector/from_frame.hpp>
 #include <tactus/nodes/vector/to_frame.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 namespace
 {
@@ -16,7 +17,7 @@ tactus::Vec3 anyVector()
 
 TEST_CASE ("to frame: undoes from frame", "[nodes][vector]")
 {
-    rc::prop ("any frame, any point", [] {
+    tactus::test::property ("any frame, any point", [] {
         tactus::nodes::VectorFromFrame from;
         tactus::nodes::VectorToFrame to;
         from.params.origin = to.params.origin = anyVector();

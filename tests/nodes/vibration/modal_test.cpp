@@ -3,8 +3,9 @@
 
 #include <golden/golden.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <cstring>
@@ -65,7 +66,7 @@ TEST_CASE ("modal: hits add up exactly, and none makes a click", "[nodes][vibrat
         REQUIRE (together == Approx (sum).margin (1e-15));
     }
 
-    rc::prop ("any modes, any number of hits: the sum of the closed forms", [] (unsigned seed) {
+    tactus::test::property ("any modes, any number of hits: the sum of the closed forms", [] (unsigned seed) {
         std::mt19937 random { seed };
         const auto uniform = [&] (double from, double to) { return std::uniform_real_distribution { from, to }(random); };
 
@@ -182,7 +183,7 @@ TEST_CASE ("modal: the other modes keep ringing when a mode is added", "[nodes][
 
 TEST_CASE ("modal: no input breaks it", "[nodes][vibration]")
 {
-    rc::prop ("the output is finite", [] {
+    tactus::test::property ("the output is finite", [] {
         const double gain = *rc::gen::element (0.0, 1.0, -1e300), pitch = *rc::gen::element (0.0, 1.0, 1e300),
                      damping = *rc::gen::element (0.0, 1.0, 1e300);
         auto node = modal (wood, 4000.0, { .gain = gain, .pitch = pitch, .damping = damping });

@@ -3,11 +3,11 @@
 
 #include <golden/golden.hpp>
 #include <support/no_allocation.hpp>
+#include <support/property.hpp>
 #include <support/rig.hpp>
 #include <tactus/node/catalogue.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +94,7 @@ TEST_CASE ("wavetable: it matches the golden column", "[nodes][vibration][golden
 
 TEST_CASE ("wavetable: it is the ring of its modes, except for the linear interpolation between samples", "[nodes][vibration]")
 {
-    rc::prop ("the error is at most max |y''| / (8 rate^2), at any rate and pitch", [] {
+    test::property ("the error is at most max |y''| / (8 rate^2), at any rate and pitch", [] {
         const double rate = *rc::gen::inRange (3000, 20'000), tick_rate = *rc::gen::inRange (900, 9000);
         const double pitch = 0.01 * *rc::gen::inRange (10, 100), v = 0.1 * *rc::gen::inRange (1, 50);
         std::vector<Mode> modes;
@@ -195,7 +195,7 @@ TEST_CASE ("wavetable: a recording plays its channel at its own rate, sample for
 
 TEST_CASE ("wavetable: no recording clicks, wherever it begins and ends", "[nodes][vibration]")
 {
-    rc::prop ("from one tick to the next it moves no further than its own slope plus a bend of 2 ms", [] {
+    test::property ("from one tick to the next it moves no further than its own slope plus a bend of 2 ms", [] {
         const double wav_rate = *rc::gen::element (1000.0, 8000.0, 44'100.0), rate = *rc::gen::element (1000.0, 4000.0, 10'000.0);
         const double offset = 0.1 * *rc::gen::inRange (-20, 20);   // N s/m
         const double slope = 0.1 * *rc::gen::inRange (-20, 20);    // N s/m over the whole length
@@ -282,7 +282,7 @@ TEST_CASE ("wavetable: a table it cannot play is refused with a sentence", "[nod
 
 TEST_CASE ("wavetable: no input breaks it, and a tick allocates nothing", "[nodes][vibration]")
 {
-    rc::prop ("the output is finite", [] {
+    test::property ("the output is finite", [] {
         auto node = playing (ofModes (wood, 8000.0, 300), *rc::gen::element (10.0, 4000.0, 48'000.0), 3);
         node.params = { .gain = *rc::gen::element (0.0, 1.0, -1e300), .pitch = *rc::gen::element (0.01, 1.0, 8.0) };
         for (int k = 0; k < 60; ++k)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "support/with_limits.hpp"
 
+#include <support/property.hpp>
 #include <tactus/file/assets/mesh.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <bit>
 #include <cstring>
@@ -218,7 +218,7 @@ TEST_CASE ("a face with more corners than the budget allows is refused before th
 TEST_CASE ("no damaged mesh crashes the reader", "[file][assets][mesh]")
 {
     const auto all = samples();
-    rc::prop ("any bytes changed, doubled or cut off", [&] {
+    test::property ("any bytes changed, doubled or cut off", [&] {
         auto [name, bytes] = *rc::gen::elementOf (all);
         for (const auto& [at, value] : *rc::gen::container<std::vector<std::pair<std::uint16_t, char>>> (rc::gen::arbitrary<std::pair<std::uint16_t, char>>()))
             bytes[at % bytes.size()] = value;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/file/assets/table.hpp>
 
 #include <tactus/text/number_text.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using namespace tactus;
 using readers::readGrid;
@@ -70,7 +70,7 @@ TEST_CASE ("an unreadable table gives an error with a position", "[file][assets]
 
 TEST_CASE ("numbers written as text are read back bit for bit", "[file][assets][table]")
 {
-    rc::prop ("any grid, any separator", [] {
+    test::property ("any grid, any separator", [] {
         const int rows = *rc::gen::inRange (1, 6), columns = *rc::gen::inRange (3, 6);
         const auto separator = *rc::gen::element<std::string> (",", ";", "\t", " ", " , ", "; ");
         const auto end = *rc::gen::element<std::string> ("\n", "\r\n", "\r", "\n\n");

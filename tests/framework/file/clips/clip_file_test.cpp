@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <support/property.hpp>
 #include <tactus/file/clips/clip_difference.hpp>
 #include <tactus/file/clips/clip_file.hpp>
 #include <tactus/file/clips/relaxed_json.hpp>
@@ -9,7 +10,6 @@
 #include "support/with_limits.hpp"
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -241,7 +241,7 @@ TEST_CASE ("a calibration says what 0 and 1 mean, and what of it is not played",
 
 TEST_CASE ("there and back, a clip of Tactus is the same, and other formats lose what they say", "[clips]")
 {
-    rc::prop ("random clips", [] {
+    test::property ("random clips", [] {
         const auto clip = randomClip();
         for (const auto* name : { "a.json", "a.hjif", "a.haptic" })
         {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A brake: the guard's limits on it, and the simulated device that has one.
 
+#include <support/property.hpp>
 #include <tactus/run/device/sim.hpp>
 #include <tactus/run/guard.hpp>
 
 #include <expert/hands.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ Effort braking (double damping) { return { .brake = damping }; }
 
 TEST_CASE ("brake: the guard lets no graph drive it below 0 or above its limit", "[framework][guard][brake][safety]")
 {
-    rc::prop ("any damping, any limit, stops and halts in between", [] (unsigned seed) {
+    test::property ("any damping, any limit, stops and halts in between", [] (unsigned seed) {
         Dice dice { seed };
         const double limit = dice.size (0.01, 100.0), at_stop = dice.size (0.001, 10.0);
         auto guard = guardWith ({ .ramp = dice.uniform (0.0, 0.02), .max_brake = limit, .brake_at_stop = at_stop });
@@ -113,7 +113,7 @@ TEST_CASE ("brake: a graph and its guard only lower the limit, and do not decide
 
 TEST_CASE ("simulated brake: the damping is exact at any rate, and takes energy only", "[framework][devices][brake][energy]")
 {
-    rc::prop ("any tool, brake, request and rate: v (t) = v e^(-(b + B) t / m)", [] (unsigned seed) {
+    test::property ("any tool, brake, request and rate: v (t) = v e^(-(b + B) t / m)", [] (unsigned seed) {
         Dice dice { seed };
         const double m = dice.size (0.01, 1.0), b = dice.size (0.01, 5.0), most = dice.size (0.1, 50.0), asked = dice.size (0.01, 100.0),
                      rate = dice.size (500.0, 20e3), v = dice.uniform (-1.0, 1.0), damping = b + std::min (asked, most);
@@ -131,7 +131,7 @@ TEST_CASE ("simulated brake: the damping is exact at any rate, and takes energy 
         }
     });
 
-    rc::prop ("any requests, below 0 and not numbers among them: no tool without a force gets faster", [] (unsigned seed) {
+    test::property ("any requests, below 0 and not numbers among them: no tool without a force gets faster", [] (unsigned seed) {
         Dice dice { seed };
         SimulatedDevice tool (
             { .mass = dice.size (0.01, 1.0), .damping = 0.0, .brake = 10.0, .brake_time = dice.uniform (0.0, 0.02), .velocity = { 0.3, -0.2, 0.1 } });

@@ -5,9 +5,9 @@
 
 #include <golden/golden.hpp>
 #include <support/no_allocation.hpp>
+#include <support/property.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <numbers>
@@ -76,7 +76,7 @@ TEST_CASE ("flexible tool: it follows an independent integration, phase by phase
 
 TEST_CASE ("flexible tool: while a force is constant, the motion does not depend on the tick", "[host][devices]")
 {
-    rc::prop ("any tool, with and without dry friction", [] (bool is_dry) {
+    test::property ("any tool, with and without dry friction", [] (bool is_dry) {
         const auto properties = anyTool (is_dry);
         const int parts = *rc::gen::inRange (2, 9);
         const double dt = between (1e-4, 5e-3);
@@ -100,7 +100,7 @@ TEST_CASE ("flexible tool: while a force is constant, the motion does not depend
 
 TEST_CASE ("flexible tool: without damping and friction, energy changes by the work of the forces, to rounding", "[host][devices][energy]")
 {
-    rc::prop ("any tool", [] {
+    test::property ("any tool", [] {
         auto properties = anyTool (false);
         properties.damping = properties.first_mode_damping = 0.0;
         FlexibleTool tool (properties, 1e-3);
@@ -118,7 +118,7 @@ TEST_CASE ("flexible tool: without damping and friction, energy changes by the w
 
 TEST_CASE ("flexible tool: damping and friction only take energy", "[host][devices][energy]")
 {
-    rc::prop ("any tool", [] {
+    test::property ("any tool", [] {
         const auto properties = anyTool (true);
         FlexibleTool tool (properties, between (1e-4, 4e-3));
         tool.start (Vec3::Zero(), alongX (between (-0.2, 0.2)));

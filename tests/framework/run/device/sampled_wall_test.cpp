@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The effect of a wall computed from samples on a hand, through the whole loop: device, graph, guard, device.
 
+#include <support/property.hpp>
 #include <tactus/run/device/sim.hpp>
 
 #include <expert/hands.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -93,7 +93,7 @@ TEST_CASE ("sampled wall: at a high rate, a mass rebounds according to Hunt and 
     CHECK (restitution (1.0) == Approx (0.593624).epsilon (1e-6));
     CHECK (restitution (5.0) == Approx (0.196980).epsilon (1e-5));
 
-    rc::prop ("any mass, law, speed and dissipation: speed of the rebound, and area of the loop of force against depth", [] (unsigned seed) {
+    test::property ("any mass, law, speed and dissipation: speed of the rebound, and area of the loop of force against depth", [] (unsigned seed) {
         Dice dice { seed };
         const double m = dice.size (0.01, 0.5), v = dice.size (0.05, 1.0), d_max = v * dice.size (2e-3, 1e-2), n = dice.uniform (1.0, 2.0),
                      x = dice.size (0.05, 5.0);

@@ -5,7 +5,7 @@
 #include <support/no_allocation.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
+#include <rapidcheck.h>
 
 #include <algorithm>
 #include <cmath>

@@ -8,6 +8,7 @@
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
 
+#include <support/property.hpp>
 #include <tactus/graph/history.hpp>
 #include <tactus/plan/find_hit.hpp>
 #include <tactus/plan/find_param.hpp>
@@ -17,7 +18,6 @@
 #include <tactus/run/turn.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <bit>
 #include <limits>
@@ -263,7 +263,7 @@ TEST_CASE ("a run repeated from its log is bit-identical, no matter what was edi
 {
     const TemporaryFolder folder;
     const auto file = folder / "run.jsonl";
-    rc::prop ("any run", [&] {
+    test::property ("any run", [&] {
         const auto seed = *rc::gen::arbitrary<unsigned>();
         const auto live = run (file, seed, 600);
         RC_ASSERT (runAgain (file) == live);

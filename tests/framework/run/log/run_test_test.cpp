@@ -10,7 +10,7 @@
 #include <tactus/run/run.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
+#include <rapidcheck.h>
 
 #include <bit>
 #include <cmath>

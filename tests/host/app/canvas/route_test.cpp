@@ -4,8 +4,9 @@
 #include <host/app/canvas/align.hpp>
 #include <host/app/canvas/route.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using namespace tactus::host;
 using tactus::host::test::CanvasRig;
@@ -26,7 +27,7 @@ float between (int low, int high) { return static_cast<float> (*rc::gen::inRange
 
 TEST_CASE ("a wire goes around an obstacle, wherever it is", "[app][route]")
 {
-    rc::prop ("one obstacle", [] {
+    tactus::test::property ("one obstacle", [] {
         const Point<float> from { 0.0f, 0.0f }, to { 600.0f, between (-200, 200) };
         const Box2 start { -100.0f, -50.0f, 100.0f, 100.0f }, end { to.x, to.y - 50.0f, 100.0f, 100.0f };
         const Box2 obstacle { between (200, 300), between (-200, 200), between (40, 120), between (30, 200) };
@@ -87,7 +88,7 @@ TEST_CASE ("in the presets, few wires run behind nodes, and none overlap", "[app
 
 TEST_CASE ("aligning keeps the size and order of the boxes", "[app][align]")
 {
-    rc::prop ("any boxes", [] {
+    tactus::test::property ("any boxes", [] {
         std::vector<Box2> boxes;
         for (int i = *rc::gen::inRange (2, 8); i > 0; --i)
             boxes.emplace_back (between (0, 500), between (0, 500), between (20, 200), between (20, 200));

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/devices_panel/sound_text.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -31,7 +32,7 @@ TEST_CASE ("the channels of a role are typed as a list", "[app][sessions]")
     CHECK (readChannelsText ("left@4 N", {})[0]["channel"] == "left");   // rejected later, when the settings are checked
     CHECK (readChannelsText (" ", list).empty());
 
-    rc::prop ("any list reads back as it was typed", [] {
+    tactus::test::property ("any list reads back as it was typed", [] {
         auto channels = Json::array();
         for (const int channel : *rc::gen::unique<std::vector<int>> (rc::gen::inRange (1, 64)))
         {

@@ -2,8 +2,9 @@
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/look.hpp>
 
+#include <support/property.hpp>
+
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using namespace tactus::host;
 
@@ -33,7 +34,7 @@ juce::String randomPath()
 TEST_CASE ("a path is as wide as there is room, and keeps its ends as long as possible", "[app][look]")
 {
     const Fonts f;
-    rc::prop ("any path in any room", [&] {
+    tactus::test::property ("any path in any room", [&] {
         const auto path = randomPath();
         const float room = static_cast<float> (*rc::gen::inRange (30, 600));
         const auto shown = fittedPath (path, f.font, room);
@@ -70,7 +71,7 @@ TEST_CASE ("the path in a line is shortened until the line fits, and the words a
 TEST_CASE ("no line of wrapped text is wider than its area, also with a path in it", "[app][look]")
 {
     const Fonts f;
-    rc::prop ("any path in any width", [&] {
+    tactus::test::property ("any path in any width", [&] {
         const float width = static_cast<float> (*rc::gen::inRange (60, 400));
         const auto layout = wrapText ("Saved in " + randomPath() + ", not in the graph.", f.font, juce::Colours::black, width);
         for (int i = 0; i < layout.getNumLines(); ++i)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/run/transport_path.hpp>
+#include <support/property.hpp>
 #include <tactus/run/device/gestures.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -28,7 +28,7 @@ TEST_CASE ("a path that is only played equals the original path", "[app][transpo
 
 TEST_CASE ("the hand never jumps on a pause, a seek or a change of speed, and its velocity matches its position", "[app][transport]")
 {
-    rc::prop ("any use of the transport", [] {
+    tactus::test::property ("any use of the transport", [] {
         const auto path = stroke();
         TransportPath played { path };
         const double dt = 1.0 / 4000.0;

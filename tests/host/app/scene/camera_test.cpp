@@ -2,7 +2,7 @@
 #include <host/app/scene/camera.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
+#include <rapidcheck.h>
 
 using namespace tactus;
 using host::scene::Bounds;

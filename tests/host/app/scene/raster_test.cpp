@@ -2,7 +2,7 @@
 #include <host/app/scene/raster.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
+#include <rapidcheck.h>
 
 #include <cmath>
 #include <optional>

@@ -6,7 +6,7 @@
 
 #include "support/rig.hpp"
 
-#include <rapidcheck/catch.h>
+#include <rapidcheck.h>
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <support/property.hpp>
+
 #include <host/app/scopes/scope_model.hpp>
 #include <host/app/scopes/scope_plot.hpp>
-
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <limits>
@@ -54,7 +54,7 @@ TEST_CASE ("scopes: the first click gives one cursor, the second two, the third 
 
 TEST_CASE ("scopes: an automatic range always contains the signal", "[app][scopes]")
 {
-    rc::prop ("any values", [] (const std::vector<std::pair<short, unsigned char>>& all) {
+    tactus::test::property ("any values", [] (const std::vector<std::pair<short, unsigned char>>& all) {
         AutoRange range (3);
         for (const auto& [low, size] : all)
         {

@@ -6,7 +6,7 @@
 #include <host/io/colours.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
+#include <rapidcheck.h>
 
 #include <cmath>
 #include <numbers>

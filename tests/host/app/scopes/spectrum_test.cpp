@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <support/property.hpp>
+
 #include <host/io/spectrum.hpp>
 
 #include "made_trace.hpp"
-
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <numbers>
@@ -25,7 +25,7 @@ std::vector<double> sine (double amplitude, double hz, double phase, std::size_t
 
 TEST_CASE ("scopes: a sine of any amplitude, frequency and phase shows its amplitude at its frequency", "[app][scopes]")
 {
-    rc::prop ("on an offset, in a window of any length", [] {
+    tactus::test::property ("on an offset, in a window of any length", [] {
         const auto n = *rc::gen::inRange<std::size_t> (1000, 6000);
         const double bin = rate / static_cast<double> (n);
         const double hz = bin * (8.0 + *rc::gen::inRange (0, 10000) / 10000.0 * (0.5 * static_cast<double> (n) - 16.0));

@@ -7,8 +7,9 @@
 #include "support/rig.hpp"
 #include "support/temporary_folder.hpp"
 
+#include <support/property.hpp>
+
 #include <Eigen/Geometry>
-#include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <map>
@@ -101,7 +102,7 @@ TEST_CASE ("scopes: a plane of any orientation is seen from above, without mirro
 {
     CHECK (PlaneView (Vec3::UnitZ()).right == Vec3::UnitX());
     CHECK (PlaneView (Vec3::UnitZ()).up == Vec3::UnitY());
-    rc::prop ("any normal", [] (short x, short y, short z) {
+    tactus::test::property ("any normal", [] (short x, short y, short z) {
         const Vec3 n (x, y, z);
         RC_PRE (n.norm() > 0.0);
         const PlaneView v (n);

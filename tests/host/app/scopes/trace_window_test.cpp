@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "made_trace.hpp"
 
-#include <rapidcheck/catch.h>
+#include <support/property.hpp>
 
 #include <cmath>
 
@@ -20,7 +20,7 @@ std::vector<double> thousandths (const std::vector<short>& from)
 
 TEST_CASE ("scopes: a column of pixels keeps the lowest and highest of its ticks, and gaps stay gaps", "[app][scopes]")
 {
-    rc::prop ("any signal, window and width", [] (const std::vector<short>& signal) {
+    tactus::test::property ("any signal, window and width", [] (const std::vector<short>& signal) {
         const auto values = thousandths (signal);
         const auto first = *rc::gen::inRange<std::uint64_t> (0, 50000);
         const auto trace = traceOf (values, first);
@@ -66,7 +66,7 @@ TEST_CASE ("scopes: columns keep the same ticks while the window moves, so that 
 
 TEST_CASE ("scopes: the trigger is the latest crossing on the selected edge", "[app][scopes]")
 {
-    rc::prop ("any signal and level", [] (const std::vector<short>& signal, bool rises, short level) {
+    tactus::test::property ("any signal and level", [] (const std::vector<short>& signal, bool rises, short level) {
         const auto values = thousandths (signal);
         const auto trace = traceOf (values, 100);
         const ScopeTrigger trigger { rises ? ScopeTrigger::Edge::rising : ScopeTrigger::Edge::falling, level / 3000.0 };
@@ -126,7 +126,7 @@ TEST_CASE ("scopes: a trace visits its ticks in order, even across the end of it
 
 TEST_CASE ("a window that moves along a growing trace has the columns of the whole window, and reads only new ticks", "[app][scopes]")
 {
-    rc::prop ("moving columns", [] {
+    tactus::test::property ("moving columns", [] {
         const double rate = *rc::gen::element (200.0, 1000.0, 4000.0), seconds = *rc::gen::element (0.05, 1.0, 7.3, 10.0);
         const auto trace = emptyTrace ("a.force", rate);
         const auto width = *rc::gen::inRange<std::size_t> (1, 700);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <support/property.hpp>
+
 #include <host/app/storage/language.hpp>
 #include <host/app/storage/settings.hpp>
 #include <host/app/text/filled.hpp>
 
 #include "support/temporary_folder.hpp"
-
-#include <rapidcheck/catch.h>
 
 #include <fstream>
 #include <set>
@@ -24,7 +24,7 @@ TEST_CASE ("a text is filled with its values in any order, each as many times as
     CHECK (filled ("") == juce::String());
     CHECK (filled ("%1", std::string_view ("\xc2\xb5m")) == juce::String::fromUTF8 ("\xc2\xb5m"));
 
-    rc::prop ("each place has its value, and the rest stays", [] {
+    tactus::test::property ("each place has its value, and the rest stays", [] {
         const auto parts = *rc::gen::container<std::vector<std::string>> (rc::gen::element<std::string> ("a", "b c", "%", "50 %", "x%y", ".", ""));
         const auto values = *rc::gen::container<std::vector<std::string>> (3, rc::gen::element<std::string> ("1", "%1", "%2 %", "word", ""));
         juce::String text, expected;

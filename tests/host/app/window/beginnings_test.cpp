@@ -94,7 +94,7 @@ TEST_CASE ("a template is chosen by keys in the palette, where the name of a nod
     w.key ("ctrl + n");
     w.key ("spacebar");
     WindowRig::settle();
-    for (const auto& t : test::readTexts (*w.view))
+    for (const auto& t : host::test::readTexts (*w.view))
         CHECK_FALSE (t.text.contains (TACTUS_SOURCE_DIR));
     w.stage->type ("strok");
     w.key ("return");
@@ -108,7 +108,7 @@ TEST_CASE ("a template is chosen by keys in the palette, where the name of a nod
     CHECK (w.graph().root.nodes[0].type == "signal.clip");
     w.key ("spacebar");   // no longer empty: no templates
     w.stage->type ("strok");
-    for (const auto& t : test::readTexts (*w.view))
+    for (const auto& t : host::test::readTexts (*w.view))
         CHECK (t.text != "Stroke");
     w.key ("escape");
 }

@@ -9,12 +9,12 @@
 
 #include <host/fitting/fit_presets.hpp>
 #include <host/io/plot.hpp>
+#include <support/property.hpp>
 #include <tactus/file/csv.hpp>
 #include <tactus/file/graph_file.hpp>
 #include <tactus/run/engine.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -259,7 +259,7 @@ TEST_CASE ("a measured key releases no energy, whatever the finger does", "[data
         CHECK (lostEnergy (fit->recorded) == Approx (workAlong (recording.x, recording.force)).epsilon (0.005));   // the gauge has an offset of -2 mN
         const double stiffness = 1e4, step = 5 * um;
         const auto key = host::switchPreset (fit->loop, stiffness, name);
-        rc::prop (name, [&] {
+        test::property (name, [&] {
             PressedKey pressed { key, step };
             const auto strokes = randomStrokes (fit->recorded.travel.back(), step);
             pressed.follow (strokes);
@@ -271,7 +271,7 @@ TEST_CASE ("a measured key releases no energy, whatever the finger does", "[data
 
 TEST_CASE ("any two curves, if down is above up, make a key that follows both, releases no energy and never pulls", "[cli]")
 {
-    rc::prop ("no closed path releases energy", [] {
+    test::property ("no closed path releases energy", [] {
         const auto loop = simplified (randomLoop(), 1 * mN);
         const double stiffness = *rc::gen::element (2e3, 1e4, 1e5), step = 1 * um;
         PressedKey pressed { host::switchPreset (loop, stiffness, "random"), step };
@@ -281,7 +281,7 @@ TEST_CASE ("any two curves, if down is above up, make a key that follows both, r
         RC_ASSERT (pressed.least >= -slack);
     });
 
-    rc::prop ("a stroke follows both curves if the bristle is stiff enough for their difference", [] {
+    test::property ("a stroke follows both curves if the bristle is stiff enough for their difference", [] {
         const auto loop = simplified (randomLoop(), 1 * mN);
         const double stiffness = 1e5, step = 1 * um;
         PressedKey pressed { host::switchPreset (loop, stiffness, "random"), step };
@@ -304,7 +304,7 @@ TEST_CASE ("any two curves, if down is above up, make a key that follows both, r
 
 TEST_CASE ("a curve is simplified, and both directions stay within the tolerance", "[cli]")
 {
-    rc::prop ("for any curve and tolerance", [] {
+    test::property ("for any curve and tolerance", [] {
         SwitchLoop fine { { 0.0 }, { 0.0 }, { 0.0 } };
         const int points = *rc::gen::inRange (2, 300);
         for (int i = 1; i <= points; ++i)
@@ -326,7 +326,7 @@ TEST_CASE ("a curve is simplified, and both directions stay within the tolerance
 
 TEST_CASE ("the law of a plane may fall with depth: it is still a potential, and never pulls", "[cli]")
 {
-    rc::prop ("the work equals the stored energy, on any path", [] {
+    test::property ("the work equals the stored energy, on any path", [] {
         const auto loop = randomLoop();
         Rig plane { "deform.plane" };
         plane.set ("law", Law { .kind = Law::Kind::table, .table = { loop.travel, loop.press } }).prepare();
@@ -374,7 +374,7 @@ TEST_CASE ("the preset key clicks, returns with less force than was needed to pr
     CHECK (before_again < before - 0.03);
     CHECK (felt (0.0) == Approx (0.0).margin (1e-12));
 
-    rc::prop ("at any setting, on any path", [&] {
+    test::property ("at any setting, on any path", [&] {
         PressedKey pressed { loaded.graph, step, { { "click", 0.01 * *rc::gen::inRange (0, 101) } } };
         const auto strokes = randomStrokes (4.2 * mm, step);
         pressed.follow (strokes);
