@@ -75,7 +75,7 @@ run_tests ()
 more_properties ()
 {
     local files seed program
-    files=$(grep -rl 'rc::prop' tests --include='*_test.cpp' | sed 's|.*/\(.*\)\.cpp|[#\1]~[.]|' | sort -u | paste -sd,)
+    files=$(grep -rl 'support/property.hpp' tests --include='*_test.cpp' | sed 's|.*/\(.*\)\.cpp|[#\1]~[.]|' | sort -u | paste -sd,)
     for seed in $(seeds "$1"); do
         say "Tests with properties: RC_PARAMS=seed=$seed"
         for program in tactus_tests tactus_app_tests tactus_plugin_tests; do
