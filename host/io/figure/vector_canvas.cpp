@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
+#include <set>
 #include <string_view>
 
 namespace tactus::host
@@ -24,23 +25,24 @@ std::string number (double value, int decimals = 2)
 std::string pair (double x, double y) { return number (x) + ' ' + number (y); }
 
 /// Writes the outline as SVG path commands.
-std::string pathData (const juce::Path& path)
+std::string pathData (const juce::Path& path, int decimals = 2)
 {
     std::string out;
+    const auto point = [decimals] (double x, double y) { return number (x, decimals) + ' ' + number (y, decimals); };
     for (juce::Path::Iterator i (path); i.next();)
         switch (i.elementType)
         {
         case juce::Path::Iterator::startNewSubPath:
-            out += 'M' + pair (i.x1, i.y1);
+            out += 'M' + point (i.x1, i.y1);
             break;
         case juce::Path::Iterator::lineTo:
-            out += 'L' + pair (i.x1, i.y1);
+            out += 'L' + point (i.x1, i.y1);
             break;
         case juce::Path::Iterator::quadraticTo:
-            out += 'Q' + pair (i.x1, i.y1) + ' ' + pair (i.x2, i.y2);
+            out += 'Q' + point (i.x1, i.y1) + ' ' + point (i.x2, i.y2);
             break;
         case juce::Path::Iterator::cubicTo:
-            out += 'C' + pair (i.x1, i.y1) + ' ' + pair (i.x2, i.y2) + ' ' + pair (i.x3, i.y3);
+            out += 'C' + point (i.x1, i.y1) + ' ' + point (i.x2, i.y2) + ' ' + point (i.x3, i.y3);
             break;
         case juce::Path::Iterator::closePath:
             out += 'Z';
@@ -190,6 +192,24 @@ std::string pdfFile (const std::vector<std::string>& objects)
 }
 }   // namespace
 
+std::string VectorCanvas::svgOf (const Shape& shape) const
+{
+    if (shape.image.isValid())
+        return "<image width=\"" + number (shape.image.getWidth()) + "\" height=\"" + number (shape.image.getHeight()) + "\" transform=\"matrix("
+               + matrix (shape.at) + ")\" xlink:href=\"data:image/png;base64," + pngOf (shape.image) + "\"/>\n";
+    const auto paint = [&shape] (const std::string& what) {
+        return ' ' + what + "=\"" + hex (shape.colour) + '"'
+               + (shape.colour.isOpaque() ? "" : ' ' + what + "-opacity=\"" + number (shape.colour.getFloatAlpha(), 3) + '"');
+    };
+    if (shape.glyph >= 0)
+        return "<use xlink:href=\"#g" + std::to_string (shape.glyph) + "\" transform=\"matrix(" + matrix (shape.at) + ")\"" + paint ("fill") + "/>\n";
+    const auto path = "<path d=\"" + pathData (shape.outline) + '"';
+    if (shape.thickness > 0.0f)
+        return path + " fill=\"none\"" + paint ("stroke") + " stroke-width=\"" + number (shape.thickness)
+               + "\" stroke-linejoin=\"round\" stroke-linecap=\"round\"/>\n";
+    return path + paint ("fill") + (shape.outline.isUsingNonZeroWinding() ? "/>\n" : " fill-rule=\"evenodd\"/>\n");
+}
+
 std::string VectorCanvas::svg (const std::string& title, double units_per_inch) const
 {
     std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\""
@@ -197,6 +217,11 @@ std::string VectorCanvas::svg (const std::string& title, double units_per_inch) 
                       + number (25.4 * width / units_per_inch)
                       + "mm\" height=\"" + number (25.4 * height / units_per_inch) + "mm\" viewBox=\"0 0 " + pair (width, height) + "\">\n";
     if (! title.empty()) out += "<title>" + escapedForXml (title) + "</title>\n";
+
+    if (! glyphs.empty()) out += "<defs>\n";
+    for (std::size_t i = 0; i < glyphs.size(); ++i)
+        out += "<path id=\"g" + std::to_string (i) + "\" d=\"" + pathData (glyphs[i].outline, 4) + "\"/>\n";
+    if (! glyphs.empty()) out += "</defs>\n";
 
     auto clip = picture();
     int clips = 0;
@@ -213,18 +238,7 @@ std::string VectorCanvas::svg (const std::string& title, double units_per_inch) 
                        + number (clip.getWidth()) + "\" height=\"" + number (clip.getHeight()) + "\"/></clipPath>\n<g clip-path=\"url(#" + id + ")\">\n";
             }
         }
-        if (shape.image.isValid())
-        {
-            out += "<image width=\"" + number (shape.image.getWidth()) + "\" height=\"" + number (shape.image.getHeight()) + "\" transform=\"matrix("
-                   + matrix (shape.at) + ")\" xlink:href=\"data:image/png;base64," + pngOf (shape.image) + "\"/>\n";
-            continue;
-        }
-        out += "<path d=\"" + pathData (shape.outline) + '"';
-        if (shape.thickness > 0.0f)
-            out += " fill=\"none\" stroke=\"" + hex (shape.colour) + "\" stroke-width=\"" + number (shape.thickness)
-                   + "\" stroke-linejoin=\"round\" stroke-linecap=\"round\"/>\n";
-        else
-            out += " fill=\"" + hex (shape.colour) + (shape.outline.isUsingNonZeroWinding() ? "\"/>\n" : "\" fill-rule=\"evenodd\"/>\n");
+        out += svgOf (shape);
     }
     if (clip != picture()) out += "</g>\n";
     return out + "</svg>\n";
@@ -235,6 +249,7 @@ std::string VectorCanvas::pdf (const std::string& title, double units_per_inch) 
     const double point = 72.0 / units_per_inch;
     const auto scale = number (point, 6);
     std::vector<std::string> images;
+    std::set<int> opacities;   // of the shapes, 0 to 255
     std::string page = scale + " 0 0 -" + scale + " 0 " + number (point * height) + " cm 1 j 1 J\n";
 
     auto clip = picture();
@@ -256,12 +271,17 @@ std::string VectorCanvas::pdf (const std::string& title, double units_per_inch) 
             images.push_back (imageObject (shape.image));
             continue;
         }
+        const int opacity = shape.colour.getAlpha();
+        opacities.insert (opacity);
+        page += "/A" + std::to_string (opacity) + " gs\n";
+        auto outline = shape.outline;
+        if (shape.glyph >= 0) (outline = glyphs[static_cast<std::size_t> (shape.glyph)].outline).applyTransform (shape.at);
         const bool is_line = shape.thickness > 0.0f;
         for (const auto part : { shape.colour.getFloatRed(), shape.colour.getFloatGreen(), shape.colour.getFloatBlue() })
             page += number (part, 4) + ' ';
         page += is_line ? "RG " + number (shape.thickness) + " w\n" : "rg\n";
-        page += pathOperators (shape.outline) + (is_line ? "S\n" : shape.outline.isUsingNonZeroWinding() ? "f\n"
-                                                                                                         : "f*\n");
+        page += pathOperators (outline) + (is_line ? "S\n" : outline.isUsingNonZeroWinding() ? "f\n"
+                                                                                             : "f*\n");
     }
     if (clip != picture()) page += "Q\n";
 
@@ -271,6 +291,12 @@ std::string VectorCanvas::pdf (const std::string& title, double units_per_inch) 
     for (std::size_t i = 0; i < images.size(); ++i)
         resources += (i == 0 ? "/XObject << /I" : " /I") + std::to_string (i) + ' ' + std::to_string (first_image + i) + " 0 R";
     if (! images.empty()) resources += " >> ";
+    for (const int opacity : opacities)
+    {
+        const auto part = number (opacity / 255.0, 4);
+        resources += (opacity == *opacities.begin() ? "/ExtGState << /A" : " /A") + std::to_string (opacity) + " << /ca " + part + " /CA " + part + " >>";
+    }
+    if (! opacities.empty()) resources += " >> ";
     std::vector<std::string> objects {
         "<< /Type /Catalog /Pages 2 0 R >>", "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
         "<< /Type /Page /Parent 2 0 R /MediaBox [0 0 " + pair (point * width, point * height) + "] /Resources << " + resources + ">> /Contents 4 0 R >>",
@@ -281,15 +307,36 @@ std::string VectorCanvas::pdf (const std::string& title, double units_per_inch) 
     return pdfFile (objects);
 }
 
+void VectorCanvas::add (Shape shape, juce::Rectangle<float> drawn)
+{
+    if (! drawn.intersects (now.clip)) return;
+    shape.clip = now.clip.contains (drawn) ? picture() : now.clip;
+    shape.colour = now.colour.withMultipliedAlpha (now.layer_opacity);
+    shapes.push_back (std::move (shape));
+}
+
 void VectorCanvas::add (juce::Path path, float thickness)
 {
     path.applyTransform (now.transform);
-    if (! path.isEmpty()) shapes.push_back ({ std::move (path), now.colour, now.clip, thickness });
+    if (path.isEmpty()) return;
+    const auto drawn = path.getBounds().expanded (thickness);
+    add ({ .outline = std::move (path), .thickness = thickness }, drawn);
 }
 
 void VectorCanvas::drawImage (const juce::Image& image, const juce::AffineTransform& t)
 {
-    shapes.push_back ({ {}, now.colour, now.clip, 0.0f, image, t.followedBy (now.transform) });
+    const auto at = t.followedBy (now.transform);
+    add ({ .image = image, .at = at }, image.getBounds().toFloat().transformedBy (at));
+}
+
+void VectorCanvas::drawGlyph (int glyph, const juce::AffineTransform& t)
+{
+    const auto face = now.font.getTypefacePtr();
+    const auto [known, is_new] = glyph_numbers.try_emplace ({ face, glyph }, static_cast<int> (glyphs.size()));
+    if (is_new) face->getOutlineForGlyph (glyph, glyphs.emplace_back (face, juce::Path()).outline);
+    const float height = now.font.getHeight();
+    const auto at = juce::AffineTransform::scale (height * now.font.getHorizontalScale(), height).followedBy (t).followedBy (now.transform);
+    add ({ .glyph = known->second, .at = at }, glyphs[static_cast<std::size_t> (known->second)].outline.getBoundsTransformed (at));
 }
 
 void VectorCanvas::stroke (const juce::Path& line, float thickness) { add (line, thickness); }
@@ -297,17 +344,16 @@ void VectorCanvas::stroke (const juce::Path& line, float thickness) { add (line,
 void VectorCanvas::setOrigin (juce::Point<int> at) { addTransform (juce::AffineTransform::translation (at.toFloat())); }
 void VectorCanvas::addTransform (const juce::AffineTransform& inner) { now.transform = inner.followedBy (now.transform); }
 
+void VectorCanvas::clipTo (juce::Rectangle<float> area) { now.clip = now.clip.getIntersection (area.transformedBy (now.transform)); }
+
 bool VectorCanvas::clipToRectangle (const juce::Rectangle<int>& area)
 {
-    now.clip = now.clip.getIntersection (area.toFloat().transformedBy (now.transform));
+    clipTo (area.toFloat());
     return ! isClipEmpty();
 }
 
 bool VectorCanvas::clipToRectangleList (const juce::RectangleList<int>& areas) { return clipToRectangle (areas.getBounds()); }
-void VectorCanvas::clipToPath (const juce::Path& path, const juce::AffineTransform& t)
-{
-    clipToRectangle (path.getBoundsTransformed (t).getSmallestIntegerContainer());
-}
+void VectorCanvas::clipToPath (const juce::Path& path, const juce::AffineTransform& t) { clipTo (path.getBoundsTransformed (t)); }
 
 juce::Rectangle<int> VectorCanvas::getClipBounds() const { return now.clip.transformedBy (now.transform.inverted()).getSmallestIntegerContainer(); }
 
@@ -316,6 +362,18 @@ void VectorCanvas::restoreState()
     if (saved.empty()) return;
     now = saved.back();
     saved.pop_back();
+}
+
+void VectorCanvas::beginTransparencyLayer (float opacity)
+{
+    saveState();
+    now.layer_opacity *= opacity;
+}
+
+void VectorCanvas::setFill (const juce::FillType& fill)
+{
+    const bool has_gradient = fill.isGradient() && fill.gradient->getNumColours() > 0;
+    now.colour = has_gradient ? fill.gradient->getColour (0).withMultipliedAlpha (fill.getOpacity()) : fill.colour;
 }
 
 void VectorCanvas::fillRect (const juce::Rectangle<int>& area, bool) { fillRect (area.toFloat()); }

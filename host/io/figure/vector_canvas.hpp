@@ -3,14 +3,15 @@
 
 #include <juce_graphics/juce_graphics.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
 namespace tactus::host
 {
 
-/// Collects what juce::Graphics draws, as outlines, and writes it as SVG or PDF. Handles what figures need: solid colours, paths,
-/// rectangles, rectangular clips and images. It does not draw text in fonts. (Lettering draws text as outlines.)
+/// Collects what juce::Graphics draws, as outlines, and writes it as SVG or PDF: paths, rectangles, images, texts, which look the same without the
+/// typeface, and clips, which are rectangles. A gradient becomes its first colour. A layer has its opacity in each of its shapes.
 class VectorCanvas : public juce::LowLevelGraphicsContext
 {
 public:
@@ -38,10 +39,10 @@ public:
     bool isClipEmpty() const override { return now.clip.isEmpty(); }
     void saveState() override { saved.push_back (now); }
     void restoreState() override;
-    void beginTransparencyLayer (float) override {}
-    void endTransparencyLayer() override {}
-    void setFill (const juce::FillType& fill) override { now.colour = fill.colour; }
-    void setOpacity (float) override {}
+    void beginTransparencyLayer (float opacity) override;
+    void endTransparencyLayer() override { restoreState(); }
+    void setFill (const juce::FillType&) override;
+    void setOpacity (float opacity) override { now.colour = now.colour.withAlpha (opacity); }
     void setInterpolationQuality (juce::Graphics::ResamplingQuality) override {}
     void fillRect (const juce::Rectangle<int>&, bool) override;
     void fillRect (const juce::Rectangle<float>&) override;
@@ -49,36 +50,49 @@ public:
     void fillPath (const juce::Path&, const juce::AffineTransform&) override;
     void drawImage (const juce::Image&, const juce::AffineTransform&) override;
     void drawLine (const juce::Line<float>&) override;
-    void setFont (const juce::Font& chosen) override { font = chosen; }
-    const juce::Font& getFont() override { return font; }
-    void drawGlyph (int, const juce::AffineTransform&) override {}
+    void setFont (const juce::Font& chosen) override { now.font = chosen; }
+    const juce::Font& getFont() override { return now.font; }
+    void drawGlyph (int glyph, const juce::AffineTransform&) override;
 
 private:
     struct State
     {
         juce::AffineTransform transform;
         juce::Rectangle<float> clip;
-        juce::Colour colour;
+        juce::Colour colour { juce::Colours::black };
+        float layer_opacity = 1.0f;
+        juce::Font font {};
     };
 
     struct Shape
     {
-        juce::Path outline;
-        juce::Colour colour;
-        juce::Rectangle<float> clip;
-        float thickness;               // of the line; 0: the shape is filled
+        juce::Path outline {};
+        juce::Colour colour {};
+        juce::Rectangle<float> clip {};
+        float thickness = 0.0f;        // of the line; 0: the shape is filled
         juce::Image image {};          // drawn instead of the outline, if there is one
-        juce::AffineTransform at {};   // of the image, whose corner is at the origin
+        int glyph = -1;                // the same, if it is not negative
+        juce::AffineTransform at {};   // of the image, whose corner is at the origin, or of the glyph
     };
 
+    struct Glyph
+    {
+        juce::Typeface::Ptr face;   // keeps the key of the map alive
+        juce::Path outline;         // 1 high
+    };
+
+    void clipTo (juce::Rectangle<float>);
     void add (juce::Path, float thickness);
+    void add (Shape, juce::Rectangle<float> drawn);
+    std::string svgOf (const Shape&) const;
     juce::Rectangle<float> picture() const { return { width, height }; }
 
     float width, height;
-    State now { {}, picture(), juce::Colours::black };
+    State now { {}, picture() };
     std::vector<State> saved;
     std::vector<Shape> shapes;
-    juce::Font font;
+    std::vector<Glyph> glyphs;
+    std::map<std::pair<const juce::Typeface*, int>, int> glyph_numbers;   // by typeface and its own number
 };
 
 }   // namespace tactus::host

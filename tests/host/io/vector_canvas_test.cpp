@@ -151,3 +151,31 @@ TEST_CASE ("vector canvas: an image is in the file with its pixels\\, at its pla
     const auto page = inflated (pdf.substr (page_begin, pdf.find ("\nendstream", page_begin) - page_begin));
     CHECK (page.find ("q 60 0 0 -20 20 30 cm /I0 Do Q") != std::string::npos);   // its first row is at the top
 }
+
+TEST_CASE ("vector canvas: texts are outlines\\, each defined once\\, and opacity is kept", "[host][io][plot]")
+{
+    const juce::ScopedJuceInitialiser_GUI juce_is_up;
+    VectorCanvas canvas (200.0f, 100.0f);
+    {
+        juce::Graphics graphics (canvas);
+        graphics.setFont (20.0f);
+        graphics.setColour (juce::Colours::blue.withAlpha (0.8f));
+        graphics.beginTransparencyLayer (0.5f);
+        graphics.drawSingleLineText ("abba", 10, 40);
+        graphics.endTransparencyLayer();
+        graphics.drawSingleLineText ("a", 1000, 40);   // outside
+    }
+    const auto svg = juce::parseXML (juce::String::fromUTF8 (canvas.svg ("", 96.0).c_str()));
+    REQUIRE (svg != nullptr);
+    REQUIRE (svg->getChildByName ("defs") != nullptr);
+    CHECK (svg->getChildByName ("defs")->getNumChildElements() == 2);
+    juce::StringArray used;
+    for (const auto* use : svg->getChildWithTagNameIterator ("use"))
+    {
+        used.add (use->getStringAttribute ("xlink:href"));
+        CHECK (use->getStringAttribute ("fill") == "#0000ff");
+        CHECK (use->getStringAttribute ("fill-opacity") == "0.4");
+    }
+    CHECK (used == juce::StringArray { "#g0", "#g1", "#g1", "#g0" });
+    CHECK (canvas.pdf ("", 96.0).find ("/ExtGState << /A102 << /ca 0.4 /CA 0.4 >> >>") != std::string::npos);
+}

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "save_picture.hpp"
-#include "svg_graphics.hpp"
 
 #include <host/app/text/filled.hpp>
 #include <host/io/clip_io.hpp>
+#include <host/io/figure/vector_canvas.hpp>
 #include <tactus/file/atomic_file.hpp>
 
 #include <algorithm>
@@ -32,12 +32,13 @@ Result<> savePicture (const Canvas& canvas, const std::filesystem::path& path)
                                TRANS ("save it as SVG, which has no limit of size").toStdString());
     };
     std::string bytes;
-    if (extensionOf (path) == ".svg")
+    if (const auto extension = extensionOf (path); extension == ".svg" || extension == ".pdf")
     {
-        SvgGraphics svg (static_cast<int> (std::ceil (area.getWidth())), static_cast<int> (std::ceil (area.getHeight())));
-        juce::Graphics g (svg);
+        constexpr double units_per_inch = 96.0;   // as browsers have it
+        VectorCanvas shapes (std::ceil (area.getWidth()), std::ceil (area.getHeight()));
+        juce::Graphics g (shapes);
         paintAll (g, canvas, area.getPosition());
-        bytes = svg.text();
+        bytes = extension == ".pdf" ? shapes.pdf (path.stem().string(), units_per_inch) : shapes.svg (path.stem().string(), units_per_inch);
     }
     else
     {

@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// Saves all of the patch on a canvas as a picture: as SVG if the name ends in .svg, else as PNG with two pixels for each unit of the canvas, or fewer
+/// Saves all of the patch on a canvas as a picture: as SVG or PDF if the name ends so, else as PNG with two pixels for each unit of the canvas, or fewer
 /// if the patch is very large. Shows nothing of the run. Ids: canvas/picture, and those of createFile. [message thread]
 Result<> savePicture (const Canvas&, const std::filesystem::path&);
 

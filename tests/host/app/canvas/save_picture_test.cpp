@@ -10,7 +10,7 @@ using namespace tactus;
 using namespace tactus::host;
 using host::test::CanvasRig;
 
-TEST_CASE ("the canvas is saved as SVG and as PNG, all of it, whatever part is in view", "[app][canvas]")
+TEST_CASE ("the canvas is saved as SVG, PDF and PNG, all of it, whatever part is in view", "[app][canvas]")
 {
     const TemporaryFolder folder;
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
@@ -39,7 +39,9 @@ TEST_CASE ("the canvas is saved as SVG and as PNG, all of it, whatever part is i
         }
     CHECK (different < painted.getWidth() * painted.getHeight() / 50);
     const auto text = folder.textOf ("a.svg");
-    CHECK (text.find ("<use href=\"#g0\"") != std::string::npos);   // texts are outlines
+    CHECK (text.find ("<use xlink:href=\"#g0\"") != std::string::npos);   // texts are outlines
+    REQUIRE (savePicture (*rig.canvas, folder / "a.pdf"));
+    CHECK (folder.textOf ("a.pdf").starts_with ("%PDF"));
     const auto refused = savePicture (*rig.canvas, folder / "no" / "folder" / "a.svg");
     REQUIRE_FALSE (refused);
     CHECK_FALSE (refused.error().text.empty());
