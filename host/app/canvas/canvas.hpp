@@ -176,6 +176,7 @@ private:
         juce::MouseCursor::StandardCursorType cursor = juce::MouseCursor::NormalCursor;
     };
     Hover hoverAt (juce::Point<float>) const;
+    std::optional<Bend> bendAt (juce::Point<float>, bool of_selected) const;   ///< bends of a selected wire are above the nodes
     PointedPort portAt (juce::Point<float>) const;
     void point (PointedPort);
     void repaintChanged (const LiveState& before);

@@ -28,8 +28,18 @@ const Socket* socketOf (const SceneNode& node, juce::Point<float> at)
 }
 }   // namespace
 
+std::optional<Bend> Canvas::bendAt (juce::Point<float> at, bool of_selected) const
+{
+    const auto bend = shown->bendAt (at, socket_reach / window.zoom);
+    return bend && highlights.selected.contains (bend->wire) == of_selected ? bend : std::nullopt;
+}
+
 Canvas::Hover Canvas::hoverAt (juce::Point<float> at) const
 {
+    const auto overBend = [] (const Bend& bend) -> Hover {
+        return { bend.wire, TRANS ("Bend: drag to move; double-click or Delete removes it"), juce::MouseCursor::DraggingHandCursor };
+    };
+    if (const auto bend = bendAt (at, true)) return overBend (*bend);
     if (const auto s = shown->socketAt (at, socket_reach / window.zoom))
         return { s.node->id, portText (*s.node, *s.socket->port), juce::MouseCursor::CrosshairCursor };
     if (const auto* node = shown->nodeAt (at))
@@ -41,8 +51,7 @@ Canvas::Hover Canvas::hoverAt (juce::Point<float> at) const
         if (node->face->type == nullptr) return { node->id, node->type };
         return { node->id, std::string (node->face->type->info.name) + ": " + std::string (node->face->type->info.summary) };
     }
-    if (const auto bend = shown->bendAt (at, socket_reach / window.zoom))
-        return { bend->wire, TRANS ("Bend: drag to move; double-click or Delete removes it"), juce::MouseCursor::DraggingHandCursor };
+    if (const auto bend = bendAt (at, false)) return overBend (*bend);
     if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom))
         return { wire->id, filled (TRANS ("%1. Double-click inserts a node; Alt+drag bends the wire"), wire->text) };
     const auto note = shown->noteAt (at);

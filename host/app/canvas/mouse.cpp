@@ -21,6 +21,11 @@ std::unique_ptr<Drag> Canvas::dragFor (const juce::MouseEvent& e)
     const Minimap map { *shown, window, getLocalBounds() };
     if (with_map && map.isShown() && map.bounds().contains (e.position)) return panByMap (*this, e);
     const auto at = window.toCanvas (e.position);
+    const auto grabBend = [&] (const Bend& bend) {
+        selectBend (bend);
+        return moveBend (*this, bend, false);
+    };
+    if (const auto bend = bendAt (at, true)) return grabBend (*bend);
     if (const auto over = shown->socketAt (at, socket_reach / window.zoom); over && ! over.socket->port->isChoice())
     {
         if (e.mods.isShiftDown() && over.socket->port->role != Role::output)
@@ -55,11 +60,7 @@ std::unique_ptr<Drag> Canvas::dragFor (const juce::MouseEvent& e)
         if (e.mods.isAltDown()) edits.duplicateSelection();
         return moveSelection (*this, e);
     }
-    if (const auto bend = shown->bendAt (at, socket_reach / window.zoom))
-    {
-        selectBend (*bend);
-        return moveBend (*this, *bend, false);
-    }
+    if (const auto bend = bendAt (at, false)) return grabBend (*bend);
     if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom))
     {
         if (e.mods.isAltDown())
@@ -146,13 +147,13 @@ void Canvas::showMenu (juce::Point<float> at)
 void Canvas::mouseDoubleClick (const juce::MouseEvent& e)
 {
     const auto at = window.toCanvas (e.position);
-    if (const auto* node = shown->nodeAt (at))
+    if (const auto bend = bendAt (at, true))
+        edits.removeBend (*bend);
+    else if (const auto* node = shown->nodeAt (at))
     {
         const auto* socket = node->paramAt (at);
         socket == nullptr ? enter (*node) : edits.editParam (*node, *socket);
     }
-    else if (const auto bend = shown->bendAt (at, socket_reach / window.zoom))
-        edits.removeBend (*bend);
     else if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom))
         edits.requestNode ({ at, {}, wire->id });
     else if (const auto note = shown->noteAt (at))

@@ -397,6 +397,8 @@ void paintScene (juce::Graphics& g, const Scene& scene, const View& view, const 
     const NodePainter paint { g, look, highlights, view.zoom };
     for (const auto& n : scene.nodes())
         if (n.bounds().expanded (8.0f).intersects (seen)) paint (n);
+    for (const auto& w : scene.wires())   // above the nodes, where they can be grabbed
+        if (w.has_bends && highlights.selected.contains (w.id) && view.zoom > too_small_for_names) paintBends (g, w, highlights, look.theme());
 }
 
 }   // namespace tactus::host

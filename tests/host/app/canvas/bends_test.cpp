@@ -112,6 +112,36 @@ TEST_CASE ("a drag with Alt bends a wire, which then runs through the place; a d
     }
 }
 
+TEST_CASE ("a bend under a node can be grabbed while its wire is selected", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto id = std::ranges::find (rig.canvas->scene().wires(), wire, &SceneWire::text)->id;
+    const auto place = rig.canvas->view().toCanvas (rig.title ("drag"));
+    REQUIRE (rig.canvas->commands().addBend (id, place));
+    const auto bend = bendsIn (rig), to = std::vector { bend[0] + juce::Point<double> (0.0, 96.0) };
+
+    rig.canvas->select ({});
+    const auto at = rig.node ("drag").at;
+    rig.hand().drag (pixel (rig, bend[0]), pixel (rig, bend[0]) + juce::Point<float> (24.0f, 0.0f));   // the node is above it
+    CHECK (rig.node ("drag").at != at);
+    CHECK (bendsIn (rig) == bend);
+    rig.document.undo();
+    REQUIRE (rig.node ("drag").at == at);
+
+    rig.canvas->select ({ id });
+    rig.hand().move (pixel (rig, bend[0]));
+    CHECK (rig.hint.startsWith ("Bend"));
+    rig.hand().drag (pixel (rig, bend[0]), pixel (rig, to[0]));
+    CHECK (rig.node ("drag").at == at);
+    CHECK (bendsIn (rig)[0].getDistanceFrom (to[0]) < static_cast<double> (Box::grid));
+
+    rig.document.undo();
+    rig.canvas->select ({ id });
+    rig.hand().doubleClick (pixel (rig, bend[0]));
+    CHECK (bendsIn (rig).empty());
+    CHECK (rig.canvas->breadcrumbs().empty());
+}
+
 TEST_CASE ("bends are kept in the file, move with both nodes, and change nothing that is felt", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
