@@ -29,10 +29,17 @@ void CanvasCommands::wireFromSelection()
                     entries.push_back ({ from.name + '.' + out.id + " -> " + n.name + '.' + in.id, {}, in.about });
                     wires.push_back ({ { from.id, Role::output, out.id }, { n.id, in.role, in.id } });
                 }
-    canvas.onChoose (filled (TRANS ("Connect %1 to..."), from.name), entries, [this, wires, entries] (const std::string& chosen) {
+    const auto beside = from.bounds().getTopRight().translated (3 * Box::grid, 0.0f);
+    for (const auto& out : from.face->outputs)
+    {
+        entries.push_back ({ from.name + '.' + out.id + " -> " + TRANS ("new node").toStdString(), {}, TRANS ("Adds a node that fits.").toStdString() });
+        wires.push_back ({ { from.id, Role::output, out.id }, {} });
+    }
+    canvas.onChoose (filled (TRANS ("Connect %1 to..."), from.name), entries, [this, wires, entries, beside] (const std::string& chosen) {
         const auto entry = std::ranges::find (entries, chosen, &PaletteEntry::type);
         if (entry == entries.end()) return;
         const auto& [out, in] = wires[static_cast<std::size_t> (entry - entries.begin())];
+        if (in.node == 0) return requestNode ({ beside, out });
         const auto a = canvas.scene().findPort (out), b = canvas.scene().findPort (in);
         if (a && b) join (a, b);
     });

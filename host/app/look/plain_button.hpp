@@ -10,7 +10,7 @@ namespace tactus::host
 class PlainButton final : public juce::Button
 {
 public:
-    explicit PlainButton (const juce::String& label) : Button (label) { setWantsKeyboardFocus (false); }
+    explicit PlainButton (const juce::String& label) : Button (label) { setMouseClickGrabsKeyboardFocus (false); }
 
     void setFirst (bool f)
     {
@@ -29,10 +29,12 @@ public:
         const auto plain = over ? theme.hairline : theme.raised;
         g.setColour (is_first ? theme.accent.withMultipliedBrightness (down ? 0.85f : lit) : plain);
         g.fillRoundedRectangle (area, 4.0f);
-        if (! is_first)
+        const bool has_keyboard = hasKeyboardFocus (false);
+        if (! is_first || has_keyboard)
         {
-            g.setColour (theme.hairline);
-            g.drawRoundedRectangle (area, 4.0f, 1.0f);
+            const auto ring = is_first ? theme.text : theme.accent;
+            g.setColour (has_keyboard ? ring : theme.hairline);
+            g.drawRoundedRectangle (area, 4.0f, has_keyboard ? 2.0f : 1.0f);
         }
         const auto on_accent = theme.is_dark ? theme.canvas : juce::Colours::white;
         g.setColour (is_first ? on_accent : theme.text);

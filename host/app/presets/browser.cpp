@@ -2,6 +2,7 @@
 #include "browser.hpp"
 #include "fitted_text.hpp"
 
+#include <host/app/look/focus.hpp>
 #include <host/app/text/filled.hpp>
 
 #include <algorithm>
@@ -86,6 +87,12 @@ void PresetBrowser::reload()
     }
     own.insert (own.begin(), std::make_move_iterator (latest.begin()), std::make_move_iterator (latest.end()));
     update();
+}
+
+void PresetBrowser::beginSearch()
+{
+    takeFocus (query);
+    query.selectAll();
 }
 
 void PresetBrowser::search (const juce::String& text)

@@ -32,6 +32,7 @@ public:
 
     const std::vector<Preset>& shipped() const noexcept { return presets; }
     void search (const juce::String&);   ///< as if the user had typed the text
+    void beginSearch();                  ///< gives the keyboard to the search; what is typed next replaces its text
 
     /// A row of the list: a heading or a preset. A click on the heading of own graphs shows all of them, or fewer.
     struct Row

@@ -103,7 +103,7 @@ public:
     void paintButton (juce::Graphics& g, bool over, bool) override
     {
         const auto& look = lookOf (*this);
-        g.setColour (over ? look.theme().text : look.theme().accent);
+        g.setColour (over || hasKeyboardFocus (false) ? look.theme().text : look.theme().accent);
         g.setFont (look.font (13.0f));
         g.drawText (getButtonText(), getLocalBounds(), juce::Justification::centred, true);
     }
@@ -199,12 +199,13 @@ void WelcomePage::resized()
         all[i]->setBounds (area.getX() + static_cast<int> (i % columns) * (w + gap), area.getY() + static_cast<int> (i / columns) * (h + gap), w, h);
 }
 
-/// Arrows go from card to card.
+/// Arrows go from card to card, and below the cards is a row of buttons.
 bool WelcomePage::keyPressed (const juce::KeyPress& key)
 {
     const auto now = std::ranges::find_if (all, [] (const auto& card) { return card->hasKeyboardFocus (false); });
-    if (now == all.end()) return false;
-    auto to = now - all.begin();
+    const bool is_below = now == all.end();
+    if (is_below && (all.empty() || key != juce::KeyPress::upKey)) return false;
+    auto to = is_below ? std::ssize (all) - 1 + columns : now - all.begin();
     if (key == juce::KeyPress::leftKey)
         --to;
     else if (key == juce::KeyPress::rightKey)
@@ -215,7 +216,10 @@ bool WelcomePage::keyPressed (const juce::KeyPress& key)
         to += columns;
     else
         return false;
-    if (to >= 0 && to < std::ssize (all)) takeFocus (*all[static_cast<std::size_t> (to)]);
+    if (to >= 0 && to < std::ssize (all))
+        takeFocus (*all[static_cast<std::size_t> (to)]);
+    else if (key == juce::KeyPress::downKey)
+        takeFocus (create);
     return true;
 }
 

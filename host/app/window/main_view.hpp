@@ -179,7 +179,13 @@ private:
     void store (int snapshot);
     juce::PopupMenu::Item menuItem (const juce::String& text, const juce::String& keys, std::function<void()> act, bool is_ticked = false);
     juce::PopupMenu languageMenu();
+    juce::PopupMenu windowMenu();
     void openMenu (juce::Component& at);
+    struct Action;   ///< what a click would do
+    void addEdits (std::vector<Action>&);
+    void addTabsAndButtons (std::vector<Action>&);
+    void findAction();
+    void reveal (Tabs&, const juce::Component& panel);   ///< even if the tabs are folded
     void askForRecording();
     void launchChooser (const juce::String& title, const juce::String& patterns, const juce::File& begin, int how,
                         std::function<void (const std::filesystem::path&)>);

@@ -46,22 +46,18 @@ void MainView::nextPanel (int step)
     }
 }
 
-/// F6 goes from panel to panel, Ctrl+F to the search for presets, and F5 starts.
+/// F6 goes from panel to panel, Ctrl+F to the search for presets and Ctrl+K to that for everything else, and F5 starts.
 bool MainView::panelKey (const juce::KeyPress& key)
 {
     if (key.isKeyCode (juce::KeyPress::F6Key))
         nextPanel (key.getModifiers().isShiftDown() ? -1 : 1);
     else if (key == juce::KeyPress::createFromDescription ("ctrl + f"))
     {
-        if (left_edge.isFolded())
-        {
-            left_edge.fold (false);
-            edgeMoved();
-            panelsMoved();
-        }
-        left.show (presets);
-        takeFocus (presets);
+        reveal (left, presets);
+        presets.beginSearch();
     }
+    else if (key == juce::KeyPress::createFromDescription ("ctrl + k") || key == juce::KeyPress::createFromDescription ("F3"))
+        findAction();
     else if (key.isKeyCode (juce::KeyPress::F5Key))
     {
         if (! playback.current().isRunning()) playback.restart();   // as START does

@@ -81,7 +81,7 @@ juce::PopupMenu MainView::languageMenu()
     return menu;
 }
 
-void MainView::openMenu (juce::Component& at)
+juce::PopupMenu MainView::windowMenu()
 {
     constexpr float widest = 280.0f;   // of a part of an entry, in pixels
     const auto font = lookOf (*this).getPopupMenuFont();
@@ -130,7 +130,14 @@ void MainView::openMenu (juce::Component& at)
     menu.addItem (menuItem (TRANS ("Help on selected node"), "F1", [this] { helpOnSelection(); }));
     menu.addItem (menuItem (TRANS ("Guided tour"), keyText ("shift + F1"), [this] { beginTour(); }));
     menu.addItem (menuItem (TRANS ("Keyboard shortcuts"), {}, [this] { help.showKeys(); }));
-    menu.showMenuAsync (juce::PopupMenu::Options().withParentComponent (this).withTargetComponent (at).withMinimumWidth (240).withStandardItemHeight (28));
+    menu.addItem (menuItem (TRANS ("Find a command ..."), keyText ("ctrl + k"), [this] { findAction(); }));
+    return menu;
+}
+
+void MainView::openMenu (juce::Component& at)
+{
+    windowMenu().showMenuAsync (
+        juce::PopupMenu::Options().withParentComponent (this).withTargetComponent (at).withMinimumWidth (240).withStandardItemHeight (28));
 }
 
 void MainView::askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)> chosen)

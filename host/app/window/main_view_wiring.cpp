@@ -74,8 +74,7 @@ void MainView::connectSides()
 
 void MainView::connectRun()
 {
-    strip.onProblems = [this] { bottom.show (problems); };
-    strip.limitLight().onClick = [this] { bottom.show (problems); };
+    strip.onProblems = strip.limitLight().onClick = [this] { reveal (bottom, problems); };
     problems.onShow = [this] (const ProblemLocation& c) { patching.show (c.patch, c.id); };
     live.limits = &limits;
 

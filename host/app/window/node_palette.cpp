@@ -72,8 +72,8 @@ void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalog
         return all;
     };
     palette.open (at, search, purpose, [&canvas, chosen = std::move (chosen)] (const std::string& type) {
+        takeFocus (canvas);   // first: what is chosen may open the palette again
         chosen (type);
-        takeFocus (canvas);
     });
 }
 
@@ -82,8 +82,8 @@ void openPalette (Palette& palette, Canvas& canvas, const juce::String& purpose,
 {
     const auto search = [all = std::move (entries)] (const std::string& query) { return matching (all, query); };
     palette.open (palette.getParentComponent()->getMouseXYRelative(), search, purpose, [&canvas, chosen = std::move (chosen)] (const std::string& type) {
+        takeFocus (canvas);   // first: what is chosen may open the palette again
         chosen (type);
-        takeFocus (canvas);
     });
 }
 

@@ -22,7 +22,7 @@ public:
     juce::String text() const
     {
         if (hinted.isNotEmpty()) return hinted;
-        return notice.isNotEmpty() ? notice : TRANS ("Space: add a node   F: frame   G: group   B: bypass   Ctrl+Z: undo   F1: help");
+        return notice.isNotEmpty() ? notice : TRANS ("Space: add a node   F: frame   G: group   B: bypass   Ctrl+Z: undo   Ctrl+K: find anything   F1: help");
     }
 
     juce::String getTooltip() override { return lineFont().getStringWidthFloat (text()) > static_cast<float> (line().getWidth()) ? text() : juce::String(); }

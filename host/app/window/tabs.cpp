@@ -76,6 +76,7 @@ void Tabs::paint (juce::Graphics& g)
         if (! is_current) continue;
         g.setColour (theme.accent);
         g.fillRect (place.reduced (12.0f, 0.0f).removeFromBottom (2.0f));
+        if (hasKeyboardFocus (false)) g.drawRoundedRectangle (place.reduced (4.0f), 4.0f, 1.0f);
     }
 }
 
@@ -90,6 +91,14 @@ void Tabs::mouseDown (const juce::MouseEvent& e)
     const auto all = titles();
     for (std::size_t i = 0; i < all.size(); ++i)
         if (all[i].second.contains (e.position)) show (static_cast<int> (i));
+}
+
+bool Tabs::keyPressed (const juce::KeyPress& key)
+{
+    if (! hasKeyboardFocus (false) || (key != juce::KeyPress::leftKey && key != juce::KeyPress::rightKey)) return false;
+    const int count = static_cast<int> (tabs.size());
+    show ((current + (key == juce::KeyPress::rightKey ? 1 : count - 1)) % count);
+    return true;
 }
 
 }   // namespace tactus::host

@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// Tabbed panels, with a row of titles.
+/// Tabbed panels, with a row of titles. While it has the keyboard, arrow keys go from tab to tab, and Tab goes into the panel.
 class Tabs final : public juce::Component
 {
 public:
@@ -17,7 +17,8 @@ public:
 
     Tabs()
     {
-        setMouseClickGrabsKeyboardFocus (false);   // JUCE would give the focus to the first field of the panel
+        setWantsKeyboardFocus (true);
+        setMouseClickGrabsKeyboardFocus (false);
         setOpaque (true);
     }
 
@@ -36,6 +37,7 @@ public:
     void show (int index);
     void show (const juce::Component& panel);
     int shown() const noexcept { return current; }
+    juce::Component* panel (int index) const { return tabs[static_cast<std::size_t> (index)].panel.get(); }
 
     /// The titles and their bounds.
     std::vector<std::pair<juce::String, juce::Rectangle<float>>> titles() const;
@@ -43,6 +45,9 @@ public:
     void paint (juce::Graphics&) override;
     void resized() override;
     void mouseDown (const juce::MouseEvent&) override;
+    bool keyPressed (const juce::KeyPress&) override;
+    void focusGained (FocusChangeType) override { repaint(); }
+    void focusLost (FocusChangeType) override { repaint(); }
 
 private:
     void insert (const juce::String& name, std::unique_ptr<juce::Component>);

@@ -86,7 +86,7 @@ TEST_CASE ("after a menu\\, a name\\, a dialog and a start\\, the keys of the ca
     {
         auto* more = w.titled ("Menu");
         REQUIRE (more != nullptr);
-        w.choose (w.middleOf (*more), 7, juce::ModifierKeys::leftButtonModifier, end);   // the theme
+        w.choose (w.middleOf (*more), 9, juce::ModifierKeys::leftButtonModifier, end);   // the theme
         d.checkKeys (std::string ("the menu of the window, ") + end);
     }
 
@@ -177,4 +177,83 @@ TEST_CASE ("the keyboard alone leads from the welcome page to a force, and throu
     CHECK (w.graph().name == "Liver");
     CHECK (WindowRig::focused() == &w.view->canvas());
     w.view->run().letGo();
+}
+
+TEST_CASE ("keys reach the buttons of the welcome page, and every tab", "[app][keyboard]")
+{
+    WindowRig w;
+    const auto isOn = [] (const juce::String& button) {
+        const auto* b = dynamic_cast<juce::Button*> (WindowRig::focused());
+        return b != nullptr && b->getButtonText() == button;
+    };
+    for (int i = 0; i < 2; ++i)
+        w.key ("cursor down");
+    CHECK (isOn ("New empty graph"));
+    w.key ("cursor up");
+    CHECK (isOn (juce::String (w.view->welcomePage().cards()[5].name)));
+    w.key ("cursor down");
+    w.key ("tab");
+    CHECK (isOn ("Open ..."));
+    w.key ("shift + tab");
+    w.key ("return");
+    WindowRig::settle();
+    REQUIRE_FALSE (w.view->welcomePage().isVisible());
+    CHECK (WindowRig::focused() == &w.view->canvas());
+
+    std::set<std::string> shown;
+    for (int panel = 0; panel < 5; ++panel)
+    {
+        w.key ("F6");
+        auto* tabs = dynamic_cast<Tabs*> (WindowRig::focused());
+        if (tabs == nullptr) continue;
+        const int count = static_cast<int> (tabs->titles().size());
+        const int first = tabs->shown();
+        for (int i = 0; i < count; ++i)
+        {
+            w.key ("cursor right");
+            CHECK (tabs->shown() == (first + i + 1) % count);
+            CHECK (tabs->panel (tabs->shown())->isShowing());
+            CHECK (WindowRig::focused() == tabs);
+            shown.insert (tabs->titles()[static_cast<std::size_t> (tabs->shown())].first.toStdString());
+        }
+        w.key ("tab");
+        CHECK ((WindowRig::focused() != tabs && tabs->isParentOf (WindowRig::focused())));
+        w.key ("shift + tab");
+        CHECK (WindowRig::focused() == tabs);
+    }
+    for (const char* tab : { "Presets", "Nodes", "History", "Scopes", "Take", "Layers", "Devices", "Problems" })
+    {
+        INFO (tab);
+        CHECK (shown.contains (tab));
+    }
+}
+
+TEST_CASE ("the search for commands finds what a click can do, wherever it is", "[app][keyboard]")
+{
+    WindowRig w ("dry_wood.json");
+    const auto find = [&] (const char* words) {
+        INFO (words);
+        w.key ("ctrl + k");
+        REQUIRE (w.titled ("Palette") != nullptr);
+        w.stage->type (words);
+        w.key ("return");
+        WindowRig::settle();
+        CHECK (w.titled ("Palette") == nullptr);
+    };
+    find ("history");
+    REQUIRE (w.titled ("History") != nullptr);
+    CHECK (WindowRig::focused() == &w.view->canvas());
+    find ("select all");
+    CHECK (w.view->canvas().selection().size() >= w.graph().root.nodes.size());
+    w.key ("z");   // all panels are folded
+    find ("take");
+    CHECK (w.view->takePanel().isShowing());
+    CHECK (w.view->takePanel().getHeight() > 100);
+    const bool was_dark = themeOf (*w.view).is_dark;
+    find ("light theme");
+    CHECK (themeOf (*w.view).is_dark != was_dark);
+    w.view->canvas().select ({ w.graph().root.find ("drag")->id });
+    const auto before = w.graph().controls.size();
+    find ("stiffness new control");
+    CHECK (w.graph().controls.size() == before + 1);
 }

@@ -140,6 +140,24 @@ Vec3 forceAt (const graph::Graph& g, double z)
     }
     return (sway / ticks - (sum / ticks).cwiseAbs2()).cwiseMax (0.0).cwiseSqrt() + (sum / ticks).cwiseAbs();
 }
+
+/// The saved graph has a plane, friction, and a grating that the knob turns up and that is felt only in contact.
+void checkRoughBoard (const std::filesystem::path& file)
+{
+    const auto saved = loadGraph (file);
+    REQUIRE_FALSE (hasErrors (saved.messages));
+    CHECK (saved.graph.name == "Rough board");
+    auto g = saved.graph;
+    REQUIRE (g.controls.size() == 1);
+    CHECK (g.controls[0].to.front().path == "grating.amplitude");
+    CHECK (forceAt (g, 1e-3).norm() == 0.0);   // in the air
+    g.controls[0].value = 0.0;
+    const auto smooth = forceAt (g, -1e-3);
+    CHECK (smooth.z() > 0.1);    // the plane
+    CHECK (smooth.x() > 0.05);   // friction
+    g.controls[0].value = 1.0;
+    CHECK ((forceAt (g, -1e-3) - smooth).norm() > 0.01);   // the grating, by the knob
+}
 }   // namespace
 
 TEST_CASE ("a person builds plane\\, friction\\, a gated grating and a knob\\, and saves\\, in 18 actions", "[app][person]")
@@ -158,6 +176,11 @@ TEST_CASE ("a person builds plane\\, friction\\, a gated grating and a knob\\, a
     p.click ("Layers");
     p.click ("+ Texture");
     REQUIRE (p.canvas().selection() == tactus::host::Selection { p.w.graph().root.find ("grating")->id });   // what was added is selected
+    const auto* source = WindowRig::buttonIn (*p.w.view, "grating_felt.out");
+    REQUIRE (source != nullptr);
+    const auto dot = source->getParentComponent()->createComponentSnapshot (source->getBounds().withWidth (1).translated (-5, 0));
+    const auto force = themeOf (*p.w.view).of (tactus::Quantity::force);
+    CHECK (dot.getPixelAt (0, dot.getHeight() / 2).getHue() == Approx (force.getHue()).margin (0.02));   // before it has run
     const auto isAsked = [] { return juce::Component::getNumCurrentlyModalComponents() > 0; };
     p.chooseFirst (p.titled ("Amplitude"));
     p.await ([&] { return p.w.graph().controls.size() == 1 && ! isAsked(); });
@@ -172,19 +195,41 @@ TEST_CASE ("a person builds plane\\, friction\\, a gated grating and a knob\\, a
     CHECK (p.actions <= 18);
     std::cout << "plane, friction, gated grating, knob, saved: " << p.actions << " actions\n";
 
-    const auto saved = loadGraph (file);
-    REQUIRE_FALSE (hasErrors (saved.messages));
-    CHECK (saved.graph.name == "Rough board");
-    auto g = saved.graph;
-    REQUIRE (g.controls.size() == 1);
-    CHECK (g.controls[0].to.front().path == "grating.amplitude");
-    CHECK (forceAt (g, 1e-3).norm() == 0.0);   // in the air
-    g.controls[0].value = 0.0;
-    const auto smooth = forceAt (g, -1e-3);
-    CHECK (smooth.z() > 0.1);    // the plane
-    CHECK (smooth.x() > 0.05);   // friction
-    g.controls[0].value = 1.0;
-    CHECK ((forceAt (g, -1e-3) - smooth).norm() > 0.01);   // the grating, by the knob
+    checkRoughBoard (file);
+}
+
+TEST_CASE ("keys alone build plane\\, friction\\, a gated grating and a knob\\, and save\\, in 25 actions", "[app][person][keyboard]")
+{
+    Person p { true };
+    setenv ("TACTUS_GRAPHS", p.w.home.path().c_str(), 1);
+    const auto choose = [&] (const char* key, const char* words) {
+        p.key (key);
+        p.type (words);
+        p.key ("return");
+    };
+    p.key ("ctrl + n");
+    choose ("spacebar", "plane");
+    p.await ([&] { return WindowRig::tabIn (*p.w.view, *p.w.stage, "Problems 2").has_value(); });
+    choose ("ctrl + k", "add hand");   // a button of a panel that is not in front
+    choose ("ctrl + k", "add motor");
+    choose ("w", "resistance new");
+    p.type ("friction");
+    p.key ("return");
+    choose ("ctrl + k", "texture");
+    REQUIRE (p.canvas().selection() == tactus::host::Selection { p.w.graph().root.find ("grating")->id });
+    choose ("ctrl + k", "amplitude new");
+    p.await ([&] { return p.w.graph().controls.size() == 1; });
+    p.key ("return");   // the name
+    p.key ("ctrl + s");
+    p.await ([] { return juce::Component::getNumCurrentlyModalComponents() > 0; });
+    p.type ("rough board");
+    p.key ("return");
+    const auto file = p.w.home / "rough board.json";
+    p.await ([&] { return std::filesystem::exists (file); });
+    unsetenv ("TACTUS_GRAPHS");
+    std::cout << "the same by keys: " << p.actions << " actions\n";
+    CHECK (p.actions <= 25);
+    checkRoughBoard (file);
 }
 
 TEST_CASE ("a person feels something in two actions", "[app][person]")
@@ -225,12 +270,15 @@ TEST_CASE ("a person types a name and Return\\, and gets what has this name", "[
 {
     Person p { true };
     p.click (p.titled ("Search presets"));
+    p.type ("liver");
+    p.key ("ctrl + f");   // what is typed next replaces it
     p.type ("soft pad");
     p.key ("return");
     CHECK (p.w.graph().name == "Soft pad");
     p.key ("ctrl + n");
     for (const auto& [word, type] :
-         { std::pair { "hand", "device.position" }, std::pair { "motor", "device.force" }, std::pair { "contact", "contact.window" } })
+         { std::pair { "hand", "device.position" }, std::pair { "motor", "device.force" }, std::pair { "contact", "contact.window" },
+           std::pair { "friction", "friction.elasto_plastic" } })
     {
         p.key ("spacebar");
         p.type (word);
