@@ -146,6 +146,7 @@ void LayerStrip::showSource()
     const auto face = faceOf (graph, *patch, *from, context->catalogue);
     const auto* port = face.startOf (w->from);
     if (port != nullptr && port->quantity() != Quantity::any) feed.quantity = port->quantity();
+    if (context->place.vectors) feed.quantity = Quantity::force;
     if (feed.unit.empty()) feed.unit = unitOfLayer (graph, context->place, context->catalogue, layer);
 }
 
@@ -271,7 +272,9 @@ void LayerStrip::refresh (const Traces::Client& traces, double dt_s, bool with_s
     const auto found = traces.of (port (".in["));
     const auto level = found.empty() ? traces.of (port (".level[")) : found;
     const auto peak = feed.meter.peak(), rms = feed.meter.rms();
+    const auto quantity = feed.quantity;
     feed.take (level, found.empty() ? 1.0 : gain, dt_s);   // the level is that after the gain
+    if (feed.quantity != quantity) repaint();              // its colour is everywhere
     if (feed.meter.peak() != peak || feed.meter.rms() != rms)
     {
         repaint (meter_area);

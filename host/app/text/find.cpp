@@ -104,7 +104,7 @@ struct Fields
     }
 };
 
-constexpr int per_rank = 100, title_is_query = -2, title_begins = -1;
+constexpr int per_rank = 100, title_is_query = -3, title_ends = -2, title_begins = -1;
 
 /// Less is better. The worst word counts first; per_rank * no_match if one does not fit.
 int scoreOf (const Findable& entry, const std::vector<std::string>& words, const std::string& query)
@@ -118,6 +118,7 @@ int scoreOf (const Findable& entry, const std::vector<std::string>& words, const
         worst = std::max (worst, rank);
         sum += rank;
     }
+    if (worst <= of_tag && fields.title.ends_with (' ' + query)) return title_ends;   // elasto-plastic friction is the kind that was asked for
     if (worst <= of_tag && fields.title.starts_with (query)) return title_begins;
     return worst < no_match ? worst * per_rank + sum : no_match * per_rank;
 }

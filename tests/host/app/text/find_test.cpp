@@ -45,7 +45,7 @@ TEST_CASE ("find: the title itself comes first\\, then words of the title\\, tag
         { "Elsewhere", "", "", "an inviscous pad" },
     };
     CHECK (titlesOf (all, "viscous")
-           == std::vector<std::string> { "Viscous", "Viscous oil", "Not too viscous", "By its tag", "By its beginning", "Sweets", "In the text" });
+           == std::vector<std::string> { "Viscous", "Not too viscous", "Viscous oil", "By its tag", "By its beginning", "Sweets", "In the text" });
     CHECK (titlesOf (all, " VISCOUS  oil") == std::vector<std::string> { "Viscous oil" });
     CHECK (titlesOf (all, "").size() == all.size());
 }
