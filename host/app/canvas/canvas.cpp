@@ -93,6 +93,7 @@ void Canvas::frameAll()
 
 void Canvas::frameStart()
 {
+    if (shown->bounds().isEmpty()) window = {};   // an empty canvas is at 100 %, whatever was shown before
     const auto isDevice = [] (const SceneNode& n) { return n.type.starts_with ("device."); };
     const auto first = std::ranges::min_element (shown->nodes(), {}, [&] (const SceneNode& n) { return std::pair (! isDevice (n), n.at.x); });
     frameAround (first == shown->nodes().end() ? shown->bounds() : first->bounds());

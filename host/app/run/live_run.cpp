@@ -272,7 +272,7 @@ const std::string& LiveRun::clockRole() const noexcept
 void LiveRun::documentChanged()
 {
     const auto& graph = document.graph();
-    const bool is_same_run = isLive() && graph.rate_hz == graph_rate_hz && withoutGuards (graph.devices) == run_devices;
+    const bool is_same_run = wanted && isLive() && graph.rate_hz == graph_rate_hz && withoutGuards (graph.devices) == run_devices;
     if (is_same_run) return takeOver();
     auto checked = check (graph);   // reports problems now: the previous run may take a moment to end
     said = std::move (checked.messages);

@@ -79,7 +79,12 @@ void SetRow::setNote (const juce::String& n, juce::Colour colour)
     repaint();
 }
 
-void SetRow::hover() { arrow->setVisible (is_set && onReset != nullptr && isMouseOver (true)); }
+void SetRow::hover()
+{
+    const bool was_shown = arrow->isVisible();
+    arrow->setVisible (is_set && onReset != nullptr && isMouseOver (true));
+    if (arrow->isVisible() != was_shown) repaint();   // the texts beside it have more or less space
+}
 
 void SetRow::openMenu()
 {

@@ -103,3 +103,27 @@ TEST_CASE ("after an undo, every panel shows what it showed before the edit", "[
         }
     }
 }
+
+TEST_CASE ("a new graph shows nothing of the one before it: neither its zoom nor what was said about its run", "[app][stale]")
+{
+    WindowRig w ("bronze_bell.json", 1280, 720, false);
+    auto& canvas = w.view->canvas();
+    REQUIRE (canvas.view().zoom < 1.0f);
+    const auto wait = [] (const auto& isSo) {
+        for (int i = 0; i < 1000 && ! isSo(); ++i)
+            WindowRig::settle (10);
+        return isSo();
+    };
+    w.key ("F5");
+    REQUIRE (wait ([&] { return w.view->run().isRunning(); }));
+    w.key ("ctrl + n");
+    REQUIRE (w.graph().root.nodes.empty());
+    CHECK (canvas.view().zoom == 1.0f);
+    w.key ("spacebar");
+    w.stage->type ("plane");
+    w.key ("return");
+    const auto isSaid = [&] { return std::ranges::count (w.view->run().messages(), "watch/guard", &Message::id) > 0; };
+    CHECK_FALSE (isSaid());   // the guard of the run that has ended does not matter any more
+    REQUIRE (wait ([&] { return ! w.view->run().isRunning(); }));
+    CHECK_FALSE (isSaid());
+}
