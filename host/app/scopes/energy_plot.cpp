@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "energy_plot.hpp"
 
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
 
-namespace
+juce::TextLayout EnergyPlot::layout() const
 {
-constexpr float line_height = 15.0f;
-constexpr int most_lines = 3;
-}   // namespace
+    const auto ink = meter.balance().isPassive() ? theme().text : theme().warning;
+    return wrapText (text, lookOf (*this).font (12.0f), ink, static_cast<float> (getWidth()) - 2.0f * margin);
+}
 
 void EnergyPlot::show (const Signals& signals)
 {
@@ -36,12 +37,8 @@ void EnergyPlot::show (const Signals& signals)
     text = context.energies_left_out > 0 ? filled (TRANS ("work of the hand %1; the energy of the nodes is not recorded, because %2 ports report one"),
                                                    withPrefix (meter.balance().work, "J", 2), context.energies_left_out)
                                          : juce::String::fromUTF8 (describe (meter.balance()).c_str());
-    const auto linesOf = [this] (const juce::String& t) {
-        const float width = lookOf (*this).font (12.0f).getStringWidthFloat (t), line = std::max (1.0f, static_cast<float> (getWidth()) - 16.0f);
-        return std::clamp (static_cast<int> (std::ceil (1.1f * width / line)), 1, most_lines);
-    };
-    if (lane.area.getHeight() - line_height * static_cast<float> (linesOf (text)) < least_plot) text = text.upToFirstOccurrenceOf (":", false, false);
-    lane.area.removeFromTop (line_height * static_cast<float> (linesOf (text)));
+    if (lane.area.getHeight() - layout().getHeight() < least_plot) text = text.upToFirstOccurrenceOf (":", false, false);
+    lane.area.removeFromTop (layout().getHeight());
     has_legend = lane.area.getHeight() - legend_height >= least_plot;
     if (has_legend) lane.area.removeFromTop (legend_height);
     rate_hz = traces.front()->rate();
@@ -97,9 +94,7 @@ void EnergyPlot::paintOver (juce::Graphics& g)
     const auto& look = lookOf (*this);
     const auto& lane = lanes.front();
     const auto& now = meter.balance();
-    g.setFont (look.font (12.0f));
-    g.setColour (now.isPassive() ? theme().text : theme().warning);
-    g.drawMultiLineText (text, 8, 16, getWidth() - 16);
+    layout().draw (g, getLocalBounds().toFloat().reduced (margin, 4.0f));
     const auto legend = lane.area.withY (lane.area.getY() - legend_height).withHeight (legend_height);
     const auto stored_ink = theme().of (Quantity::length).withAlpha (0.55f), lost_ink = theme().of (Quantity::energy).withAlpha (0.45f);
     if (has_legend)

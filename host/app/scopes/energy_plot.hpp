@@ -24,6 +24,9 @@ private:
     void paintLane (juce::Graphics&, const Lane&, std::size_t) override;
     void paintOver (juce::Graphics&) override;
     juce::String emptyText() const override;
+    juce::TextLayout layout() const;   // of the text
+
+    static constexpr float margin = 8.0f;   // at the left and the right of the text
 
     EnergyMeter meter;
     MovingColumns work, stored, dissipated;

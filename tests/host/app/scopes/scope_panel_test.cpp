@@ -441,6 +441,27 @@ TEST_CASE ("scopes: for a slow stroke over a preset, the nodes account for all w
     }
 }
 
+TEST_CASE ("scopes: what is said about the energy does not cover the legend, however narrow the scope is", "[app][scopes]")
+{
+    Bench b ("bronze_bell");
+    b.run (4000);
+    auto& view = b.view (ScopeKind::energy);
+    int legends = 0;
+    for (int width = 1600; width >= 660; width -= 20)
+    {
+        INFO (width);
+        b.panel->setSize (width, 260);
+        b.panel->refresh();
+        const auto texts = readTexts (view);
+        const auto legend = std::ranges::find (texts, "hand", &SeenText::text);
+        if (legend == texts.end()) continue;   // there is no room for it
+        ++legends;
+        for (const auto& t : texts)
+            if (&t != &*legend) CHECK_FALSE (t.place.reduced (1.0f).intersects (legend->place.reduced (1.0f)));
+    }
+    CHECK (legends > 10);
+}
+
 TEST_CASE ("scopes: what does not change is not drawn again", "[app][scopes]")
 {
     Bench b;
