@@ -111,9 +111,17 @@ void CanvasCommands::groupSelection()
     auto command = group (document.graph(), canvas.patch(), canvas.selection());
     if (! command) return;
     const auto name = std::get<graph::CollapseNodes> (command->edit).name;
+    juce::Rectangle<float> all;
+    for (const auto* n : selectedNodes())
+        all = all.isEmpty() ? n->bounds() : all.getUnion (n->bounds());
     if (! perform (std::move (*command))) return;
-    for (const auto& n : canvas.scene().nodes())
-        if (n.name == name) canvas.select ({ n.id });
+    const auto& nodes = canvas.scene().nodes();
+    const auto made = std::ranges::find (nodes, name, &SceneNode::name);
+    if (made == nodes.end()) return;
+    const auto id = made->id;
+    const auto corner = (made->bounds().withCentre (all.getCentre()).getPosition() / Box::grid).roundToInt().toFloat() * Box::grid;
+    perform (placeNodes (document.graph(), canvas.patch(), { { id, freePlace (canvas.scene(), corner) } }), graph::Step::joined);   // where they were
+    canvas.select ({ id });
 }
 
 void CanvasCommands::expandSelection()

@@ -236,3 +236,22 @@ TEST_CASE ("all of a graph with two thousand nodes can be seen at once", "[app][
     CHECK (rig.canvas->getLocalBounds().toFloat().contains (juce::Rectangle<float> (view.toPixels (all.getTopLeft()), view.toPixels (all.getBottomRight()))));
     CHECK (view.zoom * rig.canvas->scene().nodes().front().box.width > 4.0f);   // pixels
 }
+
+TEST_CASE ("a subgraph is where its nodes were, and grouping is one step", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto before = rig.text();
+    for (const char* name : { "board", "drag", "grain" })
+    {
+        INFO (name);
+        const auto place = rig.node (name).bounds();
+        rig.canvas->select ({ rig.node (name).id });
+        rig.hand().key ("g");
+        const auto made = rig.node ("group").bounds();
+        CHECK (place.contains (made.getCentre()));
+        for (const auto& n : rig.canvas->scene().nodes())
+            if (n.name != "group") CHECK_FALSE (n.bounds().intersects (made));
+        rig.hand().key ("ctrl + z");
+        CHECK (rig.text() == before);
+    }
+}
