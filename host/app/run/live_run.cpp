@@ -33,7 +33,7 @@ LiveRun::LiveRun (Document& d, const Catalogue& c, Sound* s) : document (d), cat
 {
     document.add (*this);
     probes.onWanted = scene_feed.onWanted = port_feed.onWanted = [this] {
-        if (isLive()) takeOver();
+        if (wanted && isLive()) takeOver();
     };
     scene_feed.hasPlace = [this] (const std::string& role) { return ! isSoundCard (role); };
     scene_feed.onWatched = [this] { showScene(); };

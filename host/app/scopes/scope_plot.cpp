@@ -232,11 +232,12 @@ void ScopePlot::paintLegend (juce::Graphics& g, juce::Rectangle<float> line, con
     box.removeFromLeft (6.0f);
     for (const auto& e : entries)
     {
+        const float w = font.getStringWidthFloat (e.text);
+        if (box.getWidth() < w + 12.0f) return;   // a colour without its word says nothing
         g.setColour (e.colour);
         g.fillRoundedRectangle (box.removeFromLeft (8.0f).withSizeKeepingCentre (8.0f, 8.0f), 2.0f);
         box.removeFromLeft (4.0f);
         g.setColour (theme().dim);
-        const float w = font.getStringWidthFloat (e.text);
         g.drawText (e.text, box.removeFromLeft (w + 1.0f).expanded (1.0f, 0.0f), juce::Justification::centredLeft, false);
         box.removeFromLeft (9.0f);
     }

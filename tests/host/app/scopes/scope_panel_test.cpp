@@ -441,11 +441,12 @@ TEST_CASE ("scopes: for a slow stroke over a preset, the nodes account for all w
     }
 }
 
-TEST_CASE ("scopes: what is said about the energy does not cover the legend, however narrow the scope is", "[app][scopes]")
+TEST_CASE ("scopes: what is said about the energy does not cover the legend, and no word of a legend is cut, however narrow the scope is", "[app][scopes]")
 {
     Bench b ("bronze_bell");
     b.run (4000);
     auto& view = b.view (ScopeKind::energy);
+    auto& over = b.view (ScopeKind::over).plot();
     int legends = 0;
     for (int width = 1600; width >= 660; width -= 20)
     {
@@ -453,6 +454,7 @@ TEST_CASE ("scopes: what is said about the energy does not cover the legend, how
         b.panel->setSize (width, 260);
         b.panel->refresh();
         const auto texts = readTexts (view);
+        CHECK (tactus::host::test::cutOff (readTexts (over), over.getLocalBounds().toFloat()).joinIntoString (", ") == "");
         const auto legend = std::ranges::find (texts, "hand", &SeenText::text);
         if (legend == texts.end()) continue;   // there is no room for it
         ++legends;
