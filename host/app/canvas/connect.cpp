@@ -20,15 +20,20 @@ void CanvasCommands::wireFromSelection()
     const auto& from = *nodes.back();
     std::vector<std::pair<PortId, PortId>> wires;
     std::vector<PaletteEntry> entries;
-    for (const auto& out : from.face->outputs)
+    const auto list = [&] (const FacePort& out, bool whole) {   // else, one component of a vector
         for (const auto& n : canvas.scene().nodes())
             for (const auto* ports : { &n.face->inputs, &n.face->params })
                 for (const auto& in : *ports)
                 {
-                    if (n.id == from.id || ! checkWire ({ &out, from.quantityOf (out) }, { &in, n.quantityOf (in) })) continue;
+                    if (n.id == from.id || (out.width == in.width) != whole) continue;
+                    if (! checkWireByComponent ({ &out, from.quantityOf (out) }, { &in, n.quantityOf (in) })) continue;
                     entries.push_back ({ from.name + '.' + out.id + " -> " + n.name + '.' + in.id, {}, in.about });
                     wires.push_back ({ { from.id, Role::output, out.id }, { n.id, in.role, in.id } });
                 }
+    };
+    for (const bool whole : { true, false })
+        for (const auto& out : from.face->outputs)
+            list (out, whole);
     const auto beside = from.bounds().getTopRight().translated (3 * Box::grid, 0.0f);
     for (const auto& out : from.face->outputs)
     {

@@ -257,3 +257,22 @@ TEST_CASE ("the search for commands finds what a click can do, wherever it is", 
     find ("stiffness new control");
     CHECK (w.graph().controls.size() == before + 1);
 }
+
+TEST_CASE ("W wires a vector into a number: the list asks for the component", "[app][keyboard]")
+{
+    WindowRig w ("dry_wood.json");
+    w.view->canvas().select ({ w.graph().root.find ("hand")->id });
+    w.key ("w");
+    w.stage->type ("touch depth");
+    WindowRig::settle();   // JUCE tells of typed text later
+    w.key ("return");
+    WindowRig::settle();
+    REQUIRE (w.titled ("Palette") != nullptr);
+    w.stage->type ("position.z");
+    WindowRig::settle();
+    w.key ("return");
+    WindowRig::settle();
+    CHECK (w.titled ("Palette") == nullptr);
+    CHECK (std::ranges::count (w.view->canvas().scene().wires(), "hand.position.z -> touch.depth", &SceneWire::text) == 1);
+    CHECK (WindowRig::focused() == &w.view->canvas());
+}
