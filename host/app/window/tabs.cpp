@@ -2,6 +2,7 @@
 #include "tabs.hpp"
 
 #include <host/app/look/focus.hpp>
+#include <host/app/text/filled.hpp>
 
 namespace tactus::host
 {
@@ -29,6 +30,7 @@ void Tabs::show (int index)
 {
     if (index < 0 || index >= static_cast<int> (tabs.size())) return;
     current = index;
+    setTitle (filled (TRANS ("Tab: %1"), tabs[static_cast<std::size_t> (index)].name));
     for (std::size_t i = 0; i < tabs.size(); ++i)
     {
         const bool is_shown = static_cast<int> (i) == current;
