@@ -13,6 +13,7 @@ namespace tactus::host
 namespace
 {
 constexpr std::size_t largest_packet = 65536;
+constexpr int longest_wait_ms = 1000;   // only if the packet that ends it is lost
 }   // namespace
 
 bool OscPort::bind (juce::DatagramSocket& s, const OscListen& where)
@@ -44,6 +45,7 @@ Result<std::unique_ptr<OscPort>> OscPort::open (const OscListen& where)
     port->where = where;
     port->bound = port->socket.getBoundPort();
     port->listening = std::jthread ([raw = port.get()] (const std::stop_token& stop) {
+        const std::stop_callback wake (stop, [raw] { raw->socket.write (raw->where.address, raw->bound, "", 1); });
         while (! stop.stop_requested())
             if (! caught ("OSC", [&] { raw->listen (stop); })) raw->lose();
     });
@@ -106,11 +108,11 @@ void OscPort::listen (const std::stop_token& stop)
     std::vector<char> buffer (largest_packet);
     while (! stop.stop_requested())
     {
-        if (socket.waitUntilReady (true, 20) != 1) continue;
+        if (socket.waitUntilReady (true, longest_wait_ms) != 1) continue;
         juce::String from;
         int from_port = 0;
         const int size = socket.read (buffer.data(), static_cast<int> (buffer.size()), false, from, from_port);
-        if (size > 0) take ({ buffer.data(), static_cast<std::size_t> (size) }, answersTo (from.toStdString()));
+        if (size > 0 && ! stop.stop_requested()) take ({ buffer.data(), static_cast<std::size_t> (size) }, answersTo (from.toStdString()));
     }
 }
 

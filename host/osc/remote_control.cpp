@@ -106,7 +106,10 @@ std::string randomToken()
 
 RemoteControl::RemoteControl (OscPort& p, RemoteTarget& c, std::string t) : port (p), controlled (c), token (std::move (t))
 {
-    port.onArrival ([&c] (const OSCMessage& m) { if (m.getAddressPattern().toString() == "/tactus/emergency") c.emergencyNow(); });
+    port.onArrival ([&c] (const OSCMessage& m) {
+        if (m.getAddressPattern().toString() == "/tactus/emergency") c.emergencyNow();
+        c.messageArrived();
+    });
 }
 
 RemoteControl::~RemoteControl() { port.onArrival ({}); }

@@ -83,6 +83,9 @@ public:
     /// Called as soon as the message for an emergency stop arrives, ahead of the waiting messages. emergencyStop() follows on the
     /// main thread. [thread of the port]
     virtual void emergencyNow() noexcept {}
+
+    /// Called as soon as any message arrives; poll() handles it. [thread of the port]
+    virtual void messageArrived() {}
 };
 
 /// The roles in the status of a run.

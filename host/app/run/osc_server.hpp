@@ -22,8 +22,10 @@ public:
 
     int port() const noexcept { return osc->number(); }
 
-    /// Call many times a second.
+    /// Call many times a second, at least after onMessage.
     void poll (RemoteControl::Clock::time_point now = RemoteControl::Clock::now());
+
+    std::function<void()> onMessage;   ///< called soon after a message has arrived
 
 private:
     Result<> setParam (const std::string& name, const Json& value) override;
@@ -41,7 +43,20 @@ private:
     void stop() override { playback.stop(); }
     void emergencyStop() override { playback.emergencyStop(); }
     void emergencyNow() noexcept override { playback.stopSwitch().emergencyStop(); }
+    void messageArrived() override { arrival.triggerAsyncUpdate(); }
     Result<> rearm (std::chrono::steady_clock::time_point asked) override;
+
+    /// Brings the news of a message to the main thread.
+    struct Arrival final : juce::AsyncUpdater
+    {
+        explicit Arrival (OscServer& s) : server (s) {}
+        ~Arrival() override { cancelPendingUpdate(); }
+        void handleAsyncUpdate() override
+        {
+            if (server.onMessage) server.onMessage();
+        }
+        OscServer& server;
+    };
 
     void checkProbes();
     void sendValues();
@@ -59,7 +74,8 @@ private:
     std::map<std::string, Json> new_params;       // params that are set, but not yet stored by an edit of the document
     std::map<std::string, double> new_controls;   // controls likewise
     RemoteControl::Clock::time_point edited_at {};
-    std::size_t edited_position = 0;         // position in the history after this server's last edit
+    std::size_t edited_position = 0;   // position in the history after this server's last edit
+    Arrival arrival { *this };
     RemoteControl control { *osc, *this };   // declared last: it calls the functions of this object
 };
 

@@ -6,6 +6,7 @@
 #include <host/app/model/message_text.hpp>
 #include <host/app/storage/language.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/juce/repaint_rate.hpp>
 #include <tactus/plan/rules/unheard.hpp>
 #include <tactus/text/quote.hpp>
 
@@ -18,7 +19,8 @@ namespace tactus::host
 namespace
 {
 constexpr int hand_width = 420, refreshes_per_second = 30;
-constexpr int refreshes_at_rest = 4, refreshes_until_rest = 60;       // at rest, only devices, OSC and other threads can change anything
+constexpr int refreshes_at_rest = 4, refreshes_until_rest = 60;       // at rest, only devices and other threads can change anything
+constexpr int repaints_for_caret = 20;                                // at rest; it blinks every 380 ms
 constexpr int least_canvas_width = 240, least_canvas_height = 200;    // in pixels
 constexpr int lowest_canvas_height = 80, least_bottom_height = 160;   // in a low window, the canvas gives way to the panels below it
 }   // namespace
@@ -198,7 +200,19 @@ void MainView::closeSuddenly()
 void MainView::wake()
 {
     awake_for = refreshes_until_rest;
-    if (getTimerInterval() != 1000 / refreshes_per_second) startTimer (1000 / refreshes_per_second);
+    if (getTimerInterval() == 1000 / refreshes_per_second) return;
+    startTimer (1000 / refreshes_per_second);
+    if (! tooltips) tooltips.emplace (this, 600);
+    if (auto* window = getPeer()) setRepaintRate (*window, {});
+}
+
+/// No timer runs faster than this one, unless a tooltip is shown or the caret of a text field blinks.
+void MainView::rest()
+{
+    if (getTimerInterval() != 1000 / refreshes_at_rest) startTimer (1000 / refreshes_at_rest);
+    if (tooltips && ! tooltips->isVisible()) tooltips.reset();
+    const bool has_caret = dynamic_cast<juce::TextEditor*> (getCurrentlyFocusedComponent()) != nullptr;
+    if (auto* window = getPeer()) setRepaintRate (*window, has_caret ? repaints_for_caret : refreshes_at_rest);
 }
 
 void MainView::timerCallback()
@@ -206,8 +220,8 @@ void MainView::timerCallback()
     const bool is_busy = playback.current().isRunning() || ticks_to_save > 0;
     if (is_busy)
         wake();
-    else if (awake_for > 0 && --awake_for == 0)
-        startTimerHz (refreshes_at_rest);
+    else if (awake_for == 0 || --awake_for == 0)
+        rest();
     playback.poll();
     keepKeyboard();
     shade.follow();

@@ -99,7 +99,7 @@ public:
     void beginTour();   ///< if nothing is open, with a preset to feel
     Inspector& inspected() noexcept { return inspector; }
     juce::String statusText() const { return status.text(); }
-    bool isAtRest() const noexcept { return awake_for == 0; }   ///< nothing runs, and there was no input for a while
+    bool isAtRest() const noexcept { return awake_for == 0; }   ///< nothing runs, and there was no input for a while: it polls and paints less often
     void report (const Message&);                               ///< an error that belongs to no part of the window, in the status line
 
     /// Asks for a file, see Files::Callbacks. Tests answer immediately.
@@ -118,7 +118,8 @@ private:
     void documentChanged() override;
     void documentRefused (const Message&) override;
     void timerCallback() override;
-    void wake();   ///< polls often again
+    void wake();   ///< polls and paints often again
+    void rest();   ///< call many times while nothing runs and there was no input for a while
     void mouseMove (const juce::MouseEvent&) override { wake(); }
     void mouseDown (const juce::MouseEvent&) override { wake(); }
     void mouseDrag (const juce::MouseEvent&) override { wake(); }
@@ -247,7 +248,7 @@ private:
     const void* shown_identity = nullptr;                    // identity of the document that is shown
     int ticks_to_save = 0;                                   // timer ticks until the settings are saved; 0: nothing to save
     int awake_for = 0;                                       // timer ticks until the window polls less often; 0: it does
-    juce::TooltipWindow tooltips { this, 600 };
+    std::optional<juce::TooltipWindow> tooltips;             // only while the window is awake, because it looks for the pointer all the time
 };
 
 }   // namespace tactus::host

@@ -155,6 +155,7 @@ void MainView::openOscPort (const OscListen& where)
     auto opened = OscPort::open (where);
     if (! opened) return status.notify (juce::String (opened.error().where + ": " + messageText (opened.error())));
     osc_server = std::make_unique<OscServer> (std::move (*opened), playback, edited, [this] { return question.isOpen(); });
+    osc_server->onMessage = [this] { wake(); };
 }
 
 }   // namespace tactus::host

@@ -86,6 +86,17 @@ TEST_CASE ("values set over OSC are felt, appear in the window, and are one undo
     CHECK (r.until ([&] { return ! r.live_run.isRunning(); }));
 }
 
+TEST_CASE ("a message that arrives is reported on the main thread, so that a window at rest answers it", "[app][osc]")
+{
+    Rig r { "dry_wood" };
+    bool is_reported = false;
+    r.server.onMessage = [&] { is_reported = juce::MessageManager::existsAndIsCurrentThread(); };
+    r.other->send (r.server.port(), OSCMessage ("/tactus/status", r.me()));
+    for (const auto end = std::chrono::steady_clock::now() + 20s; ! is_reported && std::chrono::steady_clock::now() < end;)
+        juce::MessageManager::getInstance()->runDispatchLoopUntil (1);
+    CHECK (is_reported);
+}
+
 TEST_CASE ("an OSC client can probe a port of the window, even after an edit, until the port is removed", "[app][osc]")
 {
     Rig r { "dry_wood" };

@@ -119,6 +119,29 @@ TEST_CASE ("a stopped run stays stopped during edits")
     CHECK_FALSE (o.view->run().isWanted());
 }
 
+TEST_CASE ("a window without input rests: only its own slow timer runs, and no tooltip looks for the pointer")
+{
+    Opened o;
+    o.view->begin ({ .home = o.home.path(), .safe = true, .files = { o.wood } });
+    const auto hasTooltips = [&] { return std::ranges::any_of (o.view->getChildren(), [] (const auto* c) { return c->getName() == "tooltip"; }); };
+    const auto comesTo = [&] (bool rest) {
+        for (int i = 0; i < 4000 && o.view->isAtRest() != rest; ++i)
+            juce::MessageManager::getInstance()->runDispatchLoopUntil (5);
+        return o.view->isAtRest() == rest;
+    };
+    CHECK_FALSE (o.view->isAtRest());
+    CHECK (hasTooltips());
+    REQUIRE (comesTo (true));
+    CHECK_FALSE (hasTooltips());
+    REQUIRE (o.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.7) }));
+    CHECK_FALSE (o.view->isAtRest());
+    CHECK (hasTooltips());
+    REQUIRE (comesTo (true));
+    o.view->run().start ({});
+    CHECK (comesTo (false));
+    CHECK (hasTooltips());
+}
+
 TEST_CASE ("safe mode opens a file without running it, even after an edit")
 {
     Opened o;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The module of JUCE for windows, compiled together with setRepaintRate(): the class of a native window is known only inside of this module.
+#include <juce_gui_basics/juce_gui_basics.cpp>
+
+#include "repaint_rate.hpp"
+
+namespace tactus::host
+{
+
+#if JUCE_LINUX
+namespace
+{
+// Private members can be named where a template is instantiated.
+juce::Timer& repaintTimerOf (juce::LinuxComponentPeer&);
+void followDisplay (juce::LinuxComponentPeer&);
+
+template <auto Timer, auto Follow>
+struct Opened
+{
+    friend juce::Timer& repaintTimerOf (juce::LinuxComponentPeer& p) { return p.*Timer; }
+    friend void followDisplay (juce::LinuxComponentPeer& p) { (p.*Follow)(); }
+};
+template struct Opened<&juce::LinuxComponentPeer::vBlankManager, &juce::LinuxComponentPeer::updateVBlankTimer>;
+}   // namespace
+
+void setRepaintRate (juce::ComponentPeer& peer, std::optional<int> per_second)
+{
+    auto* window = dynamic_cast<juce::LinuxComponentPeer*> (&peer);
+    if (window == nullptr || ! repaintTimerOf (*window).isTimerRunning()) return;
+    auto& timer = repaintTimerOf (*window);
+    if (! per_second) return followDisplay (*window);
+    if (timer.getTimerInterval() != 1000 / *per_second) timer.startTimer (1000 / *per_second);
+}
+#else
+void setRepaintRate (juce::ComponentPeer&, std::optional<int>)
+{
+}
+#endif
+
+}   // namespace tactus::host
