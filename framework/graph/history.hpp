@@ -52,6 +52,8 @@ public:
 
     /// The names of the steps, oldest first. Steps from position() on have been undone.
     std::vector<std::string> names() const;
+    const std::string& stepName (std::size_t step) const { return steps[step].name; }
+    std::size_t size() const noexcept { return steps.size(); }
     std::size_t position() const noexcept { return done; }
 
     /// The edits of a step: the commands that carry it out, and for each of them the command that undoes it.

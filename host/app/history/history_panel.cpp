@@ -22,7 +22,6 @@ HistoryPanel::~HistoryPanel() { document.remove (*this); }
 
 void HistoryPanel::documentChanged()
 {
-    names = document.stepNames();
     list.updateContent();
     list.scrollToEnsureRowIsOnscreen (static_cast<int> (document.history().position()));
     list.repaint();
@@ -36,8 +35,8 @@ void HistoryPanel::goToRow (int row)
 
 juce::String HistoryPanel::nameOfRow (int row) const
 {
-    if (row <= 0 || row > static_cast<int> (names.size())) return TRANS ("initial state");
-    return juce::String (names[static_cast<std::size_t> (row) - 1]);
+    if (row <= 0 || row > static_cast<int> (document.history().size())) return TRANS ("initial state");
+    return juce::String (document.stepName (static_cast<std::size_t> (row) - 1));
 }
 
 juce::String HistoryPanel::getTooltipForRow (int row) { return nameOfRow (row); }
@@ -48,7 +47,7 @@ void HistoryPanel::paint (juce::Graphics& g)
     g.fillAll (look.theme().panel);
     g.setColour (look.theme().hairline);
     g.drawVerticalLine (getWidth() - 1, 0.0f, static_cast<float> (getHeight()));
-    if (! names.empty()) return;
+    if (getNumRows() > 1) return;
     g.setColour (look.theme().dim);
     g.setFont (look.font (13.0f));
     const auto hint = TRANS ("Your edits are listed here. Click a step to undo or redo up to it; Ctrl+Z and Ctrl+Y go one step at a time.");

@@ -21,7 +21,7 @@ public:
 
 private:
     void documentChanged() override;
-    int getNumRows() override { return static_cast<int> (names.size()) + 1; }
+    int getNumRows() override { return static_cast<int> (document.history().size()) + 1; }
     void paintListBoxItem (int row, juce::Graphics&, int w, int h, bool selected) override;
     void listBoxItemClicked (int row, const juce::MouseEvent&) override { goToRow (row); }
     juce::String getTooltipForRow (int row) override;
@@ -29,7 +29,6 @@ private:
     juce::String nameOfRow (int row) const;
 
     Document& document;
-    std::vector<std::string> names;
     juce::ListBox list { {}, this };
 };
 

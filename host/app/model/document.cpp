@@ -71,7 +71,11 @@ void Document::goTo (std::size_t position)
     is_stepping = false;
 }
 
-bool Document::isChanged() const { return writeGraph (edits.graph()) != origin().saved; }
+bool Document::isChanged() const
+{
+    if (! differs) differs = writeGraph (edits.graph()) != origin().saved;
+    return *differs;
+}
 
 Messages Document::save (const std::filesystem::path& file)
 {

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace tactus::host
@@ -44,8 +45,8 @@ public:
     const graph::Graph& graph() const noexcept { return edits.graph(); }
     const graph::History& history() const noexcept { return edits; }
 
-    /// The names of the steps of the history, with values in the units of the catalogue.
-    std::vector<std::string> stepNames() const { return host::stepNames (edits, *types); }
+    /// The name of a step of the history, with values in the units of the catalogue.
+    std::string stepName (std::size_t step) const { return host::stepName (edits, step, *types); }
     void setCatalogue (const Catalogue& c) { types = &c; }   ///< the default is catalogue()
     const std::filesystem::path& file() const noexcept { return origin().source.file; }
     const std::filesystem::path& preset() const noexcept { return origin().source.preset; }
@@ -107,6 +108,7 @@ private:
 
     void notifyChanged()
     {
+        differs.reset();
         notify ([] (Listener& l) { l.documentChanged(); });
     }
 
@@ -117,6 +119,7 @@ private:
     std::vector<std::shared_ptr<Origin>> origins;                                        // one per position of the history
     std::vector<std::pair<std::function<void()>, std::function<void()>>> window_steps;   // one per step of the history: how to undo and redo it
     std::vector<Listener*> listeners;
+    mutable std::optional<bool> differs;   // from the file; empty until somebody asks
     bool is_stepping = false;
 };
 

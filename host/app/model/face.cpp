@@ -27,6 +27,7 @@ int entriesOf (const NodeType& type, const graph::Node& node)
 std::vector<FacePort> portsOf (const std::vector<PortSheet>& sheets, int entries)
 {
     std::vector<FacePort> ports;
+    ports.reserve (sheets.size());
     for (const auto& s : sheets)
     {
         const FacePort port { s.role, std::string (s.id), std::string (s.about), s.unit, s.width, &s };

@@ -107,14 +107,18 @@ std::optional<std::string> textOf (const graph::History& history, std::size_t st
         return textOf (*a, *b);
     return {};
 }
-/// What a step is about: the nodes and wires that its commands name.
+/// What a step is about: the nodes and wires that its commands name. If there are more than a name can list, the first ones and the last one.
 struct Objects
 {
+    static constexpr std::size_t most = 3;
+
     std::vector<std::string> nodes, wires;
 
     static void add (std::vector<std::string>& to, const std::string& what)
     {
-        if (std::ranges::count (to, what) == 0) to.push_back (what);
+        if (std::ranges::count (to, what) > 0) return;
+        if (to.size() > most) to.pop_back();
+        to.push_back (what);
     }
 
     void collect (const graph::Command& command)
@@ -143,7 +147,6 @@ struct Objects
 /// The name of a step of the canvas with what it was done to: "delete drag". A new wire is its own name.
 std::string withObjects (const std::string& name, const graph::History& history, std::size_t step)
 {
-    constexpr std::size_t most = 3;
     Objects done, undone;
     for (const auto& c : history.commandsOf (step))
         done.collect (c);
@@ -153,19 +156,17 @@ std::string withObjects (const std::string& name, const graph::History& history,
     const auto& wires = done.wires.empty() ? undone.wires : done.wires;
     const auto& objects = done.nodes.empty() ? wires : done.nodes;
     auto text = juce::translate (valueText (name)).toStdString();
-    if (objects.empty() || objects.size() > most) return text;
+    if (objects.empty() || objects.size() > Objects::most) return text;
     for (std::size_t i = 0; i < objects.size(); ++i)
         if (name.find (objects[i]) == std::string::npos) text += (i == 0 ? " " : ", ") + objects[i];
     return text;
 }
 }   // namespace
 
-std::vector<std::string> stepNames (const graph::History& history, const Catalogue& catalogue)
+std::string stepName (const graph::History& history, std::size_t step, const Catalogue& catalogue)
 {
-    auto names = history.names();
-    for (std::size_t i = 0; i < names.size(); ++i)
-        names[i] = textOf (history, i, catalogue).value_or (withObjects (names[i], history, i));
-    return names;
+    auto change = textOf (history, step, catalogue);
+    return change ? *std::move (change) : withObjects (history.stepName (step), history, step);
 }
 
 }   // namespace tactus::host

@@ -5,13 +5,12 @@
 #include <tactus/node/catalogue.hpp>
 
 #include <string>
-#include <vector>
 
 namespace tactus::host
 {
 
-/// The names of the steps of a history, oldest first. If a step changes only one value, its name contains the
+/// The name of a step of a history. If a step changes only one value, its name contains the
 /// old and the new value: "wall: Stiffness 400 -> 550 N/m". The name of a new wire is the wire: "grating.force -> mixer.in[1]".
-std::vector<std::string> stepNames (const graph::History&, const Catalogue&);
+std::string stepName (const graph::History&, std::size_t step, const Catalogue&);
 
 }   // namespace tactus::host

@@ -212,7 +212,7 @@ void ScopePanel::listPorts()
 
 void ScopePanel::documentChanged()
 {
-    const auto before = context.ports;
+    const auto before = std::exchange (context.ports, {});
     listPorts();
     follow (model, before, context.ports);
     requestPorts();

@@ -62,12 +62,20 @@ TakePanel::~TakePanel() { document.remove (*this); }
 
 void TakePanel::documentChanged()
 {
-    if (recording.state() == Take::State::empty) listPorts();
+    is_stale = recording.state() == Take::State::empty;
+    visibilityChanged();
+}
+
+/// A large graph has many ports, so they are listed only while somebody can see them.
+void TakePanel::visibilityChanged()
+{
+    if (is_stale && isVisible()) listPorts();
 }
 
 /// The ports of the graph. While there is a recording, they stay those of the recorded graph.
 void TakePanel::listPorts()
 {
+    is_stale = false;
     names.clear();
     for (const auto& p : scopePorts (document.graph(), catalogue))
         names.push_back (p.name);

@@ -43,6 +43,7 @@ public:
 
     void paint (juce::Graphics&) override;
     void resized() override;
+    void visibilityChanged() override;
 
 private:
     void documentChanged() override;
@@ -84,7 +85,8 @@ private:
     TextField from, until;
     std::vector<std::string> names;   // of the ports to choose from
     std::string shown_port;
-    Shown before;   // the recording that is being made
+    bool is_stale = false;   // there were edits since the ports were listed
+    Shown before;            // the recording that is being made
 };
 
 }   // namespace tactus::host

@@ -131,12 +131,11 @@ void TopBar::show (std::vector<juce::String> t, std::optional<Instance> i)
     resized();
     for (int n = 1; n <= snapshot_count; ++n)
         slots[static_cast<std::size_t> (n - 1)]->setStored (hasSnapshot (document.graph(), n));
-    const auto steps = document.stepNames();
-    const auto done = document.history().position();
+    const auto done = document.history().position(), steps = document.history().size();
     undo->setEnabled (done > 0);
-    undo->setTooltip (done == 0 ? TRANS ("Nothing to undo") : filled (TRANS ("Undo: %1 (Ctrl+Z)"), steps[done - 1]));
-    redo->setEnabled (done < steps.size());
-    redo->setTooltip (done == steps.size() ? TRANS ("Nothing to redo") : filled (TRANS ("Redo: %1 (Ctrl+Y)"), steps[done]));
+    undo->setTooltip (done == 0 ? TRANS ("Nothing to undo") : filled (TRANS ("Undo: %1 (Ctrl+Z)"), document.stepName (done - 1)));
+    redo->setEnabled (done < steps);
+    redo->setTooltip (done == steps ? TRANS ("Nothing to redo") : filled (TRANS ("Redo: %1 (Ctrl+Y)"), document.stepName (done)));
     repaint();
 }
 

@@ -15,6 +15,9 @@
 namespace tactus::host::test
 {
 
+/// The name of the latest step of the history.
+inline std::string latestStep (const Document& d) { return d.stepName (d.history().size() - 1); }
+
 /// The whole window on a screen, with a mouse and a keyboard that reach only what is visible.
 struct WindowRig
 {

@@ -89,7 +89,7 @@ TEST_CASE ("a control that is deleted leaves its values\\, and one more paramete
     c.w->choose (c.w->middleOf (*c.w->titled ("Damping")), 2);   // the second entry: the first control
     REQUIRE (c.w->graph().controls[0].to.size() == 3);
     CHECK (changedValue (before, c.values()) == "");
-    CHECK (c.w->view->document().stepNames().back() == "assign table.damping to Coarseness");
+    CHECK (latestStep (c.w->view->document()) == "assign table.damping to Coarseness");
 
     c.w->view->canvas().select ({});
     c.w->clickTitled ("Delete this control. Its parameters keep the values that it sets.");

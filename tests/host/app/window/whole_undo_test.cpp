@@ -6,6 +6,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
+using tactus::host::test::latestStep;
 using tactus::host::test::WindowRig;
 
 namespace
@@ -52,7 +53,7 @@ TEST_CASE ("closing\\, moving and sizing scopes\\, and moving panels\\, are step
     w.stage->drag (w.middleOf (*edge), w.middleOf (*edge).translated (60.0f, 0.0f));
     settled();
     undoAndRedo (w, [&] { return std::abs (scopes (w)[0].getWidth() - before[0].getWidth() - 60) <= 2; });
-    CHECK (w.view->document().stepNames().back() == "size scopes");
+    CHECK (latestStep (w.view->document()) == "size scopes");
 
     const auto first = panel->shown()[0]->shown().kind;
     const auto title = w.stage->getLocalPoint (panel->shown()[0].get(), juce::Point<float> (20.0f, 12.0f));
@@ -65,7 +66,7 @@ TEST_CASE ("closing\\, moving and sizing scopes\\, and moving panels\\, are step
     w.stage->click (w.middleOf (*cross));
     settled();
     undoAndRedo (w, [&] { return scopes (w).size() == before.size() - 1; });
-    CHECK (w.view->document().stepNames().back() == "close scope");
+    CHECK (latestStep (w.view->document()) == "close scope");
 
     const auto width = w.view->canvas().getWidth();
     for (auto* child : w.view->getChildren())
@@ -76,7 +77,7 @@ TEST_CASE ("closing\\, moving and sizing scopes\\, and moving panels\\, are step
         }
     settled();
     undoAndRedo (w, [&] { return std::abs (w.view->canvas().getWidth() - (width - 50)) <= 1; });
-    CHECK (w.view->document().stepNames().back() == "move panels");
+    CHECK (latestStep (w.view->document()) == "move panels");
     w.key ("z");
     undoAndRedo (w, [&] { return w.view->canvas().getWidth() > width + 100; });
 }
@@ -122,7 +123,7 @@ TEST_CASE ("moving a wire to another port is one step\\, and the history names w
     WindowRig::settle();
     CHECK (std::ranges::count (texts(), "hand.position -> drag.position") == 0);
     CHECK (std::ranges::count (texts(), "hand.position -> table.position") == 1);
-    CHECK (document.stepNames().back() == "re-plug wire hand.position -> table.position");
+    CHECK (latestStep (document) == "re-plug wire hand.position -> table.position");
     document.goTo (position);
     CHECK (writeGraph (w.graph()) == before);
 
@@ -133,9 +134,9 @@ TEST_CASE ("moving a wire to another port is one step\\, and the history names w
 
     canvas.select ({ w.graph().root.find ("touch")->id });
     w.key ("delete");
-    CHECK (document.stepNames().back() == "delete touch");
+    CHECK (latestStep (document) == "delete touch");
     w.key ("ctrl + z");
     w.stage->drag (port ("table", Role::output, "force"), port ("felt", Role::input, "in"));
     WindowRig::settle();
-    CHECK (document.stepNames().back() == "table.force -> felt.in");
+    CHECK (latestStep (document) == "table.force -> felt.in");
 }
