@@ -118,7 +118,7 @@ void Canvas::breadcrumbsChanged()
     point ({});
     closeEditor (false);
     rebuild();
-    frameStart();
+    frameStart();   // repaints
     if (onBreadcrumbs) onBreadcrumbs();
     if (onSelection) onSelection();
 }

@@ -28,8 +28,10 @@ void Canvas::documentChanged()
         before.insert (n.id);
     if (! document.isStepping()) beginEdit();
     const auto previous = std::move (shown);
+    const auto patch_before = patch();
     updateBreadcrumbs();
     rebuild();
+    patch() == patch_before ? repaintEdit (*previous) : repaint();
     if (document.isStepping()) followStep (*previous);
     // A view that the user has not moved stays fitted when a node appears outside of it, such as by a click in another panel.
     const auto isOut = [&] (const SceneNode& n) {
@@ -51,7 +53,6 @@ void Canvas::documentChanged()
     });
     if (const auto& b = highlights.bend)
         if (const auto* wire = shown->findWire (b->wire); wire == nullptr || ! wire->has_bends || b->number >= wire->waypoints.size()) highlights.bend.reset();
-    if (onBreadcrumbs) onBreadcrumbs();
     if (onSelection) onSelection();
 }
 
@@ -61,7 +62,6 @@ void Canvas::rebuild()
     ++scenes_made;
     shown = std::make_unique<Scene> (document.graph(), seen(), catalogue, curves,
                                      [&look] (const std::string& text, float size, bool bold) { return look.font (size, bold).getStringWidthFloat (text); });
-    repaint();
 }
 
 void Canvas::hint (const juce::String& text)

@@ -164,6 +164,9 @@ private:
     void beginEdit();   ///< call before the view follows an edit
     void followStep (const Scene& before);
     void rebuild();
+    void repaintEdit (const Scene& before);   ///< what differs from the scene before an edit
+    void repaintAround (juce::Rectangle<float> area);
+    void repaintAlong (const juce::Path&);
     void frameAround (juce::Rectangle<float> focus);
     std::optional<Instance> instanceOf (const graph::Node&, const std::string& names) const;
     void updateBreadcrumbs();
@@ -175,9 +178,10 @@ private:
         juce::String text {};
         juce::MouseCursor::StandardCursorType cursor = juce::MouseCursor::NormalCursor;
     };
-    Hover hoverAt (juce::Point<float>) const;
     std::optional<Bend> bendAt (juce::Point<float>, bool of_selected) const;   ///< bends of a selected wire are above the nodes
-    PointedPort portAt (juce::Point<float>) const;
+    const SceneWire* wireUnder (juce::Point<float>) const;                     ///< null also if something is in front of it
+    Hover hoverAt (juce::Point<float>, const SceneWire* wire) const;
+    PointedPort portAt (juce::Point<float>, const SceneWire* wire) const;
     void point (PointedPort);
     void repaintChanged (const LiveState& before);
     std::unique_ptr<Drag> dragFor (const juce::MouseEvent&);

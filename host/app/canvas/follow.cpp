@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the view of the canvas follows undo and redo.
+// What the canvas paints again after an edit, and how its view follows undo and redo.
 #include "canvas.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <unordered_map>
 
@@ -49,6 +50,87 @@ void collectChanges (const Scene& scene, const Scene& other, std::vector<juce::R
     }
 }
 }   // namespace
+
+namespace
+{
+bool looksSame (const SceneNode& a, const SceneNode& b)
+{
+    const auto sameSocket = [&] (const Socket& x, const Socket& y) {
+        return x.at == y.at && x.value == y.value && x.label == y.label && x.port->role == y.port->role && x.port->isChoice() == y.port->isChoice()
+               && a.quantityOf (*x.port) == b.quantityOf (*y.port);
+    };
+    return a.name == b.name && a.type == b.type && a.at == b.at && a.bypass == b.bypass && a.curve == b.curve && a.face->kind == b.face->kind
+           && a.box.width == b.box.width && a.box.height == b.box.height && std::ranges::equal (a.box.sockets, b.box.sockets, sameSocket);
+}
+
+bool looksSame (const SceneWire& a, const SceneWire& b)
+{
+    return a.from == b.from && a.to == b.to && a.waypoints == b.waypoints && a.has_bends == b.has_bends && a.quantity == b.quantity && a.width == b.width
+           && a.delay == b.delay && a.add == b.add && a.enabled == b.enabled;
+}
+
+bool looksSame (const Note& a, const Note& b) { return a.area == b.area && a.text == b.text && a.colour == b.colour; }
+
+bool looksSame (const Scene::ExposedPort& a, const Scene::ExposedPort& b)
+{
+    return a.at == b.at && a.role == b.role && a.name == b.name && a.quantity == b.quantity && a.label == b.label;
+}
+
+/// Returns whether any item is not, or looks different, among the others.
+template <typename Item, typename Repaint>
+bool repaintDifferent (const std::vector<Item>& items, const std::vector<Item>& others, const Repaint& repaintItem)
+{
+    const auto known = byId<Item> (others);
+    bool differ = false;
+    for (const auto& i : items)
+        if (const auto other = known.find (i.id); other == known.end() || ! looksSame (i, *other->second))
+        {
+            repaintItem (i);
+            differ = true;
+        }
+    return differ;
+}
+}   // namespace
+
+void Canvas::repaintEdit (const Scene& before)
+{
+    const auto same = [] (const auto& a, const auto& b) { return looksSame (a, b); };
+    if (shown->nodes().empty() || before.nodes().empty() || ! std::ranges::equal (shown->notes(), before.notes(), same)
+        || ! std::ranges::equal (shown->exposed(), before.exposed(), same))
+        return repaint();
+    bool are_moved = false;
+    const auto repaintWhatIsNew = [&] (const Scene& scene, const Scene& other) {
+        are_moved |= repaintDifferent (scene.nodes(), other.nodes(), [this] (const SceneNode& n) { repaintAround (boundsOf (n, window.zoom)); });
+        repaintDifferent (scene.wires(), other.wires(), [this] (const SceneWire& w) { repaintAlong (w.path()); });
+    };
+    repaintWhatIsNew (*shown, before);
+    repaintWhatIsNew (before, *shown);
+    for (const auto* scene : { &before, static_cast<const Scene*> (shown.get()) })
+        if (are_moved) repaint (Minimap (*scene, window, getLocalBounds()).bounds().getSmallestIntegerContainer());
+}
+
+/// Much less than the bounds of a wire, which most other wires of a large patch cross. In steps of a grid, because a region of many small
+/// rectangles takes long to paint.
+void Canvas::repaintAlong (const juce::Path& path)
+{
+    constexpr int grid = 32;
+    const float around = 2.0f + 16.0f * window.zoom;   // what is painted on a wire
+    const auto seen = getLocalBounds().toFloat();
+    const auto snapped = [] (float x, bool up) { return grid * static_cast<int> (up ? std::ceil (x / grid) : std::floor (x / grid)); };
+    for (juce::PathFlatteningIterator line (path, window.transform()); line.next();)
+    {
+        const juce::Line<float> whole (line.x1, line.y1, line.x2, line.y2);
+        if (! seen.intersects (juce::Rectangle<float> (whole.getStart(), whole.getEnd()).expanded (around))) continue;
+        const int parts = std::clamp (static_cast<int> (whole.getLength() / grid), 1, 1000);
+        const auto pointAt = [&] (int i) { return whole.getPointAlongLineProportionally (static_cast<float> (i) / static_cast<float> (parts)); };
+        for (int i = 0; i < parts; ++i)
+        {
+            const auto piece = juce::Rectangle<float> (pointAt (i), pointAt (i + 1)).expanded (around);
+            repaint (juce::Rectangle<int>::leftTopRightBottom (snapped (piece.getX(), false), snapped (piece.getY(), false), snapped (piece.getRight(), true),
+                                                               snapped (piece.getBottom(), true)));
+        }
+    }
+}
 
 void Canvas::beginEdit()
 {

@@ -34,7 +34,13 @@ std::optional<Bend> Canvas::bendAt (juce::Point<float> at, bool of_selected) con
     return bend && highlights.selected.contains (bend->wire) == of_selected ? bend : std::nullopt;
 }
 
-Canvas::Hover Canvas::hoverAt (juce::Point<float> at) const
+const SceneWire* Canvas::wireUnder (juce::Point<float> at) const
+{
+    const bool is_covered = shown->socketAt (at, socket_reach / window.zoom) || shown->nodeAt (at) != nullptr;
+    return is_covered ? nullptr : shown->wireAt (at, wire_reach / window.zoom);
+}
+
+Canvas::Hover Canvas::hoverAt (juce::Point<float> at, const SceneWire* wire) const
 {
     const auto overBend = [] (const Bend& bend) -> Hover {
         return { bend.wire, TRANS ("Bend: drag to move; double-click or Delete removes it"), juce::MouseCursor::DraggingHandCursor };
@@ -52,7 +58,7 @@ Canvas::Hover Canvas::hoverAt (juce::Point<float> at) const
         return { node->id, std::string (node->face->type->info.name) + ": " + std::string (node->face->type->info.summary) };
     }
     if (const auto bend = bendAt (at, false)) return overBend (*bend);
-    if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom))
+    if (wire != nullptr)
         return { wire->id, filled (TRANS ("%1. Double-click inserts a node; Alt+drag bends the wire"), wire->text) };
     const auto note = shown->noteAt (at);
     if (! note) return {};
@@ -76,8 +82,10 @@ juce::String Canvas::tooltipAt (juce::Point<float> pixel) const
 
 void Canvas::mouseMove (const juce::MouseEvent& e)
 {
-    point (portAt (window.toCanvas (e.position)));
-    auto over = hoverAt (window.toCanvas (e.position));
+    const auto at = window.toCanvas (e.position);
+    const auto* wire = wireUnder (at);   // one look for both: a large patch has thousands
+    point (portAt (at, wire));
+    auto over = hoverAt (at, wire);
     const auto& problems = highlights.live.problems;
     if (const auto problem = problems.find (over.id); problem != problems.end()) over.text = problem->second;
     setMouseCursor (over.cursor);
@@ -96,16 +104,13 @@ void Canvas::mouseExit (const juce::MouseEvent&)
 }
 
 /// A port is pointed at by its socket or by its label. A wire shows what its source carries.
-PointedPort Canvas::portAt (juce::Point<float> at) const
+PointedPort Canvas::portAt (juce::Point<float> at, const SceneWire* wire) const
 {
     using Side = PointedPort::Side;
     const auto found = shown->socketAt (at, socket_reach / window.zoom);
     const auto* node = found ? found.node : shown->nodeAt (at);
     if (node == nullptr)
-    {
-        const auto* wire = shown->wireAt (at, wire_reach / window.zoom);
         return wire == nullptr ? PointedPort {} : PointedPort { address (wire->source), at, Side::below };
-    }
     const auto* socket = found ? found.socket : socketOf (*node, at);
     if (socket == nullptr || socket->port->isChoice() || node->face->kind == Face::Kind::placeholder) return {};
     if (const auto& port = *socket->port; port.role == Role::param)   // the value of an unwired param is in its row
@@ -134,6 +139,12 @@ void Canvas::showLive (LiveState live)
     repaintChanged (before);
 }
 
+void Canvas::repaintAround (juce::Rectangle<float> area)
+{
+    constexpr float glow = 8.0f;
+    repaint (area.expanded (glow).transformedBy (window.transform()).getSmallestIntegerContainer());
+}
+
 /// Lamps, wires and the card change many times a second while a graph runs, so only they are painted again if nothing else has changed.
 void Canvas::repaintChanged (const LiveState& before)
 {
@@ -142,10 +153,6 @@ void Canvas::repaintChanged (const LiveState& before)
     const auto differs = [] (const auto& a, const auto& b, graph::Id id) {
         const auto at_a = a.find (id), at_b = b.find (id);
         return (at_a == a.end()) != (at_b == b.end()) || (at_a != a.end() && at_a->second != at_b->second);
-    };
-    const auto repaintAround = [this] (juce::Rectangle<float> area) {
-        constexpr float glow = 8.0f;
-        repaint (area.expanded (glow).transformedBy (window.transform()).getSmallestIntegerContainer());
     };
     if (now.states != before.states)
         for (const auto& n : shown->nodes())

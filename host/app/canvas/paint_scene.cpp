@@ -10,6 +10,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <tuple>
+#include <vector>
 
 namespace tactus::host
 {
@@ -21,6 +24,7 @@ constexpr float too_small_to_read = 0.35f;    // zoom below which text is too sm
 constexpr float too_small_for_names = 0.2f;   // zoom below which the names do not fit, either: a node is a coloured box
 constexpr float labels_too_small = 0.44f;     // zoom below which the labels of ports are too small: less than 5.3 pixels
 constexpr float least_title = 10.0f;          // pixels
+constexpr float widest_name = 1.6f;           // of a node that is too small to read, as a multiple of its width
 
 class NodePainter
 {
@@ -89,10 +93,9 @@ private:
     void nameAlone (const SceneNode& node) const
     {
         constexpr float size = 10.0f, least_width = 20.0f;   // pixels
-        constexpr float most_over = 1.6f;                    // largest width of the name, as a multiple of the node's width
         if (node.box.width * zoom < least_width) return;
         const auto font = look.font (size / zoom);
-        const float width = std::clamp (font.getStringWidthFloat (node.name) + 2.0f / zoom, node.box.width, most_over * node.box.width);
+        const float width = std::clamp (font.getStringWidthFloat (node.name) + 2.0f / zoom, node.box.width, widest_name * node.box.width);
         g.setColour (theme.text.withMultipliedAlpha (node.bypass ? 0.4f : 1.0f));
         g.setFont (font);
         g.drawText (node.name, node.bounds().withSizeKeepingCentre (width, node.box.height), juce::Justification::centred, true);
@@ -292,20 +295,17 @@ void paintHit (juce::Graphics& g, const SceneWire& w, double along, const Theme&
 }
 }   // namespace
 
-juce::Rectangle<float> boundsOf (const SceneWire& w)
-{
-    juce::Rectangle<float> all { w.from, w.to };
-    if (w.has_bends) return w.path().getBounds().expanded (16.0f);
-    for (const auto& p : w.waypoints)
-        all = all.getUnion (juce::Rectangle<float> (p, p).expanded (1.0f));
-    return all.expanded (200.0f, 16.0f);
-}
-
 juce::Rectangle<float> limitLightOf (const SceneNode& node, float zoom)
 {
     constexpr float size = 10.0f, least_pixels = 6.0f, inset = 3.0f;
     const float side = std::max (size, least_pixels / zoom);
     return juce::Rectangle<float> (side, side).withCentre (node.bounds().getTopRight().translated (-inset, inset));
+}
+
+juce::Rectangle<float> boundsOf (const SceneNode& n, float zoom)
+{
+    const float beside = std::max (8.0f, 0.5f * (widest_name - 1.0f) * n.box.width);   // shadow, frame, or name
+    return n.bounds().expanded (beside, 8.0f).getUnion (limitLightOf (n, zoom).expanded (1.0f));
 }
 
 void paintGrid (juce::Graphics& g, const View& view, juce::Rectangle<int> area, const Theme& theme)
@@ -341,22 +341,163 @@ juce::Path partIn (juce::Rectangle<float> area, const juce::Path& path, float sc
     }
     return part;
 }
-}   // namespace
 
-void paintWire (juce::Graphics& g, const SceneWire& w, const Theme& theme, bool selected, bool hovered, int level)
+bool isDashed (const SceneWire& w) { return w.add || ! w.enabled; }
+float thicknessOf (const SceneWire& w) { return w.width == 3 ? 3.0f : 1.5f; }
+
+juce::Path shownOf (const juce::Graphics& g, const SceneWire& w)
 {
     constexpr float widest = 12.0f;   // of a stroke
     auto path = w.path();
     const auto seen = g.getClipBounds().toFloat().expanded (widest);
-    const bool is_dashed = w.add || ! w.enabled;   // dashes are counted from the start of the wire
-    if (! is_dashed && ! seen.contains (path.getBounds())) path = partIn (seen, path, g.getInternalContext().getPhysicalPixelScaleFactor());
-    if (path.isEmpty()) return;
-    const float thickness = w.width == 3 ? 3.0f : 1.5f;
-    if (level > 0)   // a glow, so that the wire itself keeps its contrast at rest
+    if (isDashed (w) || seen.contains (path.getBounds())) return path;   // dashes are counted from the start of the wire
+    return partIn (seen, path, g.getInternalContext().getPhysicalPixelScaleFactor());
+}
+
+struct Stroke
+{
+    juce::Colour colour;
+    float thickness;
+};
+
+/// What a wire that carries something has below it, so that the wire itself keeps its contrast at rest.
+Stroke glowOf (const SceneWire& w, const Theme& theme, int level)
+{
+    const float strength = static_cast<float> (level) / static_cast<float> (LiveState::most_level);
+    return { theme.of (w.quantity).withAlpha (0.08f + 0.16f * strength), thicknessOf (w) + 3.0f + 2.0f * strength };
+}
+
+struct Pieces
+{
+    juce::Path path;
+    juce::Point<float> end;
+    int lines = 0;
+
+    void add (juce::Point<float> from, juce::Point<float> to)
     {
-        const float strength = static_cast<float> (level) / static_cast<float> (LiveState::most_level);
-        g.setColour (theme.of (w.quantity).withAlpha (0.08f + 0.16f * strength));
-        g.strokePath (path, juce::PathStrokeType (thickness + 3.0f + 2.0f * strength));
+        if (lines == 0 || from != end) path.startNewSubPath (from);
+        path.lineTo (to);
+        end = to;
+        ++lines;
+    }
+};
+
+/// What can be seen of a wire where something is painted again: an edit paints the wires that it changes, and so short pieces of many others.
+Pieces piecesOf (const juce::Graphics& g, const SceneWire& w)
+{
+    constexpr float widest = 12.0f, longest_px = 64.0f;
+    const float scale = g.getInternalContext().getPhysicalPixelScaleFactor(), longest = longest_px / scale;
+    const auto seen = g.getClipBounds().toFloat().expanded (widest);
+    const auto path = w.path();
+    Pieces pieces;
+    for (juce::PathFlatteningIterator line (path, {}, juce::Path::defaultToleranceForMeasurement / scale); line.next();)
+    {
+        const juce::Line<float> whole (line.x1, line.y1, line.x2, line.y2);
+        if (! seen.intersects (juce::Rectangle<float> (whole.getStart(), whole.getEnd()).expanded (1.0f))) continue;
+        const int parts = std::clamp (static_cast<int> (whole.getLength() / longest), 1, 1000);
+        const auto pointAt = [&] (int i) {
+            return i == parts ? whole.getEnd() : whole.getPointAlongLineProportionally (static_cast<float> (i) / static_cast<float> (parts));
+        };
+        const auto isSeen = [&] (int i) {
+            return g.clipRegionIntersects (juce::Rectangle<float> (pointAt (i), pointAt (i + 1)).expanded (widest).getSmallestIntegerContainer());
+        };
+        for (int i = 0; i < parts; ++i)
+        {
+            const int first = i;
+            while (i < parts && isSeen (i))
+                ++i;
+            if (i > first) pieces.add (pointAt (first), pointAt (i));
+        }
+    }
+    return pieces;
+}
+
+/// Wires that look the same, a few together, because one at a time takes longer: for patches with so many wires that most lie on others.
+class Bundles
+{
+public:
+    void add (const juce::Graphics& g, const SceneWire& w, const Theme& theme, int level)
+    {
+        const auto pieces = piecesOf (g, w);
+        if (pieces.lines == 0) return;
+        if (level > 0) add (0, glowOf (w, theme, level), pieces);
+        add (1, { theme.of (w.quantity), thicknessOf (w) }, pieces);
+    }
+
+    void paint (juce::Graphics& g) const
+    {
+        for (const auto& [look, bundles] : all)
+            for (const auto& bundle : bundles)
+            {
+                g.setColour (juce::Colour (std::get<1> (look)));
+                g.strokePath (bundle.path, juce::PathStrokeType (std::get<2> (look)));
+            }
+    }
+
+private:
+    static constexpr int most_lines = 256;   // those of about 16 wires, whose edges fit into a row of the table in which JUCE sorts them
+
+    struct Bundle
+    {
+        juce::Path path;
+        int lines = 0;
+    };
+    std::map<std::tuple<int, std::uint32_t, float>, std::vector<Bundle>> all;   // by layer, colour and thickness
+
+    void add (int layer, const Stroke& stroke, const Pieces& pieces)
+    {
+        auto& bundles = all[{ layer, stroke.colour.getARGB(), stroke.thickness }];
+        if (bundles.empty() || bundles.back().lines >= most_lines) bundles.emplace_back();
+        bundles.back().path.addPath (pieces.path);
+        bundles.back().lines += pieces.lines;
+    }
+};
+
+void paintOnWire (juce::Graphics& g, const SceneWire& w, const View& view, const Look& look, const Highlights& highlights)
+{
+    if (highlights.live.problems.contains (w.id)) paintProblem (g, w, look.theme());
+    if (const auto hit = highlights.live.hits.find (w.id); hit != highlights.live.hits.end()) paintHit (g, w, hit->second, look.theme());
+    if (w.delay > 0 && view.zoom > too_small_to_read) paintDelay (g, w, look);
+    if (w.has_bends && view.zoom > too_small_for_names) paintBends (g, w, highlights, look.theme());
+}
+
+void paintWires (juce::Graphics& g, const Scene& scene, juce::Rectangle<float> seen, const View& view, const Look& look, const Highlights& highlights)
+{
+    constexpr std::size_t many = 500;
+    const auto levelOf = [&] (const SceneWire& w) {
+        const auto found = highlights.live.levels.find (w.id);
+        return found == highlights.live.levels.end() ? 0 : found->second;
+    };
+    const auto isBundled = [&] (const SceneWire& w) {
+        return scene.wires().size() >= many && ! isDashed (w) && ! highlights.selected.contains (w.id) && highlights.hovered != w.id;
+    };
+    Bundles bundles;
+    std::vector<const SceneWire*> shown;
+    for (const auto& w : scene.wires())
+        if (boundsOf (w).intersects (seen))
+        {
+            shown.push_back (&w);
+            if (isBundled (w)) bundles.add (g, w, look.theme(), levelOf (w));
+        }
+    bundles.paint (g);
+    for (const auto* w : shown)
+    {
+        if (! isBundled (*w)) paintWire (g, *w, look.theme(), highlights.selected.contains (w->id), highlights.hovered == w->id, levelOf (*w));
+        paintOnWire (g, *w, view, look, highlights);
+    }
+}
+}   // namespace
+
+void paintWire (juce::Graphics& g, const SceneWire& w, const Theme& theme, bool selected, bool hovered, int level)
+{
+    const auto path = shownOf (g, w);
+    if (path.isEmpty()) return;
+    const float thickness = thicknessOf (w);
+    if (level > 0)
+    {
+        const auto glow = glowOf (w, theme, level);
+        g.setColour (glow.colour);
+        g.strokePath (path, juce::PathStrokeType (glow.thickness));
     }
     if (selected || hovered)
     {
@@ -364,7 +505,7 @@ void paintWire (juce::Graphics& g, const SceneWire& w, const Theme& theme, bool 
         g.strokePath (path, juce::PathStrokeType (thickness + 4.0f));
     }
     g.setColour (theme.of (w.quantity).withMultipliedAlpha (w.enabled ? 1.0f : 0.35f));
-    if (! is_dashed) return g.strokePath (path, juce::PathStrokeType (thickness));
+    if (! isDashed (w)) return g.strokePath (path, juce::PathStrokeType (thickness));
     juce::Path dashed;
     const float dashes[] { w.add ? 8.0f : 3.0f, 4.0f };
     juce::PathStrokeType (thickness).createDashedStroke (dashed, path, dashes, 2);
@@ -380,23 +521,13 @@ void paintScene (juce::Graphics& g, const Scene& scene, const View& view, const 
 
     for (std::size_t i = 0; i < scene.notes().size(); ++i)
         if (scene.notes()[i].area.intersects (seen)) paintNote (g, scene.notes()[i], look, highlights.selected.contains (noteId (i)));
-    for (const auto& w : scene.wires())
-    {
-        if (! boundsOf (w).intersects (seen)) continue;
-        const auto found = highlights.live.levels.find (w.id);
-        const auto level = found == highlights.live.levels.end() ? 0 : found->second;
-        paintWire (g, w, look.theme(), highlights.selected.contains (w.id), highlights.hovered == w.id, level);
-        if (highlights.live.problems.contains (w.id)) paintProblem (g, w, look.theme());
-        if (const auto hit = highlights.live.hits.find (w.id); hit != highlights.live.hits.end()) paintHit (g, w, hit->second, look.theme());
-        if (w.delay > 0 && view.zoom > too_small_to_read) paintDelay (g, w, look);
-        if (w.has_bends && view.zoom > too_small_for_names) paintBends (g, w, highlights, look.theme());
-    }
+    paintWires (g, scene, seen, view, look, highlights);
     if (view.zoom > too_small_to_read)
         for (const auto& e : scene.exposed())
             paintExposed (g, e, look);
     const NodePainter paint { g, look, highlights, view.zoom };
     for (const auto& n : scene.nodes())
-        if (n.bounds().expanded (8.0f).intersects (seen)) paint (n);
+        if (g.clipRegionIntersects (boundsOf (n, view.zoom).getSmallestIntegerContainer())) paint (n);
     for (const auto& w : scene.wires())   // above the nodes, where they can be grabbed
         if (w.has_bends && highlights.selected.contains (w.id) && view.zoom > too_small_for_names) paintBends (g, w, highlights, look.theme());
 }

@@ -60,7 +60,7 @@ juce::Rectangle<float> limitLightOf (const SceneNode&, float zoom);
 /// Paints one wire. `level` is how much it carries, as in LiveState.
 void paintWire (juce::Graphics&, const SceneWire&, const Theme&, bool selected, bool hovered, int level = 0);
 
-/// An area, in canvas units, that contains a wire with its bends and whatever is painted on it.
-juce::Rectangle<float> boundsOf (const SceneWire&);
+/// An area, in canvas units, that contains a node and whatever is painted on it and beside it.
+juce::Rectangle<float> boundsOf (const SceneNode&, float zoom);
 
 }   // namespace tactus::host

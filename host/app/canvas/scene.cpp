@@ -76,6 +76,14 @@ void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const gr
 
 void Scene::place (const graph::Patch& patch)
 {
+    std::vector<bool> placed (all_nodes.size());
+    for (std::size_t i = 0; i < all_nodes.size(); ++i)
+        if (const auto stored = positionOf (patch.nodes[i]))
+        {
+            all_nodes[i].at = stored->toFloat();
+            placed[i] = true;
+        }
+    if (std::ranges::count (placed, false) == 0) return;
     std::vector<juce::Point<float>> sizes;
     std::vector<std::pair<int, int>> wires;
     for (const auto& n : all_nodes)
@@ -83,13 +91,8 @@ void Scene::place (const graph::Patch& patch)
     for (const auto& w : patch.wires)
         if (const int from = indexOf (w.from.node), to = indexOf (w.to.node); from >= 0 && to >= 0 && w.delay == 0) wires.emplace_back (from, to);
     const auto places = arrange (sizes, wires);
-    std::vector<bool> placed (all_nodes.size());
     for (std::size_t i = 0; i < all_nodes.size(); ++i)
-    {
-        const auto stored = positionOf (patch.nodes[i]);
-        all_nodes[i].at = stored ? stored->toFloat() : places[i];
-        placed[i] = stored.has_value();
-    }
+        if (! placed[i]) all_nodes[i].at = places[i];
     if (std::ranges::count (placed, true) > 0) placeAmong (std::move (placed), wires);
 }
 
@@ -281,6 +284,15 @@ ScenePort Scene::findPort (const PortId& id) const noexcept
     return { node, node == nullptr ? nullptr : node->face->find (id.role, id.port) };
 }
 
+juce::Rectangle<float> boundsOf (const SceneWire& w)
+{
+    juce::Rectangle<float> all { w.from, w.to };
+    if (w.has_bends) return w.path().getBounds().expanded (16.0f);
+    for (const auto& p : w.waypoints)
+        all = all.getUnion (juce::Rectangle<float> (p, p).expanded (1.0f));
+    return all.expanded (200.0f, 16.0f);
+}
+
 const SceneNode* Scene::nodeAt (juce::Point<float> p) const noexcept
 {
     for (auto n = all_nodes.rbegin(); n != all_nodes.rend(); ++n)
@@ -299,6 +311,7 @@ std::vector<const SceneWire*> Scene::wiresAt (juce::Point<float> p, float reach)
     std::vector<std::pair<float, const SceneWire*>> near;
     for (const auto& w : all_wires)
     {
+        if (! boundsOf (w).expanded (reach).contains (p)) continue;
         const auto path = w.path();
         if (! path.getBounds().expanded (reach).contains (p)) continue;
         juce::Point<float> on_path;

@@ -55,6 +55,9 @@ struct SceneWire
     juce::Path path() const { return has_bends ? curveThroughBends (from, waypoints, to) : curveThrough (from, waypoints, to); }
 };
 
+/// An area, in canvas units, that contains a wire with its bends and whatever is painted on it.
+juce::Rectangle<float> boundsOf (const SceneWire&);
+
 /// Identifies a port across rebuilds of the scene.
 struct PortId
 {

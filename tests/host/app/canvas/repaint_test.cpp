@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/app/support/canvas_rig.hpp"
+
+#include "support/sketch.hpp"
+
+#include <host/app/canvas/picture/svg_graphics.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace tactus;
+using namespace tactus::host;
+using host::test::CanvasRig;
+using tactus::test::Sketch;
+
+namespace
+{
+/// Notes what a component asks to be painted again.
+struct Asked final : juce::CachedComponentImage
+{
+    juce::RectangleList<int>& areas;
+    juce::Component& of;
+
+    Asked (juce::RectangleList<int>& a, juce::Component& c) : areas (a), of (c) {}
+    void paint (juce::Graphics&) override {}
+    bool invalidateAll() override
+    {
+        areas.add (of.getLocalBounds());
+        return false;
+    }
+    bool invalidate (const juce::Rectangle<int>& area) override
+    {
+        areas.add (area);
+        return false;
+    }
+    void releaseResources() override {}
+};
+
+int areaOf (const juce::RectangleList<int>& areas)
+{
+    int sum = 0;
+    for (const auto& a : areas)
+        sum += a.getWidth() * a.getHeight();
+    return sum;
+}
+
+int count (const std::string& text, const std::string& what)
+{
+    int n = 0;
+    for (auto at = text.find (what); at != text.npos; at = text.find (what, at + 1))
+        ++n;
+    return n;
+}
+}   // namespace
+
+TEST_CASE ("after an edit, a canvas paints again only what it changes", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    juce::RectangleList<int> asked;
+    rig.canvas->setVisible (true);
+    rig.canvas->setCachedComponentImage (new Asked (asked, *rig.canvas));
+    const auto whole = rig.canvas->getWidth() * rig.canvas->getHeight();
+    const auto boxOf = [&] (const std::string& name) {
+        return rig.node (name).bounds().transformedBy (rig.canvas->view().transform()).getSmallestIntegerContainer();
+    };
+    const auto performs = [&] (graph::Command command) {
+        asked.clear();
+        REQUIRE (rig.document.perform (std::move (command)));
+    };
+    SECTION ("a value: its node")
+    {
+        performs (graph::SetParam { "", "grain", "angle", Json (0.1) });
+        CHECK (asked.containsRectangle (boxOf ("grain")));
+        CHECK (areaOf (asked) < whole / 4);
+        asked.clear();
+        rig.document.undo();
+        CHECK (asked.containsRectangle (boxOf ("grain")));
+    }
+    SECTION ("a place: where the node was, where it is, and its wires")
+    {
+        const auto before = boxOf ("drag");
+        rig.canvas->select ({ rig.node ("drag").id });
+        asked.clear();
+        rig.canvas->commands().nudgeSelection ({ 8.0f, 0.0f });
+        CHECK (asked.containsRectangle (before));
+        CHECK (asked.containsRectangle (boxOf ("drag")));
+    }
+    SECTION ("nothing that is shown: nothing")
+    {
+        performs (graph::SetHeader { .name = "Another" });
+        CHECK (asked.isEmpty());
+    }
+    SECTION ("a node that goes: the place where it was")
+    {
+        const auto before = boxOf ("drag");
+        performs (graph::RemoveNode { "", "drag" });
+        CHECK (asked.containsRectangle (before));
+    }
+    rig.canvas->setCachedComponentImage (nullptr);
+}
+
+TEST_CASE ("the wires of a patch that has very many are painted several at a time", "[app][canvas]")
+{
+    Sketch sketch;
+    sketch.node ("from", "signal.constant");
+    constexpr int wires = 600;
+    for (int i = 0; i < wires; ++i)
+        sketch.node ("to" + std::to_string (i), "signal.lfo").wire ("from.value -> to" + std::to_string (i) + ".frequency");
+    CanvasRig rig { sketch.graph };
+    REQUIRE (rig.canvas->scene().wires().size() == wires);
+    const auto pathsIn = [&] (const Highlights& highlights) {
+        const auto area = rig.canvas->scene().bounds();
+        SvgGraphics svg (static_cast<int> (area.getWidth()), static_cast<int> (area.getHeight()));
+        juce::Graphics g (svg);
+        View view;
+        view.zoom = 0.1f;   // nodes are boxes without names, which are no paths
+        paintScene (g, rig.canvas->scene(), view, lookOf (*rig.canvas), highlights);
+        return count (svg.text(), "<path");
+    };
+    const auto few = pathsIn ({});
+    CHECK (few > 0);
+    CHECK (few < wires / 3);
+    Highlights marked;
+    marked.selected.insert (rig.canvas->scene().wires()[7].id);
+    CHECK (pathsIn (marked) > few);   // a selected one is on top of the others, alone
+}
