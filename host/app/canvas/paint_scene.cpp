@@ -435,7 +435,7 @@ public:
     }
 
 private:
-    static constexpr int most_lines = 256;   // those of about 16 wires, whose edges fit into a row of the table in which JUCE sorts them
+    static constexpr int most_lines = 256;   // those of 32 wires at most: JUCE copies the table of their edges each time that more meet in a row of pixels
 
     struct Bundle
     {
@@ -449,7 +449,7 @@ private:
         auto& bundles = all[{ layer, stroke.colour.getARGB(), stroke.thickness }];
         if (bundles.empty() || bundles.back().lines >= most_lines) bundles.emplace_back();
         bundles.back().path.addPath (pieces.path);
-        bundles.back().lines += pieces.lines;
+        bundles.back().lines += std::max (pieces.lines, most_lines / 32);
     }
 };
 
