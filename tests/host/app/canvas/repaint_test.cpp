@@ -3,7 +3,7 @@
 
 #include "support/sketch.hpp"
 
-#include <host/app/canvas/picture/svg_graphics.hpp>
+#include <host/io/figure/vector_canvas.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -45,11 +45,13 @@ int areaOf (const juce::RectangleList<int>& areas)
     return sum;
 }
 
-int count (const std::string& text, const std::string& what)
+/// How many of the paths of an SVG are more than a box.
+int curvesIn (const std::string& svg)
 {
+    constexpr std::size_t box = 120;   // characters
     int n = 0;
-    for (auto at = text.find (what); at != text.npos; at = text.find (what, at + 1))
-        ++n;
+    for (auto at = svg.find ("<path"); at != std::string::npos; at = svg.find ("<path", at + 1))
+        n += svg.find ("/>", at) - at > box;
     return n;
 }
 }   // namespace
@@ -111,12 +113,12 @@ TEST_CASE ("the wires of a patch that has very many are painted several at a tim
     REQUIRE (rig.canvas->scene().wires().size() == wires);
     const auto pathsIn = [&] (const Highlights& highlights) {
         const auto area = rig.canvas->scene().bounds();
-        SvgGraphics svg (static_cast<int> (area.getWidth()), static_cast<int> (area.getHeight()));
-        juce::Graphics g (svg);
+        VectorCanvas shapes (area.getWidth(), area.getHeight());
+        juce::Graphics g (shapes);
         View view;
-        view.zoom = 0.1f;   // nodes are boxes without names, which are no paths
+        view.zoom = 0.1f;   // nodes are boxes without names
         paintScene (g, rig.canvas->scene(), view, lookOf (*rig.canvas), highlights);
-        return count (svg.text(), "<path");
+        return curvesIn (shapes.svg ("", 96.0));
     };
     const auto few = pathsIn ({});
     CHECK (few > 0);
