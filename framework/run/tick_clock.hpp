@@ -67,10 +67,12 @@ public:
     };
 
     explicit AbsoluteTimer (double period_s, Wait w = Wait::punctual)
-        : together (w == Wait::idle ? std::max (1, static_cast<int> (1e-3 / std::max (period_s, 1e-6) + 1e-6)) : 1), period (toDuration (together * period_s)),
-          wait (w)
+        : tick_s (period_s), together (w == Wait::idle ? std::max (1, static_cast<int> (1e-3 / std::max (period_s, 1e-6) + 1e-6)) : 1),
+          period (toDuration (together * period_s)), wait (w)
     {
     }
+
+    double block_s() const noexcept override { return together > 1 ? together * tick_s : 0.0; }
 
     void drive (Ticked& ticked) noexcept override
     {
@@ -79,7 +81,7 @@ public:
         {
             const double late_s = waited();
             for (int i = 0; i < together; ++i)
-                if (! ticked.tick (late_s)) return;
+                if (! ticked.tick (std::max (0.0, late_s - i * tick_s))) return;
         }
     }
 
@@ -119,6 +121,7 @@ private:
         Clock::duration longest = toDuration (50e-6);
     };
 
+    double tick_s;            // from one tick to the next
     int together;             // how many ticks are due together
     Clock::duration period;   // of all these ticks
     Wait wait;

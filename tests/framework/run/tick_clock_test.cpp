@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <tactus/run/tick_clock.hpp>
 
+#include <tactus/run/clock/passed_time.hpp>
+
 #include "support/tick_thread_locks.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <mutex>
@@ -69,9 +72,32 @@ TEST_CASE ("ticks of simulated devices are due together a millisecond at a time,
         INFO (rate_hz);
         CHECK (early == 0);
         CHECK (k == 10 * together);
+        // The thread waits once for all of them, and each is due a period after the one before.
         for (std::size_t i = 0; i < lates.size(); ++i)
-            CHECK (lates[i] == lates[i - i % static_cast<std::size_t> (together)]);   // the thread has waited once for all of them
+        {
+            const auto after = i % static_cast<std::size_t> (together);
+            CHECK (lates[i] == std::max (0.0, lates[i - after] - static_cast<double> (after) / rate_hz));
+        }
+        CHECK (timer.block_s() == (together > 1 ? together / rate_hz : 0.0));
     }
+}
+
+TEST_CASE ("for the limits of a simulated device, ticks that are due together are a period apart", "[runtime]")
+{
+    constexpr double period = 1e-4;
+    AbsoluteTimer timer { period, AbsoluteTimer::Wait::idle };
+    PassedTime passed { period };
+    double passed_s = 0.0, longest = 0.0;
+    for (int k = 0; k < 1000; ++k)
+    {
+        const int milliseconds = k / 10;
+        const double p = passed (1e-3 * milliseconds, timer.block_s());
+        longest = std::max (longest, p);
+        if (k >= 10) CHECK (p == Approx (period));   // at the beginning, only one period has passed
+        passed_s += p;
+    }
+    CHECK (longest <= period * (1.0 + 1e-9));
+    CHECK (passed_s == Approx (0.0991));
 }
 
 TEST_CASE ("a free run ticks until a tick returns that it was the last one", "[runtime]")
