@@ -63,7 +63,7 @@ TEST_CASE ("ticks of simulated devices are due together a millisecond at a time,
         std::vector<double> lates;
         int k = 0, early = 0;
         Each each { [&] (double late) {
-            const auto ms = static_cast<double> (k / together) * together / rate_hz;
+            const double ms = (k - k % together) / rate_hz;
             early += timer.now() < begin + ms - 1e-6;
             lates.push_back (late);
             return ++k < 10 * together;
