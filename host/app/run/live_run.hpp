@@ -185,8 +185,9 @@ public:
 
     /// The next run to start is logged to this file, from its first tick to its end; `program` is this program and its version.
     void logNextTo (std::filesystem::path file, std::string program);
-    void stopLogging();                                                           ///< completes the log now; the run goes on
-    bool isLogging() const noexcept { return is_logged || ! log_next.empty(); }   ///< the log is wanted, or being written
+    void stopLogging();                                                            ///< completes the log now; the run goes on
+    bool isLogging() const noexcept { return isLogged() || ! log_next.empty(); }   ///< the log is wanted, or being written
+    bool isLogged() const noexcept { return is_logged; }                           ///< the log is being written: the run before has ended
 
     /// From now on, replaces the plan that runs by compiled code (docs/fusion.md); empty: runs by the plan. The forces do not change.
     void fuse (std::optional<Fuser::Options>);

@@ -137,7 +137,7 @@ void TakePanel::recorded()
 void TakePanel::showLatest()
 {
     latest.want (recording.state() == Take::State::recording ? std::vector { shown_port } : std::vector<std::string> {});
-    if (recording.state() != Take::State::recording) return;
+    if (recording.state() != Take::State::recording || ! playback.run().isLogged()) return;   // not yet: the traces are of the run before
     const auto traces = latest.of (shown_port);
     if (traces.empty() || traces.front()->begin() == traces.front()->end()) return;
     const auto& first = *traces.front();
