@@ -220,8 +220,8 @@ TEST_CASE ("a run with several queries can be repeated exactly from the record o
             ask (streams, k, again);
         RC_ASSERT (again.answers == live.answers);
     });
-    CHECK (late_runs > 10);
-    CHECK (answered_runs > 10);
+    CHECK (late_runs > 3);
+    CHECK (answered_runs > 3);
 }
 
 TEST_CASE ("asking allocates nothing and takes no lock, no matter how many ticks are late", "[slow]")

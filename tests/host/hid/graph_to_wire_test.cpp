@@ -224,7 +224,7 @@ TEST_CASE ("no report on the wire exceeds a limit or a slew of its device, whate
         }
     });
     CHECK (driven > 100);
-    if (kind == Arm::shipped) CHECK (turned > 100);
+    if (kind == Arm::shipped) CHECK (turned > 30);
 }
 
 TEST_CASE ("device.force.applied shows the force that the motors render, decoded from the wire", "[hid][property]")
