@@ -333,7 +333,11 @@ void VectorCanvas::drawGlyph (int glyph, const juce::AffineTransform& t)
 {
     const auto face = now.font.getTypefacePtr();
     const auto [known, is_new] = glyph_numbers.try_emplace ({ face, glyph }, static_cast<int> (glyphs.size()));
-    if (is_new) face->getOutlineForGlyph (glyph, glyphs.emplace_back (face, juce::Path()).outline);
+    if (is_new)
+    {
+        glyphs.push_back ({ face, {} });
+        face->getOutlineForGlyph (glyph, glyphs.back().outline);
+    }
     const float height = now.font.getHeight();
     const auto at = juce::AffineTransform::scale (height * now.font.getHorizontalScale(), height).followedBy (t).followedBy (now.transform);
     add ({ .glyph = known->second, .at = at }, glyphs[static_cast<std::size_t> (known->second)].outline.getBoundsTransformed (at));
