@@ -7,7 +7,7 @@
 namespace tactus::host
 {
 
-#if JUCE_LINUX
+#if JUCE_LINUX && JUCE_MAJOR_VERSION == 7   // other versions keep it elsewhere, or have none
 namespace
 {
 // Private members can be named where a template is instantiated.
