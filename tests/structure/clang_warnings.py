@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Reads the host with clang, as far as another build with clang leaves it out, for warnings and errors. Makes no objects.
+"""Reads the host and the tests of its window with clang, as far as another build with clang leaves it out, for warnings and errors. Makes no objects.
 
 Usage: clang_warnings.py BUILD OTHER. Both have compile_commands.json. Exit status 1 if clang refuses anything."""
 
@@ -16,7 +16,7 @@ from commands import ROOT, cover, cpus, read
 def wanted(source):
     """The bench is left to ./test.sh --tidy: its files are single, and so take long."""
     folders = source.relative_to(ROOT).parts
-    return folders[0] == "host" and folders[1] != "bench"
+    return (folders[0] == "host" and folders[1] != "bench") or folders[:3] == ("tests", "host", "app")
 
 
 def run(arguments, directory):

@@ -237,38 +237,37 @@ struct OffTheWire final : Device
 };
 }   // namespace
 
-TEST_CASE ("dry wood over a wire: each force at its far end is that of the offline run after encoding, bit for bit", "[wires][hid]")
+namespace
 {
-    const auto graph = loadGraph (TACTUS_SOURCE_DIR "/graphs/dry_wood.json").graph;
-    const auto compiled = compile (graph, catalogue(), { .rate_hz = 1000.0 });
-    INFO (test::text (compiled.messages));
-    REQUIRE (compiled.plan);
+struct Way
+{
+    Wire wire;
+    const char* framing;
+};
 
-    struct Way
-    {
-        Wire wire;
-        const char* framing;
-    };
-    const auto way = GENERATE (Way { Wire::serial, "cobs" }, Way { Wire::serial, "length" }, Way { Wire::serial, "none" }, Way { Wire::udp, "cobs" });
+/// Closes a loop over a wire, in which the hand feels the force, and compares each force at the far end with the offline run. Returns false if the
+/// computer stood still for so long that the port took it for suspended: then the device is opened again, and the loop is broken.
+bool keepsItsForces (const graph::Graph& graph, const std::shared_ptr<Plan>& plan, const Way& way)
+{
     constexpr std::size_t ticks = 3000;
-
-    // The hand feels the force, so the loop is closed at the far end.
     auto hand = makeDevice (*graph.device ("stylus"), {});
     REQUIRE (hand.device);
     Bench bench { way.wire, board (way.framing), std::move (hand.device) };
     const auto limits = limitsOf (*bench.profile, {});
     OnTheBench there { bench };
-    Engine engine { compiled.plan };
+    Engine engine { plan };
     engine.attach ("stylus", there, limits);
     const auto heard_before = bench.heard.size();
     for (std::size_t k = 0; k < ticks && there.works; ++k)
         engine.tick();
-    INFO ("wire " << static_cast<int> (way.wire) << ", framing " << way.framing << ", " << bench.heard.size() - heard_before << " answers, trouble: "
-                  << bench.device->port().trouble());
+    const auto trouble = bench.device->port().trouble();
+    if (! there.works && trouble.find ("suspended") != std::string::npos) return false;
+    INFO ("wire " << static_cast<int> (way.wire) << ", framing " << way.framing << ", " << bench.heard.size() - heard_before
+                  << " answers, trouble: " << trouble);
     REQUIRE (there.works);
 
     OffTheWire offline { bench.profile, std::span (bench.sent).subspan (there.first.value()) };
-    Engine again { compiled.plan };
+    Engine again { plan };
     again.attach ("stylus", offline, limits);
     for (std::size_t k = 0; k < ticks; ++k)
         again.tick();
@@ -289,6 +288,21 @@ TEST_CASE ("dry wood over a wire: each force at its far end is that of the offli
     CHECK (bench.device->counts().lost == 0);
     CHECK (bench.device->port().counts().write_errors == 0);
     CHECK (bench.device->port().counts().dropped == 0);
+    return true;
+}
+}   // namespace
+
+TEST_CASE ("dry wood over a wire: each force at its far end is that of the offline run after encoding, bit for bit", "[wires][hid]")
+{
+    const auto graph = loadGraph (TACTUS_SOURCE_DIR "/graphs/dry_wood.json").graph;
+    const auto compiled = compile (graph, catalogue(), { .rate_hz = 1000.0 });
+    INFO (test::text (compiled.messages));
+    REQUIRE (compiled.plan);
+    const auto way = GENERATE (Way { Wire::serial, "cobs" }, Way { Wire::serial, "length" }, Way { Wire::serial, "none" }, Way { Wire::udp, "cobs" });
+    bool kept = false;
+    for (int tries = 0; tries < 10 && ! kept; ++tries)
+        kept = keepsItsForces (graph, compiled.plan, way);
+    CHECK (kept);
 }
 
 TEST_CASE ("a device on a wire that is unplugged comes back, with another name, and its force starts from zero", "[wires][hid][safety]")

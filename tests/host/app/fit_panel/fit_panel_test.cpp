@@ -99,11 +99,10 @@ TEST_CASE ("fit panel: time\\, velocity\\, normal force and friction are strokes
     Random random { 5 };
     std::ostringstream text;
     text << "Time,Velocity [mm/s],Normal,Friction\n";
-    double x = 0.0, d = 0.0, before = 0.0;
+    double d = 0.0, before = 0.0;
     for (int i = 0; i < 1200; ++i)
     {
         const double v = i % 400 < 200 ? 5.0 : -5.0;
-        if (i > 0) x += 0.5 * (v + before) * 1e-6;
         if (i > 0) d = std::clamp (d + 0.5 * (v + before) * 1e-6, -1e-4, 1e-4);
         before = v;
         text << 1e-3 * i << "," << v << ",2," << -0.8 * d / 1e-4 + 0.02 * random.normal() << "\n";

@@ -77,7 +77,8 @@ std::string disagreementWithCompile (MainView& view, FileAssets& assets)
     const auto& graph = view.document().graph();
     const auto compiled = compile (graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } });
     const auto expected = errorsOf (compiled.messages), reported = errorsOf (view.run().messages());
-    if (std::ranges::equal (std::views::keys (expected), std::views::keys (reported))) return {};
+    const auto key = [](const auto& e) -> const auto& { return e.first; };   // clang 14 does not compile std::views::keys
+    if (std::ranges::equal (expected, reported, {}, key, key)) return {};
     return "compile reports:" + joined (expected) + "\n  and the run at " + std::to_string (view.run().rate()) + " Hz, which "
            + (view.run().isRunning() ? "runs" : view.run().isWanted() ? "is about to begin"
                                                                       : "is over")
