@@ -94,7 +94,7 @@ std::uint32_t numberAt (const Bytes& report, std::size_t at)
 /// A fake board and the port that is open on it.
 struct Bench
 {
-    explicit Bench (Wire w, std::shared_ptr<const Profile> p = board(), std::unique_ptr<Device> hand = stillHand(), std::string link = {})
+    explicit Bench (Wire w, std::shared_ptr<const Profile> p = board(), std::unique_ptr<Device> hand = stillHand(), const std::string& link = {})
         : profile (std::move (p))
     {
         auto made = FakeDevice::make (profile, std::move (hand), { .wire = w, .link = link, .faults = {} });
