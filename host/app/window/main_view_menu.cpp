@@ -46,7 +46,7 @@ std::pair<juce::String, juce::String> wordsFor (bool saves, const std::filesyste
     if (isClipExtension (begin)) return { TRANS ("Save clip; the ending of the name selects the format"), "*.haptic;*.ahap;*.hjif;*.json;*.wav;*.csv" };
     if (extensionOf (begin) == ".csv") return { TRANS ("Save gesture"), "*.csv" };
     if (extensionOf (begin) == ".jsonl") return { TRANS ("Save test"), "*.jsonl" };
-    if (const auto extension = extensionOf (begin); extension == ".svg") return { TRANS ("Save picture; the ending of the name selects the format"), "*.svg;*.pdf;*.png" };
+    if (extensionOf (begin) == ".svg") return { TRANS ("Save picture; the ending of the name selects the format"), "*.svg;*.pdf;*.png" };
     return { TRANS ("Save graph"), "*.json" };
 }
 }   // namespace

@@ -166,50 +166,46 @@ void play (Guard& guard, const std::vector<Tick>& run, Check check)
 
 TEST_CASE ("guard: without limits, a finite effort passes through bit for bit, regardless of earlier efforts", "[framework][guard]")
 {
-    test::property ("any run",
-                    [] {
-                        auto guard = guardWith ({});
-                        play (guard, anyRun(), [&] (const Tick& tick, const Effort&, const Effort& now) {
-                            if (guard.stop() != Guard::Stop::none) return;
-                            RC_ASSERT (sameBits (now.force, tick.wanted.force));
-                            RC_ASSERT (sameBits (now.torque, tick.wanted.torque));
-                            RC_ASSERT (sameBits (now.axes, tick.wanted.axes));
-                            RC_ASSERT (sameBits (now.signals, tick.wanted.signals));
-                            RC_ASSERT (now.brake == tick.wanted.brake);
-                        });
-                    });
+    test::property ("any run", [] {
+        auto guard = guardWith ({});
+        play (guard, anyRun(), [&] (const Tick& tick, const Effort&, const Effort& now) {
+            if (guard.stop() != Guard::Stop::none) return;
+            RC_ASSERT (sameBits (now.force, tick.wanted.force));
+            RC_ASSERT (sameBits (now.torque, tick.wanted.torque));
+            RC_ASSERT (sameBits (now.axes, tick.wanted.axes));
+            RC_ASSERT (sameBits (now.signals, tick.wanted.signals));
+            RC_ASSERT (now.brake == tick.wanted.brake);
+        });
+    });
 }
 
 TEST_CASE ("guard: a value that is not a number never reaches a device", "[framework][guard]")
 {
-    test::property ("any run, any limits",
-                    [] {
-                        auto guard = guardWith (*anyLimits());
-                        play (guard, anyRun(),
-                              [] (const Tick&, const Effort&, const Effort& now) { RC_ASSERT (isFinite (now.force, now.torque, now.axes, now.signals, now.brake)); });
-                    });
+    test::property ("any run, any limits", [] {
+        auto guard = guardWith (*anyLimits());
+        play (guard, anyRun(),
+              [] (const Tick&, const Effort&, const Effort& now) { RC_ASSERT (isFinite (now.force, now.torque, now.axes, now.signals, now.brake)); });
+    });
 
-    test::property ("any limits, and any time between two ticks: none, less than none, or not a number",
-                    [] {
-                        auto guard = guardWith (*anyLimits());
-                        for (const auto& tick : anyRun())
-                        {
-                            const double passed = *rc::gen::element (0.0, 0.0, dt, 5e-324, -1.0, endless, not_a_number);
-                            const auto& now = guard (tick.wanted, tick.reading, passed);
-                            RC_ASSERT (isFinite (now.force, now.torque, now.axes, now.signals, now.brake));
-                        }
-                    });
+    test::property ("any limits, and any time between two ticks: none, less than none, or not a number", [] {
+        auto guard = guardWith (*anyLimits());
+        for (const auto& tick : anyRun())
+        {
+            const double passed = *rc::gen::element (0.0, 0.0, dt, 5e-324, -1.0, endless, not_a_number);
+            const auto& now = guard (tick.wanted, tick.reading, passed);
+            RC_ASSERT (isFinite (now.force, now.torque, now.axes, now.signals, now.brake));
+        }
+    });
 
-    test::property ("limits, periods and ages that are not numbers",
-                    [] {
-                        const auto wild = rc::gen::element (not_a_number, -1.0, endless, -endless, 0.0, 1.0, 1.7e308);
-                        Guard guard;
-                        guard.prepare ({ *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild }, *wild);
-                        play (guard, anyRun(), [&] (const Tick&, const Effort&, const Effort& now) {
-                            RC_ASSERT (isFinite (now.force, now.torque, now.axes, now.signals, now.brake));
-                            RC_ASSERT_FALSE (describe (guard.latest()).empty());
-                        });
-                    });
+    test::property ("limits, periods and ages that are not numbers", [] {
+        const auto wild = rc::gen::element (not_a_number, -1.0, endless, -endless, 0.0, 1.0, 1.7e308);
+        Guard guard;
+        guard.prepare ({ *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild }, *wild);
+        play (guard, anyRun(), [&] (const Tick&, const Effort&, const Effort& now) {
+            RC_ASSERT (isFinite (now.force, now.torque, now.axes, now.signals, now.brake));
+            RC_ASSERT_FALSE (describe (guard.latest()).empty());
+        });
+    });
 }
 
 TEST_CASE ("guard: a change across the whole range of a double remains finite", "[framework][guard]")
@@ -224,19 +220,18 @@ TEST_CASE ("guard: a change across the whole range of a double remains finite", 
 
 TEST_CASE ("guard: no output exceeds its limit", "[framework][guard]")
 {
-    test::property ("any run, any limits",
-                    [] {
-                        const auto limits = *anyLimits();
-                        auto guard = guardWith (limits);
-                        play (guard, anyRun(), [&] (const Tick&, const Effort&, const Effort& now) {
-                            RC_ASSERT (norm (now.force) <= limits.max_force * (1 + 1e-15));
-                            RC_ASSERT (norm (now.torque) <= limits.max_torque * (1 + 1e-15));
-                            for (const double axis : now.axes)
-                                RC_ASSERT (std::abs (axis) <= limits.max_axis_effort);
-                            for (const double signal : now.signals)
-                                RC_ASSERT (std::abs (signal) <= limits.max_signal);
-                        });
-                    });
+    test::property ("any run, any limits", [] {
+        const auto limits = *anyLimits();
+        auto guard = guardWith (limits);
+        play (guard, anyRun(), [&] (const Tick&, const Effort&, const Effort& now) {
+            RC_ASSERT (norm (now.force) <= limits.max_force * (1 + 1e-15));
+            RC_ASSERT (norm (now.torque) <= limits.max_torque * (1 + 1e-15));
+            for (const double axis : now.axes)
+                RC_ASSERT (std::abs (axis) <= limits.max_axis_effort);
+            for (const double signal : now.signals)
+                RC_ASSERT (std::abs (signal) <= limits.max_signal);
+        });
+    });
 }
 
 TEST_CASE ("guard: one factor scales force, torque and axes, so what they do together keeps its direction", "[framework][guard]")
@@ -290,20 +285,19 @@ TEST_CASE ("guard: one factor scales force, torque and axes, so what they do tog
 
 TEST_CASE ("guard: the effort never changes faster than the slew limit, even in stops and recoveries", "[framework][guard]")
 {
-    test::property ("any run, any limits",
-                    [] {
-                        const auto limits = *anyLimits();
-                        auto guard = guardWith (limits);
-                        play (guard, anyRun(), [&] (const Tick&, const Effort& before, const Effort& now) {
-                            // The slack is the rounding error of a sum: one ulp of the force itself.
-                            const auto slack = [] (const Vec3& a, const Vec3& b) { return 1e-15 * (norm (a) + norm (b)); };
-                            RC_ASSERT (norm (0.5 * now.force - 0.5 * before.force) <= 0.5 * limits.max_slew * dt + slack (now.force, before.force));
-                            RC_ASSERT (norm (0.5 * now.torque - 0.5 * before.torque) <= 0.5 * limits.max_torque_slew * dt + slack (now.torque, before.torque));
-                            for (int i = 0; i < std::max (now.axes.size(), before.axes.size()); ++i)
-                                RC_ASSERT (std::abs (0.5 * now.axes[i] - 0.5 * before.axes[i])
-                                           <= 0.5 * limits.max_axis_slew * dt + 1e-15 * (std::abs (now.axes[i]) + std::abs (before.axes[i])));
-                        });
-                    });
+    test::property ("any run, any limits", [] {
+        const auto limits = *anyLimits();
+        auto guard = guardWith (limits);
+        play (guard, anyRun(), [&] (const Tick&, const Effort& before, const Effort& now) {
+            // The slack is the rounding error of a sum: one ulp of the force itself.
+            const auto slack = [] (const Vec3& a, const Vec3& b) { return 1e-15 * (norm (a) + norm (b)); };
+            RC_ASSERT (norm (0.5 * now.force - 0.5 * before.force) <= 0.5 * limits.max_slew * dt + slack (now.force, before.force));
+            RC_ASSERT (norm (0.5 * now.torque - 0.5 * before.torque) <= 0.5 * limits.max_torque_slew * dt + slack (now.torque, before.torque));
+            for (int i = 0; i < std::max (now.axes.size(), before.axes.size()); ++i)
+                RC_ASSERT (std::abs (0.5 * now.axes[i] - 0.5 * before.axes[i])
+                           <= 0.5 * limits.max_axis_slew * dt + 1e-15 * (std::abs (now.axes[i]) + std::abs (before.axes[i])));
+        });
+    });
 }
 
 TEST_CASE ("guard: an effort near the largest double exceeds no limit, not by one bit", "[framework][guard][safety]")
@@ -330,50 +324,48 @@ TEST_CASE ("guard: an effort near the largest double exceeds no limit, not by on
 
 TEST_CASE ("guard: a stop takes the fade time and is never a step, regardless of its cause and of anything that happens meanwhile", "[framework][guard]")
 {
-    test::property ("any run, any limits except slew limits, which lengthen the stop",
-                    [] {
-                        auto limits = *anyLimits();
-                        limits.max_slew = limits.max_torque_slew = limits.max_axis_slew = endless;
-                        auto guard = guardWith (limits);
-                        Effort at_stop;
-                        int ticks = 0;
-                        play (guard, anyRun(), [&] (const Tick&, const Effort& before, const Effort& now) {
-                            if (guard.stop() == Guard::Stop::none)
-                            {
-                                ticks = 0;
-                                return;
-                            }
-                            if (ticks++ == 0) at_stop = before;
-                            const double part = dt / Guard::fade_s * (1 + 1e-12);
-                            RC_ASSERT (norm (0.5 * now.force - 0.5 * before.force) <= 0.5 * part * norm (at_stop.force) + 1e-320);
-                            RC_ASSERT (norm (0.5 * now.torque - 0.5 * before.torque) <= 0.5 * part * norm (at_stop.torque) + 1e-320);
-                            for (int i = 0; i < at_stop.axes.size(); ++i)
-                                RC_ASSERT (std::abs (0.5 * now.axes[i] - 0.5 * before.axes[i]) <= 0.5 * part * std::abs (at_stop.axes[i]) + 1e-320);
-                            for (int i = 0; i < at_stop.signals.size(); ++i)
-                                RC_ASSERT (std::abs (0.5 * now.signals[i] - 0.5 * before.signals[i]) <= 0.5 * part * std::abs (at_stop.signals[i]) + 1e-320);
-                            if (ticks > Guard::fade_s / dt + 1) RC_ASSERT (guard.isAtRest());
-                        });
-                    });
+    test::property ("any run, any limits except slew limits, which lengthen the stop", [] {
+        auto limits = *anyLimits();
+        limits.max_slew = limits.max_torque_slew = limits.max_axis_slew = endless;
+        auto guard = guardWith (limits);
+        Effort at_stop;
+        int ticks = 0;
+        play (guard, anyRun(), [&] (const Tick&, const Effort& before, const Effort& now) {
+            if (guard.stop() == Guard::Stop::none)
+            {
+                ticks = 0;
+                return;
+            }
+            if (ticks++ == 0) at_stop = before;
+            const double part = dt / Guard::fade_s * (1 + 1e-12);
+            RC_ASSERT (norm (0.5 * now.force - 0.5 * before.force) <= 0.5 * part * norm (at_stop.force) + 1e-320);
+            RC_ASSERT (norm (0.5 * now.torque - 0.5 * before.torque) <= 0.5 * part * norm (at_stop.torque) + 1e-320);
+            for (int i = 0; i < at_stop.axes.size(); ++i)
+                RC_ASSERT (std::abs (0.5 * now.axes[i] - 0.5 * before.axes[i]) <= 0.5 * part * std::abs (at_stop.axes[i]) + 1e-320);
+            for (int i = 0; i < at_stop.signals.size(); ++i)
+                RC_ASSERT (std::abs (0.5 * now.signals[i] - 0.5 * before.signals[i]) <= 0.5 * part * std::abs (at_stop.signals[i]) + 1e-320);
+            if (ticks > Guard::fade_s / dt + 1) RC_ASSERT (guard.isAtRest());
+        });
+    });
 }
 
 TEST_CASE ("guard: a force above the limit keeps its direction", "[framework][guard]")
 {
-    test::property ("any force",
-                    [] {
-                        const auto wanted = *vectorOf (anyFinite());
-                        const auto most = *rc::gen::element (0.1, 3.0, 12.0);
-                        auto guard = guardWith ({ .max_force = most });
-                        const Vec3 now = guard ({ .force = wanted }, fresh).force;
+    test::property ("any force", [] {
+        const auto wanted = *vectorOf (anyFinite());
+        const auto most = *rc::gen::element (0.1, 3.0, 12.0);
+        auto guard = guardWith ({ .max_force = most });
+        const Vec3 now = guard ({ .force = wanted }, fresh).force;
 
-                        if (norm (wanted) <= most)
-                            RC_ASSERT (sameBits (now, wanted));
-                        else
-                        {
-                            const double scale = wanted.cwiseAbs().maxCoeff();
-                            RC_ASSERT (norm (now) == Approx (most).epsilon (1e-14));
-                            RC_ASSERT ((now.normalized() - (wanted / scale).normalized()).norm() < 1e-14);
-                        }
-                    });
+        if (norm (wanted) <= most)
+            RC_ASSERT (sameBits (now, wanted));
+        else
+        {
+            const double scale = wanted.cwiseAbs().maxCoeff();
+            RC_ASSERT (norm (now) == Approx (most).epsilon (1e-14));
+            RC_ASSERT ((now.normalized() - (wanted / scale).normalized()).norm() < 1e-14);
+        }
+    });
 }
 
 TEST_CASE ("guard: a session starts from zero and reaches full effort after the ramp", "[framework][guard]")

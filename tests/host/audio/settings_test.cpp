@@ -69,28 +69,27 @@ TEST_CASE ("all errors in the audio settings of a session are reported, with the
 
 TEST_CASE ("settings with any value replaced by any other are read or refused", "[audio]")
 {
-    test::property ("one value replaced",
-                    [] {
-                        const Json flat = whole.flatten();
-                        const auto keys = [&] {
-                            std::vector<std::string> all { "/routes", "/routes/0", "" };
-                            for (const auto& [key, value] : flat.items())
-                                all.push_back (key);
-                            return all;
-                        }();
-                        Json damaged = whole;
-                        const auto key = *rc::gen::elementOf (keys);
-                        damaged[JsonPointer (key)] = *rc::gen::elementOf (std::vector<Json> {
-                            nullptr, true, -1, 0, 1e300, 3, 0.5, "", "4 N", "x", Json::array(), Json::object(), Json::array ({ 1, nullptr }), std::nan ("") });
-                        Messages messages;
-                        const auto s = readAudioSettings (damaged, "/audio", messages);
-                        for (const auto& m : messages)
-                            RC_ASSERT (m.where.starts_with ("/audio") && isCovered (m.text) && isCovered (m.remedy));
-                        RC_ASSERT (s.reserve_s > 0.0 && s.card.block >= 0 && s.card.rate_hz >= 0.0);
-                        for (const auto& route : s.routes)
-                            RC_ASSERT (route.channel >= 1 && route.channel <= most_channels && route.full_scale.value > 0.0 && std::isfinite (route.full_scale.value)
-                                       && std::isfinite (route.gain) && isCovered (route.port));
-                    });
+    test::property ("one value replaced", [] {
+        const Json flat = whole.flatten();
+        const auto keys = [&] {
+            std::vector<std::string> all { "/routes", "/routes/0", "" };
+            for (const auto& [key, value] : flat.items())
+                all.push_back (key);
+            return all;
+        }();
+        Json damaged = whole;
+        const auto key = *rc::gen::elementOf (keys);
+        damaged[JsonPointer (key)] = *rc::gen::elementOf (std::vector<Json> {
+            nullptr, true, -1, 0, 1e300, 3, 0.5, "", "4 N", "x", Json::array(), Json::object(), Json::array ({ 1, nullptr }), std::nan ("") });
+        Messages messages;
+        const auto s = readAudioSettings (damaged, "/audio", messages);
+        for (const auto& m : messages)
+            RC_ASSERT (m.where.starts_with ("/audio") && isCovered (m.text) && isCovered (m.remedy));
+        RC_ASSERT (s.reserve_s > 0.0 && s.card.block >= 0 && s.card.rate_hz >= 0.0);
+        for (const auto& route : s.routes)
+            RC_ASSERT (route.channel >= 1 && route.channel <= most_channels && route.full_scale.value > 0.0 && std::isfinite (route.full_scale.value)
+                       && std::isfinite (route.gain) && isCovered (route.port));
+    });
 }
 
 TEST_CASE ("a route on the command line is a port, a channel and optionally a full scale", "[audio]")

@@ -115,27 +115,26 @@ TEST_CASE ("clocks 200 ppm apart play a sine for ten minutes without a click, an
 
 TEST_CASE ("at any rates, block sizes and clocks, nothing runs dry and a sine keeps its amplitude", "[audio]")
 {
-    tactus::test::property ("sines below 0.3 of the tick rate",
-                            [] {
-                                const double tick_hz = *rc::gen::element (500.0, 1000.0, 4000.0, 10'000.0, 48'000.0);
-                                const double card_hz = *rc::gen::element (22'050.0, 44'100.0, 48'000.0);
-                                const int block = *rc::gen::element (16, 64, 100, 441, 1024);
-                                const double faster = *rc::gen::inRange (-1000, 1001) * 1e-6;
-                                const double frequency = *rc::gen::inRange (10, 300) * 1e-3 * std::min (tick_hz, card_hz);
-                                Played played { { .tick_hz = tick_hz, .card_hz = card_hz, .block = block, .card_is_faster = faster, .jitter_s = 0.002 }, frequency };
-                                played.run (0.8);
-                                const auto report = played.stream.report();
-                                RC_ASSERT (report.underruns == 0u);
-                                RC_ASSERT (report.overruns == 0u);
-                                RC_ASSERT (report.flows == 1u);
-                                const double cycle = card_hz / frequency, whole = std::floor (0.4 * card_hz / cycle) * cycle;
-                                const auto sound = std::span (played.heard).last (static_cast<std::size_t> (std::round (whole)));
-                                double power = 0.0;
-                                for (const float v : sound)
-                                    power += static_cast<double> (v) * static_cast<double> (v);
-                                RC_ASSERT (std::abs (10.0 * std::log10 (2.0 * power / static_cast<double> (sound.size()))) < 0.1);
-                                RC_ASSERT (report.latency_s < 0.013 + (block + 1.0) / card_hz + 25.0 / std::min (tick_hz, card_hz));
-                            });
+    tactus::test::property ("sines below 0.3 of the tick rate", [] {
+        const double tick_hz = *rc::gen::element (500.0, 1000.0, 4000.0, 10'000.0, 48'000.0);
+        const double card_hz = *rc::gen::element (22'050.0, 44'100.0, 48'000.0);
+        const int block = *rc::gen::element (16, 64, 100, 441, 1024);
+        const double faster = *rc::gen::inRange (-1000, 1001) * 1e-6;
+        const double frequency = *rc::gen::inRange (10, 300) * 1e-3 * std::min (tick_hz, card_hz);
+        Played played { { .tick_hz = tick_hz, .card_hz = card_hz, .block = block, .card_is_faster = faster, .jitter_s = 0.002 }, frequency };
+        played.run (0.8);
+        const auto report = played.stream.report();
+        RC_ASSERT (report.underruns == 0u);
+        RC_ASSERT (report.overruns == 0u);
+        RC_ASSERT (report.flows == 1u);
+        const double cycle = card_hz / frequency, whole = std::floor (0.4 * card_hz / cycle) * cycle;
+        const auto sound = std::span (played.heard).last (static_cast<std::size_t> (std::round (whole)));
+        double power = 0.0;
+        for (const float v : sound)
+            power += static_cast<double> (v) * static_cast<double> (v);
+        RC_ASSERT (std::abs (10.0 * std::log10 (2.0 * power / static_cast<double> (sound.size()))) < 0.1);
+        RC_ASSERT (report.latency_s < 0.013 + (block + 1.0) / card_hz + 25.0 / std::min (tick_hz, card_hz));
+    });
 }
 
 TEST_CASE ("if ticks stop, the sound fades out within milliseconds; when they resume it fades in, without a click", "[audio]")
@@ -178,35 +177,34 @@ TEST_CASE ("a card that paused does not play late, and does not click", "[audio]
 
 TEST_CASE ("if blocks tick the run, every tick's sample is played unchanged", "[audio]")
 {
-    tactus::test::property ("bit for bit at the card's rate, a block late",
-                            [] {
-                                const int block = *rc::gen::inRange (1, 300);
-                                OutStream stream { { .lanes = 2, .tick_side_hz = 48'000.0 } };
-                                stream.prepare ({ 48'000.0, block, Clocks::one });
-                                InStream back { { .lanes = 2, .tick_side_hz = 48'000.0 } };
-                                back.prepare ({ 48'000.0, block, Clocks::one });
-                                std::vector<float> sent, heard, returned, frames (2 * static_cast<std::size_t> (block));
-                                for (int k = 0; k < 8; ++k)
-                                {
-                                    back.take (frames);
-                                    for (int i = 0; i < block; ++i)
-                                    {
-                                        const float v = static_cast<float> (sent.size()) + 1.0f;
-                                        sent.push_back (v);
-                                        const std::array pair { v, -v };
-                                        stream.push (pair);
-                                        returned.push_back (back.pop()[1]);
-                                    }
-                                    stream.render (frames);
-                                    for (int i = 0; i < block; ++i)
-                                        heard.push_back (frames[2 * static_cast<std::size_t> (i)]);
-                                }
-                                const auto first = std::ranges::find_if (heard, [] (float v) { return v >= 1.0f; });
-                                RC_ASSERT (stream.report().underruns == 0u);
-                                RC_ASSERT (back.report().underruns == 0u);
-                                for (auto at = first + 240; at < heard.end(); ++at)   // after the fade-in
-                                    RC_ASSERT (*at == *(at - 1) + 1.0f);
-                            });
+    tactus::test::property ("bit for bit at the card's rate, a block late", [] {
+        const int block = *rc::gen::inRange (1, 300);
+        OutStream stream { { .lanes = 2, .tick_side_hz = 48'000.0 } };
+        stream.prepare ({ 48'000.0, block, Clocks::one });
+        InStream back { { .lanes = 2, .tick_side_hz = 48'000.0 } };
+        back.prepare ({ 48'000.0, block, Clocks::one });
+        std::vector<float> sent, heard, returned, frames (2 * static_cast<std::size_t> (block));
+        for (int k = 0; k < 8; ++k)
+        {
+            back.take (frames);
+            for (int i = 0; i < block; ++i)
+            {
+                const float v = static_cast<float> (sent.size()) + 1.0f;
+                sent.push_back (v);
+                const std::array pair { v, -v };
+                stream.push (pair);
+                returned.push_back (back.pop()[1]);
+            }
+            stream.render (frames);
+            for (int i = 0; i < block; ++i)
+                heard.push_back (frames[2 * static_cast<std::size_t> (i)]);
+        }
+        const auto first = std::ranges::find_if (heard, [] (float v) { return v >= 1.0f; });
+        RC_ASSERT (stream.report().underruns == 0u);
+        RC_ASSERT (back.report().underruns == 0u);
+        for (auto at = first + 240; at < heard.end(); ++at)   // after the fade-in
+            RC_ASSERT (*at == *(at - 1) + 1.0f);
+    });
 }
 
 TEST_CASE ("an input keeps its pitch and amplitude, and fades out if it stops", "[audio]")

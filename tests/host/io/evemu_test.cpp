@@ -226,17 +226,16 @@ TEST_CASE ("evemu: a recording without a pen, or one that lasts for years, is re
 
 TEST_CASE ("evemu: any text is either converted or refused", "[host][devices]")
 {
-    test::property ("words of such files in any order",
-                    [] {
-                        const auto word =
-                            rc::gen::element<std::string> ("E:", "A:", "#", "N:", "\n", "\n", "\r\n", " ", " ", "0003", "0000", "0018", "ffff", "0001", "014a",
-                                                           "1.000000", "2.000000", "-1.000000", "5", "-5", "9223372036854775807", "1e9", "nan", "\0", "\xff");
-                        std::string text;
-                        for (const auto& part : *rc::gen::container<std::vector<std::string>> (word))
-                            text += part;
-                        const auto result = readEvemu (text);
-                        RC_ASSERT ((! result || ! result->rows.empty()));
-                    });
+    test::property ("words of such files in any order", [] {
+        const auto word =
+            rc::gen::element<std::string> ("E:", "A:", "#", "N:", "\n", "\n", "\r\n", " ", " ", "0003", "0000", "0018", "ffff", "0001", "014a",
+                                           "1.000000", "2.000000", "-1.000000", "5", "-5", "9223372036854775807", "1e9", "nan", "\0", "\xff");
+        std::string text;
+        for (const auto& part : *rc::gen::container<std::vector<std::string>> (word))
+            text += part;
+        const auto result = readEvemu (text);
+        RC_ASSERT ((! result || ! result->rows.empty()));
+    });
 }
 
 TEST_CASE ("evemu: recorded strokes give plausible hand movements", "[host][devices]")

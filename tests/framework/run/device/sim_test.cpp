@@ -157,34 +157,32 @@ TEST_CASE ("sim: the step has no seam between small and large damping", "[host][
 
 TEST_CASE ("sim: left alone, a damped tool loses energy on every tick", "[host][devices]")
 {
-    test::property ("any mass, damping and speed",
-                    [] {
-                        const Simulation sim { .mass = *within (1e-3, 2.0), .damping = *within (1e-3, 50.0), .velocity = anyVector (2.0) };
-                        auto device = prepared (sim);
-                        for (int k = 0; k < 50; ++k)
-                        {
-                            const double before = energy (sim, device.read());
-                            device.write ({});
-                            RC_ASSERT (energy (sim, device.read()) <= before);
-                        }
-                    });
+    test::property ("any mass, damping and speed", [] {
+        const Simulation sim { .mass = *within (1e-3, 2.0), .damping = *within (1e-3, 50.0), .velocity = anyVector (2.0) };
+        auto device = prepared (sim);
+        for (int k = 0; k < 50; ++k)
+        {
+            const double before = energy (sim, device.read());
+            device.write ({});
+            RC_ASSERT (energy (sim, device.read()) <= before);
+        }
+    });
 }
 
 TEST_CASE ("sim: without damping, momentum equals the impulse of the force", "[host][devices]")
 {
-    test::property ("any mass, any forces",
-                    [] {
-                        const Simulation sim { .mass = *within (1e-3, 2.0), .damping = 0.0, .velocity = anyVector (2.0) };
-                        auto device = prepared (sim);
-                        Vec3 momentum = sim.mass * sim.velocity;
-                        for (int k = 0; k < 50; ++k)
-                        {
-                            const Vec3 force = anyVector (10.0);
-                            momentum += 1e-3 * force;
-                            device.write (pushing (force));
-                            RC_ASSERT ((sim.mass * device.read().true_velocity - momentum).norm() < 1e-12);
-                        }
-                    });
+    test::property ("any mass, any forces", [] {
+        const Simulation sim { .mass = *within (1e-3, 2.0), .damping = 0.0, .velocity = anyVector (2.0) };
+        auto device = prepared (sim);
+        Vec3 momentum = sim.mass * sim.velocity;
+        for (int k = 0; k < 50; ++k)
+        {
+            const Vec3 force = anyVector (10.0);
+            momentum += 1e-3 * force;
+            device.write (pushing (force));
+            RC_ASSERT ((sim.mass * device.read().true_velocity - momentum).norm() < 1e-12);
+        }
+    });
 }
 
 TEST_CASE ("sim: the reported position is rounded half up to the quantum, but the true position is not", "[host][devices]")
