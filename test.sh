@@ -198,7 +198,7 @@ if [ "$mode" = --export ]; then
 fi
 
 if [ "$mode" = --site ]; then
-    build release tactus
+    build release tactus tactus_python
     say "The site, and its playground in a browser"
     tests/site/run.sh build/release
     exit
