@@ -13,8 +13,8 @@
 #                       RC_PARAMS=seed=N ./test.sh --quick uses it again
 #
 # Each of these runs only one part:
-#   ./test.sh --screens drives the host with mouse and keyboard on a virtual display, and draws build/screens/;
-#                       with --update, also copies the pictures used in the pages to docs/host/
+#   ./test.sh --screens drives the host with mouse and keyboard on a virtual display, draws build/screens/, and films the first minute;
+#                       with --update, also copies the film and the pictures used in the pages to docs/host/
 #   ./test.sh --sound   plays a ring on a virtual sound card, strokes a board in the host with the mouse, and listens to both
 #   ./test.sh --devices drives the virtual HID devices
 #   ./test.sh --export  exports all presets and 500 random graphs as C++ code, compiles it with g++ and clang++, and compares the
@@ -47,9 +47,9 @@ case $mode in ''|--long|--tidy|--install) packages+=(clang-tidy-14) ;; esac
 [ "$mode" = --coverage ] && packages+=(gcovr)
 [ "$mode" = --export ] && packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
 case $mode in --long|--export|--site) packages+=("${wasm_packages[@]}") ;; esac   # without them, the tests that need them are skipped, with a message
-case $mode in --long|--site) packages+=(chromium chromium-driver python3-selenium python3-sphinx furo python3-myst-parser python3-breathe doxygen) ;; esac
+case $mode in --long|--site) packages+=(chromium chromium-driver python3-selenium python3-sphinx furo python3-myst-parser python3-breathe python3-nbsphinx python3-ipykernel python3-matplotlib pandoc libjs-mathjax doxygen) ;; esac
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
-[ "$mode" = --screens ] && packages+=(xauth imagemagick)
+[ "$mode" = --screens ] && packages+=(xauth imagemagick ffmpeg fonts-dejavu-core)
 [ "$mode" = --sound ] && packages+=(xauth imagemagick jackd2 jack-capture python3-numpy)
 [ "$mode" = --packages ] && packages+=(dpkg-dev lintian mmdebstrap valgrind)
 install_packages
@@ -153,7 +153,10 @@ if [ "$mode" = --screens ]; then
     say "Walking through the host"
     rm -rf build/screens
     /usr/bin/python3 tests/host/app/screens/walk.py build/release/bin/tactus-host build/screens
+    say "Filming the first minute"
+    /usr/bin/python3 -B tests/host/app/screens/film.py build/release/bin/tactus-host build/screens
     if [ "${2:-}" = --update ]; then
+        cp build/screens/first_minute.{webm,png} docs/host/
         grep -oh 'host/[0-9a-z-]*\.png' README.md docs/*.md | sort -u | while read -r picture; do
             cp "build/screens/${picture#host/}" docs/host/
         done
@@ -195,7 +198,7 @@ if [ "$mode" = --export ]; then
 fi
 
 if [ "$mode" = --site ]; then
-    build release tactus
+    build release tactus tactus_python
     say "The site, and its playground in a browser"
     tests/site/run.sh build/release
     exit
