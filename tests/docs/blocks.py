@@ -44,6 +44,7 @@ FENCE = re.compile(r"^( *)```([\w{}+-]*)\s*$")
 DIRECTIVE = re.compile(r"^ *<!-- (not run: |file: |first: |from: |in the background|compiles|fails)(.*?) ?-->\s*$")
 INLINE = re.compile(r"`tactus ([a-z][a-z-]+)((?: [^`]*)?)`")
 LONGEST_S = 120
+PYTHON = "/usr/bin/python3" if pathlib.Path("/etc/debian_version").exists() else sys.executable   # Debian's has what its packages install
 
 
 class Failed(Exception):
@@ -140,7 +141,7 @@ class Page:
                 self.take(block)
             if self.python:
                 program = "".join(block.directives.get("first", "") + "\n" + block.text for block in self.python)
-                self.execute([sys.executable, "-B", "-"], self.python[0], program)
+                self.execute([PYTHON, "-B", "-"], self.python[0], program)
         finally:
             for process in self.background:
                 os.killpg(process.pid, signal.SIGINT)
