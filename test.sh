@@ -39,11 +39,12 @@ case $mode in
 esac
 
 wasm_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc nodejs)
-packages+=(python3-jsonschema python3-distributed python3-build python3-venv python3-pip mypy python3-pandas python3-xarray xvfb xdotool)
+packages+=(python3-jsonschema python3-websockets python3-distributed python3-build python3-venv python3-pip mypy python3-pandas python3-xarray xvfb xdotool)
 case $mode in ''|--long|--sanitizers|--install) packages+=(libclang-rt-14-dev) ;; esac
 case $mode in ''|--quick|--long|--install) packages+=(valgrind) ;; esac
 case $mode in ''|--quick|--long|--format|--install) packages+=(clang-format-14) ;; esac
 case $mode in ''|--long|--tidy|--install) packages+=(clang-tidy-14) ;; esac
+[ "$mode" = --long ] && [ -n "${TACTUS_ISAACLAB_HAPLY:-}" ] && packages+=(python3-torch python3-numpy)   # for IsaacLab's client of the Inverse3
 [ "$mode" = --coverage ] && packages+=(gcovr)
 [ "$mode" = --export ] && packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
 case $mode in --long|--export|--site) packages+=("${wasm_packages[@]}") ;; esac   # without them, the tests that need them are skipped, with a message
