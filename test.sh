@@ -8,9 +8,9 @@
 #   ./test.sh --quick   runs only the tests
 #   ./test.sh --long    adds to ./test.sh: each fuzzer for 60 s, 10 000 mutated files through the command line, each installed header
 #                       compiled on its own, the tests under TSan (thread tests for 60 s each), the window under ASan and UBSan, the
-#                       energy of elastic surfaces on 1000 long loops for each body and friction, a soak of 1.2e8 ticks, and an
-#                       eighth of all files with clang-tidy. All tests use a new seed, and those with properties five more: each is printed.
-#                       RC_PARAMS=seed=N ./test.sh --quick uses it again
+#                       energy of elastic surfaces on 1000 long loops for each body and friction, soaks of 1.2e8 ticks and of 30
+#                       minutes of each wire, and an eighth of all files with clang-tidy. All tests use a new seed, and those with
+#                       properties five more: each is printed. RC_PARAMS=seed=N ./test.sh --quick uses it again
 #
 # Each of these runs only one part:
 #   ./test.sh --screens drives the host with mouse and keyboard on a virtual display, draws build/screens/, and films the first minute;
@@ -39,11 +39,12 @@ case $mode in
 esac
 
 wasm_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc nodejs)
-packages+=(python3-jsonschema python3-distributed python3-build python3-venv python3-pip mypy python3-pandas python3-xarray xvfb xdotool)
+packages+=(python3-jsonschema python3-websockets python3-distributed python3-build python3-venv python3-pip mypy python3-pandas python3-xarray xvfb xdotool)
 case $mode in ''|--long|--sanitizers|--install) packages+=(libclang-rt-14-dev) ;; esac
 case $mode in ''|--quick|--long|--install) packages+=(valgrind) ;; esac
 case $mode in ''|--quick|--long|--format|--install) packages+=(clang-format-14) ;; esac
 case $mode in ''|--long|--tidy|--install) packages+=(clang-tidy-14) ;; esac
+[ "$mode" = --long ] && [ -n "${TACTUS_ISAACLAB_HAPLY:-}" ] && packages+=(python3-torch python3-numpy)   # for IsaacLab's client of the Inverse3
 [ "$mode" = --coverage ] && packages+=(gcovr)
 [ "$mode" = --export ] && packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
 case $mode in --long|--export|--site) packages+=("${wasm_packages[@]}") ;; esac   # without them, the tests that need them are skipped, with a message
@@ -270,7 +271,7 @@ if [ "$mode" = --long ]; then
     say "The energy of elastic surfaces on long loops"
     build/release/bin/tactus_tests "[long]"
     say "Soak"
-    TACTUS_SOAK_TICKS=120000000 build/release/bin/tactus_tests "[soak]"
+    TACTUS_SOAK_TICKS=120000000 TACTUS_SOAK_SECONDS=1800 build/release/bin/tactus_tests "[soak]"
     say "The site, and its playground in a browser"
     tests/site/run.sh build/release
 fi

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "devices/capture_device.hpp"
 #include "numbers_only.hpp"
 #include "report.hpp"
 
@@ -8,6 +9,7 @@
 #include <host/hid_link/hid_device.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/hid_link/profile_library.hpp>
+#include <host/hid_link/serial_ports.hpp>
 #include <host/hid_link/udev_rule.hpp>
 #include <host/platform/signals.hpp>
 #include <host/platform/terminal.hpp>
@@ -37,6 +39,7 @@ struct DevicesOptions
 {
     bool probe = false, json = false;
     double duration_s = 0.0;
+    DeviceCapture capture;
 };
 
 struct Listed
@@ -170,6 +173,22 @@ Json jsonOf (const audio::ListedCard& c)
              { "rates_hz", c.rates },
              { "blocks", c.blocks },
              { "trouble", c.trouble } };
+}
+
+//==============================================================================
+std::string textOf (const SerialPort& p)
+{
+    auto text = "serial port " + printableName (p.path);
+    if (! p.vid.empty()) text += "   " + p.vid + ":" + p.pid + "   " + (p.product.empty() ? "unnamed" : printableName (p.product));
+    return text + "\n    "
+           + (p.may_open ? "--device ROLE=serial:PROFILE@" + printableName (p.path)
+                         : "may not be opened by this user: join the group of the port, such as dialout")
+           + "\n";
+}
+
+Json jsonOf (const SerialPort& p)
+{
+    return { { "driver", "serial" }, { "port", p.path }, { "vid", p.vid }, { "pid", p.pid }, { "product", p.product }, { "may_open", p.may_open } };
 }
 
 //==============================================================================
@@ -340,6 +359,13 @@ void probe (const std::vector<Listed>& all, const DevicesOptions& options, Json&
 
 void run (const DevicesOptions& options)
 {
+    if (options.duration_s > 0.0 && ! options.probe && options.capture.file.empty()) throw UsageError ("--duration requires --probe or --capture");
+    if (! options.capture.file.empty())
+    {
+        auto capture = options.capture;
+        capture.duration_s = options.duration_s;
+        return captureDevice (capture);
+    }
     const auto profiles = loadProfileLibrary();
     for (const auto& m : profiles.messages)
         std::cerr << printableName (m.file + m.where) << ": warning: " << inOneLine (m.text) << "\n    " << inOneLine (m.remedy) << " [" << m.id << "]\n";
@@ -349,6 +375,9 @@ void run (const DevicesOptions& options)
     for (const auto& l : all)
         json.push_back (jsonOf (l));
 
+    const auto ports = options.probe ? std::vector<SerialPort> {} : serialPorts();
+    for (const auto& port : ports)
+        json.push_back (jsonOf (port));
     const auto cards = options.probe ? std::vector<audio::ListedCard> {} : audio::soundCards().list();
     for (const auto& card : cards)
         json.push_back (jsonOf (card));
@@ -358,8 +387,12 @@ void run (const DevicesOptions& options)
         for (const auto& l : all)
             std::cout << textOf (l);
     if (! options.json)
+    {
+        for (const auto& port : ports)
+            std::cout << textOf (port);
         for (const auto& card : cards)
             std::cout << textOf (card);
+    }
     const auto known = options.probe ? std::vector<std::shared_ptr<const Profile>> {} : knownByNumbers (profiles);
     for (const auto& profile : known)
         json.push_back (numbersJsonOf (*profile));
@@ -383,13 +416,25 @@ void addDevices (const Command& app)
     const auto probe = command.addFlag ("--probe", options->probe,
                                         "Open all devices that have a profile and show their readings until Ctrl-C; "
                                         "they are initialised as their profiles specify, but not driven");
-    command.addOption ("--duration", options->duration_s, "How long to probe, in s").check (within (1e-3, 1e9)).needs (probe);
+    command.addOption ("--duration", options->duration_s, "How long to probe or capture, in s").check (within (1e-3, 1e9));
+    const auto capture = command.addOption ("--capture", options->capture.file,
+                                            "Record each report that a device sends or gets, until Ctrl-C, without driving it; see docs/devices.md")
+                             .type ("FILE")
+                             .excludes (probe);
+    command.addOption ("--device", options->capture.device,
+                       "What to record: hid:PROFILE, serial:PROFILE@PORT, udp:PROFILE@ADDRESS, or the path of a device, which need not have a profile; "
+                       "default: the only HID device with a profile")
+        .needs (capture);
+    command.addOption ("--baud", options->capture.baud, "The speed of a serial port without a profile; default: 115200")
+        .check (within (300, 20000000))
+        .needs (capture);
     command.addFlag ("--json", options->json, "Print JSON; with --probe, the last readings of the devices");
     command.footer ("Tactus comes with profiles. Put your own into the folder that TACTUS_PROFILES names, or into ~/.config/tactus/profiles.\n\n"
                     "Examples:\n"
                     "  tactus devices\n"
                     "  tactus devices --probe\n"
-                    "  tactus devices --probe --duration 2 --json");
+                    "  tactus devices --probe --duration 2 --json\n"
+                    "  tactus devices --capture board.jsonl --device serial:tactus_board@/dev/ttyACM0");
     command.callback ([options] { run (*options); });
 }
 

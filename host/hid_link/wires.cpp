@@ -221,6 +221,11 @@ Result<std::unique_ptr<Transport>> openUdp (const ConnectedDevice& device, const
 }
 }   // namespace
 
+Result<std::unique_ptr<Transport>> HidSystem::reach (const ConnectedDevice& device, const Profile& profile)
+{
+    return device.wire == Wire::hid ? open (device) : openWire (device, profile);
+}
+
 Result<std::unique_ptr<Transport>> openWire (const ConnectedDevice& device, const Profile& profile)
 {
     if (device.wire == Wire::serial && profile.wires.serial) return openSerial (device, profile);

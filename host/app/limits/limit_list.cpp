@@ -32,8 +32,11 @@ DeviceNumbers inWorkspace (DeviceNumbers n, const Workspace& w)
     scale (n.quantum, w.scale);
     if (n.workspace)
     {
-        n.workspace->min = w.toGraph (n.workspace->min);
-        n.workspace->max = w.toGraph (n.workspace->max);
+        // A box around the box, which may be turned.
+        const Mat3 along = w.axes.cwiseMax (0.0), against = w.axes.cwiseMin (0.0);
+        const Vec3 min = n.workspace->min, max = n.workspace->max;
+        n.workspace->min = w.scale * (along * min + against * max) + w.offset;
+        n.workspace->max = w.scale * (along * max + against * min) + w.offset;
     }
     return n;
 }
