@@ -43,7 +43,7 @@ COPIED = ("graphs", "docs")   # a command may write there
 FENCE = re.compile(r"^( *)```([\w{}+-]*)\s*$")
 DIRECTIVE = re.compile(r"^ *<!-- (not run: |file: |first: |from: |in the background|compiles|fails)(.*?) ?-->\s*$")
 INLINE = re.compile(r"`tactus ([a-z][a-z-]+)((?: [^`]*)?)`")
-LONGEST_S = 120
+LONGEST_S = 600   # what takes longer hangs
 
 
 class Failed(Exception):
