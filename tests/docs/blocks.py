@@ -43,8 +43,7 @@ COPIED = ("graphs", "docs")   # a command may write there
 FENCE = re.compile(r"^( *)```([\w{}+-]*)\s*$")
 DIRECTIVE = re.compile(r"^ *<!-- (not run: |file: |first: |from: |in the background|compiles|fails)(.*?) ?-->\s*$")
 INLINE = re.compile(r"`tactus ([a-z][a-z-]+)((?: [^`]*)?)`")
-LONGEST_S = 120
-PYTHON = "/usr/bin/python3" if pathlib.Path("/etc/debian_version").exists() else sys.executable   # Debian's has what its packages install
+LONGEST_S = 600   # what takes longer hangs
 
 
 class Failed(Exception):
@@ -141,7 +140,7 @@ class Page:
                 self.take(block)
             if self.python:
                 program = "".join(block.directives.get("first", "") + "\n" + block.text for block in self.python)
-                self.execute([PYTHON, "-B", "-"], self.python[0], program)
+                self.execute([sys.executable, "-B", "-"], self.python[0], program)
         finally:
             for process in self.background:
                 os.killpg(process.pid, signal.SIGINT)

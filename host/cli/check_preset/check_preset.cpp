@@ -47,7 +47,8 @@ std::shared_ptr<const hid::Profile> gentlest()
 void print (const PresetForces& forces)
 {
     const auto newtons = [] (double v) { return roundedText (v, 3) + " N"; };
-    std::cout << "  " << forces.runs << " runs of " << roundedText (forces.lasts_s, 3) << " s: forces up to " << newtons (forces.largest) << ", which change by up to "
+    std::cout << "  " << forces.runs << " runs of " << roundedText (forces.lasts_s, 3) << " s: forces up to " << newtons (forces.largest)
+              << ", which change by up to "
               << newtons (forces.step) << " in 1 ms\n";
     const auto device = gentlest();
     if (! device) return;
@@ -88,9 +89,10 @@ bool checkPreset (const std::string& file, bool format)
     if (compiled.plan) std::ranges::move (examineParts (loaded.graph, *compiled.plan, assets.paths, folder), std::back_inserter (messages));
     if (report (messages, loaded, file) > 0) return false;
 
-    const auto forces = playPreset (subject, folder);
+    const auto ticks = check::affordableTicks (*compiled.plan);
+    const auto forces = playPreset (subject, folder, static_cast<double> (ticks));
     if (report (forces.messages, loaded, file) > 0) return false;
-    if (report (judgePreset (subject, folder), loaded, file) > 0) return false;
+    if (report (judgePreset (subject, folder, ticks), loaded, file) > 0) return false;
     std::cout << printableName (file) << ": ok\n";
     print (forces);
     return true;
@@ -116,9 +118,10 @@ void addCheckPreset (const Command& app)
     command.addFlag ("--format", options->format, "First save each file as Tactus formats it");
     addLimits (command);
     addPlugins (command);
-    command.footer ("A preset has a name, a sentence about what it feels like, tags, a licence, a source for the numbers of each material, knobs, and a simulated\n"
-                    "device with a hand and a guard for each role. It compiles without a warning, and reads only files of its folder. In its own gesture, with each\n"
-                    "knob at each end, no guard stops or cuts off a force, the forces end, and they are the same in each run.\n"
+    command.footer ("A preset has a name, a sentence about what it feels like, tags, a licence, a source for the numbers of each material,\n"
+                    "knobs, and a simulated device with a hand and a guard for each role. It compiles without a warning, and reads only files of\n"
+                    "its folder. In its own gesture, with each knob at each end, no guard stops or cuts off a force, the forces end, and they are\n"
+                    "the same in each run.\n"
                     "Exit status 1 if anything is missing. docs/graph_file.md shows where each of these is written.\n\n"
                     "Examples:\n"
                     "  tactus check-preset my_preset.json\n"

@@ -25,14 +25,15 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr double longest_gesture_s = 30.0;
-constexpr double faintest = 0.05;   // N, N m or the unit of a signal: less cannot be felt
-constexpr double strongest = 10.0;     // N
+constexpr double faintest = 0.05;    // N, N m or the unit of a signal: less cannot be felt
+constexpr double strongest = 10.0;   // N
 
 /// What a run lets the hand feel.
 struct Played
 {
     std::vector<double> efforts {};   // all components, tick after tick
     double lasts_s = 0.0;
+    bool is_too_long = false;                       // to be played
     double largest = 0.0, last = 0.0, step = 0.0;   // of the forces, in N
     double most_effort = 0.0;                       // of force, torque, axes and signals
     std::string role {};                            // whose guard stopped, or lets no more through
@@ -51,7 +52,7 @@ GuardLimits partOf (GuardLimits limits, double share)
 class Play
 {
 public:
-    Play (const check::Subject& s, const fs::path& f) : subject (s), folder (f) {}
+    Play (const check::Subject& s, const fs::path& f, double most) : subject (s), folder (f), most_ticks (most) {}
 
     Played run (const plan::Override* knob, double share_of_limits) const
     {
@@ -70,7 +71,8 @@ public:
         if (hasErrors (p.messages)) return p;
         for (const auto& [role, device] : run.devices())
             if (device.device) p.lasts_s = std::max (p.lasts_s, device.device->duration());
-        if (p.lasts_s > 0.0 && p.lasts_s <= longest_gesture_s) play (run, most, p);
+        p.is_too_long = p.lasts_s > longest_gesture_s || p.lasts_s * run.rate() > most_ticks;
+        if (p.lasts_s > 0.0 && ! p.is_too_long) play (run, most, p);
         return p;
     }
 
@@ -79,6 +81,7 @@ private:
 
     const check::Subject& subject;
     const fs::path& folder;
+    double most_ticks;
 
     static void play (Run& run, const ByRole& most, Played& p)
     {
@@ -134,15 +137,18 @@ std::string newtons (double v) { return roundedText (v, 3) + " N"; }
 Messages examine (const Played& p, const std::string& where, const std::string& when)
 {
     if (hasErrors (p.messages)) return p.messages;
-    if (p.lasts_s <= 0.0 || p.lasts_s > longest_gesture_s)
-        return { fault ("gesture", "/devices", p.lasts_s <= 0.0 ? "no hand moves along a path that ends" : "its gesture takes " + roundedText (p.lasts_s, 3) + " s",
-                        "give the `hand` a path of at most 30 s, such as \"stroke\"") };
+    if (p.lasts_s <= 0.0 || p.is_too_long)
+        return { fault ("gesture", "/devices",
+                        p.lasts_s <= 0.0 ? "no hand moves along a path that ends"
+                                         : "its gesture takes " + roundedText (p.lasts_s, 3) + " s, which is too long for its nodes, knobs and rate",
+                        "give the `hand` a path of at most 30 s, such as \"stroke\"; a large graph needs a shorter one") };
     if (p.stop.why != Guard::Stop::none)
         return { fault ("stopped", where, when + "the guard of " + quote (p.role) + " stops: " + describe (p.stop),
                         "calm the preset; the gesture of a preset may use half of what its guard allows for speed, impulse and energy") };
     Messages messages;
     if (p.largest > strongest || p.clipped_at > 0.0)
-        messages.push_back (fault ("strong", where, when + "the force on " + quote (p.role) + " reaches " + newtons (p.largest) + ", where its guard cuts it off",
+        messages.push_back (fault ("strong", where,
+                                   when + "the force on " + quote (p.role) + " reaches " + newtons (p.largest) + ", where its guard cuts it off",
                                    "make the preset weaker, or, up to 10 N, its guard wider"));
     if (p.last >= faintest)
         messages.push_back (fault ("lasting", where, when + "the force is still " + newtons (p.last) + " when the gesture has ended",
@@ -151,9 +157,9 @@ Messages examine (const Played& p, const std::string& where, const std::string& 
 }
 }   // namespace
 
-PresetForces playPreset (const check::Subject& subject, const fs::path& folder)
+PresetForces playPreset (const check::Subject& subject, const fs::path& folder, double most_ticks)
 {
-    const Play play { subject, folder };
+    const Play play { subject, folder, most_ticks / (2.0 + 2.0 * static_cast<double> (subject.graph.controls.size())) };
     PresetForces all;
     const auto take = [&] (const Played& p, Messages found) {
         ++all.runs;
@@ -167,9 +173,11 @@ PresetForces playPreset (const check::Subject& subject, const fs::path& folder)
     const auto first = play.run (nullptr, 0.5);
     if (! take (first, examine (first, "", ""))) return all;
     if (first.most_effort < faintest)
-        all.messages.push_back (fault ("weak", "", "nothing can be felt: no effort reaches " + newtons (faintest), "let the gesture touch something, or make it stronger"));
+        all.messages.push_back (fault ("weak", "", "nothing can be felt: no effort reaches " + newtons (faintest),
+                                       "let the gesture touch something, or make it stronger"));
     const auto again = play.run (nullptr, 0.5);
-    if (again.efforts != first.efforts) all.messages.push_back (fault ("varies", "", "two runs give different forces", "leave out the node that is not the same in each run"));
+    if (again.efforts != first.efforts)
+        all.messages.push_back (fault ("varies", "", "two runs give different forces", "leave out the node that is not the same in each run"));
     if (! take (again, {})) return all;
 
     for (const auto& control : subject.graph.controls)
@@ -180,16 +188,17 @@ PresetForces playPreset (const check::Subject& subject, const fs::path& folder)
         const auto at = [&] (const char* end) { return "with the knob " + quote (control.id) + " at " + end + ", "; };
         if (! take (low, examine (low, where, at ("0"))) || ! take (high, examine (high, where, at ("1")))) return all;
         if (low.efforts == high.efforts)
-            all.messages.push_back (fault ("knob", where, "the knob " + quote (control.id) + " changes nothing", "let it move a parameter that the gesture feels, or remove it"));
+            all.messages.push_back (fault ("knob", where, "the knob " + quote (control.id) + " changes nothing",
+                                           "let it move a parameter that the gesture feels, or remove it"));
     }
     return all;
 }
 
-Messages judgePreset (const check::Subject& subject, const fs::path& folder)
+Messages judgePreset (const check::Subject& subject, const fs::path& folder, std::size_t ticks)
 {
     auto recorded = check::recordMotion (subject, {}, folder);
     if (hasErrors (recorded.messages)) return std::move (recorded.messages);
-    const auto demand = check::measure (subject, recorded.motion);
+    const auto demand = check::measure (subject, recorded.motion, { .ticks = ticks });
     std::vector<check::RoleDevice> devices;
     for (const auto& [role, description] : subject.graph.devices)
         devices.push_back ({ role, check::numbersOf (description, folder).value_or (DeviceNumbers {}), "sim" });

@@ -20,12 +20,14 @@ struct PresetForces
 };
 
 /// Plays a preset on its simulated devices: as it is, twice, with half of what its guards allow for speed, impulse and energy; and with each knob at
-/// each end. The graph must compile, and describe a simulated device for each role. It stops at the first run that shows something wrong.
+/// each end. The graph must compile, and describe a simulated device for each role. It stops at the first run that shows something wrong, and refuses a
+/// preset whose runs have more than `most_ticks` ticks together: a file from a stranger must not run for hours.
 ///
 /// Ids: preset/gesture, preset/stopped, preset/weak, preset/strong, preset/lasting, preset/varies, preset/knob. [main thread]
-PresetForces playPreset (const check::Subject&, const std::filesystem::path& folder);
+PresetForces playPreset (const check::Subject&, const std::filesystem::path& folder, double most_ticks);
 
-/// Warns of each condition of docs/check.md that the preset breaks on its own devices. Id: preset/condition. [main thread]
-Messages judgePreset (const check::Subject&, const std::filesystem::path& folder);
+/// Warns of each condition of docs/check.md that the preset breaks on its own devices, measured in about this many ticks. Id: preset/condition. [main
+/// thread]
+Messages judgePreset (const check::Subject&, const std::filesystem::path& folder, std::size_t ticks);
 
 }   // namespace tactus::host

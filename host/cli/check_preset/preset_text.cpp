@@ -38,14 +38,17 @@ void examineWords (const graph::Graph& g, Messages& messages)
     if (g.name.size() <= 3) messages.push_back (wrong ("name", "/name", "the preset has no name of more than 3 letters", "write \"name\": \"Dry wood\""));
     if (g.about.size() <= 30)
         messages.push_back (
-            wrong ("about", "/about", "the preset does not say what it feels like", "write a sentence or two as `about`: what the hand feels, and what to try"));
+            wrong ("about", "/about", "the preset does not say what it feels like",
+                   "write a sentence or two as `about`: what the hand feels, and what to try"));
     if (g.tags.empty())
         messages.push_back (
-            wrong ("tags", "/tags", "the preset has no tags", "write some, such as \"tags\": [\"wood\", \"stroke\"]; one of stroke, circle, press, tap and cut names its part of the gallery"));
+            wrong ("tags", "/tags", "the preset has no tags",
+                   "write some, such as \"tags\": [\"wood\", \"stroke\"]; one of stroke, circle, press, tap and cut names its part of the gallery"));
     if (g.rate_hz < lowest_rate || g.rate_hz > highest_rate)
         messages.push_back (wrong ("rate", "/rate_hz", "the preset ticks at " + numberText (g.rate_hz) + " Hz", "choose a rate from 1000 to 20000 Hz"));
     if (g.controls.empty() || g.controls.size() > most_controls)
-        messages.push_back (wrong ("controls", "/controls", g.controls.empty() ? "the preset has no knob" : "the preset has " + std::to_string (g.controls.size()) + " knobs",
+        messages.push_back (wrong ("controls", "/controls",
+                                   g.controls.empty() ? "the preset has no knob" : "the preset has " + std::to_string (g.controls.size()) + " knobs",
                                    "give it from 1 to 16 `controls`, the first of which changes most of what the hand feels"));
 }
 
@@ -59,7 +62,8 @@ void examineLicence (const Json& ui, Messages& messages)
     const auto given = licence == nullptr     ? std::string ("the preset does not say under which licence it is")
                        : licence->is_string() ? "a preset with the licence " + quote (licence->asString()) + " cannot be shared with Tactus"
                                               : std::string ("the licence is not a text");
-    messages.push_back (wrong ("licence", licence == nullptr ? "/ui" : "/ui/license", given, "under `ui`, write \"license\": \"MIT\", or another of these SPDX ids: " + known));
+    messages.push_back (wrong ("licence", licence == nullptr ? "/ui" : "/ui/license", given,
+                               "under `ui`, write \"license\": \"MIT\", or another of these SPDX ids: " + known));
 }
 
 bool isMaterial (std::string_view type) { return type != "texture.antialias" && std::ranges::count (materials, type.substr (0, type.find ('.'))) > 0; }
@@ -77,9 +81,11 @@ void examineSources (const graph::Graph& g, const Json& ui, Messages& messages)
         const auto where = "/ui/sources/" + pointerPart (name);
         const auto node = std::string_view (name).substr (0, name.find_first_of ("./"));
         if (g.root.find (node) == nullptr)
-            messages.push_back (wrong ("source", where, "the source " + quote (name) + " is for a node that does not exist", "write NODE.PARAM, with the name of a node"));
+            messages.push_back (wrong ("source", where, "the source " + quote (name) + " is for a node that does not exist",
+                                       "write NODE.PARAM, with the name of a node"));
         if (! source.is_string() || source.asString().size() < 5)
-            messages.push_back (wrong ("source", where, "the source of " + quote (name) + " says nothing", "name the paper or the measurement, or write: guess"));
+            messages.push_back (wrong ("source", where, "the source of " + quote (name) + " says nothing",
+                                       "name the paper or the measurement, or write: guess"));
     }
 }
 
@@ -169,9 +175,11 @@ Messages examineParts (const graph::Graph& g, const Plan& plan, const std::set<s
     Messages messages;
     for (const auto& role : plan.roles())
         if (g.device (role.name) == nullptr)
-            messages.push_back (wrong ("device", "/devices", "no device is described for the role " + quote (role.name), "describe one under `devices`, with \"driver\": \"sim\""));
+            messages.push_back (wrong ("device", "/devices", "no device is described for the role " + quote (role.name),
+                                       "describe one under `devices`, with \"driver\": \"sim\""));
     if (plan.delays().empty() || std::ranges::any_of (plan.delays(), [] (const plan::PathDelay& d) { return d.shortest > 0; }))
-        messages.push_back (wrong ("late", "/wires", plan.delays().empty() ? "no path leads from a hand to a motor" : "the force answers the hand a tick late or more",
+        messages.push_back (wrong ("late", "/wires",
+                                   plan.delays().empty() ? "no path leads from a hand to a motor" : "the force answers the hand a tick late or more",
                                    "lead a wire without a delay from the hand to each motor"));
     auto files = assets;
     listIncluded (g, files);
@@ -181,7 +189,8 @@ Messages examineParts (const graph::Graph& g, const Plan& plan, const std::set<s
                 files.insert ((folder / description.at (path).asString()).string());
     for (const auto& file : files)
         if (! isWithin (file, folder))
-            messages.push_back (wrong ("outside", "", "the preset reads " + quotePath (file) + ", which is not in its folder", "put the file beside the preset, or in a folder beside it"));
+            messages.push_back (wrong ("outside", "", "the preset reads " + quotePath (file) + ", which is not in its folder",
+                                       "put the file beside the preset, or in a folder beside it"));
     return messages;
 }
 

@@ -11,11 +11,13 @@ namespace fs = std::filesystem;
 
 namespace
 {
-const std::string good_preset = R"({ "format": "tactus-graph", "version": 2, "name": "Soft wall", "about": "A wall of foam. Press into it, and let it push you out.",
+const std::string good_preset = R"({ "format": "tactus-graph", "version": 2, "name": "Soft wall",
+    "about": "A wall of foam. Press into it, and let it push you out.",
     "tags": ["press"], "rate_hz": 4000,
     "devices": { "stylus": { "driver": "sim", "mass": "50 g", "damping": "1 N*s/m",
         "hand": { "stiffness": "300 N/m", "damping": "6 N*s/m", "path": "press" },
-        "guard": { "max_force": "6 N", "max_speed": "2 m/s", "max_impulse": "30 N*s", "impulse_window": "10 s", "max_energy": "120 mJ", "energy_window": "1 s" } } },
+        "guard": { "max_force": "6 N", "max_speed": "2 m/s", "max_impulse": "30 N*s", "impulse_window": "10 s", "max_energy": "120 mJ",
+                   "energy_window": "1 s" } } },
     "nodes": { "hand": { "type": "device.position", "role": "stylus" },
         "foam": { "type": "deform.plane", "params": { "stiffness": "300 N/m", "damping": "0.2 N*s/m" }, "settings": { "window": "1 ms" } },
         "motor": { "type": "device.force", "role": "stylus" } },
@@ -98,8 +100,8 @@ TEST_CASE ("`tactus check-preset` says what a preset lacks, what is wrong in it,
         { R"("max_force": "6 N")", R"("max_force": "0.3 N")", "preset/guard" },
         { R"("to": { "foam.stiffness": ["100 N/m", "500 N/m"] })", R"("to": { "foam.offset": [0, 0] })", "preset/knob" },
         { R"("to": { "foam.stiffness": ["100 N/m", "500 N/m"] })", R"("to": { "foam.offset": [0, "20 cm"] })", "preset/stopped" },
-        { R"("max_force": "6 N", "max_speed": "2 m/s", "max_impulse": "30 N*s", "impulse_window": "10 s", "max_energy": "120 mJ")",
-          R"("max_force": "0.4 N", "max_speed": "2 m/s", "max_impulse": "2 N*s", "impulse_window": "10 s", "max_energy": "8 mJ")", "preset/strong" },
+        { R"("max_force": "6 N", "max_speed": "2 m/s", "max_impulse": "30 N*s", "impulse_window": "10 s", "max_energy": "120 mJ",)",
+          R"("max_force": "0.4 N", "max_speed": "2 m/s", "max_impulse": "2 N*s", "impulse_window": "10 s", "max_energy": "8 mJ",)", "preset/strong" },
         { R"("max_speed": "2 m/s")", R"("max_speed": "1 mm/s")", "preset/stopped" },
         { R"("value": 0.5, "to": { "foam.stiffness": ["100 N/m", "500 N/m"] })", R"("value": 0.5, "to": { "foam.offset": [0, "1 cm"] })", "preset/lasting" },
     };
