@@ -3,7 +3,7 @@
 
 #include "commands.hpp"
 #include "minimap.hpp"
-#include "paint_scene.hpp"
+#include "paint/paint_scene.hpp"
 
 #include <host/app/model/patch.hpp>
 #include <host/app/palette/search.hpp>
