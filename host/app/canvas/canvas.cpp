@@ -118,14 +118,16 @@ juce::String Canvas::getTooltip() { return drag ? juce::String() : tooltipAt (ge
 void Canvas::paint (juce::Graphics& g)
 {
     const auto& look = lookOf (*this);
-    paintGrid (g, window, g.getClipBounds(), look.theme());
+    const bool has_backdrop = backdrop.paint (g, getLocalBounds(), *shown, window, look, highlights);
+    if (! has_backdrop) paintGrid (g, window, g.getClipBounds(), look.theme());
     if (shown->nodes().empty())
     {
         g.setColour (look.theme().dim);
         g.setFont (look.font (14.0f));
         g.drawText (TRANS ("Press Space or double-click to add a node."), getLocalBounds(), juce::Justification::centred, true);
     }
-    paintScene (g, *shown, window, look, highlights);
+    if (! has_backdrop) paintBelow (g, *shown, window, look, highlights);
+    paintAbove (g, *shown, window, look, highlights);
     if (with_map) Minimap (*shown, window, getLocalBounds()).paint (g, look.theme());
     if (file_over) paintFileOver (g);
     if (drag) return drag->paint (g);
