@@ -195,7 +195,8 @@ private:
     CanvasCommands edits { *this, document };
     const Catalogue& catalogue;
     NodeCurves curves;
-    std::unique_ptr<Scene> shown;
+    std::shared_ptr<const Scene> shown;
+    std::pair<std::uint64_t, SeenPatch> shown_of;   // the version of the document, and the patch
     std::uint64_t scenes_made = 0;
     View window;
     Highlights highlights;

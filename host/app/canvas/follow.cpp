@@ -107,7 +107,7 @@ void Canvas::repaintEdit (const Scene& before)
     };
     repaintWhatIsNew (*shown, before);
     repaintWhatIsNew (before, *shown);
-    for (const auto* scene : { &before, static_cast<const Scene*> (shown.get()) })
+    for (const auto* scene : { &before, shown.get() })
         if (are_moved) repaint (Minimap (*scene, window, getLocalBounds()).bounds().getSmallestIntegerContainer());
 }
 

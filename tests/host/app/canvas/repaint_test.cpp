@@ -134,6 +134,28 @@ int pixelsThatDiffer (const juce::Image& a, const juce::Image& b)
 }
 }   // namespace
 
+TEST_CASE ("a scene in which nodes have moved is like one that is made from scratch", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto* face = rig.node ("drag").face.get();
+    rig.canvas->select ({ rig.node ("drag").id });
+    rig.canvas->commands().nudgeSelection ({ 48.0f, 80.0f });
+    CHECK (rig.node ("drag").face.get() == face);   // what has not changed is not made again
+    const Canvas other (rig.document, catalogue());
+    const auto &moved = rig.canvas->scene(), &scratch = other.scene();
+    REQUIRE (moved.nodes().size() == scratch.nodes().size());
+    for (std::size_t i = 0; i < moved.nodes().size(); ++i)
+    {
+        CHECK (moved.nodes()[i].bounds() == scratch.nodes()[i].bounds());
+        CHECK (moved.nodes()[i].carried == scratch.nodes()[i].carried);
+    }
+    REQUIRE (moved.wires().size() == scratch.wires().size());
+    for (std::size_t i = 0; i < moved.wires().size(); ++i)
+        CHECK (moved.wires()[i].path() == scratch.wires()[i].path());
+    REQUIRE (rig.document.perform (graph::SetParam { "", "drag", "d_max", Json (0.001) }));
+    CHECK (rig.node ("drag").face.get() != face);
+}
+
 TEST_CASE ("a patch that has very many wires keeps a picture of them, and paints only squares of it again that have changed", "[app][canvas]")
 {
     CanvasRig rig { crowded() };
