@@ -349,8 +349,9 @@ def inputs(host, pairs, more_wires, rounds):
 def stop_during_edits(w, what, port):
     """The answer of the window waits for the edits, the stop does not: so this is the most that it takes."""
     with subprocess.Popen(["xdotool", "key", "--delay", "20", *["Right", "Left"] * 100], env=w.environment):
-        time.sleep(1.0)
-        pushed = status(port)[0]
+        begin, pushed = time.monotonic(), 0.0
+        while pushed == 0.0 and time.monotonic() - begin < 10.0:   # the hand of the preset touches from time to time
+            pushed = status(port)[0]
         begin = time.monotonic()
         w.xdo("key", "shift+Escape")
         while status(port)[0] != 0.0 and time.monotonic() - begin < 10.0:
