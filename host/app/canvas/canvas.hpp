@@ -3,7 +3,7 @@
 
 #include "commands.hpp"
 #include "minimap.hpp"
-#include "paint_scene.hpp"
+#include "paint/backdrop.hpp"
 
 #include <host/app/model/patch.hpp>
 #include <host/app/palette/search.hpp>
@@ -48,6 +48,7 @@ public:
     CanvasCommands& commands() noexcept { return edits; }
     const CanvasCommands& commands() const noexcept { return edits; }
     const Scene& scene() const noexcept { return *shown; }
+    const Backdrop& below() const noexcept { return backdrop; }
     std::uint64_t sceneNumber() const noexcept { return scenes_made; }   ///< another number for each scene; never 0
     View& view() noexcept { return window; }
     const View& view() const noexcept { return window; }
@@ -194,10 +195,12 @@ private:
     CanvasCommands edits { *this, document };
     const Catalogue& catalogue;
     NodeCurves curves;
-    std::unique_ptr<Scene> shown;
+    std::shared_ptr<const Scene> shown;
+    std::pair<std::uint64_t, SeenPatch> shown_of;   // the version of the document, and the patch
     std::uint64_t scenes_made = 0;
     View window;
     Highlights highlights;
+    Backdrop backdrop;
     Breadcrumbs entered;
     std::map<std::string, int> chosen_instances;   // by the path of a subgraph node, without numbers
     PointedPort pointed_at;

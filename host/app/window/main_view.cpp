@@ -276,16 +276,24 @@ void MainView::showProblems()
     inspector.showLimits (limits.list().contacts);
 }
 
+void MainView::findMissing()
+{
+    std::vector<std::string> probed;
+    for (const auto& scope : scopes.scopes().scopes)
+        std::ranges::copy (scope->ports, std::back_inserter (probed));
+    const std::pair now (edited.version(), probed);
+    if (missing_of == now) return;
+    missing_of = now;
+    missing = unfelt (edited.graph(), catalogue);
+    const auto isSaid = [said = missing] (const Message& m) { return std::ranges::count (said, m.where, &Message::where) > 0; };
+    std::ranges::remove_copy_if (plan::unheardNodes (edited.graph(), catalogue, probed), std::back_inserter (missing), isSaid);
+}
+
 void MainView::documentChanged()
 {
     wake();
     status.clearNotice();
-    missing = unfelt (edited.graph(), catalogue);
-    std::vector<std::string> probed;
-    for (const auto& scope : scopes.scopes().scopes)
-        std::ranges::copy (scope->ports, std::back_inserter (probed));
-    const auto isSaid = [said = missing] (const Message& m) { return std::ranges::count (said, m.where, &Message::where) > 0; };
-    std::ranges::remove_copy_if (plan::unheardNodes (edited.graph(), catalogue, probed), std::back_inserter (missing), isSaid);
+    findMissing();
     if (edited.identity() != shown_identity)
     {
         shown_identity = edited.identity();

@@ -116,6 +116,7 @@ public:
 
 private:
     void documentChanged() override;
+    void findMissing();
     void documentRefused (const Message&) override;
     void timerCallback() override;
     void wake();   ///< polls and paints often again
@@ -249,6 +250,10 @@ private:
     int ticks_to_save = 0;                                   // timer ticks until the settings are saved; 0: nothing to save
     int awake_for = 0;                                       // timer ticks until the window polls less often; 0: it does
     std::optional<juce::TooltipWindow> tooltips;             // only while the window is awake, because it looks for the pointer all the time
+
+    /// The version of the document of which `missing` speaks, and the ports that scopes showed.
+    using VersionAndPorts = std::pair<std::uint64_t, std::vector<std::string>>;
+    std::optional<VersionAndPorts> missing_of;
 };
 
 }   // namespace tactus::host

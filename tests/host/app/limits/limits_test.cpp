@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/canvas_rig.hpp"
 
+#include <host/app/canvas/paint/paint_nodes.hpp>
 #include <host/app/limits/limit_light.hpp>
 #include <host/app/problems/fixes.hpp>
 #include <host/app/run/device_setup.hpp>
