@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands.hpp"
-#include "devices/capture_device.hpp"
+#include "capture_device.hpp"
+#include "event_devices.hpp"
 #include "numbers_only.hpp"
-#include "report.hpp"
 
 #include <host/audio/card.hpp>
+#include <host/cli/commands.hpp>
+#include <host/cli/report.hpp>
 #include <host/hid_link/force_feedback.hpp>
 #include <host/hid_link/hid_device.hpp>
 #include <host/hid_link/open_device.hpp>
@@ -309,13 +310,16 @@ std::vector<std::unique_ptr<Probed>> openAll (const std::vector<Listed>& all)
     return probed;
 }
 
-void probe (const std::vector<Listed>& all, const DevicesOptions& options, Json& json)
+void probe (const std::vector<Listed>& all, const std::vector<ListedEvents>& event_devices, const DevicesOptions& options, Json& json)
 {
     watchForStop();
     auto probed = openAll (all);
-    if (probed.empty())
+    std::vector<std::unique_ptr<ProbedEvents>> events;
+    for (const auto& l : event_devices)
+        if (auto opened = probeEventDevice (l)) events.push_back (std::move (opened));
+    if (probed.empty() && events.empty())
     {
-        const bool any_fits = std::ranges::any_of (all, [] (const Listed& l) { return ! l.profiles.empty(); });
+        const bool any_fits = ! event_devices.empty() || std::ranges::any_of (all, [] (const Listed& l) { return ! l.profiles.empty(); });
         if (any_fits) throw Stop {};   // the reason has already been printed
         return;
     }
@@ -327,6 +331,8 @@ void probe (const std::vector<Listed>& all, const DevicesOptions& options, Json&
         std::string text;
         for (const auto& p : probed)
             text += printable (p->text (seconds));
+        for (const auto& e : events)
+            text += printable (e->text (seconds));
         return text;
     };
 
@@ -337,6 +343,8 @@ void probe (const std::vector<Listed>& all, const DevicesOptions& options, Json&
         std::this_thread::sleep_for (Probed::period);
         for (const auto& p : probed)
             p->poll();
+        for (const auto& e : events)
+            e->poll();
         if (options.json || Clock::now() - shown < (live ? 100ms : 1000ms)) continue;
         shown = Clock::now();
         const auto text = show();
@@ -353,8 +361,12 @@ void probe (const std::vector<Listed>& all, const DevicesOptions& options, Json&
         return;
     }
     for (auto& device : json)
+    {
         for (const auto& p : probed)
             if (device.value ("path", Json()) == p->path()) device["probe"] = p->json();
+        for (const auto& e : events)
+            if (device.value ("path", Json()) == e->path()) device["probe"] = e->json();
+    }
 }
 
 void run (const DevicesOptions& options)
@@ -378,6 +390,9 @@ void run (const DevicesOptions& options)
     const auto ports = options.probe ? std::vector<SerialPort> {} : serialPorts();
     for (const auto& port : ports)
         json.push_back (jsonOf (port));
+    const auto event_devices = listEventDevices();
+    for (const auto& l : event_devices)
+        json.push_back (l.json);
     const auto cards = options.probe ? std::vector<audio::ListedCard> {} : audio::soundCards().list();
     for (const auto& card : cards)
         json.push_back (jsonOf (card));
@@ -386,6 +401,9 @@ void run (const DevicesOptions& options)
     if (! options.json && (! options.probe || all.empty()))
         for (const auto& l : all)
             std::cout << textOf (l);
+    if (! options.json && ! options.probe)
+        for (const auto& l : event_devices)
+            std::cout << l.text;
     if (! options.json)
     {
         for (const auto& port : ports)
@@ -399,11 +417,11 @@ void run (const DevicesOptions& options)
     if (! options.json)
         for (const auto& profile : known)
             std::cout << numbersTextOf (*profile);
-    if (options.probe && ! all.empty())
+    if (options.probe && (! all.empty() || ! event_devices.empty()))
     {
-        if (! options.json && std::ranges::all_of (all, [] (const Listed& l) { return l.profiles.empty(); }))
+        if (! options.json && ! all.empty() && std::ranges::all_of (all, [] (const Listed& l) { return l.profiles.empty(); }))
             std::cout << "None of the connected HID devices has a profile; `tactus devices` lists them.\n";
-        probe (all, options, json);
+        probe (all, event_devices, options, json);
     }
     if (options.json) std::cout << json.dump (2) << '\n';
 }
@@ -414,7 +432,7 @@ void addDevices (const Command& app)
     const auto options = std::make_shared<DevicesOptions>();
     const auto command = app.add ("devices", "List connected devices, their profiles and their readings");
     const auto probe = command.addFlag ("--probe", options->probe,
-                                        "Open all devices that have a profile and show their readings until Ctrl-C; "
+                                        "Open all devices that have a profile, or force feedback, and show their readings until Ctrl-C; "
                                         "they are initialised as their profiles specify, but not driven");
     command.addOption ("--duration", options->duration_s, "How long to probe or capture, in s").check (within (1e-3, 1e9));
     const auto capture = command.addOption ("--capture", options->capture.file,
