@@ -83,9 +83,9 @@ void MainView::beginTour()
                    "helps. The tour is in the menu.") } });
 }
 
-void MainView::choose (const juce::String& purpose, std::vector<PaletteEntry> entries, std::function<void (const std::string&)> chosen)
+void MainView::choose (const juce::String& purpose, PaletteSearch search, std::function<void (const std::string&)> chosen)
 {
-    openPalette (palette, patching, purpose, std::move (entries), std::move (chosen));
+    openPalette (palette, patching, purpose, std::move (search), std::move (chosen));
 }
 
 void MainView::probe (const std::vector<std::string>& ports)

@@ -39,7 +39,7 @@ void MainView::connectCanvas()
     patching.onParamMenu = [this] (juce::PopupMenu& menu, const std::string& node, const std::string& port) { inspector.fillParamMenu (menu, node, port); };
     patching.onEditParams = [this] { inspector.focusFirst(); };
     patching.onNodeRequested = [this] (const NodeRequest& request) { chooseNode (request); };
-    patching.onChoose = [this] (const auto& purpose, auto entries, auto chosen) { choose (purpose, std::move (entries), std::move (chosen)); };
+    patching.onChoose = [this] (const auto& purpose, auto search, auto chosen) { choose (purpose, std::move (search), std::move (chosen)); };
     patching.onProbe = [this] (const auto& ports) { probe (ports); };
     patching.onFileDropped = [this] (const std::filesystem::path& file) { files.open (file); };
     patching.onTypeDropped = [this] (const std::string& type, const NodeRequest& request) { addNode (type, request); };
