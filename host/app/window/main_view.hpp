@@ -196,6 +196,9 @@ private:
     std::array<std::pair<const char*, Splitter*>, 3> edges();   ///< of the panels, by the names that the settings give them
     void rememberPanels();
     void foldPanels();
+    void askForSetting (const juce::String& patterns, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
+    struct SaveWords;
+    void askWhereToSave (const SaveWords&, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
     void saveSettingsSoon();
 
     const Catalogue& catalogue;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which part of the window has the keyboard.
+#include "file_dialog_parts.hpp"
 #include "main_view.hpp"
 
 #include <host/app/look/focus.hpp>
@@ -22,7 +23,15 @@ juce::Component& MainView::keyboardHome()
 void MainView::keepKeyboard()
 {
     const auto* peer = getPeer();
-    if (peer == nullptr || ! peer->isFocused() || juce::Component::getNumCurrentlyModalComponents() > 0) return;
+    if (peer == nullptr || ! peer->isFocused()) return;
+    if (auto* modal = juce::Component::getCurrentlyModalComponent())
+    {
+        // A menu that closes after its entry has opened a dialog takes the keyboard from the name.
+        const auto* now = juce::Component::getCurrentlyFocusedComponent();
+        auto* name = dynamic_cast<juce::FileChooserDialogBox*> (modal) != nullptr ? nameField (*modal) : nullptr;
+        if (name != nullptr && (now == nullptr || now == modal || ! modal->isParentOf (now))) takeFocus (*name);
+        return;
+    }
     auto& home = keyboardHome();
     const bool is_over = question.isOpen() || fitting.isOpen();   // nothing else may have the keyboard
     const auto* now = juce::Component::getCurrentlyFocusedComponent();

@@ -53,6 +53,9 @@ void MainView::connectSides()
     inspector.messagesNow = [this] { return run().messages(); };
 
     presets.onOpen = [this] (const Preset& p, bool is_own) { openPreset (p, is_own); };
+    inspector.onChooseFile = [this] (const juce::String& patterns, const std::filesystem::path& begin, auto chosen) {
+        askForSetting (patterns, begin, std::move (chosen));
+    };
     presets.onSettings = [this] { saveSettingsSoon(); };
     presets.onLeave = nodes.onLeave = [this] { takeFocus (keyboardHome()); };
 
@@ -88,6 +91,7 @@ void MainView::connectRun()
     layers.onHint = patching.onHint;
     layers.onSelect = [this] (const std::string& patch, graph::Id node) { patching.show (patch, node); };
     layers.onAdded = [this] (const std::string& patch, graph::Id node) { showAdded (patch, node); };
+    hand.film().onChoose = [this] (const std::filesystem::path& begin, auto chosen) { chooseFile (true, begin, std::move (chosen)); };
 
     devices.onHint = patching.onHint;
     devices.onTry = [this] (const std::string& role) { return playback.tryDevice (role); };
