@@ -44,12 +44,13 @@ void MainView::nextPanel (int step)
     const std::initializer_list<juce::Component*> panels { &patching, &inspector, &bottom, &hand, &left };
     std::vector<juce::Component*> open;
     for (auto* p : panels)
-        if (p->isShowing() && ! p->getBounds().isEmpty()) open.push_back (p);
+        if ((isSmall() && p != &bottom) || (p->isShowing() && ! p->getBounds().isEmpty())) open.push_back (p);
     const auto now = std::ranges::find_if (open, [] (const juce::Component* p) { return p->hasKeyboardFocus (true); });
     const auto count = static_cast<int> (open.size()), at = now == open.end() ? (step > 0 ? -1 : 0) : static_cast<int> (now - open.begin());
     for (int i = 1; i <= count; ++i)
     {
         auto& next = *open[static_cast<std::size_t> (((at + i * step) % count + count) % count)];
+        turnTo (next);
         takeFocus (next);   // or the first part of it that takes keys
         if (next.hasKeyboardFocus (true)) return;
     }
