@@ -108,8 +108,8 @@ public:
     /// The user wants to add a node: by double-click, by key, or by dropping a wire on empty canvas.
     std::function<void (NodeRequest)> onNodeRequested;
 
-    /// Asks the user to choose one of several entries; `chosen` receives the type of that entry.
-    std::function<void (const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string&)> chosen)> onChoose;
+    /// Asks the user to choose one of the entries that the search finds; `chosen` receives the type of that entry.
+    std::function<void (const juce::String& purpose, PaletteSearch, std::function<void (const std::string&)> chosen)> onChoose;
 
     std::function<void (std::vector<std::string> ports)> onProbe;   ///< receives the full paths of the ports
 

@@ -223,7 +223,7 @@ void LiveFeed::showLimits (LiveState& live) const
             {
                 auto& light = live.limits[node->id];
                 light.is_broken = light.is_broken || l.is_broken;
-                const auto text = l.text + (l.remedy.empty() ? "." : ".\n" + filled (TRANS ("Would help: %1."), l.remedy).toStdString());
+                const auto text = l.text + ".\n" + l.details;
                 if (light.text.find (text) == std::string::npos) light.text += (light.text.empty() ? "" : "\n\n") + text;
             }
 }
