@@ -4,6 +4,10 @@
 #include <host/app/inspector/blocks/fields.hpp>
 #include <tactus/node/setting.hpp>
 
+#include <filesystem>
+#include <functional>
+#include <string>
+
 namespace tactus::host
 {
 
