@@ -96,7 +96,8 @@ void readEffortLimits (ObjectReader& in, GuardLimits& limits)
     limits.impulse_window = window (in, { "max_impulse", "max_angular_impulse", "max_axis_impulse" }, "impulse_window");
     limits.max_energy = in.number ("max_energy", unit::joule, some, limits.max_energy);
     limits.energy_window = window (in, { "max_energy" }, "energy_window");
-    if (in.has ("max_still")) in.require ("still_force", "give the smallest force at which max_still applies, such as \"0.5 N\"");
+    if (in.has ("max_still") && ! in.has ("still_torque"))   // of a wheel, only the torque is known
+        in.require ("still_force", "give the smallest force at which max_still applies, such as \"0.5 N\", or still_torque");
     limits.max_still = in.number ("max_still", unit::second, some, limits.max_still);
     limits.still_force = in.number ("still_force", unit::newton, some, limits.still_force);
     limits.still_torque = in.number ("still_torque", unit::torque, some, limits.still_torque);

@@ -155,7 +155,7 @@ TEST_CASE ("a tool that rests is not frozen: without a force, with a small one, 
     }
 }
 
-TEST_CASE ("max_still requires the force from which it counts, and the stricter of two values holds", "[framework][guard][safety]")
+TEST_CASE ("max_still requires the force or torque from which it counts, and the stricter of two values holds", "[framework][guard][safety]")
 {
     Messages messages;
     readGuardLimits (Json::parse (R"({"max_still": "0.5 s"})"), "/guard", messages);
@@ -171,6 +171,9 @@ TEST_CASE ("max_still requires the force from which it counts, and the stricter 
     CHECK (messages.empty());
     CHECK (turns.still_torque == 0.02);
     CHECK (tightest (read, turns).still_torque == 0.02);
+    const auto wheel = readGuardLimits (Json::parse (R"({"max_still": "0.5 s", "still_torque": "20 mN*m"})"), "/guard", messages);
+    CHECK (messages.empty());
+    CHECK (wheel == GuardLimits { .max_still = 0.5, .still_torque = 0.02 });
 }
 
 TEST_CASE ("a position that jumps stops the guard on the same tick, so the force that the jump causes is never applied", "[framework][guard][safety]")
