@@ -114,6 +114,7 @@ std::string onlyOne (Fits&& fits, const std::string& what, std::string& why)
             path = info.path;
             ++count;
         }
+    why.clear();
     if (count == 1) return path;
     why = count == 0 ? "no device with force feedback is called " + what : std::to_string (count) + " devices are called " + what + ": name one by its path";
     return {};
