@@ -62,7 +62,7 @@ Result<> transfer (Transport& t, Step::Kind kind, std::span<std::uint8_t> bytes)
 
 Result<std::unique_ptr<Transport>> HidPort::reach (HidSystem& system, const ConnectedDevice& device, const Profile& profile)
 {
-    return device.wire == Wire::hid ? system.open (device) : openWire (device, profile);
+    return device.wire == Wire::hid ? system.open (device) : openWire (device, profile, system);
 }
 
 HidPort::HidPort (HidSystem& s, ConnectedDevice d, std::shared_ptr<const Profile> p, Options o)
@@ -342,7 +342,7 @@ void HidPort::poll (Transport& t, Output& o, std::size_t report, Clock::time_poi
         o.seen = latest.number;
         return;
     }
-    if ((o.credit < 1.0 && ! stops) || ! t.beat (true)) return;
+    if (((o.credit < 1.0 || t.awaitsAnswer()) && ! stops) || ! t.beat (true)) return;
 
     // Offers in between were never sent, so they count as dropped. With a keepalive, an unchanged offer is neither sent nor counted.
     if (is_new && how.keepalive == 0.0) dropped.fetch_add (latest.number - o.seen - 1, std::memory_order_relaxed);

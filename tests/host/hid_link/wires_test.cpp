@@ -4,9 +4,9 @@
 #include "host/hid/hid.hpp"
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
+#include "wire_bench.hpp"
 
 #include <host/hid_link/fake_device.hpp>
-#include <host/hid_link/hid_device.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/hid_link/stale_datagrams.hpp>
 #include <host/hid_link/wires.hpp>
@@ -15,7 +15,6 @@
 #include <tactus/file/graph_file.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/node/catalogue.hpp>
-#include <tactus/run/device/make_device.hpp>
 #include <tactus/run/engine.hpp>
 #include <tactus/text/json_text.hpp>
 
@@ -33,37 +32,13 @@
 #include <thread>
 
 using namespace tactus;
+using namespace tactus::test::wire;
 using namespace tactus::host;
 using namespace tactus::host::hid;
 using namespace std::chrono_literals;
 
 namespace
 {
-using WireClock = WireFile::Clock;
-
-/// True as soon as the condition holds; false if it still does not hold after a long time.
-template <typename F>
-bool eventually (F&& so)
-{
-    const auto end = WireClock::now() + 30s;
-    while (! so())
-    {
-        if (WireClock::now() > end) return false;
-        std::this_thread::sleep_for (200us);
-    }
-    return true;
-}
-
-/// A computer without HID devices, with a clock of its own.
-struct NoHid final : HidSystem
-{
-    std::vector<ConnectedDevice> connected() override { return {}; }
-    Result<std::unique_ptr<Transport>> open (const ConnectedDevice&) override { return Message::error ("hid/not_opened", {}, "there is none"); }
-    std::chrono::steady_clock::time_point now() const noexcept override { return std::chrono::steady_clock::time_point (std::chrono::nanoseconds (ns.load())); }
-
-    std::atomic<std::int64_t> ns = 1'000'000'000;
-};
-
 /// The board's profile, with a framing, and with a watchdog that a busy machine does not trigger.
 std::shared_ptr<const Profile> board (const std::string& framing = "cobs", const std::string& watchdog = "10 s")
 {
@@ -75,13 +50,6 @@ std::shared_ptr<const Profile> board (const std::string& framing = "cobs", const
     INFO (test::text (loaded.messages));
     REQUIRE (loaded.profile);
     return loaded.profile;
-}
-
-std::unique_ptr<Device> stillHand()
-{
-    auto made = makeDevice ({ { "driver", "sim" } }, {});
-    REQUIRE (made.device);
-    return std::move (made.device);
 }
 
 std::uint32_t numberAt (const Bytes& report, std::size_t at)
@@ -198,47 +166,6 @@ struct OnTheBench final : Device
     std::optional<std::size_t> first;   // of the reports that the run has seen
 };
 
-/// The same without a wire: the reports of the log, and the answers after encoding.
-struct OffTheWire final : Device
-{
-    OffTheWire (std::shared_ptr<const Profile> p, std::span<const Bytes> r) : model (std::move (p)), reports (r) {}
-
-    void prepare (double) override {}
-
-    Reading read() noexcept override
-    {
-        model.decode (reports[tick++]);
-        auto reading = model.reading();
-        reading.valid = reading.valid && tick > 1;   // a device rests before it pushes
-        reading.unrendered_force = force - model.renderedForce();
-        reading.unrendered_torque = torque - model.renderedTorque();
-        for (std::size_t i = 0; i < model.axisNames().size(); ++i)
-            reading.axes.set (static_cast<int> (i), model.sample().axes[i]);
-        return reading;
-    }
-
-    void write (const Effort& guarded) noexcept override
-    {
-        force = guarded.force;
-        torque = guarded.torque;
-        HidEffort effort { force, torque, model.restEfforts() };
-        model.take (guarded.axes, effort);
-        const auto bytes = model.encodeValues (0, model.drive (effort, 1e-3));
-        answers.emplace_back (bytes.begin() + 1, bytes.end());
-    }
-
-    DeviceLayout layout() const override { return layoutOf (model); }
-
-    HidModel model;
-    std::span<const Bytes> reports;
-    std::size_t tick = 0;
-    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-    std::vector<Bytes> answers;
-};
-}   // namespace
-
-namespace
-{
 struct Way
 {
     Wire wire;
