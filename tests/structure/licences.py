@@ -15,7 +15,7 @@ import re
 import sys
 
 MIT_ROOMS = ["audio", "check_plugin", "command_line", "device_plugins", "fitting", "fuse", "fuse_llvm", "generate", "guardian", "haply", "hid", "hid_link",
-             "live", "platform", "plugins", "profiles", "sessions"]
+             "live", "platform", "plugins", "profiles", "sessions", "websocket"]
 GPL_ROOMS = ["app", "bench", "cli", "packaging"]
 MIXED = ["assets", "io", "osc"]
 CARDS = "host/audio/juce_cards.cpp"
