@@ -14,7 +14,7 @@ import pathlib
 import re
 import sys
 
-MIT_ROOMS = ["audio", "check_plugin", "command_line", "device_plugins", "fitting", "fuse", "fuse_llvm", "generate", "guardian", "haply", "hid", "hid_link",
+MIT_ROOMS = ["audio", "bhaptics", "check_plugin", "command_line", "device_plugins", "fitting", "fuse", "fuse_llvm", "generate", "guardian", "haply", "hid", "hid_link",
              "live", "platform", "plugins", "profiles", "sessions", "websocket"]
 GPL_ROOMS = ["app", "bench", "cli", "packaging"]
 MIXED = ["assets", "io", "osc"]
