@@ -8,13 +8,13 @@
 #   ./test.sh --quick   runs only the tests
 #   ./test.sh --long    adds to ./test.sh: each fuzzer for 60 s, 10 000 mutated files through the command line, each installed header
 #                       compiled on its own, the tests under TSan (thread tests for 60 s each), the window under ASan and UBSan, the
-#                       energy of elastic surfaces on 1000 long loops for each body and friction, a soak of 1.2e8 ticks, and an
-#                       eighth of all files with clang-tidy. All tests use a new seed, and those with properties five more: each is printed.
-#                       RC_PARAMS=seed=N ./test.sh --quick uses it again
+#                       energy of elastic surfaces on 1000 long loops for each body and friction, soaks of 1.2e8 ticks and of 30
+#                       minutes of each wire, and an eighth of all files with clang-tidy. All tests use a new seed, and those with
+#                       properties five more: each is printed. RC_PARAMS=seed=N ./test.sh --quick uses it again
 #
 # Each of these runs only one part:
-#   ./test.sh --screens drives the host with mouse and keyboard on a virtual display, and draws build/screens/;
-#                       with --update, also copies the pictures used in the pages to docs/host/
+#   ./test.sh --screens drives the host with mouse and keyboard on a virtual display, draws build/screens/, and films the first minute;
+#                       with --update, also copies the film and the pictures used in the pages to docs/host/
 #   ./test.sh --sound   plays a ring on a virtual sound card, strokes a board in the host with the mouse, and listens to both
 #   ./test.sh --devices drives the virtual HID devices
 #   ./test.sh --export  exports all presets and 500 random graphs as C++ code, compiles it with g++ and clang++, and compares the
@@ -39,17 +39,18 @@ case $mode in
 esac
 
 wasm_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc nodejs)
-packages+=(python3-jsonschema python3-distributed python3-build python3-venv python3-pip mypy python3-pandas python3-xarray xvfb xdotool)
+packages+=(python3-jsonschema python3-websockets python3-distributed python3-build python3-venv python3-pip mypy python3-pandas python3-xarray xvfb xdotool)
 case $mode in ''|--long|--sanitizers|--install) packages+=(libclang-rt-14-dev) ;; esac
 case $mode in ''|--quick|--long|--install) packages+=(valgrind) ;; esac
 case $mode in ''|--quick|--long|--format|--install) packages+=(clang-format-14) ;; esac
 case $mode in ''|--long|--tidy|--install) packages+=(clang-tidy-14) ;; esac
+[ "$mode" = --long ] && [ -n "${TACTUS_ISAACLAB_HAPLY:-}" ] && packages+=(python3-torch python3-numpy)   # for IsaacLab's client of the Inverse3
 [ "$mode" = --coverage ] && packages+=(gcovr)
 [ "$mode" = --export ] && packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
 case $mode in --long|--export|--site) packages+=("${wasm_packages[@]}") ;; esac   # without them, the tests that need them are skipped, with a message
-case $mode in --long|--site) packages+=(chromium chromium-driver python3-selenium python3-sphinx furo python3-myst-parser python3-breathe doxygen) ;; esac
+case $mode in --long|--site) packages+=(chromium chromium-driver python3-selenium python3-sphinx furo python3-myst-parser python3-breathe python3-nbsphinx python3-ipykernel python3-matplotlib pandoc libjs-mathjax doxygen) ;; esac
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
-[ "$mode" = --screens ] && packages+=(xauth imagemagick)
+[ "$mode" = --screens ] && packages+=(xauth imagemagick ffmpeg fonts-dejavu-core)
 [ "$mode" = --sound ] && packages+=(xauth imagemagick jackd2 jack-capture python3-numpy)
 [ "$mode" = --packages ] && packages+=(dpkg-dev lintian mmdebstrap valgrind)
 install_packages
@@ -153,7 +154,10 @@ if [ "$mode" = --screens ]; then
     say "Walking through the host"
     rm -rf build/screens
     /usr/bin/python3 tests/host/app/screens/walk.py build/release/bin/tactus-host build/screens
+    say "Filming the first minute"
+    /usr/bin/python3 -B tests/host/app/screens/film.py build/release/bin/tactus-host build/screens
     if [ "${2:-}" = --update ]; then
+        cp build/screens/first_minute.{webm,png} docs/host/
         grep -oh 'host/[0-9a-z-]*\.png' README.md docs/*.md | sort -u | while read -r picture; do
             cp "build/screens/${picture#host/}" docs/host/
         done
@@ -195,7 +199,7 @@ if [ "$mode" = --export ]; then
 fi
 
 if [ "$mode" = --site ]; then
-    build release tactus
+    build release tactus tactus_python
     say "The site, and its playground in a browser"
     tests/site/run.sh build/release
     exit
@@ -267,7 +271,7 @@ if [ "$mode" = --long ]; then
     say "The energy of elastic surfaces on long loops"
     build/release/bin/tactus_tests "[long]"
     say "Soak"
-    TACTUS_SOAK_TICKS=120000000 build/release/bin/tactus_tests "[soak]"
+    TACTUS_SOAK_TICKS=120000000 TACTUS_SOAK_SECONDS=1800 build/release/bin/tactus_tests "[soak]"
     say "The site, and its playground in a browser"
     tests/site/run.sh build/release
 fi

@@ -14,6 +14,8 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
+import laws
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # Code, in which links are none, or a link, whose text may have code.
 PART = re.compile(r"^```.*?^```|(?P<picture>!?)\[(?P<text>(?:[^\[\]]|\[[^\]]*\])*)\]\((?P<target>[^)\s]+)\)|`[^`\n]+`", re.M | re.S)
@@ -21,14 +23,22 @@ PART = re.compile(r"^```.*?^```|(?P<picture>!?)\[(?P<text>(?:[^\[\]]|\[[^\]]*\])
 # Pages of the repository, and what they are called on the site.
 PAGES = {"README.md": "start", "CONTRIBUTING.md": "contributing", "SECURITY.md": "security", "CHANGELOG.md": "changelog", "graphs/README.md": "preset_table",
          **{f"docs/{path.name}": path.stem for path in sorted((ROOT / "docs").glob("*.md"))},
+         **{f"docs/tutorials/{path.name}": f"tutorials/{path.stem}" for path in sorted((ROOT / "docs/tutorials").glob("*.md"))},
          **{f"docs/decisions/{path.name}": "decisions/" + ("index" if path.stem == "README" else path.stem)
             for path in sorted((ROOT / "docs/decisions").glob("*.md"))}}
 
+NOTEBOOK = "docs/examples/python/fig4.ipynb"
+
+# The index: each section with a sentence, and its pages in the order in which one reads them.
 SECTIONS = {
-    "Start": ("What Tactus is, and a first feel.", ["start", "playground", "gallery/index"]),
-    "Tutorials": ("From the first graph to your own device.", ["chapter", "fit", "plugins", "devices", "library", "python"]),
-    "How to": ("One page per task.", ["host", "sessions", "audio", "osc", "replay", "check", "spectra", "clips", "import", "live", "export", "realtime"]),
-    "Concepts": ("What the words mean, and how the parts work together.", ["glossary", "architecture", "safety", "hazards", "threads", "lanes", "fusion"]),
+    "Start": ("What Tactus is, and a first feel: in the browser, or on your computer.", ["start", "playground", "gallery/index"]),
+    "Tutorials": ("A quarter of an hour each, from nothing to something that you feel.",
+                  [*(f"tutorials/{name}" for name in ("first_graph", "first_node", "first_device", "recording_to_preset", "embed")), "tutorials/notebook"]),
+    "How to": ("One page per task: first patching and playing, then devices, then programs of your own.",
+               ["host", "osc", "replay", "fit", "import", "clips", "spectra", "devices", "sessions", "audio", "check", "realtime",
+                "library", "live", "export", "python", "plugins"]),
+    "Concepts": ("What the words mean, and how the parts work together.",
+                 ["concepts", "glossary", "chapter", "safety", "hazards", "architecture", "threads", "lanes", "fusion"]),
     "Reference": ("Nodes, files, commands, interfaces, costs.",
                   ["nodes/index", "graph_file", "commands", "c_api", "preset_table", "bench", "instructions", "changelog", "contributing", "security"]),
     "Decisions": ("Why things are as they are, and what was measured.", ["decisions/index"]),
@@ -82,14 +92,29 @@ class Site:
         picture, text, target = link["picture"], link["text"], link["target"]
         if target is None or "://" in target or target.startswith(("mailto:", "#")):
             return link.group()
+        if "](" in text:   # a picture in a link
+            text = PART.sub(lambda inner: self.moved(inner, of, name), text)
         file, _, anchor = target.partition("#")
         path = pathlib.PurePosixPath(os.path.normpath(pathlib.PurePosixPath(of).parent / file))
         here = pathlib.PurePosixPath(name).parent
+        if str(path) == NOTEBOOK:
+            return f"{picture}[{text}]({os.path.relpath('tutorials/notebook.ipynb', here)})"
         if str(path) in PAGES:
             return f"{picture}[{text}]({os.path.relpath(PAGES[str(path)] + '.md', here)}{'#' + anchor if anchor else ''})"
+        if path.suffix == ".webm":
+            return self.video(path, text, here)
         if (ROOT / path).is_file():
             return f"{picture}[{text}]({os.path.relpath(self.copied(path), here)})"
         return f"{text} (`{path}/`)"
+
+    def video(self, path, picture, here):
+        """A film, with the picture that stands for it as its poster. Sphinx copies what is in _static, but not what only HTML names."""
+        told, poster = re.fullmatch(r"!\[(.*)\]\((.*)\)", picture, re.S).groups()
+        for file in (path, path.with_name(pathlib.PurePosixPath(poster).name)):
+            shutil.copy(ROOT / file, self.source / "_static")
+        up = os.path.relpath("_static", here)
+        return (f'<video controls preload="none" muted width="1280" height="720" aria-label="{told}" '
+                f'poster="{up}/{pathlib.PurePosixPath(poster).name}" src="{up}/{path.name}"></video>')
 
     def page(self, of, name):
         text = re.sub(r'<img src="([^"]+)"(?: width="\d+")? alt="([^"]*)">', r"![\2](\1)", (ROOT / of).read_text(encoding="utf-8"))
@@ -97,9 +122,21 @@ class Site:
             text = re.sub(r"^\*\*([^*]+)\*\*", r"## \1\n\n**\1**", text, flags=re.M)
         return PART.sub(lambda link: self.moved(link, of, name), text)
 
+    def words(self):
+        """The words of the glossary."""
+        return re.findall(r"^- \*\*(.*?)\*\*: ", (ROOT / "docs/glossary.md").read_text(encoding="utf-8"), re.M)
+
+    def linked(self, text):
+        """Bold words that the glossary has become links to it."""
+        for word in self.words():
+            text = re.sub(rf"\*\*({re.escape(word)})\*\*", r"{term}`\1`", text)
+        return text
+
     def pages(self):
         for of, name in PAGES.items():
             text = self.page(of, name)
+            if name == "concepts" or name.startswith("tutorials/"):
+                text = self.linked(text)
             if name == "glossary":
                 head, terms = text.split("\n- ", 1)
                 text = head + "\n\n:::{glossary}\n" + "\n\n".join(re.sub(r"\*\*(.*?)\*\*: ", r"\1\n  ", term.rstrip()) for term in terms.split("\n- ")) + "\n:::\n"
@@ -107,11 +144,19 @@ class Site:
                 text = text.replace("\n\n", "\n\n<a href=\"playground/index.html\">Open the playground</a>\n\n", 1)
             self.write(name, text)
 
+    def page_film(self):
+        """The film at the top of the README."""
+        lines = (ROOT / "README.md").read_text(encoding="utf-8").splitlines()
+        return PART.sub(lambda link: self.moved(link, "README.md", "index"), next(line for line in lines if line.startswith("[![") and ".webm" in line))
+
     def index(self):
         text = "# Tactus\n\nHaptic effects, patched like a modular synthesiser. [Feel a few in the browser](playground.md), or [build it](start.md).\n"
+        text += "\n" + self.page_film() + "\n"
         for title, (about, pages) in SECTIONS.items():
             text += f"\n## {title}\n\n{about}\n\n```{{toctree}}\n:caption: {title}\n:maxdepth: 1\n\n" + "\n".join(pages) + "\n```\n"
         self.write("index", text)
+        (self.source / "tutorials").mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / NOTEBOOK, self.source / "tutorials/notebook.ipynb")
         decisions = [name for name in PAGES.values() if name.startswith("decisions/") and name != "decisions/index"]
         path = self.source / "decisions/index.md"
         path.write_text(path.read_text() + "\n```{toctree}\n:hidden:\n\n" + "\n".join(name.split("/")[1] for name in decisions) + "\n```\n")
@@ -127,8 +172,14 @@ class Site:
                 continue
             comment = re.search(r"((?:^///[^\n]*\n)+)(?:template <[^\n]*>\n)?struct", text, re.M)
             lines = [re.sub("^/// ?", "", line) for line in comment.group(1).splitlines()]
-            return header, "\n".join(self.prose(lines))
+            ports = {port["id"] for kind in ("inputs", "params", "settings", "outputs") for port in node[kind]}
+            return header, self.with_laws("\n".join(self.prose(lines)), ports)
         return None, ""
+
+    @staticmethod
+    def with_laws(text, ports):
+        """Blocks of code that are laws are typeset."""
+        return re.sub(r"^```\n(.*?)^```$", lambda block: laws.law(block[1].splitlines(), ports) or block[0], text, flags=re.M | re.S)
 
     @staticmethod
     def prose(lines):
@@ -267,7 +318,8 @@ def main():
     shutil.rmtree(source, ignore_errors=True)
     (source / "_static").mkdir(parents=True)
     shutil.copy(ROOT / "docs/site/conf.py", source)
-    shutil.copy(ROOT / "docs/site/site.css", source / "_static")
+    for file in ("site.css", "icon.svg"):
+        shutil.copy(ROOT / "docs/site" / file, source / "_static")
     site = Site(tactus, source, presets)
     site.pages()
     site.index()

@@ -42,7 +42,8 @@ inline std::string formOfDeviceState()
              &r.position, &r.rotation, &r.pressure, &r.age, &r.buttons, &r.fault, &r.valid, &r.true_position, &r.true_velocity, &r.unrendered_force,
              &r.unrendered_torque, r.axes.used(), r.axes.begin(), r.signals.used(), r.signals.begin(), &s.applied.force, &s.applied.torque,
              s.applied.axes.used(), s.applied.axes.begin(), s.applied.signals.used(), s.applied.signals.begin(), &s.layout.axes, &s.layout.efforts,
-             &s.layout.buttons, &s.layout.signal_inputs, &s.layout.signal_outputs, &s.layout.mechanics.mass, &s.layout.mechanics.damping })
+             &s.layout.buttons, &s.layout.signal_inputs, &s.layout.signal_outputs, &s.layout.mechanics.mass, &s.layout.mechanics.damping,
+             &s.applied.brake, &s.layout.brake })
         text.append (" ").append (std::to_string (static_cast<const std::byte*> (place) - reinterpret_cast<const std::byte*> (&s)));
     return text;
 }

@@ -19,14 +19,17 @@
 namespace tactus::plugin
 {
 
-inline DeviceLayout readLayout (const tactus_plugin_layout& l)
+inline DeviceLayout readLayout (const tactus_plugin_layout& given)
 {
+    tactus_plugin_layout l;
+    copyKnown (l, &given);   // an older host knows no brake
     return { .axes = { l.axes, l.axes + l.axis_count },
              .efforts = { l.efforts, l.efforts + l.effort_count },
              .buttons = { l.buttons, l.buttons + l.button_count },
              .signal_inputs = l.signal_inputs,
              .signal_outputs = l.signal_outputs,
-             .mechanics = { l.mechanics->mass, l.mechanics->damping } };
+             .mechanics = { l.mechanics->mass, l.mechanics->damping },
+             .brake = l.brake };
 }
 
 /// True if the nodes of this plugin can read the DeviceState of this host in place. [main thread]
@@ -88,6 +91,7 @@ public:
         auto& applied = bound->state.applied;
         applied.force = vector (from.applied_force);
         applied.torque = vector (from.applied_torque);
+        if (from.applied_brake != nullptr) applied.brake = *from.applied_brake;   // an older host has none
         copy (bound->applied_axes, applied.axes);
         copy (bound->applied_signals, applied.signals);
     }
@@ -143,6 +147,7 @@ inline void show (const Effort& from, tactus_plugin_effort& to) noexcept
     }
     copyChannels (from.axes, to.axis_count, to.axes);
     copyChannels (from.signals, to.signal_count, to.signals);
+    if (to.size >= sizeof to) to.brake = from.brake;   // an older host has no room for it
 }
 
 }   // namespace tactus::plugin

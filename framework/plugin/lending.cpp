@@ -98,7 +98,7 @@ CLayout::CLayout (const DeviceLayout& l) : axes (textsOf (l.axes)), efforts (tex
                                            mechanics { sizeof mechanics, l.mechanics.mass, l.mechanics.damping }
 {
     layout = { sizeof layout, axes.data(), axes.size(), efforts.data(), efforts.size(),
-               buttons.data(), buttons.size(), l.signal_inputs, l.signal_outputs, &mechanics };
+               buttons.data(), buttons.size(), l.signal_inputs, l.signal_outputs, &mechanics, l.brake };
 }
 
 ShownDevice::ShownDevice (const DeviceState& s)
@@ -124,12 +124,13 @@ ShownDevice::ShownDevice (const DeviceState& s)
                .applied_torque = s.applied.torque.data(),
                .applied_axes = &applied_axes,
                .applied_signals = &applied_signals,
-               .state = &s };
+               .state = &s,
+               .applied_brake = &s.applied.brake };
 }
 
 Effort readEffort (const tactus_plugin_effort& e) noexcept
 {
-    Effort effort { .force = { e.force[0], e.force[1], e.force[2] }, .torque = { e.torque[0], e.torque[1], e.torque[2] } };
+    Effort effort { .force = { e.force[0], e.force[1], e.force[2] }, .torque = { e.torque[0], e.torque[1], e.torque[2] }, .brake = e.brake };
     const auto read = [] (std::uint32_t count, const double* values, Channels& to) {
         for (int i = 0; i < static_cast<int> (std::min<std::uint32_t> (count, TACTUS_PLUGIN_CHANNELS)); ++i)
             to.set (i, values[i]);

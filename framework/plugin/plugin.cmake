@@ -50,8 +50,9 @@ function (tactus_add_plugin name)
     endif ()
     if (CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
         target_compile_options (${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-fno-gnu-unique>)   # unique symbols would keep the plugin loaded forever
-        # The adapter and several nodes in one file use up the growth that GCC allows inlining, and functions within a tick remain calls.
-        target_compile_options (${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:--param=inline-unit-growth=200>)
+        # The adapter and several nodes in one file use up the growth that GCC allows inlining, and a function that two nodes call may be
+        # too large to be inlined in both: calls would remain within a tick.
+        target_compile_options (${name} PRIVATE "$<$<COMPILE_LANGUAGE:CXX>:--param=inline-unit-growth=200;--param=max-inline-insns-single=1000>")
     endif ()
     tactus_write_build_file (${name} ${ARGN})
     if (CMAKE_SYSTEM_NAME STREQUAL Linux)

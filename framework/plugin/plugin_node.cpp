@@ -195,6 +195,7 @@ void addDevice (NodeType& t, const Guest* g)
             e.axis_count = e.signal_count = 0;
             std::fill_n (e.force, 3, 0.0);
             std::fill_n (e.torque, 3, 0.0);
+            e.brake = 0.0;
             ask (n, &e);
             return readEffort (e);
         };

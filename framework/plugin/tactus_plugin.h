@@ -364,11 +364,12 @@ typedef struct tactus_plugin_layout
     size_t button_count;
     int32_t signal_inputs, signal_outputs;
     const tactus_plugin_mechanics* mechanics;
+    double brake; /**< the largest damping of its brake on the tool, N s/m; 0: it has none */
 } tactus_plugin_layout;
 
-#define TACTUS_PLUGIN_LAYOUT_INIT                                \
-    {                                                            \
-        sizeof (tactus_plugin_layout), 0, 0, 0, 0, 0, 0, 0, 0, 0 \
+#define TACTUS_PLUGIN_LAYOUT_INIT                                     \
+    {                                                                 \
+        sizeof (tactus_plugin_layout), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0 \
     }
 
 #define TACTUS_PLUGIN_CHANNELS 32
@@ -400,12 +401,13 @@ typedef struct tactus_plugin_device
     const tactus_plugin_channels *axes, *signals;
     const double *applied_force, *applied_torque; /**< what the guard let through on the last tick; three each; N, N m */
     const tactus_plugin_channels *applied_axes, *applied_signals;
-    const void* state; /**< for TACTUS_PLUGIN_DEVICE_STATE; valid as long as the node, and never changes */
+    const void* state;           /**< for TACTUS_PLUGIN_DEVICE_STATE; valid as long as the node, and never changes */
+    const double* applied_brake; /**< the damping that the guard let through on the last tick; N s/m */
 } tactus_plugin_device;
 
-#define TACTUS_PLUGIN_DEVICE_INIT                                                        \
-    {                                                                                    \
-        sizeof (tactus_plugin_device), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 \
+#define TACTUS_PLUGIN_DEVICE_INIT                                                           \
+    {                                                                                       \
+        sizeof (tactus_plugin_device), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 \
     }
 
 /** The id of an extension of the host: `state` of a tactus_plugin_device is the tactus::DeviceState that the values are part of. A plugin
@@ -430,11 +432,12 @@ typedef struct tactus_plugin_effort
     uint32_t axis_count, signal_count;
     double force[3], torque[3];
     double axes[TACTUS_PLUGIN_CHANNELS], signals[TACTUS_PLUGIN_CHANNELS];
+    double brake; /**< N s/m */
 } tactus_plugin_effort;
 
-#define TACTUS_PLUGIN_EFFORT_INIT                                                                   \
-    {                                                                                               \
-        sizeof (tactus_plugin_effort), 0, 0, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0 }, { 0.0 } \
+#define TACTUS_PLUGIN_EFFORT_INIT                                                                        \
+    {                                                                                                    \
+        sizeof (tactus_plugin_effort), 0, 0, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0 }, { 0.0 }, 0.0 \
     }
 
 /** The most that checking and preparing a node can cost. */

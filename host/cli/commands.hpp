@@ -11,6 +11,7 @@ void addNodes (const Command&);
 void addValidate (const Command&);
 void addSchema (const Command&);
 void addCheck (const Command&);
+void addCheckPreset (const Command&);
 void addLimitsOf (const Command&);
 void addRender (const Command&);
 void addSpectrogram (const Command&);

@@ -22,6 +22,7 @@ constexpr auto examples =
     "  tactus validate graphs/*.json                  all problems in all files\n"
     "  tactus schema -o graph.schema.json             for editors, which complete and check graphs with it\n"
     "  tactus check graphs/dry_wood.json              can its devices render the graph?\n"
+    "  tactus check-preset my_preset.json             can it be shared as a preset?\n"
     "  tactus limits granite_wall -o wall.png         how stiff, damped and slow may its contact be?\n"
     "  tactus render graphs/dry_wood.json --out wood.csv --plot wood.png\n"
     "  tactus spectrogram dry_wood -o wood.png        its frequencies against time\n"
@@ -58,6 +59,7 @@ int main (int argc, char** argv)
     addValidate (app);
     addSchema (app);
     addCheck (app);
+    addCheckPreset (app);
     addLimitsOf (app);
     addRender (app);
     addSpectrogram (app);

@@ -114,7 +114,10 @@ std::string describe (const Workspace& w)
 {
     if (w.isPlain()) return {};
     const auto offset = numberText (w.offset.x()) + ", " + numberText (w.offset.y()) + ", " + numberText (w.offset.z());
-    return "workspace x" + numberText (w.scale) + " + (" + offset + ") m";
+    auto text = "workspace x" + numberText (w.scale) + " + (" + offset + ") m";
+    if (w.isTurned()) text += w.isMirrored() ? ", mirrored" : ", turned";
+    if (! w.clutch.empty()) text += ", clutch " + quote (w.clutch);
+    return text;
 }
 
 void printSession (const LoadedSession& s, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles)

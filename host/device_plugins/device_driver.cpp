@@ -191,6 +191,8 @@ std::unique_ptr<OpenedDevice> DeviceDriver::open (const Json& description, Messa
 
     Messages found;
     auto described = readAbout (about, entry.write != nullptr, found);
+    if (const auto remark = why.text (""); ! remark.empty())
+        found.push_back (Message::warning ("device/remark", "", remark, "see the documentation of the driver " + quote (called)));
     std::unique_ptr<OpenedDevice> opened (new OpenedDevice (shared_from_this(), description, handle, std::move (described)));
     why.clear();
     const bool rests = opened->rest (why) == TACTUS_DEVICE_OK;   // whatever the driver has said: the device may hold an effort of its last user

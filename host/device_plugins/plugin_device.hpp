@@ -30,6 +30,7 @@ struct PluginCounts
     std::uint64_t silences = 0;     ///< how often the device was brought to rest because no effort was offered for too long
     std::uint64_t departures = 0;   ///< how often the device was gone
     double oldest = 0.0;            ///< the highest age of a reading, in s
+    double reached_hz = 0.0;        ///< how many new efforts per second reach the device, by the account of the driver; 0: it does not say
 };
 
 /// A device of a driver in a run. Nothing in a tick calls the driver: a thread reads, and another one writes, and they exchange the latest values with

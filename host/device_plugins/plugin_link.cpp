@@ -136,7 +136,8 @@ PluginCounts PluginDevice::Link::counts() const noexcept
              .writes = writes.load (std::memory_order_relaxed),
              .write_errors = write_errors.load (std::memory_order_relaxed),
              .silences = silences.load (std::memory_order_relaxed),
-             .departures = departures.load (std::memory_order_relaxed) };
+             .departures = departures.load (std::memory_order_relaxed),
+             .reached_hz = reached_hz.load (std::memory_order_relaxed) };
 }
 
 void PluginDevice::Link::stop() noexcept
@@ -244,6 +245,7 @@ void PluginDevice::Link::take (tactus_reading& r, const tactus_device_stamp& sta
     if (! about.pressure) r.pressure = 0.0;
     if (about.layout.buttons.size() < Reading::most_buttons) r.buttons &= (1u << about.layout.buttons.size()) - 1u;
 
+    reached_hz.store (isFinite (stamp.reached_hz) ? std::max (0.0, stamp.reached_hz) : 0.0, std::memory_order_relaxed);
     const auto verdict = watch (stamp, secondsOf (now.time_since_epoch()));
     auto* count = &readings;
     if (! verdict.is_new)

@@ -153,6 +153,7 @@ private:
     std::condition_variable changed;
 
     std::atomic<std::uint64_t> readings = 0, refused = 0, repeated = 0, lost = 0, restarts = 0, read_errors = 0, held_up = 0;
+    std::atomic<double> reached_hz = 0.0;
     std::atomic<std::uint64_t> writes = 0, write_errors = 0, silences = 0, departures = 0;
 };
 

@@ -126,14 +126,15 @@ enum
 typedef struct tactus_device_stamp
 {
     uint32_t size;
-    uint32_t fault;  /**< TACTUS_DEVICE_TOO_HOT, …: the reading is not used, and the force goes to zero; 0: none */
-    uint64_t number; /**< counted by the device from 1, one more for each reading, without wrapping around */
-    double time_s;   /**< when it was measured, by a clock of the device that is right to 0.1 % and does not wrap around */
+    uint32_t fault;    /**< TACTUS_DEVICE_TOO_HOT, …: the reading is not used, and the force goes to zero; 0: none */
+    uint64_t number;   /**< counted by the device from 1, one more for each reading, without wrapping around */
+    double time_s;     /**< when it was measured, by a clock of the device that is right to 0.1 % and does not wrap around */
+    double reached_hz; /**< how many new efforts per second have reached the device lately, as the driver measures it; for people to see */
 } tactus_device_stamp;
 
-#define TACTUS_DEVICE_STAMP_INIT                \
-    {                                           \
-        sizeof (tactus_device_stamp), 0, 0, 0.0 \
+#define TACTUS_DEVICE_STAMP_INIT                     \
+    {                                                \
+        sizeof (tactus_device_stamp), 0, 0, 0.0, 0.0 \
     }
 
 /** The type of the exported symbol `tactus_device_entry`. `device` is what `open` returned. */
@@ -150,7 +151,8 @@ typedef struct tactus_device_driver
     /** Optional. Checks what can be checked without the device, and reports the first mistake. [opening thread] */
     int32_t (*check) (const tactus_device_description*, const tactus_plugin_report*) TACTUS_PLUGIN_NOEXCEPT;
 
-    /** Opens a device, and says what it is. May wait for some seconds. NULL if it failed. [opening thread] */
+    /** Opens a device, and says what it is. May wait for some seconds. NULL if it failed. What it reports although it has opened the device is shown
+     *  to the person as a warning. [opening thread] */
     void* (*open) (const tactus_device_description*, tactus_device_about*, const tactus_plugin_report*)TACTUS_PLUGIN_NOEXCEPT;
 
     /** Waits for the next reading, `timeout_ms` at most. Also tells what the device says about it. Returns one reading per call. If some are waiting,

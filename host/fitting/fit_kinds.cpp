@@ -2,6 +2,8 @@
 #include "fitting.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <set>
 
 namespace tactus::host
 {
@@ -49,18 +51,48 @@ int turns (const std::vector<double>& v)
     return count;
 }
 
-/// Depth and force may be a shock, an indentation or a cut.
+/// True if a column says whether the contact of a key is closed.
+bool saysClosed (const Table& table)
+{
+    static const std::set<std::string> names { "actuated", "actuation", "closed", "switch" };
+    return std::ranges::any_of (table.columns, [] (const std::string& c) { return names.contains (bareName (c)); });
+}
+
+/// True if the force snaps on the way down, and is exceeded at the stop, as in the key of a keyboard, which travels a few millimetres. Compares means
+/// over a fortieth of the way, so that noise is no snap.
+bool snapsToStop (const std::vector<double>& depth, const std::vector<double>& force)
+{
+    constexpr double longest = 10e-3, much = 0.1;   // m; of the largest force
+    const auto rows = static_cast<std::size_t> (std::ranges::max_element (depth) - depth.begin()) + 1;
+    if (depth[rows - 1] - depth.front() > longest || rows > force.size()) return false;
+    const auto block = std::max<std::size_t> (1, rows / 40);
+    double most = 0.0, fall = 0.0, from = 0.0;
+    for (std::size_t first = 0; first + block <= rows; first += block)
+    {
+        const auto begin = force.begin() + static_cast<std::ptrdiff_t> (first);
+        const double mean = std::accumulate (begin, begin + static_cast<std::ptrdiff_t> (block), 0.0) / static_cast<double> (block);
+        most = std::max (most, mean);
+        if (most - mean <= fall) continue;
+        fall = most - mean;
+        from = most;
+    }
+    return fall > much * most && from < most;
+}
+
+/// Depth and force may be a shock, a key, an indentation or a cut.
 FitKind guessPressed (const Table& table)
 {
-    const auto& columns = infoOf (FitKind::shock).columns;
-    const auto depth = valuesOf (table, columns[0]), t = valuesOf (table, columns[2]);
+    const auto t = valuesOf (table, infoOf (FitKind::shock).columns[2]);
     constexpr double brief = 0.1;   // s
     if (t.size() > 1 && t.back() - t.front() < brief) return FitKind::shock;
+    const auto& columns = infoOf (FitKind::curve).columns;
+    const auto depth = valuesOf (table, columns[0]), force = valuesOf (table, columns[1]);
     if (depth.empty()) return FitKind::curve;
     const double deepest = *std::ranges::max_element (depth);
-    if (depth.back() < 0.5 * deepest) return FitKind::curve;
+    if (depth.back() < 0.5 * deepest)   // pressed and released
+        return saysClosed (table) || snapsToStop (depth, force) ? FitKind::key_switch : FitKind::curve;
+    if (! has (table, FitKind::shock, "depth")) return FitKind::curve;   // what is called x need not be a depth
 
-    const auto force = valuesOf (table, columns[1]);
     double most = 0.0, fall = 0.0;
     for (const double f : force)
     {

@@ -35,7 +35,7 @@ double orElse (double given, double value) { return given > 0.0 ? given : value;
 std::string sourceOf (FitKind kind, const std::string& file, const FitReport& report)
 {
     return "`tactus fit " + infoOf (kind).id + "` from " + std::filesystem::path (file).filename().string() + ": residual "
-           + shortNumber (100.0 * report.residual / report.size, 2) + " % of the recording, " + (report.is_good ? "good" : "poor");
+           + shortNumber (100.0 * report.residual / report.size, 2) + " % of the recording, " + verdictOf (report);
 }
 
 /// An error if an option gives what the recording contains. One of the two would be ignored.
@@ -183,18 +183,24 @@ Result<FittedGraph> shock (const Columns& c, const std::string& file, const FitS
 {
     auto fit = fitShock ({ .depth = c.at ("depth"), .force = c.at ("force"), .time = c.at ("t") }, s.mass, course);
     if (! fit) return fit.error();
+    constexpr double much = 0.1, of_energy = 0.01;   // the second one is for an impact that loses almost nothing
+    const double energy = 0.5 * fit->mass * fit->speed * fit->speed;
+    const bool is_free = std::abs (fit->played_area - fit->recorded_area) <= much * fit->recorded_area + of_energy * energy;
+    const auto not_free = Message::warning ("fit/not_free", file, "a free impact of this mass at this speed does not lose the same energy as the recorded one",
+                                            "the tool was probably pushed during the recording, or --mass is wrong: correct --mass, or record a tool that "
+                                            "moves freely; the fitted force over the recorded depth still has the recorded area");
+    if (! is_free)
+    {
+        fit->report.is_good = false;
+        fit->report.lacking.push_back (not_free.text);
+        fit->report.lacking.push_back (not_free.remedy);
+    }
     FittedGraph made { .kind = FitKind::shock, .preset = shockPreset (*fit, sourceOf (FitKind::shock, file, fit->report)), .nodes = { "blow" } };
     made.snippets = { "stiffness  " + toJson (fit->stiffness).dump(), "damping    " + toJson (fit->damping).dump() };
     made.details = { "mass       " + shortNumber (fit->mass) + " kg, at " + shortNumber (fit->speed) + " m/s",
                      "area       " + shortNumber (1e3 * fit->recorded_area, 6) + " mJ recorded, " + shortNumber (1e3 * fit->fitted_area, 6) + " mJ fitted, "
                          + shortNumber (1e3 * fit->played_area, 6) + " mJ when the shock is played at this speed" };
-    constexpr double much = 0.1, of_energy = 0.01;   // the second one is for an impact that loses almost nothing
-    const double energy = 0.5 * fit->mass * fit->speed * fit->speed;
-    if (! (std::abs (fit->played_area - fit->recorded_area) <= much * fit->recorded_area + of_energy * energy))
-        made.warnings.push_back (
-            Message::warning ("fit/not_free", file, "a free impact of this mass at this speed does not lose the same energy as the recorded one",
-                              "the tool was probably pushed during the recording, or --mass is wrong: correct --mass, or record a tool that moves "
-                              "freely; the fitted force over the recorded depth still has the recorded area"));
+    if (! is_free) made.warnings.push_back (not_free);
     made.report = std::move (fit->report);
     return made;
 }
@@ -223,6 +229,8 @@ Result<FittedGraph> fitted (FitKind kind, const Columns& c, const std::string& f
     return shock (c, file, s, course);
 }
 }   // namespace
+
+std::string verdictOf (const FitReport& report) { return report.is_good ? "good" : "poor"; }
 
 Result<FittedGraph> fitRecording (FitKind kind, const Table& table, const std::string& file, const FitSettings& settings, FitCourse* course)
 {

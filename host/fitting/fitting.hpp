@@ -71,8 +71,11 @@ struct FittedGraph
     std::vector<std::string> nodes {};      ///< names of the fitted nodes in the preset
     std::vector<std::string> details {};    ///< lines about this kind
     std::vector<std::string> snippets {};   ///< lines with parts of graph files
-    Messages warnings {};
+    Messages warnings {};                   ///< each is also a reason why the verdict is poor
 };
+
+/// "good" or "poor", which every text about a fit says.
+std::string verdictOf (const FitReport&);
 
 /// Fits a recording. `file` is named in messages and in the preset. Errors: fit/…; see framework/fit. [any thread]
 Result<FittedGraph> fitRecording (FitKind, const Table&, const std::string& file, const FitSettings&, FitCourse* = nullptr);

@@ -79,7 +79,7 @@ std::string textOf (const FitReport& report)
         text += line (v.name, textOf (v));
     text += line ("residual", shortNumber (report.residual) + unit + " rms, " + shortNumber (100.0 * report.residual / report.size, 2) + " % of the recording; "
                                   + shortNumber (report.left_out_residual) + unit + " on a part that was left out");
-    text += line ("verdict", report.is_good ? "good" : "poor");
+    text += line ("verdict", verdictOf (report));
     for (const auto& lack : report.lacking)
         text += "    - " + lack + "\n";
     for (const auto& note : report.notes)
@@ -104,7 +104,7 @@ Json jsonOf (const FitReport& report)
                  { "left_out_rms", orNull (report.left_out_residual) },
                  { "recording_rms", orNull (report.size) },
                  { "unit", report.residual_unit } } },
-             { "verdict", report.is_good ? "good" : "poor" },
+             { "verdict", verdictOf (report) },
              { "lacking", report.lacking },
              { "notes", report.notes } };
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -24,6 +25,14 @@ constexpr auto tick = 1ms;
 constexpr int look_ms = 2;   // how often it looks whether it must end
 
 Json jsonOf (const Vec3& v) { return { { "x", v.x() }, { "y", v.y() }, { "z", v.z() } }; }
+
+/// The quaternion of a rotation vector.
+Json orientationOf (const Vec3& rotation)
+{
+    const double angle = rotation.norm();
+    const Vec3 v = rotation * (angle > 0.0 ? std::sin (0.5 * angle) / angle : 0.5);
+    return { { "x", v.x() }, { "y", v.y() }, { "z", v.z() }, { "w", std::cos (0.5 * angle) } };
+}
 
 std::optional<Vec3> vectorIn (const Json& command)
 {
@@ -138,6 +147,7 @@ private:
                 continue;
             }
             ++tally.forces;
+            tally.pushes += force->isZero (0.0) ? 0 : 1;
             tally.largest = std::max (tally.largest, force->norm());
             is_pushed = true;
             commanded = *force;
@@ -169,6 +179,7 @@ private:
             return;
         }
         move();
+        const auto isDown = [&] (int bit) { return (reading.buttons >> bit & 1u) != 0; };
         Json state { { "cursor_position", jsonOf (reading.position) },
                      { "cursor_velocity", jsonOf (Vec3 (Vec3::Zero())) },
                      { "current_cursor_force", jsonOf (force()) },
@@ -177,8 +188,8 @@ private:
         Json arm { { "device_id", id() }, { "state", std::move (state) } };
         Json grip { { "device_id", "A7C1" },
                     { "state",
-                      { { "orientation", { { "x", 0.0 }, { "y", 0.0 }, { "z", 0.0 }, { "w", 1.0 } } },
-                        { "buttons", { { "a", false }, { "b", false }, { "c", false } } },
+                      { { "orientation", orientationOf (reading.rotation) },
+                        { "buttons", { { "a", isDown (0) }, { "b", isDown (1) }, { "c", isDown (2) }, { "home", isDown (3) } } },
                         { "hall", 0 },
                         { "battery_level", 0.9 } } } };
         if (is_full)

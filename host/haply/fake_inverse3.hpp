@@ -13,7 +13,8 @@ namespace tactus::host
 
 /// A fake of the service through which programs drive Haply's Inverse3: WebSocket and JSON on this computer. It sends one full message when a client
 /// connects, and then one message for each message of the client. A force lasts for one tick of 1 ms, and both spellings of it are understood. A
-/// simulated hand moves the cursor and feels the force, in wall time. One client at a time. Runs on a thread of its own. [any thread]
+/// simulated hand moves the cursor and feels the force, in wall time; its rotation and its buttons 0 to 3 are those of the wireless grip. One client
+/// at a time. Runs on a thread of its own. [any thread]
 class FakeInverse3
 {
 public:
@@ -32,6 +33,7 @@ public:
     struct Counts
     {
         std::uint64_t clients = 0, heard = 0, forces = 0, probes = 0, answered = 0;
+        std::uint64_t pushes = 0;     ///< forces that were not 0
         std::uint64_t together = 0;   ///< messages that came before the one before had been answered
         std::uint64_t refused = 0;    ///< messages that are not JSON, or are for another device
         double largest = 0.0;         ///< force so far, in N

@@ -26,9 +26,6 @@ constexpr Usage block_index = pid (0x22), constant_force = pid (0x26), duration 
                 load_success = pid (0x8c), load_full = pid (0x8d), load_error = pid (0x8e), enable_actuators = pid (0x97), stop_all = pid (0x99),
                 device_reset = pid (0x9a);
 
-// The device has no watchdog, so the effect is short and is restarted repeatedly: if the host dies, the effect ends.
-constexpr double lasts = 0.5, started_each = 0.2;   // s
-
 // The time that a device needs to clear its effects; it does not report when it has finished.
 constexpr double reset_takes = 0.05;   // s
 
@@ -198,29 +195,6 @@ void addInput (std::vector<InputReport>& inputs, const ReportDescriptor& d, cons
     }
 }
 
-// The limits of a calibrated device, in the manner of the shipped profiles (docs/safety.md). They are guesses: no device was measured.
-constexpr double slew_per_s = 250.0;                          // from 0 to full effort in 4 ms, so a stop stays within the guard's fade
-constexpr double max_speed = 2.0, max_angular_speed = 20.0;   // m/s, rad/s
-constexpr double longest_push = 0.1, longest_turn = 1.0;      // m, rad
-constexpr double energy_window = 1.0;                         // s
-constexpr double still_share = 0.25;                          // of the full effort
-constexpr double still_for = 1.0, still_for_coarse = 5.0;     // s
-constexpr double fine_quantum = 10e-6, fine_turn = 100e-6;    // m, rad: a hand that holds against a force trembles by more
-
-/// Limits the effort along an axis with this travel and resolution, in m or rad. Without a travel, its motion is unknown, and
-/// nothing that depends on it can be limited.
-void limit (GuardLimits& g, bool turns, double most, double travel, double quantum)
-{
-    (turns ? g.max_torque : g.max_force) = most;
-    (turns ? g.max_torque_slew : g.max_slew) = slew_per_s * most;
-    if (travel <= 0.0) return;
-    (turns ? g.max_angular_speed : g.max_speed) = turns ? max_angular_speed : max_speed;
-    g.max_energy = most * std::min (0.5 * travel, turns ? longest_turn : longest_push);
-    g.energy_window = energy_window;
-    (turns ? g.still_torque : g.still_force) = still_share * most;
-    g.max_still = quantum <= (turns ? fine_turn : fine_quantum) ? still_for : still_for_coarse;
-}
-
 /// Scales axes to m or rad if their travel is known, and assigns axes and force to the tool.
 void calibrate (Profile& p, const PidCalibration& calibration)
 {
@@ -250,7 +224,7 @@ void calibrate (Profile& p, const PidCalibration& calibration)
     if (calibration.full_force <= 0.0) return;
     (calibration.turns ? p.torque[1] : p.force[0]) = "force";
     const double travel = known (driven).empty() ? 0.0 : calibration.travel.find (driven)->second;
-    limit (p.limits.guard, calibration.turns, calibration.full_force * calibration.usable, travel, quantum);
+    limitForce (p.limits.guard, calibration, travel, quantum);
 }
 
 /// The place of the block index in a report of this kind.
@@ -283,7 +257,7 @@ std::vector<Step> initSteps (const PidDevice& device, const ReportDescriptor& d)
     // Full gain, no trigger button, and a direction a quarter turn from "away". Wheels have no other direction, and
     // the drivers of other devices use this one too (linux, hid-pidff.c).
     auto effect = output (set_effect);
-    effect.put (block_index, any_block).choose (constant_force).time (duration, lasts).most (gain).put (direction_enable, 1).first (direction, 0.25);
+    effect.put (block_index, any_block).choose (constant_force).time (duration, effect_lasts).most (gain).put (direction_enable, 1).first (direction, 0.25);
 
     std::vector<Step> init;
     if (find (d, Kind::output, device_control, device_reset))
@@ -344,17 +318,12 @@ OutputReport startReport (const ReportDescriptor& d)
     report.body = operation().choose (start).put (loop_count, 1).take();
     report.neutral = operation().choose (stop).take();
     report.given = blockOf (d, effect_operation);
-    report.max_rate = 1.0 / started_each;
-    report.keepalive = started_each;
+    report.max_rate = 1.0 / effect_restarts;
+    report.keepalive = effect_restarts;
     report.why_not = from_descriptor;
     return report;
 }
 }   // namespace
-
-std::string drivenAxis (const PidCalibration& c)
-{
-    return c.turns && c.travel.contains ("steering") ? "steering" : "x";
-}
 
 std::optional<PidDevice> PidDevice::from (const ReportDescriptor& d, Messages& messages)
 {
@@ -455,11 +424,11 @@ Profile PidDevice::profile (const PidCalibration& calibration) const
     p.init = initSteps (*this, d);
     p.exit = exitSteps (d);
     p.outputs = { forceReport (d, calibration, full_force), startReport (d) };
-    p.limits.device_watchdog = find (d, Kind::output, set_effect, duration) ? lasts : 0.0;
+    p.limits.device_watchdog = find (d, Kind::output, set_effect, duration) ? effect_lasts : 0.0;
     p.limits.guard.watchdog = 0.05;
     p.limits.guard.ramp = 0.2;
     p.limits.guard.max_axis_effort = full_force * calibration.usable;
-    p.limits.guard.max_axis_slew = slew_per_s * p.limits.guard.max_axis_effort;
+    p.limits.guard.max_axis_slew = slewOf (p.limits.guard.max_axis_effort);
     p.quirks = { "only_changes" };   // USB HID devices may send only when something moves
     calibrate (p, calibration);
     return p;

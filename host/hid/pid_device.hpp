@@ -1,32 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "calibration.hpp"
 #include "profile.hpp"
 #include "report_descriptor.hpp"
 
 #include <tactus/text/message.hpp>
 
-#include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace tactus::host::hid
 {
-
-/// Properties of a force feedback device that are not in its descriptor. Without them, forces and axes are fractions, -1…1.
-struct PidCalibration
-{
-    double full_force = 0.0;                                ///< force at the largest magnitude, in N, or in N m for a wheel; 0: unknown
-    bool turns = false;                                     ///< true for a wheel: full_force is a torque, and travels are angles
-    bool is_reversed = false;                               ///< true if the device pushes left where the standard says right
-    double usable = 1.0;                                    ///< the fraction of the full force that may be used
-    std::map<std::string, double, std::less<>> travel {};   ///< travel of each axis from end to end, in m or rad
-};
-
-/// The axis along which the force acts: "steering" of a wheel that has a travel for it, else "x".
-std::string drivenAxis (const PidCalibration&);
 
 /// A joystick or wheel with force feedback, as described by its report descriptor (Device Class Definition for Physical
 /// Interface Devices 1.0). It creates one constant force effect on the device and updates it on every tick; our models

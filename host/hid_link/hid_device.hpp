@@ -3,10 +3,10 @@
 
 #include "hid_port.hpp"
 #include "stream_feed.hpp"
-#include "vibration_tracker.hpp"
 
 #include <host/hid/hid_model.hpp>
 #include <host/hid/report_record.hpp>
+#include <host/hid/vibration_tracker.hpp>
 #include <tactus/kit/threads/snapshot.hpp>
 #include <tactus/node/device.hpp>
 #include <tactus/run/guard/falling_limit.hpp>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "hid_port.hpp"
 #include "udev_rule.hpp"
-#include "wires.hpp"
 
 #include <host/hid/answer.hpp>
 #include <host/hid/bits.hpp>
@@ -60,11 +59,6 @@ Result<> transfer (Transport& t, Step::Kind kind, std::span<std::uint8_t> bytes)
 }
 }   // namespace
 
-Result<std::unique_ptr<Transport>> HidPort::reach (HidSystem& system, const ConnectedDevice& device, const Profile& profile)
-{
-    return device.wire == Wire::hid ? system.open (device) : openWire (device, profile, system);
-}
-
 HidPort::HidPort (HidSystem& s, ConnectedDevice d, std::shared_ptr<const Profile> p, Options o)
     : system (s), wanted (std::move (d)), description (std::move (p)), options (o), longest_silence (watchdogOf (*description)),
       has_ids (usesIds (*description)), states (askedFor (*description)), ring (reports_waiting, 1, { .bytes = Bytes (longestInput (*description) + 1) }),
@@ -76,7 +70,7 @@ HidPort::HidPort (HidSystem& s, ConnectedDevice d, std::shared_ptr<const Profile
 
 Result<std::unique_ptr<HidPort>> HidPort::open (HidSystem& system, const ConnectedDevice& device, std::shared_ptr<const Profile> profile, Options options)
 {
-    auto opened = reach (system, device, *profile);
+    auto opened = system.reach (device, *profile);
     if (! opened)
     {
         const auto& why = opened.error();

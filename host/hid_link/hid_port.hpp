@@ -189,8 +189,6 @@ private:
 
     using Opened = std::shared_ptr<Transport>;
 
-    static Result<std::unique_ptr<Transport>> reach (HidSystem&, const ConnectedDevice&, const Profile&);
-
     Result<> wake (Transport&);
     Result<> perform (Transport&, const Step&);
     Result<> ask (Transport&, const Step&);

@@ -249,7 +249,7 @@ void HidPort::lookAgain()
     const auto devices = wanted.wire == Wire::hid ? system.connected() : std::vector { wanted };   // a person has named the place of a wire
     const auto* same = wanted.wire == Wire::hid ? sameAmong (devices) : &devices.front();
     if (same == nullptr) return;
-    auto opened = reach (system, *same, *description);
+    auto opened = system.reach (*same, *description);
     if (! opened) return note (opened.error().text);
     if (const auto woken = wake (**opened); ! woken) return note (woken.error().text + "; " + woken.error().remedy);
     become (std::move (*opened));

@@ -101,6 +101,9 @@ public:
     /// Ids: hid/not_permitted, hid/not_opened; the text is the reason.
     virtual Result<std::unique_ptr<Transport>> open (const ConnectedDevice&) = 0;
 
+    /// Opens a device over whatever wire it has. Ids: those of open() and openWire().
+    virtual Result<std::unique_ptr<Transport>> reach (const ConnectedDevice&, const Profile&);
+
     /// The report descriptor, read without opening the device. Empty if the system does not provide it.
     virtual Bytes reportDescriptor (const ConnectedDevice&) { return {}; }
 

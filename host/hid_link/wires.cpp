@@ -351,6 +351,11 @@ Result<std::unique_ptr<Transport>> openUdp (const ConnectedDevice& device, const
 }
 }   // namespace
 
+Result<std::unique_ptr<Transport>> HidSystem::reach (const ConnectedDevice& device, const Profile& profile)
+{
+    return device.wire == Wire::hid ? open (device) : openWire (device, profile, *this);
+}
+
 Result<std::unique_ptr<Transport>> openWire (const ConnectedDevice& device, const Profile& profile, const HidSystem& system)
 {
     if (device.wire == Wire::serial && profile.wires.serial) return openSerial (device, profile, system);

@@ -8,6 +8,8 @@
 
 #if defined(TACTUS_XCB)
 #include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
 #include <xcb/xcb.h>
 
 #include <bitset>
@@ -23,7 +25,6 @@ namespace
 {
 constexpr xcb_keysym_t escape_symbol = 0xff1b;      // XK_Escape
 constexpr std::uintptr_t largest_id = 0x1fffffff;   // the X protocol leaves the top three bits of all ids at 0
-constexpr int patience_ms = 20;
 
 template <typename T>
 using Owned = std::unique_ptr<T, decltype (&std::free)>;
@@ -35,11 +36,15 @@ Owned<T> owned (T* p) noexcept
 }
 }   // namespace
 
-/// The connection to the X server, and what was created through it. After open(), only the thread `listening` uses this struct.
+/// The connection to the X server, and what was created through it. After open(), only the thread `listening` uses this struct; others ring `bell`.
 /// libxcb, unlike Xlib, has no error handlers that the whole process shares, and does not end the process if the server goes away.
 struct WindowStop::Server
 {
-    ~Server() { xcb_disconnect (connection); }   // the X server then destroys `glass`
+    ~Server()
+    {
+        xcb_disconnect (connection);   // the X server then destroys `glass`
+        if (bell >= 0) close (bell);
+    }
 
     bool isThere() const noexcept { return xcb_connection_has_error (connection) == 0; }
 
@@ -91,7 +96,37 @@ struct WindowStop::Server
         xcb_flush (connection);
     }
 
+    void handleEvents (const Actions& actions)
+    {
+        while (const auto event = owned (xcb_poll_for_event (connection)))
+            switch (event->response_type & 0x7f)   // the top bit marks events that another client sent
+            {
+            case XCB_KEY_PRESS:
+            {
+                const auto& key = *reinterpret_cast<const xcb_key_press_event_t*> (event.get());
+                if (escape[key.detail]) (key.state & XCB_MOD_MASK_SHIFT) != 0 ? actions.emergency_stop() : actions.escape();
+                break;
+            }
+            case XCB_BUTTON_PRESS:   // button 4 and above are wheels
+                if (reinterpret_cast<const xcb_button_press_event_t*> (event.get())->detail <= 3) actions.stop();
+                break;
+            case XCB_MAPPING_NOTIFY:
+                readKeyboard();
+                break;
+            }
+    }
+
+    /// Sleeps until the X server sends something or another thread rings.
+    void wait() const noexcept
+    {
+        std::array<pollfd, 2> either { pollfd { xcb_get_file_descriptor (connection), POLLIN, 0 }, pollfd { bell, POLLIN, 0 } };
+        poll (either.data(), either.size(), -1);
+        eventfd_t rings = 0;
+        static_cast<void> (eventfd_read (bell, &rings));
+    }
+
     xcb_connection_t* connection = nullptr;
+    const int bell = eventfd (0, EFD_CLOEXEC | EFD_NONBLOCK);
     xcb_window_t glass = 0;       // the invisible window over the area that receives the clicks
     std::bitset<256> escape {};   // the key codes of Esc
     Area placed {};
@@ -102,7 +137,7 @@ Result<std::unique_ptr<WindowStop>> WindowStop::open (std::uintptr_t window, Act
 {
     auto server = std::make_unique<Server>();
     server->connection = xcb_connect (nullptr, nullptr);
-    if (! server->isThere())
+    if (! server->isThere() || server->bell < 0)
         return Message::error ("stop/no_server", {}, "Tactus cannot open a second connection to the X server",
                                "let the X server accept more clients, or run the graph with `tactus play`");
     if (window == 0 || window > largest_id || ! server->watch (static_cast<xcb_window_t> (window)))
@@ -122,30 +157,20 @@ WindowStop::WindowStop (std::unique_ptr<Server> s, Actions a)
 void WindowStop::listen (const std::stop_token& stop)
 {
     static_cast<void> (raisePriority (priority::stop));   // if real-time priority is refused, the run reports that
+    const std::stop_callback ring (stop, [this] { wake(); });
     while (! stop.stop_requested() && server->isThere())
     {
         server->place (wanted);
         for (std::size_t i = 0; i < others.size(); ++i)
             server->watchKeys (i, others[i]);
-        pollfd waiting { xcb_get_file_descriptor (server->connection), POLLIN, 0 };
-        poll (&waiting, 1, patience_ms);
-        while (const auto event = owned (xcb_poll_for_event (server->connection)))
-            switch (event->response_type & 0x7f)   // the top bit marks events that another client sent
-            {
-            case XCB_KEY_PRESS:
-            {
-                const auto& key = *reinterpret_cast<const xcb_key_press_event_t*> (event.get());
-                if (server->escape[key.detail]) (key.state & XCB_MOD_MASK_SHIFT) != 0 ? actions.emergency_stop() : actions.escape();
-                break;
-            }
-            case XCB_BUTTON_PRESS:   // button 4 and above are wheels
-                if (reinterpret_cast<const xcb_button_press_event_t*> (event.get())->detail <= 3) actions.stop();
-                break;
-            case XCB_MAPPING_NOTIFY:
-                server->readKeyboard();
-                break;
-            }
+        server->handleEvents (actions);   // before waiting: a request that was sent may have read events that had arrived
+        server->wait();
     }
+}
+
+void WindowStop::wake() noexcept
+{
+    static_cast<void> (eventfd_write (server->bell, 1));   // fails only if it has rung very often, and then the thread wakes all the same
 }
 
 #else
@@ -161,6 +186,7 @@ Result<std::unique_ptr<WindowStop>> WindowStop::open (std::uintptr_t, Actions)
 
 WindowStop::WindowStop (std::unique_ptr<Server> s, Actions a) : server (std::move (s)), actions (std::move (a)) {}
 void WindowStop::listen (const std::stop_token&) {}
+void WindowStop::wake() noexcept {}
 
 #endif
 

@@ -50,16 +50,24 @@ public:
     WindowStop (const WindowStop&) = delete;
     WindowStop& operator= (const WindowStop&) = delete;
 
-    /// At most 20 ms after this call, clicks on the area begin to count as stops. In an empty area there are none. [main thread]
-    void setArea (const Area& a) noexcept { wanted = a; }
+    /// As soon as the thread of this object has got the call, clicks on the area count as stops. In an empty area there are none. [main thread]
+    void setArea (const Area& a) noexcept
+    {
+        if (wanted.exchange (a) != a) wake();
+    }
 
-    /// Other windows of the program, such as a file dialog: at most 20 ms after this call, their stop keys count too. At most
-    /// `most_others`; an id that is not a window has no effect. [main thread]
+    /// Other windows of the program, such as a file dialog: as soon as the thread of this object has got the call, their stop keys count too.
+    /// At most `most_others`; an id that is not a window has no effect. [main thread]
     static constexpr std::size_t most_others = 8;
     void setOthers (std::span<const std::uintptr_t> windows) noexcept
     {
+        bool differ = false;
         for (std::size_t i = 0; i < others.size(); ++i)
-            others[i] = i < windows.size() ? windows[i] : 0;
+        {
+            const auto window = i < windows.size() ? windows[i] : 0;
+            differ |= others[i].exchange (window) != window;
+        }
+        if (differ) wake();
     }
 
 private:
@@ -67,6 +75,7 @@ private:
 
     explicit WindowStop (std::unique_ptr<Server>, Actions);
     void listen (const std::stop_token&);
+    void wake() noexcept;   // the thread of this object, which otherwise waits for the X server
 
     static_assert (std::atomic<Area>::is_always_lock_free && std::atomic<std::uintptr_t>::is_always_lock_free, "the main thread must not delay a stop");
 

@@ -83,6 +83,8 @@ BoundDevice openBound (const LoadedSession& s, std::string_view role, const Role
 
     bound.messages = b.messages;
     std::ranges::move (made.messages, std::back_inserter (bound.messages));
+    if (made.device)
+        if (auto wrong = wrongClutch (b.workspace, made.device->layout())) bound.messages.push_back (std::move (*wrong));
     for (auto& m : bound.messages)
     {
         m.where = "/roles/" + std::string (role) + m.where;
@@ -91,7 +93,7 @@ BoundDevice openBound (const LoadedSession& s, std::string_view role, const Role
     if (! made.device || hasErrors (bound.messages)) return bound;
 
     bound.driver = made.device.get();
-    bound.device = b.workspace.isPlain() ? std::move (made.device) : std::make_unique<WorkspaceDevice> (std::move (made.device), b.workspace);
+    bound.device = b.workspace.isPlain() ? std::move (made.device) : std::make_unique<WorkspaceDevice> (std::move (made.device), b.workspace, made.limits);
     bound.limits = inWorkspace (made.limits, b.workspace);
     bound.about = std::move (made.about);
     return bound;

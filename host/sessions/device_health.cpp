@@ -61,6 +61,7 @@ std::string describe (const DeviceHealth& h)
     if (! h.has_come) return "not available yet" + (h.trouble.empty() ? std::string() : ": " + h.trouble);
     if (! h.connected) return "unplugged" + (h.trouble.empty() ? std::string() : ": " + h.trouble);
     auto text = h.rate_hz ? printed ("%.1f reports/s, ", *h.rate_hz) : std::string();
+    if (h.reached_hz > 0.0) text += printed ("%.0f efforts/s reach it, ", h.reached_hz);
     text += printed ("latest %.1f ms old", 1e3 * h.age);
     if (h.ticks) text += h.read_by_tick ? ", ticks the run directly" : ", ticks the run through a reading thread";
     if (h.drift_ppm) text += printed (", clock %+.0f ppm", *h.drift_ppm);
@@ -89,6 +90,7 @@ void HealthWatch::poll (const PluginRole& plugin)
     h.lost = counts.lost;
     h.departures = counts.departures;
     h.trouble = device.trouble();
+    h.reached_hz = counts.reached_hz;
 
     auto& meter = meterOf (plugin.role);
     if (std::exchange (meter.departures, counts.departures) != counts.departures) meter.rate.reset();

@@ -49,6 +49,7 @@ struct DeviceHealth
     double age = 0.0, oldest = 0.0;   ///< age of its readings, in s: current and maximum
     std::uint64_t reports = 0, lost = 0, departures = 0;
     std::optional<double> rate_hz {};     ///< rate of its reports
+    double reached_hz = 0.0;              ///< how many new efforts per second reach it, if its driver measures that; else 0
     std::optional<double> drift_ppm {};   ///< drift of its clock relative to the clock of the run; empty for the device that is that clock
     double drift_error_ppm = 0.0;         ///< standard error of the drift
     std::string trouble;                  ///< the latest failure

@@ -119,7 +119,9 @@ std::vector<RoleFit> fitsOf (const std::vector<RoleNeeds>& all_needs, const grap
                 for (const auto& device : connected)
                     if (const auto profile = profileFor (fit.description, device, all)) fit.there = partsOf (*profile);
         }
-        if (fit.there) fit.lacking = lackingOf (fit.needs, *fit.there);
+        if (! fit.there) continue;
+        fit.lacking = lackingOf (fit.needs, *fit.there);
+        if (auto clutch = wrongClutch (fit.workspace, fit.there->others)) fit.messages.push_back (std::move (*clutch));
     }
     return fits;
 }

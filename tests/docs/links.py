@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Fails on dead links and dead paths in the pages: README.md, CONTRIBUTING.md, docs/*.md, docs/decisions/*.md, graphs/README.md.
+"""Fails on dead links and dead paths in the pages: README.md, CONTRIBUTING.md, docs/*.md, docs/decisions/*.md,
+docs/tutorials/*.md, graphs/README.md.
 
     links.py [ROOT]     ROOT is the repository, by default the one that contains this file
 
@@ -15,7 +16,7 @@ import sys
 ROOT = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else __file__).resolve()
 ROOT = ROOT if len(sys.argv) > 1 else ROOT.parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(ROOT.glob("docs/*.md")), *sorted(ROOT.glob("docs/decisions/*.md")),
-         ROOT / "graphs/README.md"]
+         *sorted(ROOT.glob("docs/tutorials/*.md")), ROOT / "graphs/README.md"]
 
 LINK = re.compile(r"\]\(([^)\s]+)\)|<img [^>]*src=\"([^\"]+)\"")
 CODE = re.compile(r"^```.*?^```|`[^`\n]+`", re.M | re.S)

@@ -29,7 +29,9 @@ inline void trySession (std::string_view text)
         if (const auto w = read.session.binding (role)->find ("workspace"); w != read.session.binding (role)->end())
         {
             Messages messages;
-            if (! (host::readWorkspace (*w, "", messages).scale > 0.0)) std::abort();
+            const auto workspace = host::readWorkspace (*w, "", messages);
+            const Mat3 one = workspace.axes * workspace.axes.transpose();
+            if (! (workspace.scale > 0.0) || ! ((one - Mat3::Identity()).norm() < 1e-14)) std::abort();
         }
 }
 

@@ -95,7 +95,7 @@ def commands(kind, file, folder):
     wood = str(ROOT / "graphs/dry_wood.json")
     out = ["--out", str(folder / "out.csv"), "--duration", "0.02"]
     if kind == "graph":
-        return [["validate", file], ["render", file] + out]
+        return [["validate", file], ["render", file] + out, ["check-preset", file]]
     if kind == "session":
         return [["session", wood, "--file", file]]
     if kind == "profile":

@@ -101,7 +101,14 @@ def closed_loop(name):
     check(wrong == 0 and compared > 0, f"{name}: {compared} forces match the guard's output by sequence number, {wrong} do not")
     check(any(abs(f[2]) > 1e5 for f in applied), f"{name}: there was a force on the tool")
 
-    # The same positions again, offline.
+    same_offline(name, rows)
+    full = sum(1 for i in range(len(rows) - 1) if all(rows[i]["motor.force." + c] == rows[i + 1]["motor.applied." + c] for c in "xyz"))
+    print(f"        {said}; {full} ticks with the full force")
+    return board, said, full
+
+
+def same_offline(name, rows):
+    """The same positions again, offline."""
     with tempfile.TemporaryDirectory() as scratch:
         trace, again = os.path.join(scratch, "trace.csv"), os.path.join(scratch, "again.csv")
         with open(trace, "w", encoding="utf-8") as f:
@@ -114,10 +121,6 @@ def closed_loop(name):
             offline = list(csv.DictReader(f))
     same = sum(all(a["motor.force." + c] == b["motor.force." + c] for c in "xyz") for a, b in zip(rows, offline))
     check(same == len(rows) == len(offline) and same > 500, f"{name}: {same} of {len(rows)} ticks have the same force offline and live, bit for bit")
-
-    full = sum(1 for i in range(len(rows) - 1) if all(rows[i]["motor.force." + c] == rows[i + 1]["motor.applied." + c] for c in "xyz"))
-    print(f"        {said}; {full} ticks with the full force")
-    return board, said, full
 
 
 board, said, full = closed_loop("loop")
@@ -283,6 +286,101 @@ if os.path.exists(os.path.join(folder, "joystick.board.csv")):
     check(sum(1 for f in killed.forces if f) > 20 and killed.rests(), "joystick: when its program is killed, all effects are stopped")
 else:
     print("skipped: the joystick, because its descriptor is missing")
+
+
+class Wheel:
+    """What an event device received: its levels, and when its effect was played, stopped and erased."""
+
+    def __init__(self, name):
+        self.rows = [(what, int(value), float(t)) for what, value, t in (line.split(",") for line in text(name + ".board.csv").splitlines())]
+
+    def forces(self, since=0.0):
+        return [(i, value, t) for i, (what, value, t) in enumerate(self.rows) if what == "level" and value != 0 and t >= since]
+
+    def after(self, what):
+        return next(t for w, _, t in self.rows if w == what)
+
+    def rests(self):
+        """After its last force, how long the effect went on; None if it is on for as long as it lasts."""
+        last = self.forces()[-1]
+        return next((t - last[2] for what, value, t in self.rows[last[0] + 1:] if what in ("stop", "erase") or (what == "level" and value == 0)), None)
+
+
+if os.path.exists(os.path.join(folder, "wheel_loop.board.csv")):
+    wheel, rows = Wheel("wheel_loop"), play_rows("wheel_loop")
+    counts = []   # the levels of the ticks: a positive one pushes to the left
+    for row in rows:
+        force = float(row["motor.applied.x"])
+        counts.append(-int(math.copysign(math.floor(abs(force) / 4.0 * 32767.0 + 0.5), force)))
+    pushed = [level for _, level, _ in wheel.forces()]
+    k, compared = 0, 0
+    for level in pushed:
+        found = next((i for i in range(k, len(counts)) if counts[i] == level), None)
+        if found is None:
+            break
+        k, compared = found, compared + 1
+    fade = [abs(level) for level in pushed[compared:]]
+    check(compared > 2000 and len(fade) < 20 and fade == sorted(fade, reverse=True),
+          f"wheel_loop: {compared} of {len(pushed)} levels are the guard's output after encoding, bit for bit and in order; the rest is the fade: {fade}")
+    check(not any(what in ("other", "dropped") for what, _, _ in wheel.rows), "wheel_loop: every effect is a constant force of half a second to the left")
+    check(sum(1 for what, _, _ in wheel.rows if what == "in") > 5000, "wheel_loop: thousands of events")
+    same_offline("wheel_loop", rows)
+    starts = [t for what, _, t in wheel.rows if what == "play"]
+    check(len(starts) > 10 and max(b - a for a, b in zip(starts, starts[1:])) < 0.45,
+          f"wheel_loop: the effect, which ends on its own, is started {len(starts)} times")
+    check(("gain", 65535) in [r[:2] for r in wheel.rows] and ("autocenter", 0) in [r[:2] for r in wheel.rows], "wheel_loop: full gain, no spring of its own")
+    check(wheel.rests() is not None, "wheel_loop: at the end it rests")
+    reached = re.search(r"(\d+) new ones per second reached the device", text("wheel_loop.play.err"))
+    by_log = (len(wheel.forces()) - 1) / (wheel.forces()[-1][2] - wheel.forces()[0][2])
+    check(reached is not None and 0.5 * by_log < int(reached[1]) < 2.0 * by_log,
+          f"wheel_loop: the program says that {reached and reached[1]} new forces per second reached it; by its log, {by_log:.0f} on average")
+
+    listed = text("events.txt")
+    check("Test wheel" in listed and "constant force" in listed and "axes: x y z; 2 buttons" in listed,
+          "the list names an event device with its effects and axes")
+    probed = next(d["probe"] for d in json.loads(text("events.json")) if d.get("name") == "Test wheel")
+    check(probed["valid"] and probed["readings"] > 50 and 0.0 < abs(probed["axes"]["x"]) < 0.36, f"an event device is probed: {probed}")
+    check("another role or another instance" in text("events_taken.txt"), "a second program cannot open an event device in use")
+    check("may not be opened by this user" in text("events_denied.txt") and 'ATTRS{id/vendor}=="046d"' in text("events_denied.txt")
+          and 'ATTRS{id/vendor}=="046d"' in text("events_denied_play.txt"), "a user without permission for an event device is shown the udev rule")
+
+    away = Wheel("wheel_unplug")
+    again = [abs(level) for _, level, _ in away.forces(away.after("plugged"))]
+    check(len(again) > 200 and again[0] < max(again) / 4, f"wheel_unplug: it is driven again with {len(again)} forces, from {again[:1]} to {max(again, default=0)}")
+    hung = Wheel("wheel_hang")
+    late = hung.forces(hung.after("answers"))
+    check(len(hung.forces()) > 250 and len(late) <= 1 and hung.rests() is not None and hung.rests() < 0.15,
+          f"wheel_hang: after an update that did not return, {len(late)} force comes late, and it rests {hung.rests()} s later")
+    for signal in ("INT", "KILL", "STOP"):
+        ended = Wheel("wheel_" + signal)
+        check(len(ended.forces()) > 150 and ended.rests() is not None and ended.rests() < 0.15,
+              f"wheel_{signal}: after the last of {len(ended.forces())} forces, it rests {ended.rests()} s later")
+    killed = [what for what, _, _ in Wheel("wheel_KILL").rows]
+    check("erase" in killed, "wheel_KILL: the kernel has removed the effect")
+    frozen = Wheel("wheel_STOP")
+    check("stop" in [what for what, _, _ in frozen.rows[frozen.forces()[-1][0]:]], "wheel_STOP: the guardian has stopped the effect")
+else:
+    print("skipped: event devices, because the kernel or the driver is missing")
+
+
+def outputs(name):
+    return [bytes.fromhex(line.split(",")[2]) for line in text(name + ".board.csv").splitlines()]
+
+
+if os.path.exists(os.path.join(folder, "dualsense.board.csv")):
+    motors = [(r[4], r[3]) for r in outputs("dualsense") if r[0] == 0x02 and r[1] & 0x03]
+    check(any(189 <= strong <= 191 and 62 <= weak <= 63 for strong, weak in motors) and motors[-1] == (0, 0) and max(motors)[0] <= 191,
+          f"dualsense: hid-playstation rumbles it in {len(motors)} reports, up to {max(motors, default=None)}, and it rests at the end")
+else:
+    print("skipped: a DualSense, because the kernel has no driver for it")
+if os.path.exists(os.path.join(folder, "switch_pro.board.csv")):
+    neutral = bytes([0, 1, 0x40, 0x40] * 2)
+    sides = [r[2:10] for r in outputs("switch_pro") if r[0] in (0x01, 0x10) and len(r) >= 10]
+    rumbled = [s for s in sides if s != neutral]
+    check(len(rumbled) > 5 and all(s[:4] != neutral[:4] and s[4:] != neutral[4:] for s in rumbled) and sides[-1] == neutral,
+          f"switch_pro: hid-nintendo rumbles it in {len(rumbled)} of {len(sides)} reports, such as {rumbled[:1] and rumbled[0].hex()}, and it rests at the end")
+else:
+    print("skipped: a Switch controller, because the kernel has no driver for it")
 
 check("No HID device is connected." in text("none.txt"), "without a device, the list says so")
 check("tactus_board" in text("devices.txt") and "spacemouse" in text("devices.txt"), "the list names the profiles that fit")

@@ -242,6 +242,95 @@ if [ -e "$descriptor" ]; then
     keep joystick_killed
 fi
 
+# Event devices. The stick at /dev/uinput has effects that it uploads and plays itself.
+rub () { $tactus play $work/dry_wood.json --osc off --rate 1000 --device stylus=$work/wheel.json "$@" 2>$work/play.err; }
+has_wheel () { grep -qsx "Test wheel" /sys/class/input/event*/device/name; }
+turn ()
+{
+    for _ in $(seq 100); do has_wheel || break; sleep 0.1; done
+    $device wheel --seconds 3000 --log $work/board.csv "$@" & sim=$!
+    for _ in $(seq 6000); do has_wheel && return; sleep 0.1; done
+    fail "the wheel did not appear"
+}
+echo '{"driver": "evdev", "port": "Test wheel", "max_rate": 1000,
+       "calibration": {"full_force": "4 N", "travel": {"x": "12 cm", "y": "12 cm", "z": "12 cm"}}}' >$work/wheel.json
+driver=build/release/lib/tactus/plugins/evdev.tactus-device
+if [ -e /dev/uinput ] && [ -e $driver ]; then
+    say "an event device: a closed loop"
+    turn
+    rub --duration 6 "${recorded[@]}" || fail "the closed loop of an event device"
+    unplug
+    keep wheel_loop
+
+    say "an event device: listed, probed, in use, and without permission"
+    turn
+    sleep 0.5
+    $tactus devices >/run/results/events.txt || fail "tactus devices with an event device"
+    $tactus devices --probe --duration 2 --json >/run/results/events.json || fail "tactus devices --probe with an event device"
+    rub --duration 600 & player=$!
+    for _ in $(seq 6000); do ls -l /proc/"$(pgrep -x tactus | head -1)"/fd 2>/dev/null | grep -q input/event && break; sleep 0.1; done
+    $tactus play $work/dry_wood.json --osc off --rate 1000 --device stylus=$work/wheel.json --duration 1 2>/run/results/events_taken.txt
+    [ $? -eq 1 ] || fail "an event device that another program is using must be an error"
+    to_player INT
+    wait $player
+    mkdir -p $work/any
+    cp -r "$tactus" build/release/lib graphs/dry_wood.json $work/any
+    mkdir -p $work/any/bin && cp "$tactus" build/release/bin/force-guardian $work/any/bin
+    chmod -R a+rX $work/any
+    chmod 0600 /dev/input/event*
+    nobody="setpriv --reuid=65534 --regid=65534 --clear-groups env HOME=/nonexistent"
+    $nobody $work/any/bin/tactus devices >/run/results/events_denied.txt || fail "tactus devices without permission"
+    $nobody $work/any/bin/tactus play $work/any/dry_wood.json --osc off --device "stylus=evdev:Test wheel" --duration 1 2>/run/results/events_denied_play.txt
+    [ $? -eq 1 ] || fail "an event device that the user has no permission to open must be an error"
+    unplug
+
+    say "an event device: unplugged while a force acts, and plugged in again"
+    turn --unplug 300 --away 1
+    rub --duration 6 || fail "the event device that was unplugged"
+    unplug
+    keep wheel_unplug
+
+    say "an event device: its driver in the kernel does not return from an update"
+    turn --hang 300 --for 1
+    rub --duration 5
+    unplug
+    keep wheel_hang
+
+    for signal in INT KILL STOP; do
+        say "an event device: $signal while a force acts"
+        turn --mark $work/pushed
+        rub --duration 600 & player=$!
+        if [ $signal = STOP ]; then
+            wait_for "$work/pushed"
+            to_player STOP
+            sleep 1
+            end_under_force KILL
+        else
+            end_under_force $signal
+        fi
+        unplug
+        keep wheel_$signal
+    done
+fi
+
+# Pads, which the kernel's own drivers rumble.
+echo '{"format": "tactus-graph", "version": 2, "name": "Rumble", "rate_hz": 1000,
+       "nodes": {"strong": {"type": "signal.lfo", "params": {"frequency": "80 Hz", "amplitude": 0.75}},
+                 "weak": {"type": "signal.lfo", "params": {"frequency": "80 Hz", "amplitude": 0.25}},
+                 "left": {"type": "device.signal_out", "role": "pad"}, "right": {"type": "device.signal_out", "role": "pad", "settings": {"channel": 2}}},
+       "wires": ["strong.out -> left.in", "weak.out -> right.in"]}' >$work/rumble.json
+for pad in dualsense switch_pro; do
+    [ -e $driver ] && [ -d /sys/bus/hid/drivers/"$([ $pad = dualsense ] && echo playstation || echo nintendo)" ] || continue
+    say "a pad that rumbles: $pad"
+    $device $pad --seconds 3000 --log $work/board.csv & sim=$!
+    name=$([ $pad = dualsense ] && echo "Test DualSense" || echo "Pro Controller")
+    for _ in $(seq 600); do $tactus devices --json >$work/pads.txt; grep -q rumble $work/pads.txt && break; sleep 0.5; done
+    cp $work/pads.txt /run/results/$pad.json
+    $tactus play $work/rumble.json --osc off --device "pad=evdev:$name" --duration 2 2>$work/play.err || fail "the pad $pad"
+    unplug
+    keep $pad
+done
+
 say "several devices, listed and probed"
 plug
 $device space_mouse --seconds 3000 & mouse=$!

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Devices for the guest: guest_device board|space_mouse|joystick [--option VALUE]…
+// Devices for the guest: guest_device board|space_mouse|joystick|wheel|dualsense|switch_pro [--option VALUE]…
 #include "uhid.hpp"
 
 int main (int argc, char** argv)
@@ -10,6 +10,9 @@ int main (int argc, char** argv)
     if (what == "board") return board (args);
     if (what == "space_mouse") return spaceMouse (args);
     if (what == "joystick") return joystick (args);
-    std::fprintf (stderr, "usage: guest_device board|space_mouse|joystick [--option VALUE]...\n");
+    if (what == "wheel") return wheel (args);
+    if (what == "dualsense") return dualSense (args);
+    if (what == "switch_pro") return switchPro (args);
+    std::fprintf (stderr, "usage: guest_device board|space_mouse|joystick|wheel|dualsense|switch_pro [--option VALUE]...\n");
     return 2;
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# make_guest.sh FOLDER: puts a kernel with uhid and an initial root file system into FOLDER. The guest's main root is this
+# make_guest.sh FOLDER: puts a kernel with uhid, uinput and an initial root file system into FOLDER. The guest's main root is this
 # computer's, so that programs built here run in it unchanged, from whatever folder they are in. What the guest writes stays in its
 # memory. Nothing is installed. Exits with status 77 and a message if no kernel is available.
 set -euo pipefail
@@ -30,7 +30,7 @@ rm -rf "$root"
 mkdir -p "$root"/{bin,modules,proc,sys,dev,host,memory,mnt}
 [ -e "$folder/kernel/lib/modules/$version/modules.dep" ] || depmod -b "$folder/kernel" "$version"
 cp "$(command -v busybox)" "$root/bin/busybox"
-for module in virtio_pci 9pnet_virtio 9p overlay uhid hid-generic usbhid dummy_hcd usb_f_hid; do
+for module in virtio_pci 9pnet_virtio 9p overlay uhid hid-generic usbhid dummy_hcd usb_f_hid uinput evdev hid-playstation hid-nintendo; do
     modprobe -S "$version" -d "$folder/kernel" -D "$module" 2>/dev/null | sed -n 's/^insmod \(.*\.ko[^ ]*\).*/\1/p'
 done | awk '! seen[$0]++' | while read -r file; do
     cp "$file" "$root/modules/"

@@ -19,6 +19,8 @@ cp tests/guest/own_script.py "$place/tests/guest"
 cp "$build"/bin/{tactus,force-guardian,guest_device,libtactus_live.so.0} "$place/build/release/bin"
 cc -Wall -Wextra -Werror tests/guest/own_program.c -I"$build/include" -o "$place/build/release/bin/own_program" \
     -L"$build/bin" -ltactus_live -lpthread -Wl,-rpath,"\$ORIGIN"
+mkdir -p "$place/build/release/lib/tactus/plugins"
+cp "$build"/lib/tactus/plugins/evdev.tactus-device "$place/build/release/lib/tactus/plugins" 2>/dev/null || true   # where libevdev was there
 mkdir "$place/plugins"
 cc -shared -fPIC -Wall -Wextra -Werror tests/guest/hidraw_board.c -I"$build/include" -lm -o "$place/plugins/hidraw_board.tactus-device"
 if [ -d "$build/python" ]; then cp -rL "$build/python" "$place/build/release"; fi

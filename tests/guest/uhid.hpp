@@ -59,7 +59,9 @@ inline timespec waitUntil (double until)
 class Uhid final : public VirtualDevice
 {
 public:
-    Uhid (const char* name, const char* serial, std::uint16_t vid, std::uint16_t pid, std::span<const std::uint8_t> descriptor)
+    static constexpr std::uint16_t usb = 3;
+
+    Uhid (const char* name, const char* serial, std::uint16_t vid, std::uint16_t pid, std::span<const std::uint8_t> descriptor, std::uint16_t bus = usb)
     {
         fd = ::open ("/dev/uhid", O_RDWR | O_CLOEXEC);
         if (fd < 0)
@@ -74,7 +76,7 @@ public:
         std::snprintf (reinterpret_cast<char*> (c.uniq), sizeof c.uniq, "%s", serial);
         std::memcpy (c.rd_data, descriptor.data(), descriptor.size());
         c.rd_size = static_cast<std::uint16_t> (descriptor.size());
-        c.bus = 3;   // USB
+        c.bus = bus;
         c.vendor = vid;
         c.product = pid;
         tell (e);
@@ -212,5 +214,8 @@ private:
 int board (const std::vector<std::string>& args);
 int spaceMouse (const std::vector<std::string>& args);
 int joystick (const std::vector<std::string>& args);
+int wheel (const std::vector<std::string>& args);
+int dualSense (const std::vector<std::string>& args);
+int switchPro (const std::vector<std::string>& args);
 
 }   // namespace tactus::guest

@@ -7,9 +7,11 @@
 #include <catch2/catch.hpp>
 
 #include <tactus/plugin/device_form.hpp>
+#include <tactus/plugin/device_link.hpp>
 #include <tactus/plugin/plugin_node.hpp>
 #include <tactus/plugin/shared_object.hpp>
 
+#include <cstddef>
 #include <cstring>
 #include <span>
 
@@ -17,7 +19,7 @@ using namespace tactus;
 
 namespace
 {
-/// A pad with two axes. Its readings change on each tick.
+/// A pad with two axes and a brake. Its readings change on each tick.
 struct Pad final : Device
 {
     void prepare (double) override {}
@@ -28,11 +30,16 @@ struct Pad final : Device
         now.axes = { 0.25 * ticks, -1.0 * ticks };
         return now;
     }
-    void write (const Effort& e) noexcept override { applied = e.force; }
-    DeviceLayout layout() const override { return { .axes = { "wheel", "trigger" } }; }
+    void write (const Effort& e) noexcept override
+    {
+        applied = e.force;
+        brake = e.brake;
+    }
+    DeviceLayout layout() const override { return { .axes = { "wheel", "trigger" }, .brake = 100.0 }; }
 
     int ticks = 0;
     Vec3 applied = Vec3::Zero();
+    double brake = 0.0;
 };
 
 /// The plugin of device nodes in a host that lends its DeviceState in another form, or not at all, so that the nodes copy the readings.
@@ -75,13 +82,14 @@ test::Sketch sketch()
 {
     test::Sketch s;
     s.node ("hand", "device.position").node ("trigger", "device.axis", Json::object(), { { "axis", "trigger" } }).node ("motor", "device.force");
+    s.node ("wheel", "device.axis", Json::object(), { { "axis", "wheel" } }).node ("brake", "device.brake");
     for (auto& node : s.graph.root.nodes)
         node.role = "pad";
-    s.wire ("trigger.axis -> motor.force.y");
+    s.wire ("trigger.axis -> motor.force.y").wire ("wheel.axis -> brake.damping");
     return s;
 }
 
-CompileOptions options (const Plan* before = nullptr) { return { .rate_hz = 1000.0, .records = { "hand.position" }, .before = before }; }
+CompileOptions options (const Plan* before = nullptr) { return { .rate_hz = 1000.0, .records = { "hand.position", "brake.applied" }, .before = before }; }
 }   // namespace
 
 namespace
@@ -101,11 +109,13 @@ std::vector<double> readings (const Catalogue& all)
         engine.tick();
         for (const auto& tap : engine.plan().taps())
             seen.push_back (*tap.value);
-        seen.push_back (pad.applied.y());
+        seen.insert (seen.end(), { pad.applied.y(), pad.brake });
     }
     CHECK (pad.applied == Vec3 (0.0, -10.0, 0.0));
-    CHECK (seen.size() == 40);
-    CHECK (seen[36] == 0.001 * 10);
+    CHECK (pad.brake == 0.25 * 10);
+    CHECK (seen.size() == 60);
+    CHECK (seen[54] == 0.001 * 10);
+    CHECK (seen[57] == 0.25 * 9);   // applied on the tick before
     return seen;
 }
 
@@ -178,6 +188,26 @@ TEST_CASE ("a plugin that reads one host's devices in place refuses another host
 
     const OtherHost same { plugin::formOfDeviceState().c_str() };
     CHECK (same.begun == TACTUS_PLUGIN_OK);
+}
+
+TEST_CASE ("a plugin reads and writes only what a host of the first version knows", "[plugins]")
+{
+    const std::vector<const char*> none;
+    const tactus_plugin_mechanics mechanics { sizeof mechanics, 1.0, 2.0 };
+    tactus_plugin_layout layout = TACTUS_PLUGIN_LAYOUT_INIT;
+    layout.axes = layout.efforts = layout.buttons = none.data();
+    layout.mechanics = &mechanics;
+    layout.brake = 5.0;
+    CHECK (plugin::readLayout (layout).brake == 5.0);
+    layout.size = offsetof (tactus_plugin_layout, brake);
+    CHECK (plugin::readLayout (layout).brake == 0.0);
+
+    tactus_plugin_effort effort = TACTUS_PLUGIN_EFFORT_INIT;
+    effort.brake = 7.0;
+    effort.size = offsetof (tactus_plugin_effort, brake);
+    plugin::show ({ .force = Vec3 (1.0, 2.0, 3.0), .brake = 5.0 }, effort);
+    CHECK (effort.force[2] == 3.0);
+    CHECK (effort.brake == 7.0);
 }
 
 TEST_CASE ("a device node in a plugin says what the device lacks", "[plugins]")

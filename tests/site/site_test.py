@@ -3,7 +3,8 @@
 """Looks at a site that docs/build.sh has built: site_test.py TACTUS SITE
 
 Every link leads to a file and a place in it; nothing is loaded from elsewhere; every node has its page with law, ports and source; every preset has its card, its
-page with plot, sound and file, and a link to the playground; long pages have a table of contents; and the search knows all pages."""
+page with plot, sound and file, and a link to the playground; long pages have a table of contents; laws are typeset; the notebook has run; and the
+search knows all pages."""
 
 import html.parser
 import json
@@ -20,7 +21,7 @@ LOADS = {"script": "src", "img": "src", "audio": "src", "video": "src", "source"
 class Page(html.parser.HTMLParser):
     def __init__(self, path):
         super().__init__()
-        self.path, self.links, self.loaded, self.ids, self.words, self.quiet, self.has_toc = path, [], [], set(), 0, 0, False
+        self.path, self.links, self.loaded, self.ids, self.words, self.quiet, self.has_toc, self.formulas = path, [], [], set(), 0, 0, False, 0
         self.feed(path.read_text(encoding="utf-8"))
 
     def handle_starttag(self, tag, attrs):
@@ -35,6 +36,9 @@ class Page(html.parser.HTMLParser):
             self.loaded.append(given[LOADS[tag]])
         if tag == "link" and given.get("rel") not in ("search", "index", "next", "prev", "canonical"):
             self.loaded.append(given["href"])
+        self.formulas += "math notranslate" in (given.get("class") or "")
+        if tag == "video":
+            self.loaded.append(given["poster"])
         if "toc-tree" in (given.get("class") or ""):
             self.has_toc = True
         if tag in ("script", "style", "pre", "table"):
@@ -90,10 +94,24 @@ class Site(unittest.TestCase):
                 for part in ('id="law"', "Source: ", *[f'id="{kind}"' for kind in kinds], *ports):
                     self.assertIn(part, text)
 
+    def test_laws_are_typeset_and_the_notebook_has_run(self):
+        self.assertEqual(self.pages[self.site / "nodes/friction.elasto_plastic.html"].formulas, 7)
+        self.assertTrue((self.site / "_static/mathjax/MathJax.js").is_file())
+        notebook = (self.site / "tutorials/notebook.html").read_text(encoding="utf-8")
+        self.assertIn("tool.out", notebook)
+        self.assertTrue(re.search(r'<img alt="[^"]*" src="[^"]*\.png"', notebook), "the notebook shows no figure")
+
+    def test_the_index_has_six_sections(self):
+        index = (self.site / "index.html").read_text(encoding="utf-8")
+        for section in ("start", "tutorials", "how-to", "concepts", "reference", "decisions"):
+            self.assertIn(f'<section id="{section}">', index)
+        for page in ("index", "start"):
+            self.assertTrue(any(link.endswith("first_minute.webm") for link in self.pages[self.site / f"{page}.html"].loaded), page)
+
     def test_every_preset_has_a_card_and_a_page(self):
         index = (self.site / "gallery/index.html").read_text(encoding="utf-8")
         presets = json.loads((self.site / "playground/presets.json").read_text())["presets"]
-        self.assertGreater(len(presets), 1)
+        self.assertGreater(len(presets), 0)
         for preset in presets:
             with self.subTest(preset["id"]):
                 play = f"../playground/index.html#preset={preset['id']}"
@@ -115,7 +133,8 @@ class Site(unittest.TestCase):
         for word in ("role", "record", "section", "guard", "tick"):
             self.assertIn(f"term-{word}", words)
         index = (self.site / "searchindex.js").read_text(encoding="utf-8")
-        for name in ("devices", "nodes/friction.elasto_plastic", "gallery/dry_wood", "decisions/one_walk"):
+        for name in ("devices", "tutorials/first_graph", "tutorials/notebook", "concepts", "nodes/friction.elasto_plastic", "gallery/dry_wood",
+                     "decisions/one_walk"):
             self.assertIn(f'"{name}"', index)
 
 

@@ -11,7 +11,9 @@ namespace tactus::host
 
 namespace
 {
-constexpr float between_columns = 72.0f, between_boxes = 24.0f, grid = 8.0f;
+constexpr float grid = 8.0f, between_boxes = 32.0f, beside_lane = 16.0f;
+constexpr float between_columns = 88.0f, per_wire = 8.0f;   // where many wires pass, columns are further apart
+constexpr int few_wires = 2, many_wires = 10;
 
 using Wires = std::vector<std::pair<int, int>>;
 
@@ -95,7 +97,7 @@ std::vector<int> columnsOf (std::size_t size, const Wires& wires)
 class Columns
 {
 public:
-    Columns (const std::vector<juce::Point<float>>& s, const Wires& forward) : sizes (s), column (columnsOf (s.size(), forward))
+    Columns (const std::vector<juce::Point<float>>& s, const Wires& forward) : sizes (s), boxes_end (s.size()), column (columnsOf (s.size(), forward))
     {
         for (const auto& [from, to] : forward)
         {
@@ -113,23 +115,54 @@ public:
         for (int i = 0; i < static_cast<int> (sizes.size()); ++i)
             columns[at (column[at (i)])].push_back (i);
         places.resize (sizes.size());
+        readSteps();
         stackAll();
         for (int sweep = 0; sweep < sweeps; ++sweep)
             sortByNeighbours (sweep % 2 == 0);
+        const bool is_divided = std::ranges::any_of (columns, [this] (const auto& boxes) { return heightOf (boxes) > highest; });
         stackAll (highest);
+        for (int sweep = 0; sweep < sweeps && ! is_divided; ++sweep)
+            straighten (sweep % 2 == 0);
     }
 
     const std::vector<juce::Point<float>>& result() const noexcept { return places; }
 
 private:
-    static constexpr float lane_height = 16.0f;
+    static constexpr float lane_height = 8.0f;
     static constexpr int sweeps = 8;
     static constexpr float highest = 6000.0f;   // a higher column cannot be seen as a whole
 
     std::vector<juce::Point<float>> sizes, places;
+    std::size_t boxes_end;   // lanes come after the boxes
     std::vector<int> column;
     Wires steps;   // the wires, cut into pieces that each lead from one column to the next
     std::vector<std::vector<int>> columns;
+    std::vector<int> wires_after;   // of each column: how many wires leave it to the right
+    std::vector<std::vector<int>> neighbours;
+
+    bool isLane (int b) const { return at (b) >= boxes_end; }
+    float gapBelow (int upper, int lower) const { return isLane (upper) || isLane (lower) ? beside_lane : between_boxes; }
+
+    /// With the gaps between the boxes.
+    float heightOf (std::span<const int> boxes) const
+    {
+        float height = 0.0f;
+        for (std::size_t i = 0; i < boxes.size(); ++i)
+            height += sizes[at (boxes[i])].y + (i == 0 ? 0.0f : gapBelow (boxes[i - 1], boxes[i]));
+        return height;
+    }
+
+    void readSteps()
+    {
+        wires_after.assign (columns.size(), 0);
+        neighbours.resize (sizes.size());
+        for (const auto& [from, to] : steps)
+        {
+            ++wires_after[at (column[at (from)])];
+            neighbours[at (from)].push_back (to);
+            neighbours[at (to)].push_back (from);
+        }
+    }
 
     float middle (int b) const { return places[at (b)].y + sizes[at (b)].y / 2; }
 
@@ -137,33 +170,83 @@ private:
     void stackAll (float most = std::numeric_limits<float>::max())
     {
         float x = 0.0f;
-        for (const auto& boxes : columns)
+        for (std::size_t c = 0; c < columns.size(); ++c)
         {
-            float height = 0.0f;
-            for (const int b : boxes)
-                height += sizes[at (b)].y + between_boxes;
-            const auto parts = static_cast<std::size_t> (std::ceil (std::max (1.0f, height / most)));
+            const std::span<const int> boxes (columns[c]);
+            const auto parts = static_cast<std::size_t> (std::ceil (std::max (1.0f, heightOf (boxes) / most)));
             const auto in_each = std::max<std::size_t> (1, (boxes.size() + parts - 1) / parts);
             for (std::size_t i = 0; i < boxes.size(); i += in_each)
-                x = stack (std::span (boxes).subspan (i, std::min (in_each, boxes.size() - i)), x);
+                x = stack (boxes.subspan (i, std::min (in_each, boxes.size() - i)), x);
+            x += per_wire * static_cast<float> (std::clamp (wires_after[c], few_wires, many_wires) - few_wires);
         }
     }
 
     /// Stacks boxes from x on; returns where the next column begins.
     float stack (std::span<const int> boxes, float x)
     {
-        float widest = 0.0f, y = between_boxes / 2;
-        for (const int b : boxes)
+        float widest = 0.0f, y = -heightOf (boxes) / 2;
+        for (std::size_t i = 0; i < boxes.size(); ++i)
         {
-            widest = std::max (widest, sizes[at (b)].x);
-            y -= (sizes[at (b)].y + between_boxes) / 2;
-        }
-        for (const int b : boxes)
-        {
+            const int b = boxes[i];
+            if (i > 0) y += gapBelow (boxes[i - 1], b);
             places[at (b)] = { x, y };
-            y += sizes[at (b)].y + between_boxes;
+            y += sizes[at (b)].y;
+            widest = std::max (widest, sizes[at (b)].x);
         }
         return x + widest + between_columns;
+    }
+
+    /// Moves the boxes of each column as close to the height of their neighbours as their order and the gaps between them allow: least squares, by
+    /// pooling neighbours that would come too close.
+    void straighten (bool to_the_right)
+    {
+        std::vector<float> pull (sizes.size(), 0.0f), count (sizes.size(), 0.0f);
+        for (std::size_t i = 0; i < columns.size(); ++i)
+        {
+            const auto& boxes = columns[to_the_right ? i : columns.size() - 1 - i];
+            for (const int b : boxes)
+                pull[at (b)] = count[at (b)] = 0.0f;
+            for (const int b : boxes)
+                for (const int other : neighbours[at (b)])
+                {
+                    pull[at (b)] += middle (other);
+                    count[at (b)] += 1.0f;
+                }
+            settle (boxes, pull, count);
+        }
+    }
+
+    void settle (const std::vector<int>& boxes, const std::vector<float>& pull, const std::vector<float>& count)
+    {
+        struct Pool
+        {
+            float sum, weight;
+            std::size_t size;
+            float shift() const { return sum / weight; }
+        };
+        constexpr float held = 0.1f;   // the weight of a box without neighbours
+        std::vector<Pool> pools;
+        std::vector<float> offsets;
+        float offset = 0.0f;
+        for (std::size_t i = 0; i < boxes.size(); ++i)
+        {
+            const int b = boxes[i];
+            if (i > 0) offset += sizes[at (boxes[i - 1])].y + gapBelow (boxes[i - 1], b);
+            offsets.push_back (offset);
+            const float weight = count[at (b)] > 0.0f ? count[at (b)] : held;
+            const float wanted = (count[at (b)] > 0.0f ? pull[at (b)] / count[at (b)] : middle (b)) - sizes[at (b)].y / 2 - offset;
+            pools.push_back ({ wanted * weight, weight, 1 });
+            while (pools.size() > 1 && pools[pools.size() - 2].shift() > pools.back().shift())
+            {
+                const auto last = pools.back();
+                pools.pop_back();
+                pools.back() = { pools.back().sum + last.sum, pools.back().weight + last.weight, pools.back().size + last.size };
+            }
+        }
+        std::size_t i = 0;
+        for (const auto& pool : pools)
+            for (std::size_t k = 0; k < pool.size; ++k, ++i)
+                places[at (boxes[i])].y = pool.shift() + offsets[i];
     }
 
     void sortByNeighbours (bool on_the_left)

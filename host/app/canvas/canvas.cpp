@@ -27,7 +27,7 @@ void Canvas::documentChanged()
     for (const auto& n : shown->nodes())
         before.insert (n.id);
     if (! document.isStepping()) beginEdit();
-    const auto previous = std::move (shown);
+    const auto previous = shown;
     const auto patch_before = patch();
     updateBreadcrumbs();
     rebuild();
@@ -59,9 +59,12 @@ void Canvas::documentChanged()
 void Canvas::rebuild()
 {
     const auto& look = lookOf (*this);
+    const TextWidth width = [&look] (const std::string& text, float size, bool bold) { return look.font (size, bold).getStringWidthFloat (text); };
     ++scenes_made;
-    shown = std::make_unique<Scene> (document.graph(), seen(), catalogue, curves,
-                                     [&look] (const std::string& text, float size, bool bold) { return look.font (size, bold).getStringWidthFloat (text); });
+    const bool is_only_moved = shown != nullptr && shown_of == std::pair (document.version(), seen());
+    shown = is_only_moved ? std::make_shared<const Scene> (*shown, document.graph(), seen(), width)
+                          : std::make_shared<const Scene> (document.graph(), seen(), catalogue, curves, width);
+    shown_of = { document.version(), seen() };
 }
 
 void Canvas::hint (const juce::String& text)
@@ -118,14 +121,16 @@ juce::String Canvas::getTooltip() { return drag ? juce::String() : tooltipAt (ge
 void Canvas::paint (juce::Graphics& g)
 {
     const auto& look = lookOf (*this);
-    paintGrid (g, window, g.getClipBounds(), look.theme());
+    const bool has_backdrop = backdrop.paint (g, getLocalBounds(), *shown, window, look, highlights);
+    if (! has_backdrop) paintGrid (g, window, g.getClipBounds(), look.theme());
     if (shown->nodes().empty())
     {
         g.setColour (look.theme().dim);
         g.setFont (look.font (14.0f));
         g.drawText (TRANS ("Press Space or double-click to add a node."), getLocalBounds(), juce::Justification::centred, true);
     }
-    paintScene (g, *shown, window, look, highlights);
+    if (! has_backdrop) paintBelow (g, *shown, window, look, highlights);
+    paintAbove (g, *shown, window, look, highlights);
     if (with_map) Minimap (*shown, window, getLocalBounds()).paint (g, look.theme());
     if (file_over) paintFileOver (g);
     if (drag) return drag->paint (g);

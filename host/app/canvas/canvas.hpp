@@ -3,7 +3,7 @@
 
 #include "commands.hpp"
 #include "minimap.hpp"
-#include "paint_scene.hpp"
+#include "paint/backdrop.hpp"
 
 #include <host/app/model/patch.hpp>
 #include <host/app/palette/search.hpp>
@@ -48,6 +48,7 @@ public:
     CanvasCommands& commands() noexcept { return edits; }
     const CanvasCommands& commands() const noexcept { return edits; }
     const Scene& scene() const noexcept { return *shown; }
+    const Backdrop& below() const noexcept { return backdrop; }
     std::uint64_t sceneNumber() const noexcept { return scenes_made; }   ///< another number for each scene; never 0
     View& view() noexcept { return window; }
     const View& view() const noexcept { return window; }
@@ -107,8 +108,8 @@ public:
     /// The user wants to add a node: by double-click, by key, or by dropping a wire on empty canvas.
     std::function<void (NodeRequest)> onNodeRequested;
 
-    /// Asks the user to choose one of several entries; `chosen` receives the type of that entry.
-    std::function<void (const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string&)> chosen)> onChoose;
+    /// Asks the user to choose one of the entries that the search finds; `chosen` receives the type of that entry.
+    std::function<void (const juce::String& purpose, PaletteSearch, std::function<void (const std::string&)> chosen)> onChoose;
 
     std::function<void (std::vector<std::string> ports)> onProbe;   ///< receives the full paths of the ports
 
@@ -194,10 +195,12 @@ private:
     CanvasCommands edits { *this, document };
     const Catalogue& catalogue;
     NodeCurves curves;
-    std::unique_ptr<Scene> shown;
+    std::shared_ptr<const Scene> shown;
+    std::pair<std::uint64_t, SeenPatch> shown_of;   // the version of the document, and the patch
     std::uint64_t scenes_made = 0;
     View window;
     Highlights highlights;
+    Backdrop backdrop;
     Breadcrumbs entered;
     std::map<std::string, int> chosen_instances;   // by the path of a subgraph node, without numbers
     PointedPort pointed_at;

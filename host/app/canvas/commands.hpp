@@ -5,6 +5,7 @@
 #include "align.hpp"
 
 #include <host/app/model/document.hpp>
+#include <host/app/palette/search.hpp>
 
 #include <span>
 
@@ -86,6 +87,7 @@ public:
     void setParam (const SceneNode&, const FacePort&, const std::optional<Json>&, graph::Step = graph::Step::own);
 
 private:
+    std::vector<PaletteEntry> newBehind (graph::Id, const std::string& query) const;
     void connectInPlaceOf (graph::Id, const Plug& from, const Plug& to);
     const graph::Patch& patchShown() const;
     std::optional<graph::Command> storePositions() const;   ///< stores those of automatically arranged nodes; empty if all are stored

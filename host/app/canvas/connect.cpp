@@ -2,16 +2,90 @@
 // The canvas commands that add nodes and connect ports.
 #include "canvas.hpp"
 
+#include <host/app/look/fitted_text.hpp>
 #include <host/app/model/fragment.hpp>
 #include <host/app/model/obvious_wires.hpp>
 #include <host/app/model/wire_rules.hpp>
 #include <host/app/text/filled.hpp>
+#include <host/app/text/find.hpp>
 
 #include <algorithm>
 #include <array>
 
 namespace tactus::host
 {
+
+namespace
+{
+/// The entry for a new node behind an output: "friction.elasto_plastic (resistance)".
+constexpr const char* before_port = " (";
+
+/// The words of a query without those that name this output or say "new".
+struct OutputQuery
+{
+    juce::StringArray words;
+    bool names_it = false;
+
+    OutputQuery (const std::string& query, const std::string& port)
+    {
+        for (const auto& word : juce::StringArray::fromTokens (fromUtf8 (query), " .", {}))
+        {
+            if (word.isEmpty() || word.equalsIgnoreCase (TRANS ("new"))) continue;
+            if (fromUtf8 (port).equalsIgnoreCase (word))
+                names_it = true;
+            else
+                words.add (word);
+        }
+    }
+};
+
+/// The entries that fit the query, without guesses. With `summaries`, these are searched, too.
+std::vector<PaletteEntry> exactly (const std::vector<PaletteEntry>& entries, const std::string& query, bool summaries)
+{
+    std::vector<Findable> searched;
+    for (const auto& e : entries)
+        searched.push_back ({ {}, e.type, {}, summaries ? e.summary : std::string() });
+    std::vector<PaletteEntry> found;
+    for (const auto i : bestMatches (searched, query, false))
+        found.push_back (entries[i]);
+    return found;
+}
+
+void addOthers (std::vector<PaletteEntry>& all, std::vector<PaletteEntry> more)
+{
+    for (auto& e : more)
+        if (std::ranges::count (all, e.type, &PaletteEntry::type) == 0) all.push_back (std::move (e));
+}
+}   // namespace
+
+/// The new nodes that a query finds behind the outputs of a node, the best of each output first.
+std::vector<PaletteEntry> CanvasCommands::newBehind (graph::Id id, const std::string& query) const
+{
+    const auto* from = canvas.scene().find (id);
+    if (from == nullptr) return {};
+    std::vector<std::vector<PaletteEntry>> columns;
+    std::size_t most = 0;
+    const bool is_named = std::ranges::any_of (from->face->outputs, [&] (const FacePort& out) { return OutputQuery (query, out.id).names_it; });
+    for (const auto& out : from->face->outputs)
+    {
+        const OutputQuery asked (query, out.id);
+        if (asked.words.isEmpty() || asked.names_it != is_named) continue;
+        const std::vector<WireEnd> ends { { &out, from->quantityOf (out) } };
+        auto& column = columns.emplace_back (
+            searchPalette (asked.words.joinIntoString (" ").toStdString(), document.graph(), canvas.types(), ends, {}, canvas.patch()));
+        for (auto& e : column)
+        {
+            e.name = from->name + '.' + out.id + " -> " + filled (TRANS ("new %1"), e.name).toStdString();
+            e.type += before_port + out.id + ')';
+        }
+        most = std::max (most, column.size());
+    }
+    std::vector<PaletteEntry> all;
+    for (std::size_t i = 0; i < most; ++i)
+        for (auto& column : columns)
+            if (i < column.size()) all.push_back (std::move (column[i]));
+    return all;
+}
 
 void CanvasCommands::wireFromSelection()
 {
@@ -34,15 +108,29 @@ void CanvasCommands::wireFromSelection()
     for (const bool whole : { true, false })
         for (const auto& out : from.face->outputs)
             list (out, whole);
-    const auto beside = from.bounds().getTopRight().translated (3 * Box::grid, 0.0f);
     for (const auto& out : from.face->outputs)
     {
         entries.push_back ({ from.name + '.' + out.id + " -> " + TRANS ("new node").toStdString(), {}, TRANS ("Adds a node that fits.").toStdString() });
         wires.push_back ({ { from.id, Role::output, out.id }, {} });
     }
-    canvas.onChoose (filled (TRANS ("Connect %1 to..."), from.name), entries, [this, wires, entries, beside] (const std::string& chosen) {
+    // First the wires to what is there, by name; then new nodes; then wires whose description fits; and only then, guesses.
+    const auto search = [this, entries, id = from.id] (const std::string& query) {
+        if (fromUtf8 (query).trim().isEmpty()) return entries;
+        auto found = exactly (entries, query, false);
+        addOthers (found, newBehind (id, query));
+        addOthers (found, exactly (entries, query, true));
+        return found.empty() ? matching (entries, query) : found;
+    };
+    const auto beside = from.bounds().getTopRight().translated (3 * Box::grid, 0.0f);
+    canvas.onChoose (filled (TRANS ("Connect %1 to..."), from.name), search, [this, wires, entries, beside, id = from.id] (const std::string& chosen) {
         const auto entry = std::ranges::find (entries, chosen, &PaletteEntry::type);
-        if (entry == entries.end()) return;
+        if (entry == entries.end())
+        {
+            const auto end = chosen.rfind (before_port);
+            if (end == chosen.npos) return;
+            const auto port = chosen.substr (end + std::string_view (before_port).size());
+            return addNodeAt (chosen.substr (0, end), { beside, PortId { id, Role::output, port.substr (0, port.size() - 1) } });
+        }
         const auto& [out, in] = wires[static_cast<std::size_t> (entry - entries.begin())];
         if (in.node == 0) return requestNode ({ beside, out });
         const auto a = canvas.scene().findPort (out), b = canvas.scene().findPort (in);
@@ -63,7 +151,7 @@ void CanvasCommands::exposeFromSelection()
             entries.push_back ({ node.name + '.' + p.id, {}, p.about });
             ports.push_back ({ node.id, role, p.id });
         }
-    canvas.onChoose (TRANS ("Expose or hide port"), entries, [this, entries, ports] (const std::string& chosen) {
+    canvas.onChoose (TRANS ("Expose or hide port"), searchIn (entries), [this, entries, ports] (const std::string& chosen) {
         const auto entry = std::ranges::find (entries, chosen, &PaletteEntry::type);
         if (entry == entries.end() || canvas.breadcrumbs().empty()) return;
         const auto found = canvas.scene().findPort (ports[static_cast<std::size_t> (entry - entries.begin())]);
@@ -137,7 +225,7 @@ void CanvasCommands::join (const ScenePort& from, const ScenePort& to, graph::Id
                              {},
                              (of_output ? TRANS ("Send this component") : TRANS ("Feed this component")).toStdString() });
     const PortId out { from.node->id, Role::output, from.port->id }, in { to.node->id, to.port->role, to.port->id };
-    canvas.onChoose (TRANS ("Which component?"), entries, [this, out, in, entries, of_output, replaced] (const std::string& chosen) {
+    canvas.onChoose (TRANS ("Which component?"), searchIn (entries), [this, out, in, entries, of_output, replaced] (const std::string& chosen) {
         const auto component = static_cast<int> (std::ranges::find (entries, chosen, &PaletteEntry::type) - entries.begin());
         const auto a = canvas.scene().findPort (out), b = canvas.scene().findPort (in);
         if (component >= 3 || ! a || ! b) return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The drag that draws a wire, or moves one to another end.
 #include "drags.hpp"
+#include "paint/paint_wires.hpp"
 
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/patch.hpp>

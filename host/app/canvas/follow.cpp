@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the canvas paints again after an edit, and how its view follows undo and redo.
 #include "canvas.hpp"
+#include "paint/cut_line.hpp"
+#include "paint/paint_nodes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -105,31 +107,14 @@ void Canvas::repaintEdit (const Scene& before)
     };
     repaintWhatIsNew (*shown, before);
     repaintWhatIsNew (before, *shown);
-    for (const auto* scene : { &before, static_cast<const Scene*> (shown.get()) })
+    for (const auto* scene : { &before, shown.get() })
         if (are_moved) repaint (Minimap (*scene, window, getLocalBounds()).bounds().getSmallestIntegerContainer());
 }
 
-/// Much less than the bounds of a wire, which most other wires of a large patch cross. In steps of a grid, because a region of many small
-/// rectangles takes long to paint.
 void Canvas::repaintAlong (const juce::Path& path)
 {
-    constexpr int grid = 32;
     const float around = 2.0f + 16.0f * window.zoom;   // what is painted on a wire
-    const auto seen = getLocalBounds().toFloat();
-    const auto snapped = [] (float x, bool up) { return grid * static_cast<int> (up ? std::ceil (x / grid) : std::floor (x / grid)); };
-    for (juce::PathFlatteningIterator line (path, window.transform()); line.next();)
-    {
-        const juce::Line<float> whole (line.x1, line.y1, line.x2, line.y2);
-        if (! seen.intersects (juce::Rectangle<float> (whole.getStart(), whole.getEnd()).expanded (around))) continue;
-        const int parts = std::clamp (static_cast<int> (whole.getLength() / grid), 1, 1000);
-        const auto pointAt = [&] (int i) { return whole.getPointAlongLineProportionally (static_cast<float> (i) / static_cast<float> (parts)); };
-        for (int i = 0; i < parts; ++i)
-        {
-            const auto piece = juce::Rectangle<float> (pointAt (i), pointAt (i + 1)).expanded (around);
-            repaint (juce::Rectangle<int>::leftTopRightBottom (snapped (piece.getX(), false), snapped (piece.getY(), false), snapped (piece.getRight(), true),
-                                                               snapped (piece.getBottom(), true)));
-        }
-    }
+    cellsAlong ({ path, window.transform() }, getLocalBounds().toFloat(), around, [this] (juce::Rectangle<int> cell) { repaint (cell); });
 }
 
 void Canvas::beginEdit()

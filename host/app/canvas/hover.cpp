@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the canvas shows about the thing under the pointer, and what it shows of the run.
 #include "canvas.hpp"
+#include "paint/paint_nodes.hpp"
 
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/model/readable.hpp>

@@ -49,6 +49,22 @@ Scene::Scene (const graph::Graph& graph, const SeenPatch& seen, const Catalogue&
     all_notes = notesOf (graph, seen.name);
 }
 
+Scene::Scene (const Scene& before, const graph::Graph& graph, const SeenPatch& seen, const TextWidth& widthOf)
+    : all_nodes (before.all_nodes), all_wires (before.all_wires), indices (before.indices)
+{
+    const auto* patch = findPatch (graph, seen.name);
+    if (patch == nullptr) return;
+    place (*patch);
+    for (auto& w : all_wires)
+    {
+        if (! w.has_bends) w.waypoints.clear();
+        placeEnds (w);
+    }
+    routeWires();
+    addExposed (*patch, widthOf);
+    all_notes = notesOf (graph, seen.name);
+}
+
 void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const graph::Patch& patch, const Catalogue& catalogue, NodeCurves& curves,
                       const TextWidth& widthOf)
 {
@@ -62,7 +78,7 @@ void Scene::addNodes (const graph::Graph& graph, const SeenPatch& seen, const gr
         made.name = node.name;
         made.type = node.type;
         made.bypass = node.bypass;
-        made.face = std::make_unique<Face> (faceOf (graph, patch, node, catalogue));
+        made.face = std::make_shared<const Face> (faceOf (graph, patch, node, catalogue));
         const auto wired = [&, &its = wires_to[node.name]] (const FacePort& p) {
             return std::ranges::any_of (its, [&] (const graph::Wire* w) { return made.face->endOf (w->to) == &p; });
         };
@@ -161,8 +177,8 @@ void Scene::addWires (const graph::Patch& patch)
         const auto &a = all_nodes[at (from)], &b = all_nodes[at (to)];
         const auto *start = a.face->startOf (w.from), *end = b.face->endOf (w.to);
         SceneWire wire { .id = w.id,
-                         .from = a.bounds().getTopRight().translated (0.0f, Box::header_height / 2),
-                         .to = b.at.translated (0.0f, Box::header_height / 2),
+                         .from = {},
+                         .to = {},
                          .start = from,
                          .end = to,
                          .delay = w.delay,
@@ -172,14 +188,12 @@ void Scene::addWires (const graph::Patch& patch)
                          .text = graph::toText (w) };
         if (start != nullptr)
         {
-            if (const auto* s = a.box.find (start->role, start->id)) wire.from = a.placeOf (*s);
             wire.out = start->id;
             wire.quantity = a.quantityOf (*start);
             wire.width = w.from.component >= 0 ? 1 : start->width;
         }
         if (end != nullptr)
         {
-            if (const auto* s = b.box.find (end->role, end->id)) wire.to = b.placeOf (*s);
             wire.in = end->id;
             wire.in_role = end->role;
             if (wire.quantity == Quantity::any) wire.quantity = b.quantityOf (*end);
@@ -187,8 +201,18 @@ void Scene::addWires (const graph::Patch& patch)
         for (const auto& b : bendsOf (w))
             wire.waypoints.push_back (b.toFloat());
         wire.has_bends = ! wire.waypoints.empty();
+        placeEnds (wire);
         all_wires.push_back (std::move (wire));
     }
+}
+
+/// Beside the header of a node, if it does not show the port.
+void Scene::placeEnds (SceneWire& w) const
+{
+    const auto &a = all_nodes[at (w.start)], &b = all_nodes[at (w.end)];
+    const auto *out = a.box.find (Role::output, w.out), *in = b.box.find (w.in_role, w.in);
+    w.from = out == nullptr ? a.bounds().getTopRight().translated (0.0f, Box::header_height / 2) : a.placeOf (*out);
+    w.to = in == nullptr ? b.at.translated (0.0f, Box::header_height / 2) : b.placeOf (*in);
 }
 
 void Scene::addExposed (const graph::Patch& patch, const TextWidth& widthOf)

@@ -21,7 +21,7 @@ struct SceneNode
 {
     graph::Id id = 0;
     std::string name, type;
-    std::unique_ptr<Face> face;   ///< on the heap, because the box points at its ports
+    std::shared_ptr<const Face> face;   ///< on the heap, because the box points at its ports
     Box box;
     juce::Point<float> at;
     bool bypass = false;
@@ -101,6 +101,9 @@ public:
     /// Nodes without a stored position are arranged automatically.
     Scene (const graph::Graph&, const SeenPatch&, const Catalogue&, NodeCurves&, const TextWidth&);
 
+    /// As above, if nothing but places has changed since another scene was made.
+    Scene (const Scene& before, const graph::Graph&, const SeenPatch&, const TextWidth&);
+
     const std::vector<SceneNode>& nodes() const noexcept { return all_nodes; }
     const std::vector<SceneWire>& wires() const noexcept { return all_wires; }
     /// A port that the subgraph exposes, and its outer name.
@@ -141,6 +144,7 @@ private:
     juce::Point<float> freePlaceNear (std::size_t node, const std::vector<bool>& placed) const;
     void findQuantities (const graph::Patch&, const Quantities&);
     void addWires (const graph::Patch&);
+    void placeEnds (SceneWire&) const;
     void routeWires();
     void addExposed (const graph::Patch&, const TextWidth&);
     int indexOf (const std::string& name) const noexcept;   ///< -1 if there is no such node

@@ -15,6 +15,9 @@ struct View
     static constexpr float smallest_framed = 0.002f;   ///< shows all of some thousand nodes
     static constexpr float readable = 0.5f;            ///< the zoom from which on the labels of ports can be read: they have 6 pixels
 
+    static constexpr float too_small_to_read = 0.35f;    ///< the zoom below which text is too small: a node is a coloured box with its name
+    static constexpr float too_small_for_names = 0.2f;   ///< the zoom below which the names do not fit, either: a node is a coloured box
+
     float zoom = 1.0f;
     juce::Point<float> origin;   ///< where the canvas has its origin, in pixels of the component
 

@@ -235,7 +235,10 @@ bool FitPanel::keyPressed (const juce::KeyPress& key)
     return true;
 }
 
-juce::Rectangle<int> FitPanel::headingArea() const { return box.reduced (fit_margin, 20).removeFromTop (24); }
+/// In a small window, the plot is worth more than the space around it.
+juce::Rectangle<int> FitPanel::inner() const { return isLow() ? box.reduced (12, 8) : box.reduced (fit_margin, 20); }
+
+juce::Rectangle<int> FitPanel::headingArea() const { return inner().removeFromTop (24); }
 
 juce::String FitPanel::getTooltip()
 {
@@ -244,22 +247,23 @@ juce::String FitPanel::getTooltip()
 
 void FitPanel::resized()
 {
-    box = getLocalBounds().withSizeKeepingCentre (std::min (widest_box, getWidth() - 32), std::min (highest_box, getHeight() - 24));
-    auto area = box.reduced (fit_margin, 20);
-    area.removeFromTop (24 + 10);   // heading
+    const int around = isLow() ? 8 : 24, gap = isLow() ? 4 : 10;
+    box = getLocalBounds().withSizeKeepingCentre (std::min (widest_box, getWidth() - (isLow() ? 8 : 32)), std::min (highest_box, getHeight() - around));
+    auto area = inner();
+    area.removeFromTop (24 + gap);   // heading
     auto row = area.removeFromTop (field_height);
     if (amount.isVisible())
     {
-        amount.setBounds (row.removeFromRight (120));
+        amount.setBounds (row.removeFromRight (isLow() ? 80 : 120));
         amount_label.setBounds (row.removeFromRight (130));
         row.removeFromRight (12);
     }
     kinds.setBounds (row.removeFromLeft (std::min (row.getWidth(), 460)));
-    area.removeFromTop (10);
+    area.removeFromTop (gap);
     which.setBounds (area.removeFromTop (table && chosen ? FitColumns::height : 0));
-    area.removeFromTop (14);
-    auto buttons = area.removeFromBottom (32);
-    area.removeFromBottom (16);
+    area.removeFromTop (gap + 4);
+    auto buttons = area.removeFromBottom (isLow() ? 28 : 32);
+    area.removeFromBottom (gap + 6);
     for (auto* button : { &as_graph, &into_graph, &cancel })
     {
         button->setBounds (buttons.removeFromRight (button->widthFor()));

@@ -48,6 +48,8 @@ public:
     juce::String getTooltip() override;   ///< the path of the recording, over the heading
 
 private:
+    bool isLow() const { return getHeight() < 420; }
+    juce::Rectangle<int> inner() const;   ///< of the box
     juce::Rectangle<int> headingArea() const;
     void fit();
     void fail (const std::string&);

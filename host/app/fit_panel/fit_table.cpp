@@ -3,7 +3,6 @@
 
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/look.hpp>
-#include <host/app/model/message_text.hpp>
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/text/number_text.hpp>
@@ -27,6 +26,16 @@ std::pair<juce::String, juce::String> valueAndInterval (const FitValue& v)
     if (! std::isfinite (v.low) && ! std::isfinite (v.high)) interval = TRANS ("unknown");
     return { text.substring (0, at), interval };
 }
+/// The kinds as the list of the panel calls them, instead of the commands.
+std::string inWindow (const std::string& text)
+{
+    auto words = fromUtf8 (text);
+    for (const auto& info : fitKinds())
+        words = words.replace (fromUtf8 ("tactus fit " + info.id), filled (TRANS ("the kind %1"), info.name));
+    return words.toStdString();
+}
+
+juce::String verdictText (const FitReport& report) { return verdictOf (report) == "good" ? TRANS ("Good fit") : TRANS ("Poor fit"); }
 }   // namespace
 
 juce::String sentence (const std::string& text)
@@ -38,7 +47,6 @@ juce::String sentence (const std::string& text)
 void FitTable::show (const FittedGraph& made)
 {
     report = made.report;
-    warnings = made.warnings;
     details.clear();
     for (const auto& line : made.details)   // "adhesion  stick"
     {
@@ -54,7 +62,7 @@ void FitTable::show (const FittedGraph& made)
         rows.push_back ({ fromUtf8 (v.name), value, interval, v.is_main });
         read.add (filled (TRANS ("%1 %2, 95 % interval %3"), rows.back().name, value, interval));
     }
-    setDescription ((report.is_good ? TRANS ("Good fit") : TRANS ("Poor fit")) + ". " + read.joinIntoString ("; "));
+    setDescription (verdictText (report) + ". " + read.joinIntoString ("; "));
     repaint();
 }
 
@@ -65,9 +73,7 @@ juce::TextLayout FitTable::remarks (int width) const
     juce::AttributedString text;
     const auto add = [&] (const juce::String& line, juce::Colour colour) { text.append (line + "\n", look.font (12.0f), colour); };
     for (const auto& lack : report.lacking)
-        add (sentence (lack), theme.text);
-    for (const auto& warning : warnings)
-        add (sentence (messageText (warning)), theme.text);
+        add (sentence (inWindow (lack)), theme.text);
     const auto size = [&] (double residual) {
         return fromUtf8 (report.residual_unit.empty() ? roundedText (residual, 3) : withPrefix (residual, report.residual_unit));
     };
@@ -115,7 +121,7 @@ void FitTable::paint (juce::Graphics& g)
     g.fillEllipse (verdict.removeFromLeft (10).withSizeKeepingCentre (10, 10).toFloat());
     g.setFont (look.font (14.0f, true));
     g.setColour (theme.text);
-    g.drawText (report.is_good ? TRANS ("Good fit") : TRANS ("Poor fit"), verdict.withTrimmedLeft (8), juce::Justification::centredLeft, false);
+    g.drawText (verdictText (report), verdict.withTrimmedLeft (8), juce::Justification::centredLeft, false);
 
     const int width = area.getWidth();
     const auto [value_width, interval_width] = widths();

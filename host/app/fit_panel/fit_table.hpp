@@ -34,7 +34,6 @@ private:
     std::pair<int, int> widths() const;
 
     FitReport report;
-    Messages warnings;
     juce::StringArray details;
     std::vector<Row> rows;
 };

@@ -60,7 +60,10 @@ InspectorContext Inspector::inspected()
         return its;
     };
     const auto menuOf = [this] (juce::PopupMenu& menu, const std::string& node, const std::string& port) { fillParamMenu (menu, node, port); };
-    return { document, catalogue, patch.name, patch.path, refused, EditorContext { files, folder, refused }, messages, contactsOf, menuOf };
+    const auto choose = [this] (const juce::String& patterns, const std::filesystem::path& begin, auto chosen) {
+        if (onChooseFile) onChooseFile (patterns, begin, std::move (chosen));
+    };
+    return { document, catalogue, patch.name, patch.path, refused, EditorContext { files, folder, refused, choose }, messages, contactsOf, menuOf };
 }
 
 Inspector::SelectedItems Inspector::selected (const InspectorContext& at) const

@@ -27,7 +27,9 @@ public:
 
     std::function<void (const juce::String&)> onHint;     ///< receives the reason why an edit was refused
     std::function<void (const juce::String&)> onNotice;   ///< receives what stays in the status line, such as the range of a param
-    std::function<Messages()> messagesNow;                ///< returns the messages about the current graph
+    std::function<void (const juce::String& patterns, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>)>
+        onChooseFile;                        ///< asks for a file that a setting names, see EditorContext::choose
+    std::function<Messages()> messagesNow;   ///< returns the messages about the current graph
 
     Column& shown() noexcept { return *column; }
     KnobStrip& knobs() noexcept { return strip; }

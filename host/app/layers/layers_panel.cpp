@@ -17,7 +17,8 @@ namespace
 {
 constexpr int most_probes = 18;     // components; all panels share the 32 of the run. Layers beyond that have a meter, but no spectrum
 constexpr int spectrum_every = 3;   // every third refresh updates the spectra
-constexpr int introduction_height = 132, button_line = 28;
+constexpr int introduction_height = 132, short_introduction_height = 88, button_line = 28;
+constexpr int least_width_for_introduction = 440;   // a narrower panel says less, and its buttons are in several lines
 juce::String headingOf (std::string_view family)
 {
     if (family == "texture") return TRANS ("Textures");
@@ -26,6 +27,18 @@ juce::String headingOf (std::string_view family)
 
 constexpr auto introduction = NEEDS_TRANS ("A layer mixer mixes forces, textures and vibrations. Each layer has gain, mute and solo, and layers of higher "
                                            "priority can duck the others. The layers appear here as strips with faders and meters in newtons.");
+/// The head is what adds layers and chooses a mixer. It is in the panel, or scrolls with the strips.
+void placeIn (juce::Component& parent, std::initializer_list<juce::Component*> head)
+{
+    for (auto* c : head)
+        if (c != nullptr && c->getParentComponent() != &parent) parent.addChildComponent (c);
+}
+
+void placeIn (juce::Component& parent, const std::vector<std::unique_ptr<ToolButton>>& buttons)
+{
+    for (const auto& b : buttons)
+        placeIn (parent, { b.get() });
+}
 }   // namespace
 
 LayersPanel::LayersPanel (Document& d, Traces& t, const Catalogue& c) : document (d), catalogue (c), traces (t)
@@ -304,11 +317,12 @@ void LayersPanel::paint (juce::Graphics& g)
         juce::AttributedString text;
         text.setWordWrap (juce::AttributedString::byWord);
         text.append (TRANS ("No layer mixer in this graph") + "\n", look.font (14.0f, true), theme.text);
-        text.append (juce::translate (introduction), look.font (13.0f), theme.dim);
-        text.append ("\n\n" + preview, look.font (13.0f), theme.text);
+        if (getWidth() >= least_width_for_introduction) text.append (juce::translate (introduction) + "\n\n", look.font (13.0f), theme.dim);
+        text.append (preview, look.font (13.0f), theme.text);
         text.draw (g, area.withWidth (std::min (area.getWidth(), 560)).toFloat());
         return;
     }
+    if (scroll.getX() == 0) return;   // the head is behind the strips
     g.setColour (theme.hairline);
     g.drawVerticalLine (head_width - 1, 0.0f, static_cast<float> (getHeight()));
     g.setFont (look.font (12.0f));
@@ -326,7 +340,7 @@ void LayersPanel::paintOverChildren (juce::Graphics& g)
     }
     if (drop_at < 0) return;
     g.setColour (themeOf (*this).accent);
-    g.fillRect (head_width + drop_at * LayerStrip::width - scroll.getViewPositionX() - 1, 0, 2, getHeight());
+    g.fillRect (scroll.getX() + drop_at * LayerStrip::width - scroll.getViewPositionX() - 1, 0, 2, getHeight());
 }
 
 void LayersPanel::layOutHead (juce::Rectangle<int> head)
@@ -347,6 +361,20 @@ void LayersPanel::layOutHead (juce::Rectangle<int> head)
 void LayersPanel::layOutIntroduction()
 {
     constexpr int gap = 4;
+    placeIn (*this, kinds);
+    if (getWidth() < least_width_for_introduction)
+    {
+        juce::Point<int> at { 24, 16 + short_introduction_height };
+        const auto put = [&] (ToolButton& b) {
+            if (at.x > 24 && at.x + b.bestWidth() > getWidth() - 24) at = { 24, at.y + button_line + gap };
+            b.setBounds (at.x, at.y, b.bestWidth(), button_line);
+            at.x += b.bestWidth() + gap;
+        };
+        put (first);
+        for (auto& b : kinds)
+            put (*b);
+        return;
+    }
     auto area = getLocalBounds().reduced (24, 16).withTop (std::min (16 + introduction_height, std::max (0, getHeight() - 40))).withHeight (button_line);
     int wanted = first.bestWidth();
     for (const auto& b : kinds)
@@ -364,10 +392,25 @@ void LayersPanel::resized()
 {
     if (all.empty()) return layOutIntroduction();
     auto area = getLocalBounds();
+    const bool is_narrow = area.getWidth() < head_width + LayerStrip::width + MixStrip::width;
+    auto& parent = is_narrow ? row : static_cast<juce::Component&> (*this);
+    placeIn (parent, names);
+    placeIn (parent, kinds);
+    placeIn (parent, { &more, total.get() });
+    const int bar = scroll.getScrollBarThickness(), all_strips = static_cast<int> (strips.size()) * LayerStrip::width;
+    if (is_narrow)   // the strips, the mix and the head scroll together
+    {
+        scroll.setBounds (area);
+        row.setSize (all_strips + MixStrip::width + head_width, std::max (LayerStrip::least_height, area.getHeight() - bar));
+        for (std::size_t i = 0; i < strips.size(); ++i)
+            strips[i]->setBounds (static_cast<int> (i) * LayerStrip::width, 0, LayerStrip::width, row.getHeight());
+        if (total) total->setBounds (all_strips, 0, MixStrip::width, row.getHeight());
+        return layOutHead ({ all_strips + MixStrip::width + 12, 4, head_width - 24, row.getHeight() - 8 });
+    }
     layOutHead (area.removeFromLeft (head_width).reduced (12, 4));
     if (total) total->setBounds (area.removeFromRight (MixStrip::width));
     scroll.setBounds (area);
-    const int width = static_cast<int> (strips.size()) * LayerStrip::width, bar = scroll.getScrollBarThickness();
+    const int width = all_strips;
     const auto size = sizeInView (area, { width, LayerStrip::least_height }, bar);
     // The row is so wide that, scrolled to its end, the first strip in view is whole.
     const int hidden = std::max (0, width - size.seen_width), whole = (hidden + LayerStrip::width - 1) / LayerStrip::width * LayerStrip::width;

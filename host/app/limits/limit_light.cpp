@@ -29,7 +29,7 @@ juce::String tooltipOf (const LimitList& list)
     {
         const auto& l = list.limits[i];
         text << fromUtf8 (l.text) << ".\n"
-             << (l.remedy.empty() ? juce::String() : filled (TRANS ("Would help: %1."), l.remedy) + "\n") << "\n";
+             << fromUtf8 (l.details) << "\n\n";
     }
     if (const auto more = list.limits.size() - std::min (most, list.limits.size()); more > 0)
         text << filled (more == 1 ? TRANS ("And %1 more limit.") : TRANS ("And %1 more limits."), more) << "\n\n";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "limit_list.hpp"
+#include "limit_words.hpp"
 
 #include <host/app/model/with_prefix.hpp>
 #include <host/app/text/filled.hpp>
@@ -32,8 +33,11 @@ DeviceNumbers inWorkspace (DeviceNumbers n, const Workspace& w)
     scale (n.quantum, w.scale);
     if (n.workspace)
     {
-        n.workspace->min = w.toGraph (n.workspace->min);
-        n.workspace->max = w.toGraph (n.workspace->max);
+        // A box around the box, which may be turned.
+        const Mat3 along = w.axes.cwiseMax (0.0), against = w.axes.cwiseMin (0.0);
+        const Vec3 min = n.workspace->min, max = n.workspace->max;
+        n.workspace->min = w.scale * (along * min + against * max) + w.offset;
+        n.workspace->max = w.scale * (along * max + against * min) + w.offset;
     }
     return n;
 }
@@ -67,13 +71,14 @@ std::string number (double v, std::string_view unit)
     return unit == "1" ? std::string (buffer) : std::string (buffer) + ' ' + std::string (unit);
 }
 
-std::string textOf (const check::Condition& c, const std::string& device, bool is_broken)
+std::string detailsOf (const check::Condition& c, const std::string& device, bool is_broken)
 {
     auto who = printableName (c.role) + " (" + printableName (device) + ")";
     if (! c.node.empty()) who = filled (TRANS ("%1 on %2"), printableName (c.node), who).toStdString();
     auto text = filled (TRANS ("%1 of %2: %3, limit %4"), c.id, who, number (c.value, c.unit), number (c.limit, c.unit));
     if (! is_broken) text << ", " + filled (TRANS ("%1 left"), number (100.0 * (c.margin() - 1.0), "%"));
-    return text.toStdString() + " (" + c.text + "; " + std::string (c.law) + ")";
+    return text.toStdString() + " (" + c.text + "; " + std::string (c.law) + ")"
+           + (c.remedy.empty() ? "." : ".\n" + filled (TRANS ("Would help: %1."), c.remedy).toStdString());
 }
 
 /// The paths of the nodes that push the device of a role.
@@ -156,8 +161,12 @@ LimitList listOf (const check::Demand& demand, const std::vector<check::RoleDevi
             ++list.held;
         else
         {
-            auto text = textOf (c, nameOf (devices, c.role), is_broken);
-            list.limits.push_back ({ is_broken, std::string (c.id), nodesOf (c, demand, plan), std::move (text), c.remedy });
+            const auto device = nameOf (devices, c.role);
+            auto nodes = nodesOf (c, demand, plan);
+            const bool is_slope = c.id == "stiffness" || c.id == "quantum" || c.id == "damping";
+            auto about = c.node.empty() && is_slope && ! nodes.empty() ? nodes.front() : c.node;
+            list.limits.push_back ({ is_broken, std::string (c.id), std::move (nodes), limitSentence (c, about, device), firstRemedy (c),
+                                     detailsOf (c, device, is_broken) });
         }
     }
     list.is_checked = ! list.limits.empty() || list.held > 0 || list.unknown > 0 || list.not_reached > 0;

@@ -46,7 +46,8 @@ struct Limit
     bool is_broken = false;
     std::string id;                   ///< id of the condition, such as "stiffness"
     std::vector<std::string> nodes;   ///< paths of the nodes concerned; for a whole role: the steepest node, and those that push the device
-    std::string text, remedy;         ///< value and limit, and what would help
+    std::string text, remedy;         ///< in one sentence, and the first of what would help
+    std::string details;              ///< value and limit, the numbers behind them, the law, and all that would help
 
     bool operator== (const Limit&) const = default;
 };

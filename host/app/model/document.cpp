@@ -6,6 +6,17 @@
 namespace tactus::host
 {
 
+namespace
+{
+/// True for a command that changes only where nodes are on the canvas.
+bool onlyMoves (const graph::Command& c)
+{
+    if (const auto* key = std::get_if<graph::SetNodeKey> (&c.edit)) return key->key == "ui";
+    const auto* batch = std::get_if<graph::Batch> (&c.edit);
+    return batch != nullptr && std::ranges::all_of (batch->commands, onlyMoves);
+}
+}   // namespace
+
 Document::Document (graph::Graph g, std::filesystem::path file)
     : edits (std::move (g), nullptr), origins { std::make_shared<Origin> (Origin { { std::move (file) }, writeGraph (edits.graph()) }) }
 {
@@ -14,11 +25,13 @@ Document::Document (graph::Graph g, std::filesystem::path file)
 bool Document::perform (graph::Command command, graph::Step step)
 {
     const auto before = edits.position();
+    const bool counts = ! onlyMoves (command);
     if (const auto done = edits.perform (std::move (command), step); ! done)
     {
         notify ([&] (Listener& l) { l.documentRefused (done.error()); });
         return false;
     }
+    if (counts) ++changes;
     origins.resize (before + 1);   // drops the redo steps
     if (window_steps.size() > before) window_steps.resize (before);
     if (edits.position() > before) origins.push_back (origins.back());
@@ -52,6 +65,7 @@ void Document::open (graph::Graph g, Source source, const std::string& step)
     origins.resize (edits.position());
     if (window_steps.size() >= edits.position()) window_steps.resize (edits.position() - 1);
     origins.push_back (std::make_shared<Origin> (Origin { std::move (source), std::move (saved) }));
+    ++changes;
     notifyChanged();
 }
 
@@ -64,6 +78,8 @@ void Document::goTo (std::size_t position)
     while (edits.position() < position && edits.redo())
         if (edits.position() <= window_steps.size()) of_window.push_back (window_steps[edits.position() - 1].second);
     if (edits.position() == before) return;
+    for (auto step = std::min (before, edits.position()); step < std::max (before, edits.position()); ++step)
+        if (! std::ranges::all_of (edits.commandsOf (step), onlyMoves)) ++changes;
     is_stepping = true;
     notifyChanged();
     for (const auto& change : of_window)
@@ -84,6 +100,7 @@ Messages Document::save (const std::filesystem::path& file)
     for (const auto& o : origins)   // the same file may have been opened more than once
         if (o->source.file == file) o->saved = text;
     origin() = { { file }, text };
+    ++changes;
     notifyChanged();
     return {};
 }

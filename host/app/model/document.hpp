@@ -7,6 +7,7 @@
 #include <tactus/text/message.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -45,6 +46,10 @@ public:
     const graph::Graph& graph() const noexcept { return edits.graph(); }
     const graph::History& history() const noexcept { return edits; }
 
+    /// Differs after each change but those that only move nodes on the canvas, or only change the window. So who shows no places need not look at
+    /// the graph again while this is the same.
+    std::uint64_t version() const noexcept { return changes; }
+
     /// The name of a step of the history, with values in the units of the catalogue.
     std::string stepName (std::size_t step) const { return host::stepName (edits, step, *types); }
     void setCatalogue (const Catalogue& c) { types = &c; }   ///< the default is catalogue()
@@ -75,6 +80,7 @@ public:
     /// Tells the listeners that the graph must be read again, because the node types of the catalogue have changed.
     void renew()
     {
+        ++changes;
         notify ([] (Listener& l) { l.typesChanged(); });
         notifyChanged();
     }
@@ -120,6 +126,7 @@ private:
     std::vector<std::pair<std::function<void()>, std::function<void()>>> window_steps;   // one per step of the history: how to undo and redo it
     std::vector<Listener*> listeners;
     mutable std::optional<bool> differs;   // from the file; empty until somebody asks
+    std::uint64_t changes = 0;             // for version()
     bool is_stepping = false;
 };
 

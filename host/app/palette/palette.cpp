@@ -69,7 +69,12 @@ void Palette::fit()
 {
     const int listed = found.empty() ? no_match_height : entry_height * getNumRows() - spaceAtTop();
     auto area = getBounds().withSize (width, std::min (highest, 2 * margin + purpose_height + query_height + gap + listed));
-    if (const auto* parent = getParentComponent()) area = area.constrainedWithin (parent->getLocalBounds().reduced (margin));
+    if (const auto* parent = getParentComponent())
+    {
+        // The owner leaves space above for what must not be covered, such as STOP.
+        const auto room = parent->getLocalBounds().withTrimmedTop (getProperties()["space above"]).reduced (margin);
+        area = area.withHeight (std::min (area.getHeight(), room.getHeight())).constrainedWithin (room);
+    }
     setBounds (area);
 }
 

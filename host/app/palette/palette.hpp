@@ -20,7 +20,7 @@ public:
 
     /// Opens the palette at a point of its parent, with an empty query. `search` returns the entries for a query, and titles between them. The
     /// palette is as high as what it lists, up to `highest`.
-    void open (juce::Point<int> at, std::function<std::vector<PaletteEntry> (const std::string&)> search, const juce::String& purpose,
+    void open (juce::Point<int> at, PaletteSearch search, const juce::String& purpose,
                std::function<void (const std::string& type)> chosen);
     void close();
 

@@ -110,4 +110,9 @@ std::vector<PaletteEntry> matching (const std::vector<PaletteEntry>& entries, co
     return found;
 }
 
+PaletteSearch searchIn (std::vector<PaletteEntry> entries)
+{
+    return [all = std::move (entries)] (const std::string& query) { return matching (all, query); };
+}
+
 }   // namespace tactus::host

@@ -3,6 +3,7 @@
 
 #include <host/app/model/wire_rules.hpp>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,5 +28,11 @@ std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::
 
 /// The entries that fit the query, the best first.
 std::vector<PaletteEntry> matching (const std::vector<PaletteEntry>&, const std::string& query);
+
+/// What a palette lists for a query.
+using PaletteSearch = std::function<std::vector<PaletteEntry> (const std::string& query)>;
+
+/// Searches these entries.
+PaletteSearch searchIn (std::vector<PaletteEntry>);
 
 }   // namespace tactus::host

@@ -34,7 +34,7 @@ LimitWatch::~LimitWatch()
 void LimitWatch::documentChanged()
 {
     if (std::exchange (seen, document.identity()) != document.identity()) show ({});
-    changed();
+    if (std::exchange (version, document.version()) != document.version()) changed();
 }
 
 void LimitWatch::changed()

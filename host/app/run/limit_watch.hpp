@@ -67,7 +67,8 @@ private:
 
     LimitList shown;
     Messages said;
-    const void* seen = nullptr;   // identity of the document at the latest edit
+    const void* seen = nullptr;             // identity of the document at the latest edit
+    std::optional<std::uint64_t> version;   // of the document
     std::vector<LimitRole> roles;
     double rate_hz = 0.0;
     std::optional<Clock::time_point> changed_at, last_changed_at;   // the first change that no check includes; the latest change

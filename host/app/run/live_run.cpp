@@ -271,6 +271,8 @@ const std::string& LiveRun::clockRole() const noexcept
 
 void LiveRun::documentChanged()
 {
+    const bool is_only_moved = std::exchange (version, document.version()) == document.version();
+    if (is_only_moved && ! is_logged) return;   // a log keeps the places of nodes, too
     const auto& graph = document.graph();
     const bool is_same_run = wanted && isLive() && graph.rate_hz == graph_rate_hz && withoutGuards (graph.devices) == run_devices;
     if (is_same_run) return takeOver();

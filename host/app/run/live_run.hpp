@@ -227,6 +227,7 @@ private:
 
     Document& document;
     const Catalogue& catalogue;
+    std::optional<std::uint64_t> version;   // of the document at its latest change
     FileAssets assets;
     Messages said;
     std::vector<std::string> refused;   // by the system, to the latest run

@@ -202,6 +202,7 @@ ScopePanel::~ScopePanel() { document.remove (*this); }
 
 void ScopePanel::listPorts()
 {
+    listed = document.version();
     context.ports = scopePorts (document.graph(), catalogue);
     context.names = PortNames (context.ports);
     context.energies = energyPorts (context.ports);
@@ -212,9 +213,12 @@ void ScopePanel::listPorts()
 
 void ScopePanel::documentChanged()
 {
-    const auto before = std::exchange (context.ports, {});
-    listPorts();
-    follow (model, before, context.ports);
+    if (listed != document.version())
+    {
+        const auto before = std::exchange (context.ports, {});
+        listPorts();
+        follow (model, before, context.ports);
+    }
     requestPorts();
     resized();
 }

@@ -82,6 +82,7 @@ private:
     Traces& traces;
     Traces::Client client;
     ScopeContext context;
+    std::optional<std::uint64_t> listed;   // the version of the document whose ports are listed
     ScopeModel model;
     ScopeRow scope_row;
     juce::Viewport scroll;

@@ -316,7 +316,9 @@ void TakePanel::resized()
     until.setBounds (foot.removeFromLeft (60));
     foot.removeFromLeft (20);   // the unit
     constexpr int gap = 6;
-    const int wanted = test.bestWidth() + gesture.bestWidth() + clip.bestWidth(), room = std::max (0, foot.getWidth() - 2 * gap);
+    const int wanted = test.bestWidth() + gesture.bestWidth() + clip.bestWidth();
+    if (wanted + 2 * gap > foot.getWidth()) foot = rest.removeFromBottom (28).withTrimmedTop (2);   // in a narrow panel, a line of their own
+    const int room = std::max (0, foot.getWidth() - 2 * gap);
     for (auto* b : { &test, &gesture, &clip })
     {
         b->setBounds (foot.removeFromRight (b->bestWidth() * std::min (wanted, room) / std::max (1, wanted)));

@@ -124,7 +124,7 @@ int scoreOf (const Findable& entry, const std::vector<std::string>& words, const
 }
 }   // namespace
 
-std::vector<std::size_t> bestMatches (const std::vector<Findable>& entries, const std::string& query)
+std::vector<std::size_t> bestMatches (const std::vector<Findable>& entries, const std::string& query, bool may_guess)
 {
     const auto words = wordsOf (plain (query));
     std::vector<std::size_t> found (entries.size());
@@ -138,7 +138,7 @@ std::vector<std::size_t> bestMatches (const std::vector<Findable>& entries, cons
         scores.push_back (scoreOf (e, words, whole));
     const auto scoreAt = [&] (std::size_t i) { return scores[i]; };
     std::ranges::stable_sort (found, {}, scoreAt);
-    const bool is_guess = found.empty() || scoreAt (found.front()) >= first_guess * per_rank;
+    const bool is_guess = may_guess && ! found.empty() && scoreAt (found.front()) >= first_guess * per_rank;
     std::erase_if (found, [&] (std::size_t i) { return scoreAt (i) >= (is_guess ? no_match : first_guess) * per_rank; });
     return found;
 }

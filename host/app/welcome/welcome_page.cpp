@@ -235,7 +235,7 @@ void WelcomePage::paint (juce::Graphics& g)
     g.setColour (theme.dim);
     g.setFont (look.font (13.0f));
     g.drawText (all.empty() ? TRANS ("No presets found next to the program. Set TACTUS_PRESETS to their folder, or start with an empty graph.")
-                            : TRANS ("Click a preset to run it with the mouse as your hand: press on the surface below and drag."),
+                            : TRANS ("Click a preset to run it with the mouse as your hand: press on its surface and drag."),
                 lines.removeFromTop (20), juce::Justification::centredLeft, true);
     if (recent_title.isEmpty()) return;
     g.drawText (TRANS ("Recent"), recent_title, juce::Justification::centredLeft, false);

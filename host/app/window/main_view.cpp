@@ -18,11 +18,9 @@ namespace tactus::host
 
 namespace
 {
-constexpr int hand_width = 420, refreshes_per_second = 30;
-constexpr int refreshes_at_rest = 4, refreshes_until_rest = 60;       // at rest, only devices and other threads can change anything
-constexpr int repaints_for_caret = 20;                                // at rest; it blinks every 380 ms
-constexpr int least_canvas_width = 240, least_canvas_height = 200;    // in pixels
-constexpr int lowest_canvas_height = 80, least_bottom_height = 160;   // in a low window, the canvas gives way to the panels below it
+constexpr int refreshes_per_second = 30;
+constexpr int refreshes_at_rest = 4, refreshes_until_rest = 60;   // at rest, only devices and other threads can change anything
+constexpr int repaints_for_caret = 20;                            // at rest; it blinks every 380 ms
 }   // namespace
 
 MainView::MainView (const Catalogue& c)
@@ -65,6 +63,7 @@ MainView::~MainView()
 
 void MainView::addPanels()
 {
+    addPages();
     for (auto* c : std::initializer_list<juce::Component*> { &strip, &hand, &left, &bottom, &top, &patching, &inspector, &status })
         addAndMakeVisible (c);
     for (auto* edge : { &left_edge, &right_edge, &bottom_edge })
@@ -276,16 +275,24 @@ void MainView::showProblems()
     inspector.showLimits (limits.list().contacts);
 }
 
+void MainView::findMissing()
+{
+    std::vector<std::string> probed;
+    for (const auto& scope : scopes.scopes().scopes)
+        std::ranges::copy (scope->ports, std::back_inserter (probed));
+    const std::pair now (edited.version(), probed);
+    if (missing_of == now) return;
+    missing_of = now;
+    missing = unfelt (edited.graph(), catalogue);
+    const auto isSaid = [said = missing] (const Message& m) { return std::ranges::count (said, m.where, &Message::where) > 0; };
+    std::ranges::remove_copy_if (plan::unheardNodes (edited.graph(), catalogue, probed), std::back_inserter (missing), isSaid);
+}
+
 void MainView::documentChanged()
 {
     wake();
     status.clearNotice();
-    missing = unfelt (edited.graph(), catalogue);
-    std::vector<std::string> probed;
-    for (const auto& scope : scopes.scopes().scopes)
-        std::ranges::copy (scope->ports, std::back_inserter (probed));
-    const auto isSaid = [said = missing] (const Message& m) { return std::ranges::count (said, m.where, &Message::where) > 0; };
-    std::ranges::remove_copy_if (plan::unheardNodes (edited.graph(), catalogue, probed), std::back_inserter (missing), isSaid);
+    findMissing();
     if (edited.identity() != shown_identity)
     {
         shown_identity = edited.identity();
@@ -312,30 +319,5 @@ void MainView::documentRefused (const Message& m) { report (m); }
 void MainView::report (const Message& m) { status.notify (juce::String (messageText (m))); }
 
 void MainView::paint (juce::Graphics& g) { g.fillAll (themeOf (*this).panel); }
-
-void MainView::resized()
-{
-    auto area = getLocalBounds();
-    strip.setBounds (area.removeFromTop (SafetyStrip::height));
-    top.setBounds (area.removeFromTop (TopBar::height));
-    status.setBounds (area.removeFromBottom (StatusLine::height));
-    auto low = bottom_edge.take (area, std::clamp (area.getHeight() - least_bottom_height, lowest_canvas_height, least_canvas_height));
-    left.setBounds (left_edge.take (area, least_canvas_width));
-    inspector.setBounds (right_edge.take (area, least_canvas_width));
-    if (! hand.isEnlarged()) hand.setBounds (low.removeFromLeft (std::min (hand_width, low.getWidth() / 2)));
-    bottom.setBounds (low);
-    patching.setBounds (area);
-    patching.setVisible (! hand.isEnlarged());
-    if (hand.isEnlarged()) hand.setBounds (area);
-    templates.setBounds (area.withTop (area.getCentreY() + 20).removeFromTop (56));
-    showBeginnings();
-    welcome.setBounds (area.withRight (getWidth()));
-    help.setArea (area.withRight (getWidth()).withBottom (hand.getBottom()).reduced (16));
-    fitting.setBounds (getLocalBounds().withTrimmedTop (SafetyStrip::height));
-    tour.setBounds (getLocalBounds());
-    tour.resized();                                                               // what it frames may have moved
-    question.setBounds (getLocalBounds().withTrimmedTop (SafetyStrip::height));   // STOP stays within reach
-    shade.setBounds (question.getBounds());
-}
 
 }   // namespace tactus::host

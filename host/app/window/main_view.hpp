@@ -116,6 +116,7 @@ public:
 
 private:
     void documentChanged() override;
+    void findMissing();
     void documentRefused (const Message&) override;
     void timerCallback() override;
     void wake();   ///< polls and paints often again
@@ -147,7 +148,7 @@ private:
     void noteType (const std::string&);
     void showBeginnings();   ///< the templates, if the graph is empty
     void savePictureAs();
-    void choose (const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string&)> chosen);
+    void choose (const juce::String& purpose, PaletteSearch, std::function<void (const std::string&)> chosen);
     void probe (const std::vector<std::string>& ports);
     void showAdded (const std::string& patch, graph::Id node);
     void feel (const std::filesystem::path& preset, bool by_pointer);
@@ -156,7 +157,13 @@ private:
     void rememberScene();
     void rememberFilmLength();
     void edgeMoved();
-    void panelsMoved();   ///< makes a step of the history of what has changed since the last call
+    void addPages();
+    std::array<std::pair<const char*, juce::Component*>, 4> pageParts();   ///< what is on each page of a small window
+    bool isSmall() const;
+    void turnTo (const juce::Component& part);
+    void layOutPages (juce::Rectangle<int>);
+    void layOutPanels (juce::Rectangle<int>& area);   ///< leaves the area of the canvas
+    void panelsMoved();                               ///< makes a step of the history of what has changed since the last call
     void tell (const juce::String& title, const juce::String& text, std::function<void()> use = {});
     void openOscPort (const OscListen&);
     void attendLiveNodes();
@@ -190,6 +197,9 @@ private:
     void askForRecording();
     void launchChooser (const juce::String& title, const juce::String& patterns, const juce::File& begin, int how,
                         std::function<void (const std::filesystem::path&)>);
+    void askForSetting (const juce::String& patterns, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
+    struct SaveWords;
+    void askWhereToSave (const SaveWords&, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
     void askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
     void applySettings();
     void applyFusion();
@@ -216,7 +226,7 @@ private:
     SafetyStrip strip { playback };
     std::optional<DirectStop> direct_stop;
     HandPanel hand { playback, sound };
-    Tabs left, bottom;
+    Tabs left, bottom, pages;
     Splitter left_edge { Splitter::Edge::right, 232, 160 }, right_edge { Splitter::Edge::left, 304, 220 }, bottom_edge { Splitter::Edge::top, 264, 140 };
     std::array<std::optional<double>, 3> shares() const { return { left_edge.share(), right_edge.share(), bottom_edge.share() }; }
     void restorePanels (std::array<std::optional<double>, 3>);
@@ -249,6 +259,10 @@ private:
     int ticks_to_save = 0;                                   // timer ticks until the settings are saved; 0: nothing to save
     int awake_for = 0;                                       // timer ticks until the window polls less often; 0: it does
     std::optional<juce::TooltipWindow> tooltips;             // only while the window is awake, because it looks for the pointer all the time
+
+    /// The version of the document of which `missing` speaks, and the ports that scopes showed.
+    using VersionAndPorts = std::pair<std::uint64_t, std::vector<std::string>>;
+    std::optional<VersionAndPorts> missing_of;
 };
 
 }   // namespace tactus::host

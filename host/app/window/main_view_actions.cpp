@@ -64,6 +64,7 @@ void MainView::reveal (Tabs& tabs, const juce::Component& panel)
         edgeMoved();
         panelsMoved();
     }
+    if (&tabs == &left) turnTo (left);
     tabs.show (panel);
 }
 
@@ -88,6 +89,9 @@ void MainView::addEdits (std::vector<Action>& all)
 
 void MainView::addTabsAndButtons (std::vector<Action>& all)
 {
+    if (isSmall())
+        for (const auto& [name, part] : pageParts())
+            all.push_back ({ juce::translate (name), TRANS ("A page"), [this, shown = part] { turnTo (*shown); } });
     for (auto* tabs : { &bottom, &left })
         for (int i = 0; const auto& [name, place] : tabs->titles())
             all.push_back ({ name, TRANS ("A panel"), [this, tabs, i = i++] { reveal (*tabs, *tabs->panel (i)); } });

@@ -69,7 +69,7 @@ bool MainView::keyPressed (const juce::KeyPress& key)
     }
     // Elsewhere, Tab goes to the next field.
     if (key.isKeyCode (juce::KeyPress::tabKey) && ! hasKeyboardFocus (false) && ! patching.hasKeyboardFocus (true)) return false;
-    const bool is_hidden = hand.isEnlarged();   // you would not see what you edit
+    const bool is_hidden = ! patching.isShowing();   // you would not see what you edit
     return scopes.keyPressed (key) || (! is_hidden && patching.keyPressed (key));
 }
 
@@ -119,6 +119,7 @@ void MainView::escape (const juce::KeyPress& key)
     if (tour.isOpen() && ! palette.isVisible()) return tour.close();
     if (hand.isEnlarged() && ! palette.isVisible()) return hand.enlarge (false);
     palette.close();
+    if (inspector.hasKeyboardFocus (true)) turnTo (patching);
     takeFocus (keyboardHome());
 }
 

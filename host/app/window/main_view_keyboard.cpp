@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which part of the window has the keyboard.
+#include "file_dialog_parts.hpp"
 #include "main_view.hpp"
 
 #include <host/app/look/focus.hpp>
@@ -22,7 +23,15 @@ juce::Component& MainView::keyboardHome()
 void MainView::keepKeyboard()
 {
     const auto* peer = getPeer();
-    if (peer == nullptr || ! peer->isFocused() || juce::Component::getNumCurrentlyModalComponents() > 0) return;
+    if (peer == nullptr || ! peer->isFocused()) return;
+    if (auto* modal = juce::Component::getCurrentlyModalComponent())
+    {
+        // A menu that closes after its entry has opened a dialog takes the keyboard from the name.
+        const auto* now = juce::Component::getCurrentlyFocusedComponent();
+        auto* name = dynamic_cast<juce::FileChooserDialogBox*> (modal) != nullptr ? nameField (*modal) : nullptr;
+        if (name != nullptr && (now == nullptr || now == modal || ! modal->isParentOf (now))) takeFocus (*name);
+        return;
+    }
     auto& home = keyboardHome();
     const bool is_over = question.isOpen() || fitting.isOpen();   // nothing else may have the keyboard
     const auto* now = juce::Component::getCurrentlyFocusedComponent();
@@ -35,12 +44,13 @@ void MainView::nextPanel (int step)
     const std::initializer_list<juce::Component*> panels { &patching, &inspector, &bottom, &hand, &left };
     std::vector<juce::Component*> open;
     for (auto* p : panels)
-        if (p->isShowing() && ! p->getBounds().isEmpty()) open.push_back (p);
+        if ((isSmall() && p != &bottom) || (p->isShowing() && ! p->getBounds().isEmpty())) open.push_back (p);
     const auto now = std::ranges::find_if (open, [] (const juce::Component* p) { return p->hasKeyboardFocus (true); });
     const auto count = static_cast<int> (open.size()), at = now == open.end() ? (step > 0 ? -1 : 0) : static_cast<int> (now - open.begin());
     for (int i = 1; i <= count; ++i)
     {
         auto& next = *open[static_cast<std::size_t> (((at + i * step) % count + count) % count)];
+        turnTo (next);
         takeFocus (next);   // or the first part of it that takes keys
         if (next.hasKeyboardFocus (true)) return;
     }

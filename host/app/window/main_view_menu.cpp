@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The menu of the window, and the dialogs for files.
 #include "appearance.hpp"
+#include "file_dialog_parts.hpp"
 #include "main_view.hpp"
 
 #include <host/app/look/fitted_text.hpp>
@@ -27,29 +28,40 @@ juce::String folderText (const std::filesystem::path& file)
     return folder == home || folder.startsWith (home + "/") ? "~" + folder.substring (home.length()) : folder;
 }
 
-/// The field of a dialog for files in which the name is typed.
-juce::TextEditor* nameField (juce::Component& in)
-{
-    for (auto* child : in.getChildren())
-    {
-        if (auto* field = dynamic_cast<juce::TextEditor*> (child)) return field;
-        if (dynamic_cast<juce::ComboBox*> (child) != nullptr) continue;   // the folder
-        if (auto* found = nameField (*child)) return found;
-    }
-    return nullptr;
-}
+constexpr const char* graphs_and_clips = "*.json;*.haptic;*.ahap;*.hjif;*.wav";
 
-/// The title of a dialog and the files that it shows. What is saved follows from the proposed name.
-std::pair<juce::String, juce::String> wordsFor (bool saves, const std::filesystem::path& begin)
+/// What may be a clip. Of the .json, only those that are: others are graphs, which may be in the same folder.
+class ClipFilter final : public juce::WildcardFileFilter
 {
-    if (! saves) return { TRANS ("Open graph or clip"), "*.json;*.haptic;*.ahap;*.hjif;*.wav" };
-    if (isClipExtension (begin)) return { TRANS ("Save clip; the ending of the name selects the format"), "*.haptic;*.ahap;*.hjif;*.json;*.wav;*.csv" };
-    if (extensionOf (begin) == ".csv") return { TRANS ("Save gesture"), "*.csv" };
-    if (extensionOf (begin) == ".jsonl") return { TRANS ("Save test"), "*.jsonl" };
-    if (extensionOf (begin) == ".svg") return { TRANS ("Save picture; the ending of the name selects the format"), "*.svg;*.pdf;*.png" };
-    return { TRANS ("Save graph"), "*.json" };
-}
+public:
+    ClipFilter() : WildcardFileFilter (clip_patterns, "*", {}) {}
+
+    /// Called on the thread of JUCE that lists files.
+    bool isFileSuitable (const juce::File& file) const override
+    {
+        constexpr juce::int64 most = 4 << 20;   // bytes; a longer one is shown unread
+        if (! WildcardFileFilter::isFileSuitable (file)) return false;
+        return ! file.hasFileExtension (".json") || file.getSize() > most || isClipFile (file.getFullPathName().toStdString());
+    }
+};
 }   // namespace
+
+/// The title of a dialog in which a file is saved, and the files that it shows.
+struct MainView::SaveWords
+{
+    juce::String title, patterns;
+
+    /// What is saved follows from the proposed name.
+    static SaveWords of (const std::filesystem::path& begin)
+    {
+        if (isClipExtension (begin)) return { TRANS ("Save clip; the ending of the name selects the format"), clip_patterns };
+        if (extensionOf (begin) == ".csv") return { TRANS ("Save gesture"), "*.csv" };
+        if (extensionOf (begin) == ".jsonl") return { TRANS ("Save test"), "*.jsonl" };
+        if (extensionOf (begin) == ".svg") return { TRANS ("Save picture; the ending of the name selects the format"), "*.svg;*.pdf;*.png" };
+        if (extensionOf (begin) == ".png") return { TRANS ("Save film"), "*.png" };
+        return { TRANS ("Save graph"), "*.json" };
+    }
+};
 
 juce::PopupMenu::Item MainView::menuItem (const juce::String& text, const juce::String& keys, std::function<void()> act, bool is_ticked)
 {
@@ -142,19 +154,40 @@ void MainView::openMenu (juce::Component& at)
 
 void MainView::askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)> chosen)
 {
-    const auto [title, patterns] = wordsFor (saves, begin);
+    if (saves) return askWhereToSave (SaveWords::of (begin), begin, std::move (chosen));
     using Choice = juce::FileBrowserComponent;
-    const int how = (saves ? Choice::saveMode : Choice::openMode) | Choice::canSelectFiles;
-    if (! saves) return launchChooser (title, patterns, juce::File (begin.string()), how, std::move (chosen));
-    launchChooser (title, patterns, juce::File (begin.string()), how, [this, begin, chosen = std::move (chosen)] (std::filesystem::path file) {
-        if (file.extension().empty()) file += begin.extension();
+    launchChooser (TRANS ("Open graph or clip"), graphs_and_clips, juce::File (begin.string()), Choice::openMode | Choice::canSelectFiles, std::move (chosen));
+}
+
+/// A name without one of the endings gets that of the proposed name: in "film v1.2", the dot is part of the name.
+void MainView::askWhereToSave (const SaveWords& words, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)> chosen)
+{
+    using Choice = juce::FileBrowserComponent;
+    const auto ask = [this, words, begin, chosen = std::move (chosen)] (std::filesystem::path file) {
+        if (! juce::WildcardFileFilter (words.patterns, "*", {}).isFileSuitable (juce::File (fromUtf8 (file.string())))) file += begin.extension();
         std::error_code failed;
         if (! std::filesystem::exists (file, failed)) return chosen (file);
         question.ask (filled (TRANS ("Replace %1?"), printableName (file.filename().string())), filled (TRANS ("It is in %1 already."), folderText (file)),
                       { { TRANS ("Replace"), [chosen, file] { chosen (file); } },
-                        { TRANS ("Choose another name ..."), [this, file, chosen] { askForFile (true, file, chosen); } },
+                        { TRANS ("Choose another name ..."), [this, words, file, chosen] { askWhereToSave (words, file, chosen); } },
                         { TRANS ("Cancel"), {} } });
-    });
+    };
+    launchChooser (words.title, words.patterns, juce::File (begin.string()), Choice::saveMode | Choice::canSelectFiles, ask);
+}
+
+void MainView::askForSetting (const juce::String& patterns, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)> chosen)
+{
+    static const ClipFilter only_clips;
+    using Choice = juce::FileBrowserComponent;
+    const auto folder = begin.empty() ? ownFolder() : begin;
+    launchChooser (TRANS ("Choose a file"), patterns, juce::File::getCurrentWorkingDirectory().getChildFile (fromUtf8 (folder.string())),
+                   Choice::openMode | Choice::canSelectFiles, std::move (chosen));
+    auto* dialog = getCurrentlyModalComponent();
+    if (auto* browser = dialog != nullptr && patterns == clip_patterns ? browserIn (*dialog) : nullptr)
+    {
+        browser->setFileFilter (&only_clips);
+        browser->refresh();
+    }
 }
 
 void MainView::askForRecording()

@@ -67,7 +67,7 @@ void MainView::beginTour()
     if (welcome.isVisible() && ! welcome.cards().empty()) feel (welcome.cards().front().file, true);
     tour.begin (
         { { &hand, TRANS ("Feel it"),
-            TRANS ("Press and drag on this surface: the mouse is your hand, and the arrow is the force on it. The list below it lets a gesture move the "
+            TRANS ("Press and drag on this surface: the mouse is your hand, and the arrow is the force on it. The list above it lets a gesture move the "
                    "hand instead.") },
           { &inspector, TRANS ("Turn a knob"),
             TRANS ("While nothing is selected, the controls of the graph are here. Drag one while you press. With a node selected, its "
@@ -83,9 +83,9 @@ void MainView::beginTour()
                    "helps. The tour is in the menu.") } });
 }
 
-void MainView::choose (const juce::String& purpose, std::vector<PaletteEntry> entries, std::function<void (const std::string&)> chosen)
+void MainView::choose (const juce::String& purpose, PaletteSearch search, std::function<void (const std::string&)> chosen)
 {
-    openPalette (palette, patching, purpose, std::move (entries), std::move (chosen));
+    openPalette (palette, patching, purpose, std::move (search), std::move (chosen));
 }
 
 void MainView::probe (const std::vector<std::string>& ports)
@@ -104,11 +104,12 @@ void MainView::showAdded (const std::string& patch, graph::Id node)
 void MainView::feel (const std::filesystem::path& preset, bool by_pointer)
 {
     files.openCopy (preset, by_pointer);
+    turnTo (hand);
     if (files.isSafe())
-        status.notify (TRANS ("Safe mode: press START or F5, then press and drag on the surface below."));
+        status.notify (TRANS ("Safe mode: press START or F5, then press and drag on the surface of the hand."));
     else
-        status.notify (by_pointer ? TRANS ("Press and drag on the surface below: the mouse is your hand.")
-                                  : TRANS ("The hand moves by itself. Press and drag on the surface below, and the mouse is your hand."));
+        status.notify (by_pointer ? TRANS ("Press and drag on the surface of the hand: the mouse is your hand.")
+                                  : TRANS ("The hand moves by itself. Press and drag on its surface, and the mouse is your hand."));
 }
 
 void MainView::fitRecordingIn (const std::filesystem::path& file) { fitting.open (file); }

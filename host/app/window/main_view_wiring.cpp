@@ -37,9 +37,12 @@ void MainView::connectCanvas()
     patching.onBreadcrumbs = [this] { documentChanged(); };
     patching.onSelection = [this] { inspector.inspect (patching.seen(), patching.selection()); };
     patching.onParamMenu = [this] (juce::PopupMenu& menu, const std::string& node, const std::string& port) { inspector.fillParamMenu (menu, node, port); };
-    patching.onEditParams = [this] { inspector.focusFirst(); };
+    patching.onEditParams = [this] {
+        turnTo (inspector);
+        inspector.focusFirst();
+    };
     patching.onNodeRequested = [this] (const NodeRequest& request) { chooseNode (request); };
-    patching.onChoose = [this] (const auto& purpose, auto entries, auto chosen) { choose (purpose, std::move (entries), std::move (chosen)); };
+    patching.onChoose = [this] (const auto& purpose, auto search, auto chosen) { choose (purpose, std::move (search), std::move (chosen)); };
     patching.onProbe = [this] (const auto& ports) { probe (ports); };
     patching.onFileDropped = [this] (const std::filesystem::path& file) { files.open (file); };
     patching.onTypeDropped = [this] (const std::string& type, const NodeRequest& request) { addNode (type, request); };
@@ -50,6 +53,9 @@ void MainView::connectSides()
 {
     inspector.onHint = patching.onHint;
     inspector.onNotice = patching.onNotice;
+    inspector.onChooseFile = [this] (const juce::String& patterns, const std::filesystem::path& begin, auto chosen) {
+        askForSetting (patterns, begin, std::move (chosen));
+    };
     inspector.messagesNow = [this] { return run().messages(); };
 
     presets.onOpen = [this] (const Preset& p, bool is_own) { openPreset (p, is_own); };
@@ -75,18 +81,25 @@ void MainView::connectSides()
 void MainView::connectRun()
 {
     strip.onProblems = strip.limitLight().onClick = [this] { reveal (bottom, problems); };
-    problems.onShow = [this] (const ProblemLocation& c) { patching.show (c.patch, c.id); };
+    problems.onShow = [this] (const ProblemLocation& c) {
+        turnTo (patching);
+        patching.show (c.patch, c.id);
+    };
     live.limits = &limits;
 
     hand.onHint = patching.onHint;
     hand.onEnlarge = [this] { resized(); };
     hand.onSceneToggled = [this] { rememberScene(); };
     hand.film().onLength = [this] { rememberFilmLength(); };
+    hand.film().onChoose = [this] (const std::filesystem::path& begin, auto chosen) { chooseFile (true, begin, std::move (chosen)); };
 
     scopes.onHint = patching.onHint;
 
     layers.onHint = patching.onHint;
-    layers.onSelect = [this] (const std::string& patch, graph::Id node) { patching.show (patch, node); };
+    layers.onSelect = [this] (const std::string& patch, graph::Id node) {
+        turnTo (patching);
+        patching.show (patch, node);
+    };
     layers.onAdded = [this] (const std::string& patch, graph::Id node) { showAdded (patch, node); };
 
     devices.onHint = patching.onHint;
@@ -108,6 +121,7 @@ void MainView::connectPages()
     templates.onChoose = [this] (const Preset& chosen) { feel (chosen.file, true); };
 
     tour.onStep = [this] (const Tour::Step& step) {
+        if (step.part != nullptr) turnTo (*step.part);
         if (step.part == &bottom) bottom.show (scopes);
     };
     tour.onEnd = [this] {

@@ -77,11 +77,11 @@ void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalog
     });
 }
 
-void openPalette (Palette& palette, Canvas& canvas, const juce::String& purpose, std::vector<PaletteEntry> entries,
+void openPalette (Palette& palette, Canvas& canvas, const juce::String& purpose, PaletteSearch search,
                   std::function<void (const std::string&)> chosen)
 {
-    const auto search = [all = std::move (entries)] (const std::string& query) { return matching (all, query); };
-    palette.open (palette.getParentComponent()->getMouseXYRelative(), search, purpose, [&canvas, chosen = std::move (chosen)] (const std::string& type) {
+    const auto at = palette.getParentComponent()->getMouseXYRelative();
+    palette.open (at, std::move (search), purpose, [&canvas, chosen = std::move (chosen)] (const std::string& type) {
         takeFocus (canvas);   // first: what is chosen may open the palette again
         chosen (type);
     });

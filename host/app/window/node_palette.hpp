@@ -17,6 +17,6 @@ void openNodePalette (Palette&, Canvas&, const Catalogue&, const NodeRequest&, c
 const Preset* templateOf (const std::string& entry, const std::vector<Preset>& templates);
 
 /// Opens the palette at the pointer with the given entries to choose from.
-void openPalette (Palette&, Canvas&, const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string& type)> chosen);
+void openPalette (Palette&, Canvas&, const juce::String& purpose, PaletteSearch, std::function<void (const std::string& type)> chosen);
 
 }   // namespace tactus::host

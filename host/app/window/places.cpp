@@ -28,7 +28,7 @@ void addNamed (const juce::Component& c, Json& into)
     if (const auto name = nameOf (c); ! name.empty()) into[name] = pixel (c.getScreenBounds().toFloat().getCentre());
     if (const auto* tabs = dynamic_cast<const Tabs*> (&c))
         for (const auto& [name, place] : tabs->titles())
-            into[name.toStdString()] = pixel (c.localPointToGlobal (place.getCentre()));
+            if (! place.isEmpty()) into[name.toStdString()] = pixel (c.localPointToGlobal (place.getCentre()));
     for (const auto* child : c.getChildren())
         addNamed (*child, into);
 }

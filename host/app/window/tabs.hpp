@@ -3,6 +3,7 @@
 
 #include <host/app/look/look.hpp>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -39,7 +40,9 @@ public:
     int shown() const noexcept { return current; }
     juce::Component* panel (int index) const { return tabs[static_cast<std::size_t> (index)].panel.get(); }
 
-    /// The titles and their bounds.
+    std::function<void()> onShow;   ///< called when another tab is in front
+
+    /// The titles and their bounds, which are empty for titles that there is no room for: these are in a menu at the end of the row.
     std::vector<std::pair<juce::String, juce::Rectangle<float>>> titles() const;
 
     void paint (juce::Graphics&) override;
@@ -58,6 +61,9 @@ private:
         std::unique_ptr<juce::Component> panel;
         bool alarms = false;
     };
+
+    juce::Rectangle<float> placeOfMenu() const;   ///< empty if there is room for all titles
+    void openMenu();
 
     std::vector<Tab> tabs;
     int current = 0;

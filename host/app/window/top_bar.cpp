@@ -108,6 +108,8 @@ TopBar::TopBar (Document& d)
     instance.setTitle (TRANS ("Instance"));
     instance.onClick = [this] { openInstances(); };
     addChildComponent (instance);
+    all_slots.onClick = [this] { openSnapshots(); };
+    addChildComponent (all_slots);
     undo->onClick = [this] { document.undo(); };
     redo->onClick = [this] { document.redo(); };
     help->onClick = [this] {
@@ -150,10 +152,17 @@ void TopBar::resized()
     put (*help, 28, 12);
     put (*redo, 28, 0);
     put (*undo, 28, 12);
+    constexpr int slot_width = 26, least_trail = 160;
+    const bool has_room = area.getWidth() - slot_width * snapshot_count >= least_trail;
     for (auto s = slots.rbegin(); s != slots.rend(); ++s)
-        put (**s, 26, 0);
+    {
+        (*s)->setVisible (has_room);
+        if (has_room) put (**s, slot_width, 0);
+    }
+    all_slots.setVisible (! has_room);
+    if (! has_room) all_slots.setBounds (area.removeFromRight (all_slots.bestWidth()).withSizeKeepingCentre (all_slots.bestWidth(), 24));
     if (instance.isVisible()) instance.setBounds (area.removeFromRight (instance.bestWidth()).withSizeKeepingCentre (instance.bestWidth(), 24));
-    placeCaption (area);
+    placeCaption (has_room ? area : area.withWidth (0));
     room = (caption.isEmpty() ? area.getRight() : caption.getX()) - 8;
 }
 
@@ -162,6 +171,23 @@ void TopBar::placeCaption (juce::Rectangle<int> area)
     constexpr int for_trail = 300;   // the trail comes first
     const int width = juce::roundToInt (std::ceil (lookOf (*this).font (12.0f).getStringWidthFloat (captionText()))) + 2;
     caption = area.getWidth() - width - 8 < for_trail ? juce::Rectangle<int>() : area.removeFromRight (width + 8).withTrimmedRight (8);
+}
+
+/// Each snapshot that is stored can be recalled, and each can be stored.
+void TopBar::openSnapshots()
+{
+    juce::PopupMenu list;
+    const auto add = [&] (const juce::String& text, int n, const std::function<void (int)>& act) {
+        list.addItem (filled (text, n), [act, n] {
+            if (act) act (n);
+        });
+    };
+    for (int n = 1; n <= snapshot_count; ++n)
+        if (hasSnapshot (document.graph(), n)) add (TRANS ("Recall snapshot %1"), n, onRecall);
+    list.addSeparator();
+    for (int n = 1; n <= snapshot_count; ++n)
+        add (hasSnapshot (document.graph(), n) ? TRANS ("Overwrite snapshot %1") : TRANS ("Store in snapshot %1"), n, onStore);
+    list.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (all_slots));
 }
 
 void TopBar::openInstances()

@@ -55,6 +55,7 @@ private:
     void placeCaption (juce::Rectangle<int>);
 
     void openInstances();
+    void openSnapshots();
 
     Document& document;
     std::optional<Instance> shown;
@@ -63,6 +64,7 @@ private:
     int room = 0;                   // width available for the trail, in pixels
     juce::Rectangle<int> caption;   // of the snapshots; empty if there is no room for it
     std::array<std::unique_ptr<Slot>, snapshot_count> slots;
+    ToolButton all_slots { TRANS ("Snapshots"), ToolButton::Kind::framed, TRANS ("Recall or store a snapshot") };   // in place of the slots in a narrow bar
     std::unique_ptr<IconButton> undo, redo, help, menu;
 };
 

@@ -2,6 +2,7 @@
 #include "device_account.hpp"
 
 #include <host/hid_link/hid_device.hpp>
+#include <tactus/text/number_text.hpp>
 #include <tactus/text/quote.hpp>
 
 #include <algorithm>
@@ -55,7 +56,12 @@ std::string accountOf (const PluginRole& plugin, std::span<const DeviceHealth> h
     tell (counts.read_errors, "failures of the driver to read");
     text += "\n";
     if (const auto h = std::ranges::find (health, plugin.role, &DeviceHealth::role); h != health.end()) text += clockOf (*h);
-    if (counts.writes > 0) text += "    " + std::to_string (counts.writes) + " efforts written, " + std::to_string (counts.write_errors) + " failed\n";
+    if (counts.writes > 0)
+    {
+        text += "    " + std::to_string (counts.writes) + " efforts written, " + std::to_string (counts.write_errors) + " failed";
+        if (counts.reached_hz > 0.0) text += "; " + numberText (std::round (counts.reached_hz)) + " new ones per second reached the device";
+        text += "\n";
+    }
     if (counts.silences > 0)
         text += "    the run paused " + std::to_string (counts.silences) + " times for longer than the watchdog allows, so the force was released\n";
     if (counts.departures > 0)

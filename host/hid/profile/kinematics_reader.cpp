@@ -131,16 +131,23 @@ LinearMap readLinear (ProfileFields& in)
 }
 }   // namespace
 
+std::optional<Mat3> axesOf (const Json& json)
+{
+    auto m = matrixOf (json);
+    if (m && ! ((*m * m->transpose() - Mat3::Identity()).norm() < 1e-9)) m.reset();
+    return m;
+}
+
 Mat3 readAxes (ProfileFields& in)
 {
     const Json& json = in.object ("axes");
     if (! in.has ("axes")) return Mat3::Identity();
 
-    const auto m = matrixOf (json);
+    const auto m = axesOf (json);
     const auto remedy = "write which axis points right, away and up, such as [\"y\", \"-x\", \"z\"]; for a left-handed device negate the scale of one field";
-    if (m && (*m * m->transpose() - Mat3::Identity()).norm() < 1e-9 && m->determinant() > 0.0) return *m;
-    in.error ("axes", "profile/axes", m ? "the axes are not right-handed, of length 1 and perpendicular" : "axes must list three axes or three rows of numbers",
-              remedy);
+    if (m && m->determinant() > 0.0) return *m;
+    in.error ("axes", "profile/axes",
+              matrixOf (json) ? "the axes are not right-handed, of length 1 and perpendicular" : "axes must list three axes or three rows of numbers", remedy);
     return Mat3::Identity();
 }
 

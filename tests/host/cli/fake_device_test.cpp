@@ -4,8 +4,13 @@
 #include "program.hpp"
 #include "running.hpp"
 
+#include <host/hid/hex.hpp>
+#include <host/hid_link/capture.hpp>
+#include <tactus/file/text_file.hpp>
+
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <sstream>
@@ -149,4 +154,71 @@ TEST_CASE ("what fake-device cannot play is refused with a remedy", "[cli][wires
     CHECK (refused ({ "tactus_board", "--wire", "udp", "--link", "board" }, "--link"));
     const test::Scratch scratch;
     CHECK (refused ({ "tactus_board", "--link", scratch.write ("file", "mine") }, "fake/link"));
+}
+
+TEST_CASE ("tactus devices --capture records what a device on a wire has sent, byte for byte", "[cli][wires][capture]")
+{
+    const auto wire = GENERATE (std::string ("serial"), std::string ("udp"));
+    Fake fake { wire };
+    REQUIRE (fake.is_there);
+    const auto file = fake.scratch.path ("board.jsonl");
+    const auto ran = runTactus ({ "devices", "--capture", file, "--device", fake.device, "--duration", "1" });
+    INFO (ran.out + ran.err);
+    CHECK (ran.status == 0);
+    CHECK (ran.out.find ("wrote ") != std::string::npos);
+    const auto capture = host::hid::readCapture (*readTextFile (file));
+    REQUIRE (capture);
+    CHECK (capture->profile == "tactus_board");
+
+    // Each report that came is one that the fake says it has sent, in the same order. A busy computer may have dropped some.
+    const auto sent = linesOf (fake.log, "> ");
+    auto next = sent.begin();
+    std::size_t in = 0, unknown = 0;
+    for (const auto& line : capture->lines)
+    {
+        if (line.what != host::hid::Capture::Line::What::in) continue;
+        ++in;
+        const auto at = std::find (next, sent.end(), "> " + host::hid::hexOf (line.bytes));
+        if (at == sent.end())
+            ++unknown;
+        else
+            next = at + 1;
+    }
+    CHECK (in > 100);
+    CHECK (unknown == 0);
+    CHECK (linesOf (fake.log, drives).empty());   // nothing was driven
+    fake.program.stop();
+}
+
+TEST_CASE ("tactus devices --capture records a serial port without a profile, and says why it cannot record", "[cli][wires][capture]")
+{
+    Fake fake { "serial" };
+    REQUIRE (fake.is_there);
+    const auto file = fake.scratch.path ("bytes.jsonl");
+    const auto ran = runTactus ({ "devices", "--capture", file, "--device", fake.scratch.path ("board"), "--duration", "0.5" });
+    INFO (ran.out + ran.err);
+    CHECK (ran.status == 0);
+    const auto capture = host::hid::readCapture (*readTextFile (file));
+    REQUIRE (capture);
+    CHECK (capture->profile.empty());
+    CHECK (capture->lines.size() > 10);
+    CHECK (linesOf (fake.log, "< ").empty());   // nothing was sent to it
+
+    const auto refused = [&] (const std::vector<std::string>& more, const std::string& id) {
+        std::vector<std::string> words { "devices", "--capture", fake.scratch.path ("none.jsonl") };
+        words.insert (words.end(), more.begin(), more.end());
+        const auto wrong = runTactus (words);
+        INFO (wrong.err);
+        return wrong.status != 0 && wrong.err.find (id) != std::string::npos;
+    };
+    CHECK (refused ({ "--device", "sim" }, "capture/device"));
+    CHECK (refused ({ "--device", "serial:tactus_bord@/dev/null" }, "did you mean 'tactus_board'?"));
+    CHECK (refused ({ "--device", fake.scratch.path ("nothing") }, "cannot open it"));
+    CHECK (refused ({ "--probe" }, "--probe"));
+    CHECK (runTactus ({ "devices", "--duration", "1" }).status == 2);
+    CHECK (runTactus ({ "devices", "--device", fake.device }).status == 2);
+    const auto unwritable = runTactus ({ "devices", "--capture", "/nowhere/at/all.jsonl", "--device", fake.device });
+    CHECK (unwritable.status == 1);
+    CHECK (unwritable.err.find ("output/unwritable") != std::string::npos);
+    fake.program.stop();
 }

@@ -20,7 +20,7 @@ struct Device
     {
         wall += passed;
         clock += on_its_clock;
-        return watch ({ sizeof (tactus_device_stamp), 0, ++number, clock }, wall);
+        return watch ({ sizeof (tactus_device_stamp), 0, ++number, clock, 0.0 }, wall);
     }
 };
 }   // namespace
@@ -97,7 +97,7 @@ TEST_CASE ("when more than half of the readings are missing, none is trusted", "
         StampWatch watch { 1000.0 };
         StampWatch::Assessment v;
         for (int k = 0; k < 40; ++k)
-            v = watch ({ sizeof (tactus_device_stamp), 0, 0, 0.0 }, 4e-3 * k);
+            v = watch ({ sizeof (tactus_device_stamp), 0, 0, 0.0, 0.0 }, 4e-3 * k);
         CHECK (v.fault == ReadingFault::lost);
     }
 }
@@ -116,11 +116,11 @@ TEST_CASE ("readings that queue up on the way are as old as the clock of the dev
 TEST_CASE ("a time that is not a number makes the reading malformed, and a device that says nothing is taken at its word", "[plugins]")
 {
     StampWatch watch { 0.0 };
-    CHECK (watch ({ sizeof (tactus_device_stamp), 0, 1, std::nan ("") }, 1.0).fault == ReadingFault::malformed);
+    CHECK (watch ({ sizeof (tactus_device_stamp), 0, 1, std::nan (""), 0.0 }, 1.0).fault == ReadingFault::malformed);
     StampWatch plain { 0.0 };
     for (int k = 0; k < 10; ++k)
     {
-        const auto v = plain ({ sizeof (tactus_device_stamp), 0, 0, 0.0 }, k);
+        const auto v = plain ({ sizeof (tactus_device_stamp), 0, 0, 0.0, 0.0 }, k);
         CHECK (v.is_new);
         CHECK (v.fault == ReadingFault::none);
         CHECK (v.lag_s == 0.0);

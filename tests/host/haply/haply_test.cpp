@@ -11,9 +11,14 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
 #include <string>
 #include <thread>
+#include <vector>
 
 using namespace tactus;
 using namespace std::chrono_literals;
@@ -22,9 +27,9 @@ using Fault = host::FakeInverse3::Fault;
 namespace
 {
 template <typename F>
-bool eventually (F&& so)
+bool eventually (F&& so, std::chrono::seconds within = 30s)
 {
-    const auto end = std::chrono::steady_clock::now() + 30s;
+    const auto end = std::chrono::steady_clock::now() + within;
     while (! so())
     {
         if (std::chrono::steady_clock::now() > end) return false;
@@ -105,6 +110,43 @@ TEST_CASE ("the Inverse3 is read and pushed through its service, with one messag
     // At the end, the last message that the service has heard asks for no force.
     arm.opened.device.reset();
     CHECK (arm.service->force().isZero (0.0));
+}
+
+TEST_CASE ("position, rotation and buttons of an arm and its grip are one reading", "[haply][wires]")
+{
+    /// The same number moves, turns and presses.
+    struct Hand final : Device
+    {
+        void prepare (double) override {}
+        Reading read() noexcept override
+        {
+            ++number;
+            const double turn = 1e-4 * (number % 30000);
+            return { .position = { 1e-6 * number, 0.0, 0.0 }, .rotation = { 0.6 * turn, 0.0, -0.8 * turn }, .buttons = static_cast<std::uint32_t> (number % 16) };
+        }
+        void write (const Effort&) noexcept override {}
+        int number = 0;
+    };
+    auto made = host::FakeInverse3::make (0, std::make_unique<Hand>());
+    REQUIRE (made);
+    auto opened = host::openPluginDevice ({ { "driver", "haply" }, { "port", "localhost:" + std::to_string ((*made)->port()) }, { "grip", "wireless" } });
+    INFO (test::text (opened.messages));
+    REQUIRE (opened.device);
+    opened.device->prepare (1e-3);
+    int seen = 0, last = 0;
+    REQUIRE (eventually ([&] {
+        const auto reading = opened.device->read();
+        opened.device->write ({});
+        if (! reading.valid) return false;
+        const int number = static_cast<int> (std::lround (1e6 * reading.position.x()));
+        if (number == last) return false;
+        const double turn = 1e-4 * (number % 30000);
+        CHECK ((reading.rotation - Vec3 (0.6 * turn, 0.0, -0.8 * turn)).norm() < 1e-9);
+        CHECK (reading.buttons == static_cast<std::uint32_t> (number % 16));
+        CHECK (number > last);
+        last = number;
+        return ++seen > 100;
+    }));
 }
 
 TEST_CASE ("the Inverse3 understands both spellings of a force, and is asked where it is while nobody pushes", "[haply][wires]")
@@ -193,4 +235,76 @@ TEST_CASE ("what is wrong with a description of an Inverse3, or with its service
     arm.opened.device.reset();   // the fake serves one client at a time
     CHECK (with ("device_id", "FFFF").find ("no Inverse3 with the id FFFF") != std::string::npos);
     CHECK (with ("grip", "wired").find ("how the grip is held") != std::string::npos);
+}
+
+TEST_CASE ("a long run of an Inverse3: each message is answered, one at a time, and nothing pushes after a stop", "[haply][wires][soak]")
+{
+    const auto* wanted = std::getenv ("TACTUS_SOAK_SECONDS");
+    const auto pushes = static_cast<std::uint64_t> (300.0 * (wanted != nullptr ? std::max (1.0, std::atof (wanted)) : 3.0));   // about a quarter of what a second has room for
+    Arm arm;
+    REQUIRE (arm.pushes());
+    const auto before = arm.service->counts();
+    int tick = 0;
+    REQUIRE (eventually (
+        [&] {
+            arm.tick (++tick % 2 == 0 ? 0.5 : -0.5);
+            return arm.service->counts().forces - before.forces >= pushes;
+        },
+        std::chrono::seconds (60 + pushes / 20)));
+    CHECK (arm.device->counts().departures == 0);
+    const auto n = arm.service->counts();
+    CHECK (n.heard - n.answered <= 1);   // the last one may be under way
+    CHECK (n.clients == 1);
+    CHECK (n.together == 0);
+    CHECK (n.refused == 0);
+    CHECK (n.largest <= 1.0);
+
+    // After a stop, no message asks for a force, not even the last one.
+    REQUIRE (eventually ([&] {
+        arm.tick (0.0);
+        return arm.service->force().isZero (0.0);
+    }));
+    const auto at_rest = arm.service->counts();
+    REQUIRE (eventually ([&] {
+        arm.tick (0.0);
+        return arm.service->counts().heard > at_rest.heard + 300;
+    }));
+    arm.opened.device.reset();
+    CHECK (arm.service->counts().pushes == at_rest.pushes);
+}
+
+TEST_CASE ("a state of an Inverse3 is answered at once by whoever reads it", "[haply][wires][hops]")
+{
+    const auto* wanted = std::getenv ("TACTUS_HOPS");
+    const int states = wanted ? std::stoi (wanted) : 200;
+    Arm arm;
+    REQUIRE (arm.pushes());
+    std::vector<double> us;
+    auto last = std::chrono::steady_clock::now();
+    auto known = arm.device->counts().readings;
+    REQUIRE (eventually (
+        [&] {
+            // From a force to the next state: the force on its way, the service, and the state on its way. The pause is that of ticks at 1 kHz.
+            while (arm.device->counts().readings == known)
+                if (std::chrono::steady_clock::now() - last > 1s) return true;
+            known = arm.device->counts().readings;
+            us.push_back (1e6 * std::chrono::duration<double> (std::chrono::steady_clock::now() - last).count());
+            std::this_thread::sleep_for (1ms);
+            known = arm.device->counts().readings;
+            last = std::chrono::steady_clock::now();
+            arm.tick (0.5);
+            return us.size() > static_cast<std::size_t> (states);
+        },
+        120s));
+    REQUIRE (us.size() > static_cast<std::size_t> (states));
+    const auto n = arm.service->counts();
+    CHECK (n.together == 0);
+    CHECK (n.heard - n.answered <= 1);
+    CHECK (n.forces >= static_cast<std::uint64_t> (states));
+    if (wanted == nullptr) return;
+    us.erase (us.begin());
+    std::ranges::sort (us);
+    const auto quantile = [&] (double part) { return us[static_cast<std::size_t> (part * static_cast<double> (us.size() - 1))]; };
+    std::cout << "WebSocket (Inverse3): " << us.size() << " reports, p50 " << quantile (0.5) << ", p90 " << quantile (0.9) << ", p99 " << quantile (0.99)
+              << ", p99.9 " << quantile (0.999) << ", max " << us.back() << " us\n";
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A device on a serial line that speaks only when it is spoken to: Haply's 2DIY, played from the outside by a fake.
 
+#include "wire_bench.hpp"
+
 #include "host/hid/hid.hpp"
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
-#include "wire_bench.hpp"
 
 #include <host/hid_link/open_device.hpp>
 #include <host/hid_link/wires.hpp>
@@ -21,9 +22,9 @@
 #include <functional>
 
 using namespace tactus;
-using namespace tactus::test::wire;
 using namespace tactus::host;
 using namespace tactus::host::hid;
+using namespace tactus::test::wires;
 using namespace std::chrono_literals;
 
 namespace
@@ -46,9 +47,9 @@ std::shared_ptr<const Profile> arm()
 const Bytes rest { 2, 5, 0, 0, 0, 0, 0, 0, 0, 0 };
 
 /// A fake arm and the port that is open on it. Time passes only in ticks of 1 ms.
-struct Bench
+struct ArmBench
 {
-    explicit Bench (std::unique_ptr<Device> hand = stillHand(), const std::string& link = {}) : profile (arm())
+    explicit ArmBench (std::unique_ptr<Device> hand = stillHand(), const std::string& link = {}) : profile (arm())
     {
         auto made = FakeDevice::make (profile, std::move (hand), { .wire = Wire::serial, .link = link, .faults = {} });
         INFO ((made ? std::string() : made.error().text));
@@ -130,7 +131,7 @@ struct Bench
 /// The arm of a bench in a run: each tick is one report and the answer to it.
 struct OnTheBench final : Device
 {
-    explicit OnTheBench (Bench& b) : bench (b), first (b.sent.size() - 1), asked (b.device->counts().taken) {}
+    explicit OnTheBench (ArmBench& b) : bench (b), first (b.sent.size() - 1), asked (b.device->counts().taken) {}
 
     void prepare (double) override {}
 
@@ -152,7 +153,7 @@ struct OnTheBench final : Device
 
     DeviceLayout layout() const override { return bench.device->layout(); }
 
-    Bench& bench;
+    ArmBench& bench;
     const std::size_t first;   // of the answers that the run sees
     std::uint64_t asked;
     bool works = true;
@@ -165,7 +166,7 @@ bool keepsItsForces (const graph::Graph& graph, const std::shared_ptr<Plan>& pla
     constexpr std::size_t ticks = 3000;
     auto hand = makeDevice (*graph.device ("stylus"), {});
     REQUIRE (hand.device);
-    Bench bench { std::move (hand.device) };
+    ArmBench bench { std::move (hand.device) };
     const auto limits = limitsOf (*bench.profile, {});
     OnTheBench there { bench };
     Engine engine { plan };
@@ -217,7 +218,7 @@ TEST_CASE ("dry wood on an arm that only answers: each torque at its far end is 
 
 TEST_CASE ("a report that pushes waits for the answer to the one before, and one that brings to rest does not", "[wires][hid][safety]")
 {
-    Bench bench;
+    ArmBench bench;
     REQUIRE (bench.pushes());
     bench.fake->fail (DeviceFault::Kind::stall, 1.0);   // the arm is busy: it hears nothing, and answers nothing
     const auto before = bench.heard.size();
@@ -251,7 +252,7 @@ TEST_CASE ("an arm that has missed a byte gets fillers until it answers, and kee
 {
     auto hand = makeDevice ({ { "driver", "sim" }, { "position", Json::array ({ "1 cm", 0, "2 cm" }) }, { "mass", "1000 kg" } }, {});
     REQUIRE (hand.device);
-    Bench bench { std::move (hand.device) };
+    ArmBench bench { std::move (hand.device) };
     REQUIRE (bench.pushes());
     const auto position = bench.reading.position;
     const auto set_up = bench.steps.size();
@@ -281,7 +282,7 @@ TEST_CASE ("garbage, half answers, lost bytes and silence make no wrong reading 
 {
     using Kind = DeviceFault::Kind;
     const auto kind = GENERATE (Kind::garbage, Kind::half, Kind::lost_byte, Kind::stall);
-    Bench bench;
+    ArmBench bench;
     REQUIRE (bench.pushes());
     const auto taken = bench.device->counts().taken;
     const auto set_up = bench.steps.size();
@@ -301,7 +302,7 @@ TEST_CASE ("garbage, half answers, lost bytes and silence make no wrong reading 
 
 TEST_CASE ("an arm that is reset is set up again, and its force starts from zero", "[wires][hid][safety]")
 {
-    Bench bench;
+    ArmBench bench;
     REQUIRE (bench.pushes());
     const auto set_up = bench.steps.size();
     bench.fake->fail (DeviceFault::Kind::reset, 5e-3);
@@ -322,7 +323,7 @@ TEST_CASE ("an arm that is reset is set up again, and its force starts from zero
 TEST_CASE ("an arm that only answers is unplugged and comes back under another name", "[wires][hid][safety]")
 {
     const TemporaryFolder folder;
-    Bench bench { stillHand(), (folder / "arm").string() };
+    ArmBench bench { stillHand(), (folder / "arm").string() };
     REQUIRE (bench.pushes());
     const auto name = bench.fake->place();
     bench.fake->fail (DeviceFault::Kind::away, 1e-3);
@@ -342,7 +343,7 @@ TEST_CASE ("an arm that only answers is unplugged and comes back under another n
 
 TEST_CASE ("an arm that nobody drives is asked where it is by the neutral report, and what nobody has asked for is dropped", "[wires][hid]")
 {
-    Bench bench;
+    ArmBench bench;
     const auto before = bench.heard.size();
     for (int k = 1; k <= 5; ++k)
     {

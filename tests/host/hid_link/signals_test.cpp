@@ -8,8 +8,8 @@
 #include <support/property.hpp>
 
 #include <host/hid/report/crc32.hpp>
+#include <host/hid/vibration_tracker.hpp>
 #include <host/hid_link/stream_feed.hpp>
-#include <host/hid_link/vibration_tracker.hpp>
 
 #include <cmath>
 #include <numbers>

@@ -1,36 +1,48 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "host/hid/hid.hpp"
+#include "support/sketch.hpp"
+
+#include <host/hid_link/capture.hpp>
 #include <host/hid_link/fake_device.hpp>
 #include <host/hid_link/hid_device.hpp>
 
+#include <tactus/file/text_file.hpp>
 #include <tactus/run/device/make_device.hpp>
+#include <tactus/text/json_text.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <atomic>
 #include <chrono>
+#include <cstring>
+#include <future>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
-// What tests of devices on a wire share.
-namespace tactus::test::wire
+namespace tactus::test::wires
 {
 
-using WireClock = host::hid::WireFile::Clock;
+using namespace host;
+using namespace host::hid;
+using namespace std::chrono_literals;
+using WireClock = WireFile::Clock;
 
 /// True as soon as the condition holds; false if it still does not hold after a long time.
 template <typename F>
-inline bool eventually (F&& so)
+bool eventually (F&& so)
 {
-    const auto end = WireClock::now() + std::chrono::seconds (30);
+    const auto end = WireClock::now() + 30s;
     while (! so())
     {
         if (WireClock::now() > end) return false;
-        std::this_thread::sleep_for (std::chrono::microseconds (200));
+        std::this_thread::sleep_for (200us);
     }
     return true;
 }
@@ -38,15 +50,25 @@ inline bool eventually (F&& so)
 /// A computer without HID devices, with a clock of its own.
 struct NoHid final : host::hid::HidSystem
 {
-    std::vector<host::hid::ConnectedDevice> connected() override { return {}; }
-    Result<std::unique_ptr<host::hid::Transport>> open (const host::hid::ConnectedDevice&) override
-    {
-        return Message::error ("hid/not_opened", {}, "there is none");
-    }
+    std::vector<ConnectedDevice> connected() override { return {}; }
+    Result<std::unique_ptr<Transport>> open (const ConnectedDevice&) override { return Message::error ("hid/not_opened", {}, "there is none"); }
     std::chrono::steady_clock::time_point now() const noexcept override { return std::chrono::steady_clock::time_point (std::chrono::nanoseconds (ns.load())); }
 
     std::atomic<std::int64_t> ns = 1'000'000'000;
 };
+
+/// The board's profile, with a framing, and with a watchdog that a busy machine does not trigger.
+inline std::shared_ptr<const Profile> board (const std::string& framing = "cobs", const std::string& watchdog = "10 s")
+{
+    auto json = readJson (*readTextFile (test::profile_folder / "tactus_board.json")).root;
+    json["wires"]["serial"]["framing"] = framing;
+    json["limits"]["stale_input"] = watchdog;
+    json["outputs"][0]["max_rate"] = 20000;
+    auto loaded = readProfile (json);
+    INFO (test::text (loaded.messages));
+    REQUIRE (loaded.profile);
+    return loaded.profile;
+}
 
 inline std::unique_ptr<Device> stillHand()
 {
@@ -55,11 +77,96 @@ inline std::unique_ptr<Device> stillHand()
     return std::move (made.device);
 }
 
+inline std::uint32_t numberAt (const Bytes& report, std::size_t at)
+{
+    std::uint32_t n = 0;
+    std::memcpy (&n, report.data() + at, sizeof n);
+    return n;
+}
+
+/// A fake board and the port that is open on it.
+struct Bench
+{
+    /// Records what passes in a file, if there is one.
+    explicit Bench (Wire w, std::shared_ptr<const Profile> p = board(), std::unique_ptr<Device> hand = stillHand(), const std::string& link = {},
+                    CaptureFile* file = nullptr)
+        : profile (std::move (p))
+    {
+        if (file != nullptr) capturing.emplace (system, *file);
+        auto made = FakeDevice::make (profile, std::move (hand), { .wire = w, .link = link, .faults = {} });
+        INFO ((made ? std::string() : made.error().text));
+        REQUIRE (made);
+        fake = std::move (*made);
+        fake->on_line = [this] (const FakeDevice::Line& line) {
+            if (line.what == FakeDevice::Line::What::sent) sent.emplace_back (line.bytes.begin(), line.bytes.end());
+            if (line.what == FakeDevice::Line::What::heard) heard.emplace_back (line.bytes.begin(), line.bytes.end());
+        };
+        where.wire = w;
+        where.path = link.empty() ? fake->place() : link;
+        where.product = "fake board";
+
+        // Over UDP, the device must answer while it is opened.
+        const HidPort::Options options { .look_again = 5ms, .real_time = false };
+        auto opening = std::async (std::launch::async, [&] { return HidPort::open (opener(), where, profile, options); });
+        while (opening.wait_for (1ms) != std::future_status::ready)
+            fake->step();
+        auto opened = opening.get();
+        INFO ((opened ? std::string() : opened.error().text));
+        REQUIRE (opened);
+        device = std::make_unique<HidDevice> (std::move (*opened));
+        device->prepare (1e-3);
+        const auto& axes = device->model().axisNames();
+        sequence = static_cast<std::size_t> (std::ranges::find (axes, "sequence") - axes.begin());
+        REQUIRE (sequence < axes.size());
+    }
+
+    /// One step of the fake, and reads until its report is there. False if it does not come.
+    bool step (Reading& reading)
+    {
+        const auto at = sent.size();
+        fake->step();
+        system.ns += 1'000'000;
+        if (sent.size() == at) return false;
+        const auto number = numberAt (sent[at], 4);
+        const auto end = WireClock::now() + 10s;
+        do
+        {
+            reading = device->read();
+            if (device->model().sample().axes[sequence] == static_cast<double> (number)) return true;
+            std::this_thread::yield();
+        } while (WireClock::now() < end);
+        return false;
+    }
+
+    /// The same with a force; waits until the fake has heard it.
+    bool push (double force)
+    {
+        Reading reading;
+        if (! step (reading)) return false;
+        Effort effort;
+        if (reading.valid) effort.force.z() = force;
+        const auto before = heard.size();
+        device->write (effort);
+        return eventually ([&] { return fake->hear (WireClock::now() + 10ms) || heard.size() > before; });
+    }
+
+    HidSystem& opener() { return capturing ? static_cast<HidSystem&> (*capturing) : system; }
+
+    std::shared_ptr<const Profile> profile;
+    NoHid system;
+    std::optional<CapturingSystem> capturing;
+    ConnectedDevice where;
+    std::unique_ptr<FakeDevice> fake;
+    std::unique_ptr<HidDevice> device;   // ends before the fake
+    std::vector<Bytes> sent, heard;
+    std::size_t sequence = 0;   // the index of the axis
+};
+
 /// A device in a run without a wire: the reports of a log, and the answers after encoding. A device rests before it pushes, on its first tick unless it
 /// `has_rested`.
 struct OffTheWire final : Device
 {
-    OffTheWire (std::shared_ptr<const host::hid::Profile> p, std::span<const host::hid::Bytes> r, bool has_rested = false)
+    OffTheWire (std::shared_ptr<const Profile> p, std::span<const Bytes> r, bool has_rested = false)
         : model (std::move (p)), reports (r), resting (has_rested ? 0 : 1)
     {
     }
@@ -82,20 +189,20 @@ struct OffTheWire final : Device
     {
         force = guarded.force;
         torque = guarded.torque;
-        host::hid::HidEffort effort { force, torque, model.restEfforts() };
+        HidEffort effort { force, torque, model.restEfforts() };
         model.take (guarded.axes, effort);
         const auto bytes = model.encodeValues (0, model.drive (effort, 1e-3));
-        answers.emplace_back (bytes.begin() + (host::hid::usesIds (model.profile()) ? 0 : 1), bytes.end());
+        answers.emplace_back (bytes.begin() + (usesIds (model.profile()) ? 0 : 1), bytes.end());
     }
 
-    DeviceLayout layout() const override { return host::hid::layoutOf (model); }
+    DeviceLayout layout() const override { return layoutOf (model); }
 
-    host::hid::HidModel model;
-    std::span<const host::hid::Bytes> reports;
+    HidModel model;
+    std::span<const Bytes> reports;
     const std::size_t resting;   // ticks without a valid reading
     std::size_t tick = 0;
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-    std::vector<host::hid::Bytes> answers;
+    std::vector<Bytes> answers;
 };
 
-}   // namespace tactus::test::wire
+}   // namespace tactus::test::wires

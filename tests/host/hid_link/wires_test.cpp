@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A profile's device on a serial line and over UDP, played from the outside by a fake.
 
+#include "wire_bench.hpp"
+
 #include "host/hid/hid.hpp"
 #include "support/sketch.hpp"
 #include "support/temporary_folder.hpp"
-#include "wire_bench.hpp"
 
 #include <host/hid_link/fake_device.hpp>
 #include <host/hid_link/open_device.hpp>
@@ -32,105 +33,13 @@
 #include <thread>
 
 using namespace tactus;
-using namespace tactus::test::wire;
 using namespace tactus::host;
 using namespace tactus::host::hid;
+using namespace tactus::test::wires;
 using namespace std::chrono_literals;
 
 namespace
 {
-/// The board's profile, with a framing, and with a watchdog that a busy machine does not trigger.
-std::shared_ptr<const Profile> board (const std::string& framing = "cobs", const std::string& watchdog = "10 s")
-{
-    auto json = readJson (*readTextFile (test::profile_folder / "tactus_board.json")).root;
-    json["wires"]["serial"]["framing"] = framing;
-    json["limits"]["stale_input"] = watchdog;
-    json["outputs"][0]["max_rate"] = 20000;
-    auto loaded = readProfile (json);
-    INFO (test::text (loaded.messages));
-    REQUIRE (loaded.profile);
-    return loaded.profile;
-}
-
-std::uint32_t numberAt (const Bytes& report, std::size_t at)
-{
-    std::uint32_t n = 0;
-    std::memcpy (&n, report.data() + at, sizeof n);
-    return n;
-}
-
-/// A fake board and the port that is open on it.
-struct Bench
-{
-    explicit Bench (Wire w, std::shared_ptr<const Profile> p = board(), std::unique_ptr<Device> hand = stillHand(), const std::string& link = {})
-        : profile (std::move (p))
-    {
-        auto made = FakeDevice::make (profile, std::move (hand), { .wire = w, .link = link, .faults = {} });
-        INFO ((made ? std::string() : made.error().text));
-        REQUIRE (made);
-        fake = std::move (*made);
-        fake->on_line = [this] (const FakeDevice::Line& line) {
-            if (line.what == FakeDevice::Line::What::sent) sent.emplace_back (line.bytes.begin(), line.bytes.end());
-            if (line.what == FakeDevice::Line::What::heard) heard.emplace_back (line.bytes.begin(), line.bytes.end());
-        };
-        where.wire = w;
-        where.path = link.empty() ? fake->place() : link;
-        where.product = "fake board";
-
-        // Over UDP, the device must answer while it is opened.
-        const HidPort::Options options { .look_again = 5ms, .real_time = false };
-        auto opening = std::async (std::launch::async, [&] { return HidPort::open (system, where, profile, options); });
-        while (opening.wait_for (1ms) != std::future_status::ready)
-            fake->step();
-        auto opened = opening.get();
-        INFO ((opened ? std::string() : opened.error().text));
-        REQUIRE (opened);
-        device = std::make_unique<HidDevice> (std::move (*opened));
-        device->prepare (1e-3);
-        const auto& axes = device->model().axisNames();
-        sequence = static_cast<std::size_t> (std::ranges::find (axes, "sequence") - axes.begin());
-        REQUIRE (sequence < axes.size());
-    }
-
-    /// One step of the fake, and reads until its report is there. False if it does not come.
-    bool step (Reading& reading)
-    {
-        const auto at = sent.size();
-        fake->step();
-        system.ns += 1'000'000;
-        if (sent.size() == at) return false;
-        const auto number = numberAt (sent[at], 4);
-        const auto end = WireClock::now() + 10s;
-        do
-        {
-            reading = device->read();
-            if (device->model().sample().axes[sequence] == static_cast<double> (number)) return true;
-            std::this_thread::yield();
-        } while (WireClock::now() < end);
-        return false;
-    }
-
-    /// The same with a force; waits until the fake has heard it.
-    bool push (double force)
-    {
-        Reading reading;
-        if (! step (reading)) return false;
-        Effort effort;
-        if (reading.valid) effort.force.z() = force;
-        const auto before = heard.size();
-        device->write (effort);
-        return eventually ([&] { return fake->hear (WireClock::now() + 10ms) || heard.size() > before; });
-    }
-
-    std::shared_ptr<const Profile> profile;
-    NoHid system;
-    ConnectedDevice where;
-    std::unique_ptr<FakeDevice> fake;
-    std::unique_ptr<HidDevice> device;   // ends before the fake
-    std::vector<Bytes> sent, heard;
-    std::size_t sequence = 0;   // the index of the axis
-};
-
 /// The device of a bench in a run: each tick is one report and its answer.
 struct OnTheBench final : Device
 {

@@ -135,6 +135,8 @@ TEST_CASE ("errors that no device can fix are reported immediately; with Absence
     refused ({ { "driver", "hid" }, { "profile", "board" }, { "guard", { { "max_force", "1 mm" } } } }, Absence::waits, "hid/not_connected");
     refused ({ { "driver", "sim" }, { "workspace", { { "scale", 0 } } } }, Absence::waits, "device/out_of_range");
     refused ({ { "driver", "sim" }, { "mass", 0 } }, Absence::waits, "device/out_of_range");
+    refused ({ { "driver", "sim" }, { "workspace", { { "clutch", "grip" } } } }, Absence::waits, "device/no_button");
+    CHECK (bindStylus ({ { "driver", "sim" }, { "workspace", { { "clutch", "grip" } } } }, board).messages.front().where == "/roles/stylus/workspace/clutch");
 }
 
 TEST_CASE ("a session can only tighten the limits of a device's profile, in the graph's workspace", "[sessions][hid]")

@@ -22,6 +22,8 @@ bad = [
     (["roles", "stylus"], "hid"), (["roles", "stylus", "driver"], None), (["roles", "stylus", "profile"], 3), (["roles", "stylus", "workspace", "scale"], 0),
     (["roles", "stylus", "workspace", "scale"], [2]),
      (["roles", "stylus", "workspace", "offset"], [0, 0]), (["roles", "stylus", "workspace", "offset", 2], "1 N"),
+    (["roles", "stylus", "workspace", "axes"], ["x", "y"]), (["roles", "stylus", "workspace", "axes"], ["x", "y", "w"]),
+    (["roles", "stylus", "workspace", "axes"], [[1, 0], "y", "z"]), (["roles", "stylus", "workspace", "clutch"], 3),
     (["roles", "stylus", "workspace", "angle"], 1), (["roles", "stylus", "guard"], 3), (["roles", "thumb", "path"], None), (["audio"], 3),
 ]
 

@@ -3,7 +3,8 @@
 #include <tactus/plugin/node_plugin.hpp>
 
 #include <tactus/nodes/device/axis.hpp>
+#include <tactus/nodes/device/brake.hpp>
 #include <tactus/nodes/device/force.hpp>
 #include <tactus/nodes/device/position.hpp>
 
-TACTUS_PLUGIN (tactus::nodes::DeviceAxis, tactus::nodes::DevicePosition, tactus::nodes::DeviceForce)
+TACTUS_PLUGIN (tactus::nodes::DeviceAxis, tactus::nodes::DeviceBrake, tactus::nodes::DevicePosition, tactus::nodes::DeviceForce)

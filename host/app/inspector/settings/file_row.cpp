@@ -35,7 +35,7 @@ const char* patternsOf (SettingSheet::Kind kind)
     case SettingSheet::Kind::image:
         return "*.png;*.jpg;*.jpeg";
     case SettingSheet::Kind::table:
-        return "*.csv;*.haptic;*.ahap;*.hjif;*.json;*.wav";   // a clip is a table for a node
+        return "*.csv";
     default:
         return "*.obj;*.off;*.ply;*.stl";
     }
@@ -44,8 +44,8 @@ const char* patternsOf (SettingSheet::Kind kind)
 class FileRow final : public Block, public juce::FileDragAndDropTarget
 {
 public:
-    FileRow (juce::String l, SettingSheet::Kind k, Binding s, const EditorContext& c, juce::String about_it)
-        : label (std::move (l)), about (std::move (about_it)), kind (k), binding (std::move (s)), context (c)
+    FileRow (juce::String l, SettingSheet::Kind k, Binding s, const EditorContext& c, juce::String about_it, bool clip)
+        : label (std::move (l)), about (std::move (about_it)), is_clip (clip), kind (k), binding (std::move (s)), context (c)
     {
         field.setTitle (label);
         field.onApply = [this] (const juce::String& text) {
@@ -139,25 +139,25 @@ private:
 
     void setFile (const juce::String& file) { binding.set (Json (pathFrom (file.toStdString(), context.folder())), false); }
 
+    /// Begins at the file that is set, or else in the folder of the graph.
     void openChooser()
     {
-        const auto folder = context.folder();
-        const auto start = folder.empty() ? juce::File() : juce::File::getCurrentWorkingDirectory().getChildFile (folder);
-        // false: no dialog of the desktop, which would keep Esc from this program, see MainView::launchChooser
-        chooser = std::make_unique<juce::FileChooser> (TRANS ("Choose a file"), start, patternsOf (kind), false);
-        const auto chosen = [safe = juce::Component::SafePointer (this)] (const juce::FileChooser& c) {
-            if (safe != nullptr && c.getResult() != juce::File()) safe->setFile (c.getResult().getFullPathName());
-        };
-        chooser->launchAsync (juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, chosen);
+        if (! context.choose) return;
+        const auto written = field.getText().toStdString(), folder = context.folder();
+        const std::filesystem::path begin = written.empty() ? folder : resolved (written, folder);
+        context.choose (is_clip ? clip_patterns : patternsOf (kind), begin,
+                        [safe = juce::Component::SafePointer (this)] (const std::filesystem::path& chosen) {
+                            if (safe != nullptr) safe->setFile (fromUtf8 (chosen.string()));
+                        });
     }
 
     juce::String label, about;
+    bool is_clip;
     SettingSheet::Kind kind;
     Binding binding;
     EditorContext context;
     TextField field;
     ToolButton browse { TRANS ("Browse..."), ToolButton::Kind::framed, TRANS ("Choose a file, or drop one here") };
-    std::unique_ptr<juce::FileChooser> chooser;
     FileText info;
     std::pair<std::string, std::filesystem::file_time_type> read_as_of;
     juce::Image picture;
@@ -165,9 +165,10 @@ private:
 };
 }   // namespace
 
-std::unique_ptr<Block> fileRow (const juce::String& label, SettingSheet::Kind kind, Binding binding, const EditorContext& context, const juce::String& about)
+std::unique_ptr<Block> fileRow (const juce::String& label, SettingSheet::Kind kind, Binding binding, const EditorContext& context, const juce::String& about,
+                                bool is_clip)
 {
-    return std::make_unique<FileRow> (label, kind, std::move (binding), context, about);
+    return std::make_unique<FileRow> (label, kind, std::move (binding), context, about, is_clip);
 }
 
 }   // namespace tactus::host

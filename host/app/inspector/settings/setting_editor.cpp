@@ -303,7 +303,7 @@ std::unique_ptr<Block> bodyOf (const SettingSheet& sheet, const Binding& binding
 std::unique_ptr<Block> settingEditor (const SettingSheet& sheet, Binding binding, const EditorContext& context)
 {
     const juce::String label (fromUtf8 (readable (sheet.id))), about (std::string (sheet.about));
-    if (isFile (sheet.kind)) return fileRow (label, sheet.kind, std::move (binding), context, about);
+    if (isFile (sheet.kind)) return fileRow (label, sheet.kind, std::move (binding), context, about, sheet.id == "clip");
     if (sheet.kind == Kind::number || sheet.kind == Kind::integer)
     {
         auto number = sheetOfNumber (sheet.id, sheet.unit, sheet.about, sheet.limits, std::get<double> (sheet.initial));

@@ -13,14 +13,20 @@ struct EditorContext
     Assets& assets;
     std::function<std::string()> folder;   ///< folder of the graph, for file paths
     std::function<void (const juce::String&)> refused;
+
+    /// Asks for a file of one of these patterns, beginning in a folder or at a file; see clip_patterns.
+    std::function<void (const juce::String& patterns, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>)> choose {};
 };
+
+/// The files that may be clips. A dialog that shows them leaves out each .json that is not a clip, such as a graph.
+inline constexpr const char* clip_patterns = "*.haptic;*.ahap;*.hjif;*.json;*.wav;*.csv";
 
 /// The editor for a setting or one of its fields, depending on its kind: a number, a table of modes, a law with its curve, a
 /// file … Structured values can also be edited as JSON.
 std::unique_ptr<Block> settingEditor (const SettingSheet&, Binding, const EditorContext&);
 
-/// A file: its path, a browse button and a description. Accepts dropped files.
-std::unique_ptr<Block> fileRow (const juce::String& label, SettingSheet::Kind, Binding, const EditorContext&, const juce::String& about);
+/// A file: its path, a browse button and a description. Accepts dropped files. A clip is a table for a node.
+std::unique_ptr<Block> fileRow (const juce::String& label, SettingSheet::Kind, Binding, const EditorContext&, const juce::String& about, bool is_clip = false);
 
 /// A law: its kind, numbers and curve.
 std::unique_ptr<Block> lawEditor (const SettingSheet&, Binding, const EditorContext&);

@@ -116,28 +116,28 @@ void FilmButton::ask (Film film)
     const auto folder = juce::File::getSpecialLocation (juce::File::userDocumentsDirectory).getChildFile ("Tactus");
     folder.createDirectory();
     const auto file = folder.getChildFile ("film" + juce::Time::getCurrentTime().formatted (" %Y-%m-%d %H-%M-%S") + ".png");
-    constexpr bool of_the_desktop = false;   // such a dialog would keep Esc from this program, see MainView::launchChooser
-    chooser = std::make_unique<juce::FileChooser> (TRANS ("Save film"), file, "*.png", of_the_desktop);
-    using Choice = juce::FileBrowserComponent;
-    auto kept = std::make_shared<Film> (std::move (film));
-    chooser->launchAsync (Choice::saveMode | Choice::canSelectFiles | Choice::warnAboutOverwriting,
-                          [safe = juce::Component::SafePointer (this), kept] (const juce::FileChooser& c) {
-                              const auto chosen = c.getResult();
-                              if (safe != nullptr && chosen != juce::File()) safe->save (std::move (*kept), chosen.getFullPathName().toStdString());
-                          });
+    ask (std::make_shared<Film> (std::move (film)), file.getFullPathName().toStdString());
+}
+
+void FilmButton::ask (std::shared_ptr<Film> film, const std::filesystem::path& begin)
+{
+    if (! onChoose) return;
+    onChoose (begin, [safe = juce::Component::SafePointer (this), film = std::move (film)] (const std::filesystem::path& named) {
+        if (safe != nullptr) safe->saveOrAskAgain (film, named);
+    });
+}
+
+/// The dialog has asked only about the .png.
+void FilmButton::saveOrAskAgain (std::shared_ptr<Film> film, const std::filesystem::path& named)
+{
+    const auto taken = fileInTheWay (named);
+    if (! taken) return save (std::move (*film), named);
+    if (onHint) onHint (filled (TRANS ("The film is not saved: %1 exists already. Choose another name."), taken->filename().string()));
+    ask (std::move (film), named);
 }
 
 void FilmButton::save (Film film, const std::filesystem::path& named)
 {
-    // The dialog has asked only about the .png.
-    if (const auto taken = fileInTheWay (named))
-    {
-        if (onHint) onHint (filled (TRANS ("The film is not saved: %1 exists already. Choose another name."), taken->filename().string()));
-        juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), kept = std::make_shared<Film> (std::move (film))] {
-            if (safe != nullptr) safe->ask (std::move (*kept));
-        });
-        return;
-    }
     job = std::make_unique<FilmJob> (std::move (film), themeOf (*this), space.getLocalBounds(), picture_width, named);
     refresh();
 }

@@ -27,6 +27,9 @@ public:
 
     std::function<void (const juce::String&)> onHint;   ///< receives what was saved, or why nothing was
 
+    /// Asks where to save the film, and proposes a file.
+    std::function<void (const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>)> onChoose;
+
     // The commands of the menu.
     void saveLast();                                  ///< asks for a name, and saves the last seconds
     void begin();                                     ///< films from now on
@@ -41,6 +44,8 @@ private:
     void click();
     void openMenu();
     void ask (Film);
+    void ask (std::shared_ptr<Film>, const std::filesystem::path& begin);
+    void saveOrAskAgain (std::shared_ptr<Film>, const std::filesystem::path&);
     void label (const juce::String&);
     FilmTape& tape() const { return playback.current().film(); }
     void finish();
@@ -53,7 +58,6 @@ private:
     double length_s = 10.0;
     std::optional<std::uint64_t> first_tick;   // while it films
     std::unique_ptr<FilmJob> job;
-    std::unique_ptr<juce::FileChooser> chooser;
 };
 
 }   // namespace tactus::host

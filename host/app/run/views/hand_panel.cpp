@@ -16,7 +16,7 @@ namespace tactus::host
 namespace
 {
 constexpr int as_described = 1, by_pointer = 2, by_recording = 3, first_gesture = 10;
-constexpr int bar_height = 32, margin = 8;
+constexpr int bar_height = 32, margin = 8, least_width_for_one_row = 360;
 }   // namespace
 
 /// A triangle while paused, two bars while playing.
@@ -269,7 +269,7 @@ void HandPanel::paint (juce::Graphics& g)
     if (transport != nullptr) return;
     g.setFont (look.font (12.0f));
     g.setColour (look.theme().dim);
-    g.drawText (note, getLocalBounds().removeFromBottom (bar_height).reduced (margin, 0), juce::Justification::centredLeft, true);
+    g.drawFittedText (note, getLocalBounds().removeFromBottom (bar_height).reduced (margin, 0), juce::Justification::centredLeft, 2, 1.0f);
 }
 
 /// The width at which each of the usual sources can be read.
@@ -296,10 +296,14 @@ void HandPanel::resized()
         head.removeFromLeft (b == &in_space ? 8 : 2);
     }
     film_width = film_button.leastWidth();
-    const int room_for_film = head.getWidth() - 6 - wantedSourceWidth();
+    const bool is_narrow = getWidth() < least_width_for_one_row;
+    const int room_for_film = is_narrow ? head.getWidth() : head.getWidth() - 6 - wantedSourceWidth();
     film_button.setBounds (head.removeFromLeft (std::clamp (room_for_film, film_width, std::max (film_width, film_button.wantedWidth()))));
     head.removeFromLeft (2);
-    source.setBounds (head.removeFromRight (std::min (std::max (200, wantedSourceWidth()), head.getWidth() - 4)));
+    if (is_narrow)
+        source.setBounds (area.removeFromTop (bar_height).reduced (margin, 2));
+    else
+        source.setBounds (head.removeFromRight (std::min (std::max (200, wantedSourceWidth()), head.getWidth() - 4)));
     auto low = area.removeFromBottom (bar_height).reduced (margin, 4);
     play->setBounds (low.removeFromLeft (24));
     low.removeFromLeft (4);

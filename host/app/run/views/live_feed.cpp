@@ -115,6 +115,11 @@ void LiveFeed::showActivity (LiveState& live)
         std::vector<double> levels;
         for (const auto& source : watched().sources)
             levels.push_back (LiveState::most_level * live_run.portFeed().level (source));
+        // The wires of a port that has very many show only whether they carry something: each step would paint most of the canvas again.
+        constexpr std::size_t very_many = 100;
+        std::vector<std::size_t> wires (levels.size());
+        for (const auto& w : watched().wires)
+            if (++wires[w.port] > very_many) levels[w.port] = std::min (levels[w.port], 1.0);
         for (const auto& w : watched().wires)
         {
             const double exact = levels[w.port];
@@ -218,7 +223,7 @@ void LiveFeed::showLimits (LiveState& live) const
             {
                 auto& light = live.limits[node->id];
                 light.is_broken = light.is_broken || l.is_broken;
-                const auto text = l.text + (l.remedy.empty() ? "." : ".\n" + filled (TRANS ("Would help: %1."), l.remedy).toStdString());
+                const auto text = l.text + ".\n" + l.details;
                 if (light.text.find (text) == std::string::npos) light.text += (light.text.empty() ? "" : "\n\n") + text;
             }
 }

@@ -249,18 +249,20 @@ void SafetyStrip::paint (juce::Graphics& g)
         area.removeFromLeft (std::min (gap, area.getWidth()));
     };
     state_place = area.withWidth (look.font (13.0f, true).getStringWidthFloat (shown.state) + 4.0f).toNearestInt();
-    add (shown.state, 140.0f, theme.text, TRANS ("Whether the graph runs, at how many ticks per second, and what ticks it"), true);
+    const bool is_narrow = area.getWidth() < 420.0f;   // the force is worth more than a guard that has done nothing
+    add (shown.state, is_narrow ? 0.0f : 140.0f, theme.text, TRANS ("Whether the graph runs, at how many ticks per second, and what ticks it"), true);
     if (shown.has_errors) g.fillRect (state_place.withTop (state_place.getCentreY() + 8).withHeight (1).withTrimmedRight (4));   // a link
-    add (shown.guard, 80.0f, colourFor (shown.warned ? theme.warning : theme.dim),
-         TRANS ("The guard stands between the graph and the motors. It limits force, and stops the motors if speed, impulse or energy exceed the limits of the "
-                "device. Ready: it has not had to stop anything."));
-    constexpr float force_width = 200.0f;
-    if (shown.force.isNotEmpty() && area.getWidth() > force_width)
+    if (! is_narrow || shown.warned || shown.alarmed)
+        add (shown.guard, 80.0f, colourFor (shown.warned ? theme.warning : theme.dim),
+             TRANS ("The guard stands between the graph and the motors. It limits force, and stops the motors if speed, impulse or energy exceed the "
+                    "limits of the device. Ready: it has not had to stop anything."));
+    const float force_width = is_narrow ? 60.0f : 200.0f;
+    if (shown.force.isNotEmpty() && area.getWidth() >= force_width)
     {
         g.setFont (look.font (13.0f));
         g.setColour (theme.text);
         const auto place = area.removeFromLeft (force_width);
-        drawNumber (g, shown.force, place);
+        drawNumber (g, is_narrow ? shown.force.upToFirstOccurrenceOf ("  |", false, false) : shown.force, place);
         meanings.emplace_back (place.toNearestInt(), TRANS ("The force on the tool now, and the largest since the start"));
         area.removeFromLeft (gap);
     }

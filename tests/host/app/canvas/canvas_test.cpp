@@ -358,6 +358,43 @@ TEST_CASE ("keys change the delay of a wire", "[app][canvas]")
     CHECK (std::ranges::count (rig.graph().root.wires, std::optional (false), &graph::Wire::enabled) == 1);
 }
 
+TEST_CASE ("W finds a node that does not exist yet by its name, after the nodes that exist", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto ask = [&] (const char* node, const char* words, std::size_t choice) {
+        rig.canvas->select ({ rig.node (node).id });
+        rig.query = words;
+        rig.choice = choice;
+        rig.hand().key ("w");
+    };
+    constexpr std::size_t none = 1000000;
+    const auto count = rig.graph().root.nodes.size();
+    ask ("board", "drag", none);
+    REQUIRE_FALSE (rig.choices.empty());
+    CHECK (rig.choices.front().type.find ("-> drag.") != std::string::npos);   // the node of this name
+    ask ("board", "resistance friction", none);
+    for (const auto& c : rig.choices)
+        CHECK (c.type.find ("resistance") != std::string::npos);
+    ask ("board", "clamp", none);
+    REQUIRE_FALSE (rig.choices.empty());
+    CHECK (rig.choices.front().type.starts_with ("signal.clamp"));
+    CHECK (rig.choices.front().name.find ("new ") != std::string::npos);
+    CHECK (rig.graph().root.nodes.size() == count);
+
+    ask ("board", "resistance clamp", 0);
+    REQUIRE (rig.graph().root.nodes.size() == count + 1);
+    const auto& added = rig.graph().root.nodes.back();
+    CHECK (added.type == "signal.clamp");
+    CHECK (rig.hasWire ("board.resistance -> " + added.name + ".in"));
+    rig.document.undo();
+    CHECK (rig.graph().root.nodes.size() == count);   // node and wire are one step
+
+    ask ("board", "resistance new", 0);
+    CHECK (rig.request.has_value());   // the list of all nodes that fit
+    ask ("board", "qqqqxyz", none);
+    CHECK (rig.choices.empty());
+}
+
 TEST_CASE ("nodes can be selected, wired and probed with only the keyboard", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };

@@ -8,6 +8,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cstdlib>
+#include <utility>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -102,14 +104,109 @@ TEST_CASE ("after an edit, a canvas paints again only what it changes", "[app][c
     rig.canvas->setCachedComponentImage (nullptr);
 }
 
-TEST_CASE ("the wires of a patch that has very many are painted several at a time", "[app][canvas]")
+namespace
 {
+/// A patch with very many wires, one of which ends at each node but the first.
+graph::Graph crowded()
+{
+    constexpr int wires = 600;
     Sketch sketch;
     sketch.node ("from", "signal.constant");
-    constexpr int wires = 600;
     for (int i = 0; i < wires; ++i)
         sketch.node ("to" + std::to_string (i), "signal.lfo").wire ("from.value -> to" + std::to_string (i) + ".frequency");
-    CanvasRig rig { sketch.graph };
+    return sketch.graph;
+}
+
+juce::Image pictureOf (juce::Component& c) { return c.createComponentSnapshot (c.getLocalBounds()); }
+
+/// How many pixels differ by more than rounding does.
+int pixelsThatDiffer (const juce::Image& a, const juce::Image& b)
+{
+    constexpr int rounding = 40;   // of 255; JUCE rounds edges where it clips, by up to 25
+    int n = 0;
+    for (int y = 0; y < a.getHeight(); ++y)
+        for (int x = 0; x < a.getWidth(); ++x)
+        {
+            const auto p = a.getPixelAt (x, y), q = b.getPixelAt (x, y);
+            n += std::max ({ std::abs (p.getRed() - q.getRed()), std::abs (p.getGreen() - q.getGreen()), std::abs (p.getBlue() - q.getBlue()) }) > rounding;
+        }
+    return n;
+}
+}   // namespace
+
+TEST_CASE ("a scene in which nodes have moved is like one that is made from scratch", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto* face = rig.node ("drag").face.get();
+    rig.canvas->select ({ rig.node ("drag").id });
+    rig.canvas->commands().nudgeSelection ({ 48.0f, 80.0f });
+    CHECK (rig.node ("drag").face.get() == face);   // what has not changed is not made again
+    const Canvas other (rig.document, catalogue());
+    const auto &moved = rig.canvas->scene(), &scratch = other.scene();
+    REQUIRE (moved.nodes().size() == scratch.nodes().size());
+    for (std::size_t i = 0; i < moved.nodes().size(); ++i)
+    {
+        CHECK (moved.nodes()[i].bounds() == scratch.nodes()[i].bounds());
+        CHECK (moved.nodes()[i].carried == scratch.nodes()[i].carried);
+    }
+    REQUIRE (moved.wires().size() == scratch.wires().size());
+    for (std::size_t i = 0; i < moved.wires().size(); ++i)
+        CHECK (moved.wires()[i].path() == scratch.wires()[i].path());
+    REQUIRE (rig.document.perform (graph::SetParam { "", "drag", "d_max", Json (0.001) }));
+    CHECK (rig.node ("drag").face.get() != face);
+}
+
+TEST_CASE ("a patch that has very many wires keeps a picture of them, and paints only squares of it again that have changed", "[app][canvas]")
+{
+    CanvasRig rig { crowded() };
+    auto& canvas = *rig.canvas;
+    canvas.frameAll();
+    auto painted = [&, last = std::size_t {}]() mutable {
+        pictureOf (canvas);
+        return canvas.below().squaresPainted() - std::exchange (last, canvas.below().squaresPainted());
+    };
+    const auto looksAsNew = [&] {
+        Canvas other (rig.document, catalogue());
+        other.setBounds (canvas.getBounds());
+        other.view() = canvas.view();
+        other.select (canvas.selection());
+        return pixelsThatDiffer (pictureOf (canvas), pictureOf (other));
+    };
+    const auto all = painted();
+    REQUIRE (all == canvas.below().squares());
+    CHECK (painted() == 0);
+
+    canvas.commands().nudgeSelection ({ 8.0f, 0.0f });   // nothing is selected
+    CHECK (painted() == 0);
+    canvas.select ({ rig.node ("to7").id });   // its wire is now above the others
+    CHECK (painted() < all / 2);
+    canvas.commands().nudgeSelection ({ 0.0f, 800.0f });
+    CHECK (painted() == 0);
+    CHECK (looksAsNew() == 0);
+
+    rig.document.undo();
+    CHECK (painted() == 0);
+    canvas.select ({});
+    const auto let_go = painted();
+    CHECK (let_go > 0);
+    CHECK (let_go < all / 2);
+    CHECK (looksAsNew() == 0);
+
+    REQUIRE (rig.document.perform (graph::RemoveNode { "", "to300" }));
+    CHECK (painted() < all / 2);
+    CHECK (looksAsNew() == 0);
+
+    canvas.select ({ rig.node ("from").id });   // too many of its wires are beside it
+    CHECK (painted() == 0);
+    canvas.view().origin.x += 40.0f;
+    CHECK (painted() == all);
+    CHECK (looksAsNew() == 0);
+}
+
+TEST_CASE ("the wires of a patch that has very many are painted several at a time", "[app][canvas]")
+{
+    CanvasRig rig { crowded() };
+    constexpr std::size_t wires = 600;
     REQUIRE (rig.canvas->scene().wires().size() == wires);
     const auto pathsIn = [&] (const Highlights& highlights) {
         const auto area = rig.canvas->scene().bounds();
@@ -122,7 +219,7 @@ TEST_CASE ("the wires of a patch that has very many are painted several at a tim
     };
     const auto few = pathsIn ({});
     CHECK (few > 0);
-    CHECK (few < wires / 3);
+    CHECK (few < static_cast<int> (wires) / 3);
     Highlights marked;
     marked.selected.insert (rig.canvas->scene().wires()[7].id);
     CHECK (pathsIn (marked) > few);   // a selected one is on top of the others, alone

@@ -2,6 +2,7 @@
 #include "host/app/support/canvas_rig.hpp"
 
 #include <host/app/canvas/align.hpp>
+#include <host/app/canvas/arrange.hpp>
 #include <host/app/canvas/route.hpp>
 
 #include <support/property.hpp>
@@ -110,4 +111,39 @@ TEST_CASE ("aligning keeps the size and order of the boxes", "[app][align]")
             }
         }
     });
+}
+
+TEST_CASE ("arranged boxes have room around them and more between columns that many wires join, and a chain is straight", "[app][arrange]")
+{
+    tactus::test::property ("any boxes and wires", [] {
+        const int count = *rc::gen::inRange (1, 30);
+        std::vector<Point<float>> sizes;
+        std::vector<std::pair<int, int>> wires;
+        for (int i = 0; i < count; ++i)
+            sizes.emplace_back (between (60, 240), between (48, 320));
+        for (int i = *rc::gen::inRange (0, 2 * count); i > 0; --i)
+            wires.emplace_back (*rc::gen::inRange (0, count), *rc::gen::inRange (0, count));
+        const auto places = arrange (sizes, wires);
+        RC_ASSERT (places.size() == sizes.size());
+        const auto box = [&] (std::size_t i) { return Box2 (places[i].x, places[i].y, sizes[i].x, sizes[i].y); };
+        for (std::size_t i = 0; i < places.size(); ++i)
+        {
+            RC_ASSERT (places[i].x >= 0.0f);
+            RC_ASSERT (places[i].y >= 0.0f);
+            for (std::size_t k = 0; k < i; ++k)
+            {
+                RC_ASSERT_FALSE (box (i).expanded (12.0f).intersects (box (k).expanded (12.0f)));   // 24 between boxes
+                if (places[i].x >= box (k).getRight()) RC_ASSERT (places[i].x - box (k).getRight() >= 80.0f);
+            }
+        }
+    });
+
+    std::vector<Point<float>> sizes { { 100, 80 }, { 120, 200 }, { 90, 60 }, { 100, 140 } };
+    const auto chain = arrange (sizes, { { 0, 1 }, { 1, 2 }, { 2, 3 } });
+    for (std::size_t i = 0; i < chain.size(); ++i)
+        CHECK (chain[i].y + sizes[i].y / 2 == Approx (chain[0].y + 40.0f).margin (8.0));
+    const auto alone = arrange ({ { 100, 80 }, { 100, 80 } }, { { 0, 1 } });
+    std::vector<std::pair<int, int>> many (10, { 0, 1 });
+    const auto joined = arrange ({ { 100, 80 }, { 100, 80 } }, many);
+    CHECK (joined[1].x > alone[1].x + 40.0f);
 }

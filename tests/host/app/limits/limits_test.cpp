@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host/app/support/canvas_rig.hpp"
 
+#include <host/app/canvas/paint/paint_nodes.hpp>
 #include <host/app/limits/limit_light.hpp>
 #include <host/app/problems/fixes.hpp>
 #include <host/app/run/device_setup.hpp>
@@ -63,8 +64,9 @@ TEST_CASE ("a limit is broken beyond the limit, near within 20 % of it, and not 
     if (list.limits.empty()) return;
     const auto& limit = list.limits.front();
     CHECK (limit.nodes == std::vector<std::string> { "wall", "motor" });   // the steepest node, and the one that pushes the device
-    CHECK (limit.text.find ("limit " + damping) != std::string::npos);
-    CHECK (limit.text.find ("0.5") != std::string::npos);
+    CHECK (limit.details.find ("limit " + damping) != std::string::npos);
+    CHECK (limit.details.find ("0.5") != std::string::npos);
+    CHECK (limit.text.starts_with ("The stiffness of wall is "));
     CHECK (limit.remedy.empty() != limit.is_broken);
 }
 
@@ -85,7 +87,8 @@ TEST_CASE ("a limit names its node, also inside a subgraph, and its message lead
     REQUIRE (stretch != list.limits.end());
     CHECK (stretch->is_broken);
     CHECK (stretch->nodes == std::vector<std::string> { "wood/drag" });
-    CHECK (stretch->text.find ("30.0 µm") != std::string::npos);
+    CHECK (stretch->text == "The position sensor of tip (simulated) is too coarse for wood/drag by a factor of 1.5");
+    CHECK (stretch->details.find ("30.0 µm") != std::string::npos);
 
     const auto messages = list.messages (read.graph);
     const auto told = std::ranges::find (messages, "limit/d_max", &Message::id);
@@ -94,6 +97,36 @@ TEST_CASE ("a limit names its node, also inside a subgraph, and its message lead
     CHECK (told->where == "/graphs/wood/nodes/drag");
     CHECK (locationOf (read.graph, *told).node == "drag");
     CHECK_FALSE (fixOf (read.graph, *told));
+}
+
+TEST_CASE ("the message of a limit is one short sentence with short numbers\\, and the first remedy", "[app][limits]")
+{
+    for (const auto* device : { R"("damping": 0.4)", R"("damping": 0.4, "quantum": "3.21987 um", "coulomb": "1.2345 mN")",
+                                R"("damping": 0.51, "guard": { "max_force": "51 mN" })" })
+    {
+        const auto list = checked (wall (device));
+        REQUIRE_FALSE (list.limits.empty());
+        for (const auto& l : list.limits)
+        {
+            INFO (l.id << ": " << l.text << ". " << l.remedy);
+            CHECK (l.text.size() <= 110);
+            CHECK (l.remedy.size() <= 70);
+            CHECK (l.text.find_first_of ("({") == l.text.find ("(simulated)"));   // no law
+            for (const auto& text : { l.text, l.remedy })
+            {
+                int digits = 0;
+                for (std::size_t i = 0; i < text.size(); ++i)
+                {
+                    digits = std::isdigit (static_cast<unsigned char> (text[i])) != 0 ? digits + 1 : 0;
+                    CHECK (digits <= 5);
+                }
+                CHECK (text.find ("e+") == std::string::npos);
+                CHECK (text.find ("e-") == std::string::npos);
+            }
+            if (l.is_broken) CHECK_FALSE (l.remedy.empty());
+            CHECK (l.details.size() > l.text.size());   // the numbers and the law are not lost
+        }
+    }
 }
 
 TEST_CASE ("a graph that does not compile is not checked", "[app][limits]")

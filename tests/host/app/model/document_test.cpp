@@ -37,6 +37,42 @@ TEST_CASE ("undoing an open brings back the previous graph with its file and edi
     CHECK (d.graph().name == "Soft pad");
 }
 
+TEST_CASE ("the version of a document tells whether more has changed than where nodes are")
+{
+    TemporaryFolder folder;
+    Document d (graphOf ("dry_wood.json"));
+    auto differs = [&, last = d.version()]() mutable { return std::exchange (last, d.version()) != d.version(); };
+    const auto move = [] (double x) {
+        return graph::Batch { "move", { graph::SetNodeKey { "", "drag", "ui", Json { { "at", Json::array ({ x, 0.0 }) } } } } };
+    };
+    REQUIRE (d.perform (move (10.0)));
+    REQUIRE (d.perform (move (20.0), graph::Step::joined));
+    d.undo();
+    d.redo();
+    CHECK_FALSE (differs());
+    d.addWindowStep (
+        "close scope", [] {}, [] {});
+    d.undo();
+    CHECK_FALSE (differs());
+
+    REQUIRE (d.perform (graph::SetNodeKey { "", "drag", "bypass", Json (true) }));
+    CHECK (differs());
+    d.undo();
+    CHECK (differs());
+    REQUIRE (d.perform (graph::Batch { "both", { move (30.0), graph::SetParam { "", "drag", "mu", Json (0.9) } } }));
+    CHECK (differs());
+    REQUIRE (d.perform (move (40.0)));
+    CHECK_FALSE (differs());
+    d.goTo (0);
+    CHECK (differs());
+    REQUIRE (d.save (folder / "wood.json").empty());
+    CHECK (differs());
+    d.open (graphOf ("soft_pad.json"), {}, "open Soft pad");
+    CHECK (differs());
+    d.renew();
+    CHECK (differs());
+}
+
 TEST_CASE ("a copy of a preset has no file until it is saved, but knows its preset")
 {
     TemporaryFolder folder;

@@ -184,6 +184,36 @@ bool until (LiveRun& live_run, LiveFeed& live, F&& isSo)
 }
 }   // namespace
 
+TEST_CASE ("the wires of a port that has very many show only whether they carry something", "[app][ports]")
+{
+    auto graph = CanvasRig::preset ("dry_wood");
+    constexpr int more = 101;
+    for (int i = 0; i < more; ++i)
+    {
+        graph::Node node;
+        node.name = "more" + std::to_string (i);
+        node.type = "deform.plane";
+        graph.root.nodes.push_back (node);
+        graph.root.wires.push_back (*graph::parseWire ("hand.position -> " + node.name + ".position"));
+    }
+    CanvasRig rig { std::move (graph) };
+    LiveRun live_run (rig.document, catalogue());
+    LiveFeed live (*rig.canvas, live_run);
+    const auto levelOf = [&] (const std::string& text) {
+        const auto& levels = rig.canvas->highlighted().live.levels;
+        const auto wire = std::ranges::find (rig.canvas->scene().wires(), text, &SceneWire::text);
+        const auto found = levels.find (wire->id);
+        return found == levels.end() ? 0 : found->second;
+    };
+    int most = 0;
+    live_run.start ({});
+    REQUIRE (until (live_run, live, [&] {
+        most = std::max (most, levelOf ("hand.position -> more7.position"));
+        return levelOf ("drag.force -> motor.force") > 1 && most > 0;
+    }));
+    CHECK (most == 1);
+}
+
 TEST_CASE ("while a graph runs, the card of a port appears when the pointer rests on it, and wires glow", "[app][ports]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };

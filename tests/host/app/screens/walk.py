@@ -23,7 +23,7 @@ SIZES, THEMES = ("1024x700", "1280x720", "1920x1080", "2560x1440", "3840x2160"),
 
 
 class Walk:
-    def __init__(self, host, out, size, theme):
+    def __init__(self, host, out, size, theme, server_options=()):
         self.host, self.out, self.size, self.theme = host, out, size, theme
         self.home = pathlib.Path(tempfile.mkdtemp(prefix="tactus-walk-"))
         self.places_file = self.home / "places.json"
@@ -32,7 +32,8 @@ class Walk:
         for display in range(90, 200):
             if pathlib.Path(f"/tmp/.X{display}-lock").exists():
                 continue
-            self.server = subprocess.Popen(["Xvfb", f":{display}", "-screen", "0", f"{size}x24", "-nolisten", "tcp"], stderr=subprocess.DEVNULL)
+            server = ["Xvfb", f":{display}", "-screen", "0", f"{size}x24", "-nolisten", "tcp", *server_options]
+            self.server = subprocess.Popen(server, stderr=subprocess.DEVNULL)
             time.sleep(1.0)
             if self.server.poll() is None:
                 self.display = f":{display}"

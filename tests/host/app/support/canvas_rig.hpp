@@ -21,9 +21,9 @@ public:
         canvas = std::make_unique<Canvas> (document, catalogue());
         canvas->setBounds (0, 0, 1200, 800);
         canvas->onHint = canvas->onNotice = [this] (const juce::String& text) { hint = text; };
-        canvas->onChoose = [this] (const juce::String&, const std::vector<PaletteEntry>& entries, const std::function<void (const std::string&)>& chosen) {
-            choices = entries;
-            if (choice < entries.size()) chosen (entries[choice].type);
+        canvas->onChoose = [this] (const juce::String&, const PaletteSearch& search, const std::function<void (const std::string&)>& chosen) {
+            choices = search (query);
+            if (choice < choices.size()) chosen (std::string (choices[choice].type));
         };
         canvas->onNodeRequested = [this] (const NodeRequest& r) { request = r; };
         canvas->onProbe = [this] (std::vector<std::string> ports) { probed = std::move (ports); };
@@ -100,6 +100,7 @@ public:
     std::unique_ptr<Canvas> canvas;
     juce::String hint;
     std::vector<PaletteEntry> choices;
+    std::string query;   // typed into the palette
     std::size_t choice = 0;
     std::optional<NodeRequest> request;
     std::vector<std::string> probed;

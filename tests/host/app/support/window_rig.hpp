@@ -75,7 +75,7 @@ struct WindowRig
     {
         if (const auto* tabs = dynamic_cast<Tabs*> (&c); tabs != nullptr && c.isShowing())
             for (const auto& [name, place] : tabs->titles())
-                if (name == text) return root.getLocalPoint (&c, place.getCentre());
+                if (name == text && ! place.isEmpty()) return root.getLocalPoint (&c, place.getCentre());
         for (auto* child : c.getChildren())
             if (const auto at = tabIn (*child, root, text)) return at;
         return {};

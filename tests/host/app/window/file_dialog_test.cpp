@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <cstdlib>
 #include <fstream>
 
 using namespace tactus;
@@ -123,4 +124,60 @@ TEST_CASE ("a file is replaced only after a question of the window\\, which offe
         CHECK (w.view->document().file() == mine / "old.json");
     }
     unsetenv ("TACTUS_GRAPHS");
+}
+
+TEST_CASE ("a film is saved under the typed name", "[app][files][film]")
+{
+    const TemporaryFolder own;
+    const std::string home = std::getenv ("HOME") == nullptr ? "" : std::getenv ("HOME");
+    setenv ("HOME", own.path().c_str(), 1);
+    {
+        WindowRig w ("dry_wood.json", 1280, 720, false);
+        w.click ("3D");
+        REQUIRE (waitFor ([&] { return w.view->run().film().end() > 2000; }));
+        auto* label = WindowRig::buttonIn (*w.view, "Film");
+        REQUIRE (label != nullptr);
+        auto* film = label->findParentComponentOfClass<FilmButton>();
+        REQUIRE (film != nullptr);
+        film->saveLast();   // as the first entry of its menu
+        REQUIRE (waitFor ([] { return isDialogOpen(); }));
+        const auto* name = dynamic_cast<juce::TextEditor*> (WindowRig::focused());
+        REQUIRE (name != nullptr);
+        CHECK (name->getText().startsWith ("film "));
+        w.stage->type ("oak v1.2");
+        w.key ("return");
+        const auto file = own / "Documents" / "Tactus" / "oak v1.2.png";   // the dot is part of the name
+        CHECK (waitFor ([&] { return std::filesystem::exists (file); }));
+        CHECK (waitFor ([&] { return std::filesystem::exists (file.parent_path() / "oak v1.2.csv"); }));
+        w.view->run().letGo();
+    }
+    setenv ("HOME", home.c_str(), 1);
+}
+
+TEST_CASE ("the dialog for the clip of a node waits for a name\\, and lists clips but no graphs", "[app][files]")
+{
+    const TemporaryFolder mine;
+    const std::filesystem::path assets = TACTUS_SOURCE_DIR "/graphs/assets";
+    std::filesystem::copy_file (assets / "heartbeat.haptic", mine / "heartbeat.haptic");
+    std::filesystem::copy_file (assets / "zip.json", mine / "zip.json");   // a clip
+    std::ofstream (mine / "board.json") << R"({ "format": "tactus-graph", "version": 2,
+        "nodes": { "beat": { "type": "signal.clip", "settings": { "clip": "heartbeat.haptic" } } }, "wires": [] })";
+    WindowRig w ({}, 1280, 1400);   // so that all rows of the inspector are in view
+    w.view->open (mine / "board.json");
+    WindowRig::settle();
+    REQUIRE (w.graph().root.nodes.size() == 1);
+    w.view->canvas().select ({ w.graph().root.nodes[0].id });
+    WindowRig::settle();
+    w.click ("Browse...");
+    REQUIRE (isDialogOpen());
+    CHECK (dynamic_cast<juce::TextEditor*> (WindowRig::focused()) != nullptr);
+    auto* dialog = juce::Component::getCurrentlyModalComponent();
+    const auto lists = [&] (const juce::String& file) {
+        return std::ranges::any_of (tactus::host::test::readTexts (*dialog), [&] (const auto& t) { return t.text == file; });
+    };
+    CHECK (waitFor ([&] { return lists ("zip.json") && lists ("heartbeat.haptic") && ! lists ("board.json"); }));
+    w.stage->type ("zip.json");
+    w.key ("return");
+    CHECK (waitFor ([&] { return w.graph().root.nodes[0].settings.at ("clip") == Json ("zip.json"); }));
+    CHECK_FALSE (isDialogOpen());
 }

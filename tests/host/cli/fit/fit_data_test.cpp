@@ -95,7 +95,7 @@ TEST_CASE ("key switches: the fitted curves take the recorded work per stroke wi
     for (const std::string name : { "Cherry-MX-Red", "Cherry-MX-Blue-RGB", "Cherry-MX-Hyperglide-Brown" })
     {
         const auto table = recordingIn (folder + "/" + name + ".csv");
-        CHECK (host::guessKind (table) == host::FitKind::curve);
+        CHECK (host::guessKind (table) == host::FitKind::key_switch);
         const auto fit = fitCurve ({ .depth = columnIn (table, host::FitKind::curve, "depth"), .force = columnIn (table, host::FitKind::curve, "force") });
         REQUIRE (fit);
         const double spacing = fit->law.table.x.front();

@@ -14,6 +14,8 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <set>
 #include <string>
 #include <thread>
 
@@ -309,6 +311,51 @@ TEST_CASE ("on a screen: Esc that closes something", "[.screen]")
 TEST_CASE ("Shift+Esc removes the force even while Esc would only close something", "[app][run][safety]")
 {
     onScreen ("on a screen: Esc that closes something");
+}
+
+namespace
+{
+std::set<std::string> threads()
+{
+    std::set<std::string> all;
+    for (const auto& t : std::filesystem::directory_iterator ("/proc/self/task"))
+        all.insert (t.path().string());
+    return all;
+}
+
+/// How often a thread has waited for something.
+std::string waitsOf (const std::string& thread)
+{
+    std::ifstream status (thread + "/status");
+    for (std::string line; std::getline (status, line);)
+        if (line.starts_with ("voluntary_ctxt_switches")) return line;
+    return {};
+}
+}   // namespace
+
+TEST_CASE ("on a screen: a watcher at rest", "[.screen]")
+{
+    Window w;
+    const auto before = threads();
+    REQUIRE_FALSE (w.direct.follow (w.strip, w.strip.stopPlace()));
+    std::vector<std::string> made;
+    std::ranges::set_difference (threads(), before, std::back_inserter (made));
+    REQUIRE (made.size() == 1);
+    std::string waits;
+    CHECK (Window::untilStuck ([&] {   // once it has begun, it waits, and nothing wakes it
+        const auto last = std::exchange (waits, waitsOf (made.front()));
+        std::this_thread::sleep_for (200ms);
+        return ! waits.empty() && waits == last && w.direct.follow (w.strip, w.strip.stopPlace()) == std::nullopt && waitsOf (made.front()) == waits;
+    }));
+    w.strip.setBounds (60, 90, 900, SafetyStrip::height);
+    w.start();   // what has moved is where it is now
+    xdo ("mousemove " + w.stopPlace() + " click 1");
+    CHECK (Window::untilStuck ([&] { return ! w.run().isRunning(); }));
+}
+
+TEST_CASE ("nothing wakes the thread that waits for stops but a stop, or a STOP that has moved", "[app][run]")
+{
+    onScreen ("on a screen: a watcher at rest");
 }
 
 TEST_CASE ("a press of the stop switch before a run begins is not lost", "[app][run][safety]")

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands.hpp"
+#include "capture_device.hpp"
+#include "event_devices.hpp"
 #include "numbers_only.hpp"
-#include "report.hpp"
 
 #include <host/audio/card.hpp>
+#include <host/cli/commands.hpp>
+#include <host/cli/report.hpp>
 #include <host/hid_link/force_feedback.hpp>
 #include <host/hid_link/hid_device.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/hid_link/profile_library.hpp>
+#include <host/hid_link/serial_ports.hpp>
 #include <host/hid_link/udev_rule.hpp>
 #include <host/platform/signals.hpp>
 #include <host/platform/terminal.hpp>
@@ -37,6 +40,7 @@ struct DevicesOptions
 {
     bool probe = false, json = false;
     double duration_s = 0.0;
+    DeviceCapture capture;
 };
 
 struct Listed
@@ -173,6 +177,22 @@ Json jsonOf (const audio::ListedCard& c)
 }
 
 //==============================================================================
+std::string textOf (const SerialPort& p)
+{
+    auto text = "serial port " + printableName (p.path);
+    if (! p.vid.empty()) text += "   " + p.vid + ":" + p.pid + "   " + (p.product.empty() ? "unnamed" : printableName (p.product));
+    return text + "\n    "
+           + (p.may_open ? "--device ROLE=serial:PROFILE@" + printableName (p.path)
+                         : "may not be opened by this user: join the group of the port, such as dialout")
+           + "\n";
+}
+
+Json jsonOf (const SerialPort& p)
+{
+    return { { "driver", "serial" }, { "port", p.path }, { "vid", p.vid }, { "pid", p.pid }, { "product", p.product }, { "may_open", p.may_open } };
+}
+
+//==============================================================================
 /// A device being probed.
 class Probed
 {
@@ -290,13 +310,16 @@ std::vector<std::unique_ptr<Probed>> openAll (const std::vector<Listed>& all)
     return probed;
 }
 
-void probe (const std::vector<Listed>& all, const DevicesOptions& options, Json& json)
+void probe (const std::vector<Listed>& all, const std::vector<ListedEvents>& event_devices, const DevicesOptions& options, Json& json)
 {
     watchForStop();
     auto probed = openAll (all);
-    if (probed.empty())
+    std::vector<std::unique_ptr<ProbedEvents>> events;
+    for (const auto& l : event_devices)
+        if (auto opened = probeEventDevice (l)) events.push_back (std::move (opened));
+    if (probed.empty() && events.empty())
     {
-        const bool any_fits = std::ranges::any_of (all, [] (const Listed& l) { return ! l.profiles.empty(); });
+        const bool any_fits = ! event_devices.empty() || std::ranges::any_of (all, [] (const Listed& l) { return ! l.profiles.empty(); });
         if (any_fits) throw Stop {};   // the reason has already been printed
         return;
     }
@@ -308,6 +331,8 @@ void probe (const std::vector<Listed>& all, const DevicesOptions& options, Json&
         std::string text;
         for (const auto& p : probed)
             text += printable (p->text (seconds));
+        for (const auto& e : events)
+            text += printable (e->text (seconds));
         return text;
     };
 
@@ -318,6 +343,8 @@ void probe (const std::vector<Listed>& all, const DevicesOptions& options, Json&
         std::this_thread::sleep_for (Probed::period);
         for (const auto& p : probed)
             p->poll();
+        for (const auto& e : events)
+            e->poll();
         if (options.json || Clock::now() - shown < (live ? 100ms : 1000ms)) continue;
         shown = Clock::now();
         const auto text = show();
@@ -334,12 +361,23 @@ void probe (const std::vector<Listed>& all, const DevicesOptions& options, Json&
         return;
     }
     for (auto& device : json)
+    {
         for (const auto& p : probed)
             if (device.value ("path", Json()) == p->path()) device["probe"] = p->json();
+        for (const auto& e : events)
+            if (device.value ("path", Json()) == e->path()) device["probe"] = e->json();
+    }
 }
 
 void run (const DevicesOptions& options)
 {
+    if (options.duration_s > 0.0 && ! options.probe && options.capture.file.empty()) throw UsageError ("--duration requires --probe or --capture");
+    if (! options.capture.file.empty())
+    {
+        auto capture = options.capture;
+        capture.duration_s = options.duration_s;
+        return captureDevice (capture);
+    }
     const auto profiles = loadProfileLibrary();
     for (const auto& m : profiles.messages)
         std::cerr << printableName (m.file + m.where) << ": warning: " << inOneLine (m.text) << "\n    " << inOneLine (m.remedy) << " [" << m.id << "]\n";
@@ -349,6 +387,12 @@ void run (const DevicesOptions& options)
     for (const auto& l : all)
         json.push_back (jsonOf (l));
 
+    const auto ports = options.probe ? std::vector<SerialPort> {} : serialPorts();
+    for (const auto& port : ports)
+        json.push_back (jsonOf (port));
+    const auto event_devices = listEventDevices();
+    for (const auto& l : event_devices)
+        json.push_back (l.json);
     const auto cards = options.probe ? std::vector<audio::ListedCard> {} : audio::soundCards().list();
     for (const auto& card : cards)
         json.push_back (jsonOf (card));
@@ -357,20 +401,27 @@ void run (const DevicesOptions& options)
     if (! options.json && (! options.probe || all.empty()))
         for (const auto& l : all)
             std::cout << textOf (l);
+    if (! options.json && ! options.probe)
+        for (const auto& l : event_devices)
+            std::cout << l.text;
     if (! options.json)
+    {
+        for (const auto& port : ports)
+            std::cout << textOf (port);
         for (const auto& card : cards)
             std::cout << textOf (card);
+    }
     const auto known = options.probe ? std::vector<std::shared_ptr<const Profile>> {} : knownByNumbers (profiles);
     for (const auto& profile : known)
         json.push_back (numbersJsonOf (*profile));
     if (! options.json)
         for (const auto& profile : known)
             std::cout << numbersTextOf (*profile);
-    if (options.probe && ! all.empty())
+    if (options.probe && (! all.empty() || ! event_devices.empty()))
     {
-        if (! options.json && std::ranges::all_of (all, [] (const Listed& l) { return l.profiles.empty(); }))
+        if (! options.json && ! all.empty() && std::ranges::all_of (all, [] (const Listed& l) { return l.profiles.empty(); }))
             std::cout << "None of the connected HID devices has a profile; `tactus devices` lists them.\n";
-        probe (all, options, json);
+        probe (all, event_devices, options, json);
     }
     if (options.json) std::cout << json.dump (2) << '\n';
 }
@@ -381,15 +432,27 @@ void addDevices (const Command& app)
     const auto options = std::make_shared<DevicesOptions>();
     const auto command = app.add ("devices", "List connected devices, their profiles and their readings");
     const auto probe = command.addFlag ("--probe", options->probe,
-                                        "Open all devices that have a profile and show their readings until Ctrl-C; "
+                                        "Open all devices that have a profile, or force feedback, and show their readings until Ctrl-C; "
                                         "they are initialised as their profiles specify, but not driven");
-    command.addOption ("--duration", options->duration_s, "How long to probe, in s").check (within (1e-3, 1e9)).needs (probe);
+    command.addOption ("--duration", options->duration_s, "How long to probe or capture, in s").check (within (1e-3, 1e9));
+    const auto capture = command.addOption ("--capture", options->capture.file,
+                                            "Record each report that a device sends or gets, until Ctrl-C, without driving it; see docs/devices.md")
+                             .type ("FILE")
+                             .excludes (probe);
+    command.addOption ("--device", options->capture.device,
+                       "What to record: hid:PROFILE, serial:PROFILE@PORT, udp:PROFILE@ADDRESS, or the path of a device, which need not have a profile; "
+                       "default: the only HID device with a profile")
+        .needs (capture);
+    command.addOption ("--baud", options->capture.baud, "The speed of a serial port without a profile; default: 115200")
+        .check (within (300, 20000000))
+        .needs (capture);
     command.addFlag ("--json", options->json, "Print JSON; with --probe, the last readings of the devices");
     command.footer ("Tactus comes with profiles. Put your own into the folder that TACTUS_PROFILES names, or into ~/.config/tactus/profiles.\n\n"
                     "Examples:\n"
                     "  tactus devices\n"
                     "  tactus devices --probe\n"
-                    "  tactus devices --probe --duration 2 --json");
+                    "  tactus devices --probe --duration 2 --json\n"
+                    "  tactus devices --capture board.jsonl --device serial:tactus_board@/dev/ttyACM0");
     command.callback ([options] { run (*options); });
 }
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "port_card.hpp"
-#include "scene.hpp"
-#include "view.hpp"
+#include <host/app/canvas/port_card.hpp>
+#include <host/app/canvas/scene.hpp>
 
-#include <host/app/look/look.hpp>
-
+#include <functional>
+#include <map>
+#include <optional>
 #include <set>
+#include <string>
 
 namespace tactus::host
 {
@@ -48,19 +49,5 @@ struct Highlights
     std::function<bool (const SceneNode&, const FacePort&)> fits {};
     LiveState live {};
 };
-
-void paintGrid (juce::Graphics&, const View&, juce::Rectangle<int> area, const Theme&);
-
-/// Paints the notes, wires and nodes of a scene, in the graphics context of the component.
-void paintScene (juce::Graphics&, const Scene&, const View&, const Look&, const Highlights&);
-
-/// The bounds of the limit light of a node, in canvas units: at its top right corner, and never too small to see.
-juce::Rectangle<float> limitLightOf (const SceneNode&, float zoom);
-
-/// Paints one wire. `level` is how much it carries, as in LiveState.
-void paintWire (juce::Graphics&, const SceneWire&, const Theme&, bool selected, bool hovered, int level = 0);
-
-/// An area, in canvas units, that contains a node and whatever is painted on it and beside it.
-juce::Rectangle<float> boundsOf (const SceneNode&, float zoom);
 
 }   // namespace tactus::host

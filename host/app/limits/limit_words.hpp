@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tactus/check/judge.hpp>
+
+#include <string>
+
+namespace tactus::host
+{
+
+/// A limit in one sentence, without its laws: "The stiffness of wall is 5.1 times what stylus (simulated) allows". `node` is what the limit is about;
+/// empty: the whole role. A number has two digits.
+std::string limitSentence (const check::Condition&, const std::string& node, const std::string& device);
+
+/// The first of the things that would help, with numbers that need no exponent; empty if nothing is known.
+std::string firstRemedy (const check::Condition&);
+
+}   // namespace tactus::host

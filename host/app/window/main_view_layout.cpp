@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the panels are. A small window has no room for all of them side by side: there, a row of pages chooses what is at the left.
+#include "main_view.hpp"
+
+#include <host/app/look/focus.hpp>
+#include <host/app/text/filled.hpp>
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr int hand_width = 420;
+constexpr int least_canvas_width = 240, least_canvas_height = 200;    // in units of the window
+constexpr int lowest_canvas_height = 80, least_bottom_height = 160;   // in a low window, the canvas gives way to the panels below it
+constexpr int least_width = 680, least_height = 420;                  // of a window whose panels are side by side
+}   // namespace
+
+void MainView::addPages()
+{
+    pages.setTitle (TRANS ("Pages"));
+    palette.getProperties().set ("space above", SafetyStrip::height);   // STOP stays within reach
+    for (const auto& [name, part] : pageParts())
+        pages.add<juce::Component> (juce::translate (name));
+    pages.onShow = [this] {
+        if (! isSmall()) return;
+        resized();
+        if (patching.isShowing()) takeFocus (patching);
+    };
+    addChildComponent (pages);
+}
+
+std::array<std::pair<const char*, juce::Component*>, 4> MainView::pageParts()
+{
+    return { { { NEEDS_TRANS ("Canvas"), &patching },
+               { NEEDS_TRANS ("Hand"), &hand },
+               { NEEDS_TRANS ("Inspector"), &inspector },
+               { NEEDS_TRANS ("Presets"), &left } } };
+}
+
+bool MainView::isSmall() const { return getWidth() < least_width || getHeight() < least_height; }
+
+/// In a small window, shows the page of this part.
+void MainView::turnTo (const juce::Component& part)
+{
+    if (! isSmall()) return;
+    for (int i = 0; const auto& [name, shown] : pageParts())
+    {
+        if (shown == &part && pages.shown() != i) pages.show (i);
+        ++i;
+    }
+}
+
+/// The page at the left, and the lower panels at the right of it.
+void MainView::layOutPages (juce::Rectangle<int> area)
+{
+    for (auto* edge : { &left_edge, &right_edge, &bottom_edge })
+        edge->setVisible (false);
+    const bool is_alone = bottom_edge.isFolded();
+    if (hand.isEnlarged()) turnTo (hand);
+    auto column = is_alone || hand.isEnlarged() ? area : area.removeFromLeft (area.getWidth() / 2);
+    bottom.setBounds (area);
+    bottom.setVisible (! is_alone && ! hand.isEnlarged());
+    pages.setBounds (column);
+    pages.setVisible (true);
+    column.removeFromTop (Tabs::row_height);
+    for (int i = 0; const auto& [name, part] : pageParts())
+    {
+        part->setBounds (column);
+        part->setVisible (i++ == pages.shown());
+    }
+}
+
+void MainView::layOutPanels (juce::Rectangle<int>& area)
+{
+    pages.setVisible (false);
+    for (auto* c : std::initializer_list<juce::Component*> { &left_edge, &right_edge, &bottom_edge, &left, &inspector, &hand, &bottom })
+        c->setVisible (true);
+    auto low = bottom_edge.take (area, std::clamp (area.getHeight() - least_bottom_height, lowest_canvas_height, least_canvas_height));
+    left.setBounds (left_edge.take (area, least_canvas_width));
+    inspector.setBounds (right_edge.take (area, least_canvas_width));
+    if (! hand.isEnlarged()) hand.setBounds (low.removeFromLeft (std::min (hand_width, low.getWidth() / 2)));
+    bottom.setBounds (low);
+    patching.setBounds (area);
+    patching.setVisible (! hand.isEnlarged());
+    if (hand.isEnlarged()) hand.setBounds (area);
+}
+
+void MainView::resized()
+{
+    auto area = getLocalBounds();
+    strip.setBounds (area.removeFromTop (SafetyStrip::height));
+    top.setBounds (area.removeFromTop (TopBar::height));
+    status.setBounds (area.removeFromBottom (StatusLine::height));
+    if (isSmall())
+    {
+        layOutPages (area);
+        templates.setBounds (patching.getBounds().withTop (patching.getBounds().getCentreY()).removeFromTop (56));
+    }
+    else
+    {
+        layOutPanels (area);
+        templates.setBounds (area.withTop (area.getCentreY() + 20).removeFromTop (56));
+    }
+    showBeginnings();
+    welcome.setBounds (area.withRight (getWidth()));
+    help.setArea (area.withRight (getWidth()).withBottom (isSmall() ? area.getBottom() : hand.getBottom()).reduced (isSmall() ? 4 : 16));
+    fitting.setBounds (getLocalBounds().withTrimmedTop (SafetyStrip::height));
+    tour.setBounds (getLocalBounds());
+    tour.resized();                                                               // what it frames may have moved
+    question.setBounds (getLocalBounds().withTrimmedTop (SafetyStrip::height));   // STOP stays within reach
+    shade.setBounds (question.getBounds());
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+namespace tactus::host
+{
+
+/// What `tactus devices --capture` records, and where.
+struct DeviceCapture
+{
+    std::string file;
+    std::string device;        ///< hid:PROFILE, serial:PROFILE@PORT, udp:PROFILE@ADDRESS, or the path of a device; empty: the only one with a profile
+    int baud = 115200;         ///< of a serial port without a profile
+    double duration_s = 0.0;   ///< 0: until Ctrl-C
+};
+
+/// Records all reports that a device sends and gets. It is initialised as its profile specifies, but not driven; without a profile nothing is sent.
+/// Ends the command if that is not possible. [main thread]
+void captureDevice (const DeviceCapture&);
+
+}   // namespace tactus::host

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "event_devices.hpp"
+
+#if TACTUS_EVDEV
+#include <host/cli/report.hpp>
+#include <host/device_plugins/open_plugin_device.hpp>
+#include <host/device_plugins/plugin_device.hpp>
+#include <host/evdev/event_device.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <sstream>
+#endif
+
+namespace tactus::host
+{
+
+#if TACTUS_EVDEV
+namespace
+{
+using evdev::EventDeviceInfo;
+
+template <typename Parts>
+std::string namesOf (const Parts& parts)
+{
+    std::string text;
+    for (const auto& part : parts)
+        text += (text.empty() ? "" : " ") + part.name;
+    return text;
+}
+
+std::vector<std::string> effectsOf (const EventDeviceInfo& d)
+{
+    std::vector<std::string> all;
+    if (d.has_constant) all.emplace_back ("constant force");
+    if (d.has_rumble) all.emplace_back ("rumble");
+    return all;
+}
+
+std::string idsOf (const EventDeviceInfo& d)
+{
+    char text[16];
+    std::snprintf (text, sizeof text, "%04x:%04x", d.vid, d.pid);
+    return text;
+}
+
+std::string textOf (const EventDeviceInfo& d)
+{
+    std::string text = d.path + "   " + idsOf (d) + "   " + (d.name.empty() ? "unnamed" : printableName (d.name)) + "\n    force feedback:";
+    const auto effects = effectsOf (d);
+    for (std::size_t i = 0; i < effects.size(); ++i)
+        text += (i == 0 ? " " : ", ") + effects[i];
+    if (d.update_interval_s > 0.0) text += "; its port takes an update every " + numberText (1e3 * d.update_interval_s) + " ms at most";
+    if (d.may_open) text += "; axes: " + namesOf (d.axes) + "; " + std::to_string (d.buttons.size()) + " buttons";
+    return text + "\n    " + (d.may_open ? "may be opened: --device ROLE=evdev:" + d.path : "may not be opened by this user: " + evdev::howToPermit (d)) + "\n";
+}
+
+Json jsonOf (const EventDeviceInfo& d)
+{
+    Json axes = Json::array(), buttons = Json::array(), effects = Json::array();
+    for (const auto& axis : d.axes)
+        axes.push_back ({ { "name", axis.name }, { "minimum", axis.minimum }, { "maximum", axis.maximum } });
+    for (const auto& button : d.buttons)
+        buttons.push_back (button.name);
+    for (const auto& effect : effectsOf (d))
+        effects.push_back (effect);
+    Json json { { "driver", "evdev" },
+                { "path", d.path },
+                { "name", d.name },
+                { "vid", idsOf (d).substr (0, 4) },
+                { "pid", idsOf (d).substr (5) },
+                { "serial", d.serial },
+                { "effects", std::move (effects) },
+                { "axes", std::move (axes) },
+                { "buttons", std::move (buttons) },
+                { "update_interval_s", d.update_interval_s },
+                { "may_open", d.may_open } };
+    if (! d.may_open) json["remedy"] = evdev::howToPermit (d);
+    return json;
+}
+
+class Probed final : public ProbedEvents
+{
+public:
+    Probed (std::string p, std::unique_ptr<Device> d) : at (std::move (p)), device (std::move (d)), plugin (dynamic_cast<const PluginDevice&> (*device))
+    {
+        device->prepare (5e-3);
+    }
+
+    void poll() override
+    {
+        latest = device->read();
+        device->write ({});   // no effort; the first one makes readings count
+    }
+
+    std::string text (double seconds) const override
+    {
+        const auto& layout = plugin.about().layout;
+        const auto counts = plugin.counts();
+        std::ostringstream out;
+        out << at << " (evdev): ";
+        if (! plugin.isConnected())
+            out << "unplugged; ";
+        else if (! latest.valid)
+            out << "nothing received yet, move it; ";
+        out << counts.readings << " readings, " << numberText (std::round (static_cast<double> (counts.readings) / seconds)) << " per second\n   ";
+        for (std::size_t i = 0; i < layout.axes.size(); ++i)
+        {
+            char number[32];
+            std::snprintf (number, sizeof number, "%.6g", latest.axes[static_cast<int> (i)]);
+            out << ' ' << layout.axes[i] << ' ' << number;
+        }
+        out << "\n    pressed:";
+        for (const auto& name : pressed())
+            out << ' ' << name;
+        out << '\n';
+        if (const auto trouble = plugin.trouble(); ! trouble.empty()) out << "    last problem: " << trouble << '\n';
+        return out.str();
+    }
+
+    Json json() const override
+    {
+        const auto& layout = plugin.about().layout;
+        const auto counts = plugin.counts();
+        Json axes = Json::object();
+        for (std::size_t i = 0; i < layout.axes.size(); ++i)
+            axes[layout.axes[i]] = latest.axes[static_cast<int> (i)];
+        return { { "connected", plugin.isConnected() },
+                 { "valid", latest.valid },
+                 { "readings", counts.readings },
+                 { "departures", counts.departures },
+                 { "axes", std::move (axes) },
+                 { "pressed", pressed() } };
+    }
+
+    const std::string& path() const override { return at; }
+
+private:
+    std::vector<std::string> pressed() const
+    {
+        std::vector<std::string> names;
+        const auto& all = plugin.about().layout.buttons;
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if ((latest.buttons >> i & 1u) != 0) names.push_back (all[i]);
+        return names;
+    }
+
+    const std::string at;
+    const std::unique_ptr<Device> device;
+    const PluginDevice& plugin;
+    Reading latest;
+};
+}   // namespace
+
+std::vector<ListedEvents> listEventDevices()
+{
+    std::vector<ListedEvents> all;
+    for (const auto& info : evdev::thisComputer().list())
+        all.push_back ({ .path = info.path, .may_open = info.may_open, .json = jsonOf (info), .text = textOf (info) });
+    return all;
+}
+
+std::unique_ptr<ProbedEvents> probeEventDevice (const ListedEvents& listed)
+{
+    auto made = openPluginDevice ({ { "driver", "evdev" }, { "port", listed.path } });
+    if (made.device) return std::make_unique<Probed> (listed.path, std::move (made.device));
+    for (const auto& m : made.messages)
+        if (m.severity == Message::Severity::error)
+            std::cerr << printableName (listed.path) << ": error: " << inOneLine (m.text) << "\n    " << inOneLine (m.remedy) << " [" << m.id << "]\n";
+    return nullptr;
+}
+#else
+std::vector<ListedEvents> listEventDevices()
+{
+    return {};
+}
+std::unique_ptr<ProbedEvents> probeEventDevice (const ListedEvents&) { return nullptr; }
+#endif
+
+}   // namespace tactus::host
