@@ -45,6 +45,7 @@ std::shared_ptr<const Profile> arm()
 }
 
 const Bytes rest { 2, 5, 0, 0, 0, 0, 0, 0, 0, 0 };
+constexpr double watchdog = 0.02;   // s; that of the profile, counted in ticks of 1 ms
 
 /// A fake arm and the port that is open on it. Time passes only in ticks of 1 ms.
 struct ArmBench
@@ -98,14 +99,14 @@ struct ArmBench
         });
     }
 
-    /// A tick of a run that nobody waits for: the fake takes a step, too.
+    /// A tick of a run that nobody waits for: the fake takes a step, too. An old reading is not pushed on, as in the guard of a run.
     void tick (double newtons)
     {
         system.ns += 1'000'000;
         fake->step();
         reading = device->read();
         Effort effort;
-        if (reading.valid) effort.force.z() = newtons;
+        if (reading.valid && reading.age < watchdog) effort.force.z() = newtons;
         device->write (effort);
         std::this_thread::sleep_for (200us);   // gives way to the threads of the port
     }
@@ -370,6 +371,17 @@ TEST_CASE ("an arm that nobody drives is asked where it is by the neutral report
     REQUIRE (line->write (answer).size == answer.size());
     CHECK (*(*wire)->read (got, 10s) == answer.size());
     CHECK_FALSE ((*wire)->awaitsAnswer());
+    wire->reset();   // only one driver uses the line
+
+    // Recording changes nothing of this.
+    const TemporaryFolder folder;
+    auto file = CaptureFile::create ((folder / "arm.jsonl").string(), there, bench.profile->id, {});
+    REQUIRE (file);
+    CapturingSystem capturing { system, **file };
+    auto recorded = capturing.reach (there, *bench.profile);
+    REQUIRE (recorded);
+    REQUIRE ((*recorded)->write (rest));
+    CHECK ((*recorded)->awaitsAnswer());
 }
 
 TEST_CASE ("a profile of a device that only answers has one report each way, and no rate", "[wires][hid]")
