@@ -2,7 +2,8 @@
 #include "commands.hpp"
 #include "report.hpp"
 
-#if defined(TACTUS_FAKE_INVERSE3)
+#if defined(TACTUS_FAKE_SERVICES)
+#include <host/bhaptics/fake_player.hpp>
 #include <host/haply/fake_inverse3.hpp>
 #endif
 #include <host/hid/hex.hpp>
@@ -31,7 +32,7 @@ namespace
 using namespace hid;
 using Clock = std::chrono::steady_clock;
 
-[[maybe_unused]] constexpr std::string_view inverse3 = "haply_inverse3";
+[[maybe_unused]] constexpr std::string_view inverse3 = "haply_inverse3", vest = "bhaptics_vest";
 
 struct FakeOptions
 {
@@ -86,9 +87,13 @@ void play (FakeDevice& fake, double duration_s, std::ofstream& log)
     }
 }
 
-#if defined(TACTUS_FAKE_INVERSE3)
-/// The fault of the fake service that a fault of the option means.
-FakeInverse3::Fault faultOfService (DeviceFault::Kind kind, const std::string& text)
+#if defined(TACTUS_FAKE_SERVICES)
+[[noreturn]] void cannot (const std::string& fault, const char* what)
+{
+    fail (Message::error ("fake/fault", fault, "this service cannot do that", std::string ("choose ") + what));
+}
+
+FakeInverse3::Fault faultOfService (DeviceFault::Kind kind, const std::string& text, const FakeInverse3&)
 {
     switch (kind)
     {
@@ -103,52 +108,89 @@ FakeInverse3::Fault faultOfService (DeviceFault::Kind kind, const std::string& t
     case DeviceFault::Kind::rename:
         return FakeInverse3::Fault::rename;
     default:
-        fail (Message::error ("fake/fault", text, "a service cannot do this", "choose stall, garbage, away, push or rename"));
+        cannot (text, "stall, garbage, away, push or rename");
     }
 }
 
-/// Plays the service of an Inverse3, whose messages no profile describes.
-void runInverse3 (const FakeOptions& o)
+FakePlayer::Fault faultOfService (DeviceFault::Kind kind, const std::string& text, const FakePlayer&)
 {
-    if (! o.link.empty() || ! o.log.empty() || ! o.wire.empty()) throw UsageError ("--link, --log, --wire", "only the device of a profile has them");
-    struct Timed
+    switch (kind)
     {
-        DeviceFault when;
-        FakeInverse3::Fault what;
-    };
-    std::vector<Timed> faults;
+    case DeviceFault::Kind::stall:
+        return FakePlayer::Fault::silent;
+    case DeviceFault::Kind::garbage:
+        return FakePlayer::Fault::garbage;
+    case DeviceFault::Kind::away:
+        return FakePlayer::Fault::restart;
+    case DeviceFault::Kind::rename:
+        return FakePlayer::Fault::unworn;
+    default:
+        cannot (text, "stall, garbage, away or rename");
+    }
+}
+
+/// Plays a service, whose messages no profile describes, until it must stop.
+template <typename Service>
+void playService (Service& service, const FakeOptions& o)
+{
+    using Fault = typename Service::Fault;
+    std::vector<std::pair<DeviceFault, Fault>> faults;
     for (const auto& text : o.faults)
     {
         const auto fault = orFail (readFault (text));
-        faults.push_back ({ fault, faultOfService (fault.kind, text) });
+        faults.emplace_back (fault, faultOfService (fault.kind, text, service));
     }
-    const auto service = orFail (FakeInverse3::make (o.port, handOf (o.hand)));
-    std::cout << "a fake Inverse3 is at localhost:" << service->port() << "; play on it: --device ROLE=haply:localhost:" << service->port() << "\n"
-              << std::flush;
     const auto begin = Clock::now();
-    auto fault = FakeInverse3::Fault::none;
+    auto fault = Fault::none;
     for (;;)
     {
         const double now = std::chrono::duration<double> (Clock::now() - begin).count();
         if (stopRequested() || (o.duration_s > 0.0 && now >= o.duration_s)) break;
-        auto due = FakeInverse3::Fault::none;
-        for (const auto& f : faults)
-            if (now >= f.when.from && now < f.when.to) due = f.what;
-        if (due != fault) service->fail (due);
+        auto due = Fault::none;
+        for (const auto& [when, what] : faults)
+            if (now >= when.from && now < when.to) due = what;
+        if (due != fault) service.fail (due);
         fault = due;
         std::this_thread::sleep_for (std::chrono::milliseconds (1));
     }
+}
+
+void sayWhere (const char* what, const char* driver, int port)
+{
+    std::cout << "a fake " << what << " is at localhost:" << port << "; play on it: --device ROLE=" << driver << ":localhost:" << port << "\n"
+              << std::flush;
+}
+
+void runInverse3 (const FakeOptions& o)
+{
+    const auto service = orFail (FakeInverse3::make (o.port, handOf (o.hand)));
+    sayWhere ("Inverse3", "haply", service->port());
+    playService (*service, o);
     const auto n = service->counts();
     std::cout << n.clients << " clients; " << n.heard << " messages heard, " << n.forces << " with a force of at most " << numberText (n.largest) << " N, "
               << n.answered << " answered, " << n.together << " sent before the answer, " << n.refused << " refused\n";
+}
+
+void runVest (const FakeOptions& o)
+{
+    const auto player = orFail (FakePlayer::make (o.port));
+    sayWhere ("vest", "bhaptics", player->port());
+    playService (*player, o);
+    const auto n = player->counts();
+    std::cout << n.clients << " clients; " << n.heard << " messages heard, " << n.frames << " frames with intensities of at most " << n.largest << ", "
+              << n.turned_off << " times turned off, " << n.refused << " refused\n";
 }
 #endif
 
 void run (const FakeOptions& o)
 {
     watchForStop();
-#if defined(TACTUS_FAKE_INVERSE3)
-    if (o.profile == inverse3) return runInverse3 (o);
+#if defined(TACTUS_FAKE_SERVICES)
+    if (o.profile == inverse3 || o.profile == vest)
+    {
+        if (! o.link.empty() || ! o.log.empty() || ! o.wire.empty()) throw UsageError ("--link, --log, --wire", "only the device of a profile has them");
+        return o.profile == inverse3 ? runInverse3 (o) : runVest (o);
+    }
 #endif
     const auto profile = profileOf (o.profile);
     const bool is_udp = o.wire == "udp" || (o.wire.empty() && ! profile->wires.serial);
@@ -186,15 +228,15 @@ void addFakeDevice (const Command& app)
     const auto command = app.add ("fake-device", "Play a device from the outside, to test programs without hardware");
     command
         .addOption ("profile", options->profile,
-                    "The id of a profile that names a wire, such as tactus_board; or haply_inverse3, the service of Haply's arm")
+                    "The id of a profile that names a wire, such as tactus_board; or haply_inverse3 or bhaptics_vest, the services of Haply's arm and of vests")
         .required();
     command.addOption ("--wire", options->wire, "The wire; default: the first that the profile knows").check (oneOf ({ "serial", "udp" }));
     command.addOption ("--link", options->link, "A symbolic link to the serial line, so that its name stays the same").type ("PATH");
     command.addOption ("--port", options->port, "The port on this computer, of UDP or of a service; default: a free one").check (within (0, 65535));
     command.addOption ("--hand", options->hand, "The hand: gesture:NAME, trace:FILE.csv, sim, or FILE.json with a simulated device; default: gesture:stroke");
     command.addOption ("--fault", options->faults,
-                       "A fault, KIND, KIND@FROM or KIND@FROM:DURATION, in s; kinds: stall, garbage, half, lost_byte, late, lie, away, and of a "
-                       "service push and rename; may be given more than once")
+                       "A fault, KIND, KIND@FROM or KIND@FROM:DURATION, in s; kinds: stall, garbage, half, lost_byte, missed_byte, late, lie, "
+                       "reset, away, and of a service push and rename; may be given more than once")
         .oneValueEach();
     command.addOption ("--log", options->log, "A file for each report: its step, > if sent or < if heard, and its bytes").type ("FILE");
     command.addOption ("--duration", options->duration_s, "Length in s; default: until Ctrl-C").check (finiteWithin (0.0, 1e9));
@@ -202,7 +244,9 @@ void addFakeDevice (const Command& app)
                     "  tactus fake-device tactus_board --link board --log heard.txt\n"
                     "  tactus play graphs/dry_wood.json --device stylus=serial:tactus_board@board\n"
                     "  tactus fake-device tactus_board --wire udp --port 9750 --fault stall@5:0.2 --fault away@8:1\n"
-                    "  tactus fake-device haply_inverse3 --port 10001");
+                    "  tactus fake-device haply_2diy --link arm --fault missed_byte@5:0.001\n"
+                    "  tactus fake-device haply_inverse3 --port 10001\n"
+                    "  tactus fake-device bhaptics_vest --port 15881");
     command.callback ([options] { run (*options); });
 }
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "fake_inverse3.hpp"
 
+#include <host/websocket/web_server.hpp>
 #include <tactus/text/caught.hpp>
 #include <tactus/text/json_text.hpp>
-
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/websocket.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -14,7 +11,6 @@
 #include <cmath>
 #include <mutex>
 #include <optional>
-#include <poll.h>
 #include <thread>
 #include <utility>
 
@@ -22,9 +18,6 @@ namespace tactus::host
 {
 namespace
 {
-namespace beast = boost::beast;
-namespace asio = boost::asio;
-using tcp = asio::ip::tcp;
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
@@ -39,12 +32,6 @@ Json orientationOf (const Vec3& rotation)
     const double angle = rotation.norm();
     const Vec3 v = rotation * (angle > 0.0 ? std::sin (0.5 * angle) / angle : 0.5);
     return { { "x", v.x() }, { "y", v.y() }, { "z", v.z() }, { "w", std::cos (0.5 * angle) } };
-}
-
-bool waitFor (int socket, int ms)
-{
-    pollfd p { .fd = socket, .events = POLLIN, .revents = 0 };
-    return ::poll (&p, 1, ms) > 0;
 }
 
 std::optional<Vec3> vectorIn (const Json& command)
@@ -68,8 +55,7 @@ std::optional<Vec3> vectorIn (const Json& command)
 class Service final : public FakeInverse3
 {
 public:
-    Service (int p, std::unique_ptr<Device> h, int delay)
-        : acceptor (io, { asio::ip::address_v4::loopback(), static_cast<std::uint16_t> (p) }), hand (std::move (h)), delay_ms (delay)
+    Service (int p, std::unique_ptr<Device> h, int delay) : server (p), hand (std::move (h)), delay_ms (delay)
     {
         hand->prepare (1e-3);
         runs = std::jthread ([this] (const std::stop_token& stop) {
@@ -78,11 +64,7 @@ public:
         });
     }
 
-    int port() const noexcept override
-    {
-        boost::system::error_code failed;
-        return acceptor.local_endpoint (failed).port();
-    }
+    int port() const noexcept override { return server.port(); }
 
     void fail (Fault f) noexcept override { fault = f; }
 
@@ -101,29 +83,24 @@ public:
 private:
     void serveNext (const std::stop_token& stop)
     {
-        if (! waitFor (acceptor.native_handle(), look_ms)) return;
-        beast::websocket::stream<tcp::socket> client (acceptor.accept());
-        client.next_layer().set_option (tcp::no_delay (true));
-        client.accept();
+        const auto client = server.next (look_ms);
+        if (client == nullptr) return;
         count ([] (Counts& n) { ++n.clients; });
-        send (client, true);
-        beast::flat_buffer buffer;
+        send (*client, true);
         auto pushed = Clock::now();
         while (! stop.stop_requested() && fault != Fault::restart)
         {
             if (fault == Fault::push && Clock::now() - pushed >= 2ms)
             {
                 pushed = Clock::now();
-                send (client, false);
+                send (*client, false);
             }
-            if (! waitFor (client.next_layer().native_handle(), look_ms)) continue;
-            buffer.clear();
-            client.read (buffer);
-            hear (beast::buffers_to_string (buffer.data()));
+            if (! client->says (look_ms)) continue;
+            hear (client->hear());
             if (fault == Fault::silent || fault == Fault::push) continue;
             // What comes before the answer has gone out was sent without waiting for it.
-            if (waitFor (client.next_layer().native_handle(), delay_ms)) count ([] (Counts& n) { ++n.together; });
-            send (client, false);
+            if (client->says (delay_ms)) count ([] (Counts& n) { ++n.together; });
+            send (*client, false);
             count ([] (Counts& n) { ++n.answered; });
         }
         auto restarting = Fault::restart;
@@ -194,11 +171,11 @@ private:
         }
     }
 
-    void send (beast::websocket::stream<tcp::socket>& client, bool is_full)
+    void send (WebServer::Client& client, bool is_full)
     {
         if (fault == Fault::garbage && ! is_full)
         {
-            client.write (asio::buffer (std::string ("{\"inverse3\": [")));
+            client.say ("{\"inverse3\": [");
             return;
         }
         move();
@@ -226,11 +203,10 @@ private:
                              { "verse_grip", Json::array() },
                              { "custom_verse_grip", Json::array() },
                              { "wireless_verse_grip", Json::array ({ grip }) } };
-        client.write (asio::buffer (message.dump()));
+        client.say (message.dump());
     }
 
-    asio::io_context io;
-    tcp::acceptor acceptor;
+    WebServer server;
     const std::unique_ptr<Device> hand;   // moves with `mutex` held
     const int delay_ms;
     std::atomic<Fault> fault = Fault::none;

@@ -3,14 +3,10 @@
 // public description of the messages; no device has been tried. See docs/devices.md.
 #include <tactus/tactus_device.h>
 
+#include <host/websocket/web_socket.hpp>
 #include <tactus/text/json_text.hpp>
 
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/asio/strand.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/websocket.hpp>
 
 #include <algorithm>
 #include <array>
@@ -28,8 +24,6 @@
 
 namespace
 {
-namespace beast = boost::beast;
-namespace asio = boost::asio;
 using tactus::Json;
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
@@ -125,55 +119,24 @@ std::optional<std::string> read (const tactus_device_description& given, Wanted&
     return std::nullopt;
 }
 
-/// The connection to the service. Everything that touches the stream happens on its strand, on whichever thread runs `io`: the reading thread, and
-/// that of rest(). Nothing else waits.
+/// The connection to the service.
 class Inverse3
 {
 public:
     explicit Inverse3 (Wanted w) : wanted (std::move (w)) {}
+    ~Inverse3() { socket.close(); }
 
     /// Connects, and finds the arm in the inventory. Returns why it cannot; empty if it can.
     std::string open()
     {
-        asio::ip::tcp::resolver resolver (io);
-        boost::system::error_code failed;
-        const auto found = resolver.resolve (wanted.host, wanted.port, failed);
-        if (failed) return failed.message();
-        auto& tcp = beast::get_lowest_layer (stream);
-        std::string why = "the service does not answer";
-        bool is_done = false;
-        tcp.expires_after (until_connected);
-        tcp.async_connect (found, [&] (boost::system::error_code e, const auto&) {
-            if (e) return void (why = e.message());
-            tcp.socket().set_option (asio::ip::tcp::no_delay (true));
-            stream.async_handshake (wanted.host, "/", [&] (boost::system::error_code refused) {
-                if (refused) return void (why = refused.message());
-                stream.async_read (buffer, [&] (boost::system::error_code lost, std::size_t) {
-                    why = lost ? lost.message() : std::string();
-                    is_done = true;
-                });
-            });
-        });
-        io.run_for (until_connected + 500ms);
-        if (! is_done || ! why.empty()) return why.empty() ? "the service does not answer" : why;
-        tcp.expires_never();
-        auto problem = takeInventory (beast::buffers_to_string (buffer.data()));
-        if (! problem.empty()) return problem;
-        buffer.clear();
-        io.restart();
-        asio::post (stream.get_executor(), [this] {
-            listen();
+        std::string inventory;
+        if (auto why = socket.open (wanted.host, wanted.port, "/", until_connected, &inventory); ! why.empty()) return why;
+        if (auto problem = takeInventory (inventory); ! problem.empty()) return problem;
+        socket.post ([this] {
+            socket.listen ([this] (const std::string& message) { return hear (message); });
             sendNext();
         });
         return {};
-    }
-
-    ~Inverse3()
-    {
-        boost::system::error_code ignored;
-        beast::get_lowest_layer (stream).socket().close (ignored);
-        io.restart();
-        io.poll();   // what was under way ends with an error
     }
 
     /// Waits for a state. TACTUS_DEVICE_…; `why` if the device is gone.
@@ -189,28 +152,25 @@ public:
                     states.pop_front();
                     return TACTUS_DEVICE_OK;
                 }
-                if (in_flight && Clock::now() - sent > until_gone) lose ("the service has not answered for 100 ms");
-                if (! trouble.empty())
-                {
-                    why = trouble;
-                    return TACTUS_DEVICE_GONE;
-                }
+                if (in_flight && Clock::now() - sent > until_gone) socket.lose ("the service has not answered for 100 ms");
             }
+            if (why = socket.trouble(); ! why.empty()) return TACTUS_DEVICE_GONE;
             if (Clock::now() >= until) return TACTUS_DEVICE_NONE;
-            io.run_one_until (std::min (until, Clock::now() + 2ms));
-            if (io.stopped()) io.restart();
+            socket.run (std::min (until, Clock::now() + 2ms));
         }
     }
 
     /// Passes on a force as soon as nothing is in flight. Returns why it cannot; empty if it can.
     std::string push (const Vector& newtons)
     {
-        const std::lock_guard lock (mutex);
-        if (! trouble.empty()) return trouble;
-        if (in_flight && Clock::now() - sent > until_late) return "the service has not answered for 20 ms";
-        force = newtons;
-        is_new = true;
-        asio::post (stream.get_executor(), [this] { sendNext(); });
+        if (auto trouble = socket.trouble(); ! trouble.empty()) return trouble;
+        {
+            const std::lock_guard lock (mutex);
+            if (in_flight && Clock::now() - sent > until_late) return "the service has not answered for 20 ms";
+            force = newtons;
+            is_new = true;
+        }
+        socket.post ([this] { sendNext(); });
         return {};
     }
 
@@ -221,19 +181,13 @@ public:
         const auto end = Clock::now() + until_rested;
         const auto isAtRest = [&] {
             const std::lock_guard lock (mutex);
-            return ! trouble.empty() || (! is_new && ! in_flight && force == Vector {});
+            return ! socket.trouble().empty() || (! is_new && ! in_flight && force == Vector {});
         };
         while (! isAtRest() && Clock::now() < end)
-        {
-            io.run_one_until (std::min (end, Clock::now() + 1ms));
-            if (io.stopped()) io.restart();
-        }
+            socket.run (std::min (end, Clock::now() + 1ms));
         if (isAtRest()) return;
-        {
-            const std::lock_guard lock (mutex);
-            lose ("the service did not answer in time, so the connection was closed");
-        }
-        io.poll();
+        socket.lose ("the service did not answer in time, so the connection was closed");
+        socket.runAll();
     }
 
     /// True if the arm has stayed idle although it was pushed.
@@ -246,17 +200,6 @@ public:
     }
 
 private:
-    /// [with `mutex` held]
-    void lose (const std::string& why)
-    {
-        if (! trouble.empty()) return;
-        trouble = why;
-        asio::post (stream.get_executor(), [this] {
-            boost::system::error_code ignored;
-            beast::get_lowest_layer (stream).socket().close (ignored);
-        });
-    }
-
     const Json* armIn (const Json& message) const
     {
         const auto* arms = member (&message, "inverse3");
@@ -315,25 +258,16 @@ private:
     }
 
     /// [strand]
-    void listen()
+    std::string hear (const std::string& message)
     {
-        stream.async_read (buffer, [this] (boost::system::error_code failed, std::size_t) {
-            std::string why = failed ? failed.message() : std::string();
-            if (! failed)
-            {
-                const auto read = tactus::readJson (beast::buffers_to_string (buffer.data()));
-                buffer.clear();
-                why = read.messages.empty() ? take (read.root) : std::string ("the service sent something that is not JSON");
-            }
-            {
-                const std::lock_guard lock (mutex);
-                in_flight = false;
-                if (! why.empty()) lose (why);
-                if (! trouble.empty()) return;
-            }
-            sendNext();
-            listen();
-        });
+        const auto read = tactus::readJson (message);
+        auto why = read.messages.empty() ? take (read.root) : std::string ("the service sent something that is not JSON");
+        {
+            const std::lock_guard lock (mutex);
+            in_flight = false;
+        }
+        if (why.empty()) sendNext();
+        return why;
     }
 
     /// Sends the newest force if nothing is in flight; if there is none, asks where the arm is after a while. [strand]
@@ -341,7 +275,7 @@ private:
     {
         {
             const std::lock_guard lock (mutex);
-            if (in_flight || is_writing || ! trouble.empty()) return;
+            if (in_flight || is_writing || ! socket.trouble().empty()) return;
             if (! is_new) return askLater();
         }
         send (true);
@@ -355,7 +289,7 @@ private:
             if (cancelled) return;
             {
                 const std::lock_guard lock (mutex);
-                if (in_flight || is_writing || is_new || ! trouble.empty()) return;
+                if (in_flight || is_writing || is_new || ! socket.trouble().empty()) return;
             }
             send (false);
         });
@@ -365,6 +299,7 @@ private:
     void send (bool pushes)
     {
         pause.cancel();
+        std::string message;
         {
             const std::lock_guard lock (mutex);
             std::array<char, 200> command {};
@@ -373,16 +308,15 @@ private:
                                force[0], force[1], force[2]);
             else
                 std::snprintf (command.data(), command.size(), R"("probe_position":{})");
-            outgoing = R"({"inverse3":[{"device_id":")" + id + R"(","commands":{)" + command.data() + "}}]}";
+            message = R"({"inverse3":[{"device_id":")" + id + R"(","commands":{)" + command.data() + "}}]}";
             in_flight = is_writing = true;
             is_new = false;
             sent = Clock::now();
         }
-        stream.async_write (asio::buffer (outgoing), [this] (boost::system::error_code failed, std::size_t) {
+        socket.say (std::move (message), [this] {
             {
                 const std::lock_guard lock (mutex);
                 is_writing = false;
-                if (failed) lose (failed.message());
             }
             sendNext();   // the answer may have come before
         });
@@ -390,11 +324,6 @@ private:
 
     const Wanted wanted;
     std::string id;   // of the arm
-    asio::io_context io;
-    beast::websocket::stream<beast::tcp_stream> stream { asio::make_strand (io) };
-    asio::steady_timer pause { stream.get_executor() };
-    beast::flat_buffer buffer;
-    std::string outgoing;   // the message on its way
 
     std::mutex mutex;   // protects what follows; never held while waiting
     std::deque<State> states;
@@ -402,7 +331,9 @@ private:
     bool is_new = false;                          // `force` has not been sent
     bool in_flight = false, is_writing = false;   // a message waits for its answer; is on its way out
     Clock::time_point sent, idle_since = Clock::now();
-    std::string trouble;   // why the connection cannot be used any more
+
+    tactus::host::WebSocket socket;   // what it calls uses the other members
+    boost::asio::steady_timer pause { socket.executor() };
 };
 
 //==============================================================================

@@ -324,7 +324,8 @@ enum class Framing
 {
     none,
     cobs,
-    length
+    length,
+    answer   ///< as none, from a device that only answers: with one report to each that it gets
 };
 
 /// A serial line, on which a device with this profile may be connected.
@@ -332,6 +333,7 @@ struct SerialWire
 {
     int baud = 115200;
     Framing framing = Framing::cobs;
+    std::optional<std::uint8_t> filler {};   ///< a byte that only completes a message of which the device has missed a part; else it ignores the byte
 
     bool operator== (const SerialWire&) const = default;
 };

@@ -53,14 +53,19 @@ SerialWire readSerial (ProfileFields& in)
     SerialWire serial;
     serial.baud = in.whole ("baud", 300, 20'000'000, serial.baud);
     const auto framing = in.text ("framing");
-    constexpr std::pair<std::string_view, Framing> all[] { { "none", Framing::none }, { "cobs", Framing::cobs }, { "length", Framing::length } };
+    constexpr std::pair<std::string_view, Framing> all[] {
+        { "none", Framing::none }, { "cobs", Framing::cobs }, { "length", Framing::length }, { "answer", Framing::answer }
+    };
     const auto* it = std::ranges::find (all, framing, [] (const auto& f) { return f.first; });
     if (! in.has ("framing"))
-        in.require ("framing", "write none, cobs or length");
+        in.require ("framing", "write none, cobs, length or answer");
     else if (it == std::end (all))
-        in.error ("framing", "profile/kind", quote (framing) + " is not a framing", "write none, cobs or length");
+        in.error ("framing", "profile/kind", quote (framing) + " is not a framing", "write none, cobs, length or answer");
     else
         serial.framing = it->second;
+    if (const auto filler = in.id ("filler", 255)) serial.filler = static_cast<std::uint8_t> (*filler);
+    if (serial.filler && serial.framing != Framing::answer)
+        in.error ("filler", "profile/wire", "only a device that answers needs a filler", "leave it out, or choose the framing answer");
     return serial;
 }
 

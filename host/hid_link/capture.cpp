@@ -112,6 +112,7 @@ public:
     }
 
     std::size_t keptBySystem() const noexcept override { return inner->keptBySystem(); }
+    bool awaitsAnswer() const noexcept override { return inner->awaitsAnswer(); }
 
     Result<> write (std::span<const std::uint8_t> report) override { return recorded (LineKind::out, report, inner->write (report)); }
     Result<> sendFeature (std::span<const std::uint8_t> report) override { return recorded (LineKind::feature_out, report, inner->sendFeature (report)); }

@@ -21,6 +21,8 @@ constexpr std::pair<std::string_view, FaultKind> fault_names[] {
     { "garbage", FaultKind::garbage },
     { "half", FaultKind::half },
     { "lost_byte", FaultKind::lost_byte },
+    { "missed_byte", FaultKind::missed },
+    { "reset", FaultKind::reset },
     { "late", FaultKind::late },
     { "lie", FaultKind::lie },
     { "away", FaultKind::away },
@@ -29,6 +31,28 @@ constexpr std::pair<std::string_view, FaultKind> fault_names[] {
 };
 
 constexpr double usual_rate = 1000.0, usual_watchdog = 0.02;   // Hz, s
+constexpr int pause_ms = 5, longest_wait_ms = 1000;            // that end an unfinished report: on the Tactus board, and on Haply's
+
+std::vector<Bytes> stepsOf (const Profile& profile)
+{
+    std::vector<Bytes> steps;
+    for (const auto& step : profile.init)
+        steps.push_back (step.bytes);
+    return steps;
+}
+
+/// What the device hears: its output reports, and the steps that set it up.
+std::vector<FrameReader::Shape> heardShapes (const Profile& profile, const std::vector<Bytes>& steps)
+{
+    auto shapes = outputShapes (profile);
+    for (const auto& bytes : steps)
+    {
+        auto& shape = shapes.emplace_back (FrameReader::Shape { bytes.front(), bytes.size(), bytes.size(), {} });
+        for (std::size_t i = 1; i < bytes.size(); ++i)
+            shape.marks.emplace_back (Bits { .at = 8 * i }, bytes[i]);
+    }
+    return shapes;
+}
 
 /// Replaces a link at once, so that it never leads nowhere while it is replaced.
 Result<> lead (const std::filesystem::path& link, const std::string& to)
@@ -78,9 +102,12 @@ Result<DeviceFault> readFault (std::string_view text)
 FakeDevice::FakeDevice (std::shared_ptr<const Profile> p, std::unique_ptr<Device> h, Options o)
     : profile (std::move (p)), hand (std::move (h)), options (std::move (o)), rate_hz (profile->rate > 0.0 ? profile->rate : usual_rate),
       watchdog (profile->limits.device_watchdog > 0.0 ? profile->limits.device_watchdog : usual_watchdog), port (options.port), side (profile),
-      framing (options.wire == Wire::serial ? profile->wires.serial->framing : Framing::none), lines (framing, outputShapes (*profile))
+      framing (options.wire == Wire::serial ? profile->wires.serial->framing : Framing::none), answers (framing == Framing::answer),
+      init (answers ? stepsOf (*profile) : std::vector<Bytes> {}),
+      lines (framing, heardShapes (*profile, init), std::chrono::milliseconds (answers ? longest_wait_ms : pause_ms))
 {
     hand->prepare (1.0 / rate_hz);
+    if (answers) hand_reading = hand->read();   // it may be asked before the first step
 }
 
 FakeDevice::~FakeDevice()
@@ -125,17 +152,25 @@ bool FakeDevice::is (FaultKind kind) const noexcept
 
 void FakeDevice::comeAndGo()
 {
+    if (is (FaultKind::reset)) restart();
     if (is (FaultKind::away))
     {
         wire.reset();
-        applied = {};
-        is_driven = false;
+        restart();
         return;
     }
-    if (wire || ! connect()) return;   // tried again on the next step
+    if (! wire && connect()) restart();   // else tried again on the next step
+}
+
+void FakeDevice::restart()
+{
+    applied = {};
+    is_driven = false;
+    set_up = 0;
     side.restart();
     lines.reset();
     previous.clear();
+    if (wire) wire->dropInput();
 }
 
 void FakeDevice::step()
@@ -144,7 +179,7 @@ void FakeDevice::step()
     while (hear ({}))
         ;
     ++steps;
-    if (is_driven && static_cast<double> (steps - last_valid) > watchdog * rate_hz)
+    if (is_driven && ! answers && static_cast<double> (steps - last_valid) > watchdog * rate_hz)
     {
         is_driven = false;
         applied = {};
@@ -154,7 +189,7 @@ void FakeDevice::step()
     hand->write (applied);
     hand_reading = hand->read();
     side.hold (is (FaultKind::lie));
-    if (! wire || is (FaultKind::stall)) return;
+    if (! wire || answers || is (FaultKind::stall) || is (FaultKind::reset)) return;
     std::vector<Bytes> reports;
     for (std::size_t i = 0; i < side.inputs(); ++i)
         reports.push_back (side.input (i, hand_reading, time()));
@@ -168,7 +203,8 @@ void FakeDevice::step()
 
 bool FakeDevice::hear (WireFile::Clock::time_point until)
 {
-    if (! wire || is (FaultKind::stall)) return false;
+    if (! wire || is (FaultKind::stall) || is (FaultKind::reset)) return false;
+    lines.lose (is (FaultKind::missed));
     Bytes report (longest_report + 1);
     const auto got = options.wire == Wire::udp ? wire->read (report, until) : lines.read (*wire, report, until);
     if (got.what != WireFile::Outcome::Kind::report) return false;
@@ -176,9 +212,22 @@ bool FakeDevice::hear (WireFile::Clock::time_point until)
     return true;
 }
 
+/// True if the report is a step of `init`. They count in their order.
+bool FakeDevice::isStep (std::span<const std::uint8_t> report)
+{
+    for (std::size_t i = 0; i < init.size(); ++i)
+    {
+        if (! std::ranges::equal (init[i], report)) continue;
+        if (i <= set_up) set_up = i + 1;
+        return true;
+    }
+    return false;
+}
+
 void FakeDevice::take (std::span<const std::uint8_t> report)
 {
     tell (Line::What::heard, report);
+    if (isStep (report)) return;
     const auto heard = side.output (report);
     if (! heard)
     {
@@ -187,8 +236,13 @@ void FakeDevice::take (std::span<const std::uint8_t> report)
     }
     ++tally.heard;
     last_valid = steps;
-    is_driven = heard->enabled;
-    applied = heard->effort;
+    const bool is_set_up = set_up == init.size();
+    is_driven = is_set_up && heard->enabled;
+    applied = is_set_up ? heard->effort : Effort {};
+    if (! answers) return;
+    auto answer = side.input (0, hand_reading, time());
+    if (! is_set_up) answer.resize (1);
+    send (answer);
 }
 
 void FakeDevice::send (const Bytes& report)

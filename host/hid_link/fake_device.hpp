@@ -31,6 +31,8 @@ struct DeviceFault
         garbage,     ///< sends random bytes instead of reports
         half,        ///< sends only the first half of what a report is on the wire
         lost_byte,   ///< leaves out a byte in the middle of it
+        missed,      ///< misses the last byte of whatever comes at once
+        reset,       ///< is being reset; comes back on the same line as if switched on again, and has forgotten what `init` has set up
         late,        ///< sends the report before last again after each one
         lie,         ///< an encoder, or else the first coordinate, stays where it was
         away,        ///< is unplugged; comes back as if switched on again, and a serial line then has another name
@@ -50,7 +52,10 @@ Result<DeviceFault> readFault (std::string_view);
 
 /// The device of a profile, played from the outside: the far end of a serial line (a pseudo-terminal) or of UDP. A simulated hand moves its tool
 /// and feels the force. Its time is the number of steps, so nothing depends on when they are made. Like the Tactus board, it releases its motors
-/// if no valid report comes for its watchdog (`device_watchdog` of the profile, else 20 ms), and if an enable bit is 0. [one thread]
+/// if no valid report comes for its watchdog (`device_watchdog` of the profile, else 20 ms), and if an enable bit is 0.
+///
+/// With the framing `answer`, it is like Haply's board: it answers each report at once, waits for the rest of an unfinished one, has no watchdog, and
+/// until it has heard all steps of `init`, answers with its first byte alone and drives nothing. [one thread]
 class FakeDevice
 {
 public:
@@ -118,6 +123,8 @@ private:
     Result<> connect();
     bool is (DeviceFault::Kind) const noexcept;
     void comeAndGo();
+    void restart();
+    bool isStep (std::span<const std::uint8_t> report);
     void take (std::span<const std::uint8_t> report);
     void send (const Bytes& report);
     void tell (Line::What, std::span<const std::uint8_t>) const;
@@ -132,12 +139,15 @@ private:
     std::optional<WireFile> wire;
     DeviceSide side;
     Framing framing = Framing::none;
+    const bool answers;
+    std::vector<Bytes> init;   // of a device that answers
     LineReader lines;
     Reading hand_reading;
     Effort applied;
     Counts tally;
     std::vector<Bytes> previous;   // the input reports of the step before
     std::uint64_t steps = 0, last_valid = 0;
+    std::size_t set_up = 0;   // steps of `init` heard
     bool is_driven = false;
     std::uint32_t seed = 0x12345678;
 };

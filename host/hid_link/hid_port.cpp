@@ -336,7 +336,7 @@ void HidPort::poll (Transport& t, Output& o, std::size_t report, Clock::time_poi
         o.seen = latest.number;
         return;
     }
-    if ((o.credit < 1.0 && ! stops) || ! t.beat (true)) return;
+    if (((o.credit < 1.0 || t.awaitsAnswer()) && ! stops) || ! t.beat (true)) return;
 
     // Offers in between were never sent, so they count as dropped. With a keepalive, an unchanged offer is neither sent nor counted.
     if (is_new && how.keepalive == 0.0) dropped.fetch_add (latest.number - o.seen - 1, std::memory_order_relaxed);

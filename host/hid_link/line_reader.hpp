@@ -21,7 +21,11 @@ public:
     using Clock = WireFile::Clock;
     using Outcome = WireFile::Outcome;
 
-    LineReader (Framing framing, std::vector<FrameReader::Shape> shapes) : frames (framing, std::move (shapes)) {}
+    /// A pause longer than `pause` ends a report; the default is longer than a USB adapter holds back the rest of one.
+    LineReader (Framing framing, std::vector<FrameReader::Shape> shapes, std::chrono::milliseconds pause = std::chrono::milliseconds (5))
+        : frames (framing, std::move (shapes)), pause_within (pause)
+    {
+    }
 
     /// The next whole report, as ReportFile::read.
     Outcome read (WireFile& file, std::span<std::uint8_t> into, Clock::time_point until) noexcept
@@ -40,7 +44,7 @@ public:
             const auto now = Clock::now();
             if (got.what == Outcome::Kind::report)
             {
-                frames.arrived (got.size);
+                frames.arrived (got.size - (loses && got.size > 1 ? 1 : 0));
                 heard = now;
                 continue;
             }
@@ -54,12 +58,16 @@ public:
     }
 
     void reset() noexcept { frames.reset(); }
+
+    /// For fakes: from now on, the last byte of whatever comes at once is lost, or is not.
+    void lose (bool on) noexcept { loses = on; }
+
     const FrameReader::Counts& counts() const noexcept { return frames.counts(); }
 
 private:
-    static constexpr std::chrono::milliseconds pause_within { 5 };   // longer than a USB adapter holds back the rest of a report
-
     FrameReader frames;
+    const std::chrono::milliseconds pause_within;
+    bool loses = false;
     Clock::time_point heard;
 };
 

@@ -47,6 +47,9 @@ public:
     /// How many reports the system keeps for a reader who is late; it drops newer ones.
     virtual std::size_t keptBySystem() const noexcept { return 63; }   // Linux, of HID: HIDRAW_BUFFER_SIZE is 64
 
+    /// True while the device has not answered the last report: one that pushes waits, and then the newest is sent. [any thread]
+    virtual bool awaitsAnswer() const noexcept { return false; }
+
     /// Like read(), for the thread that ticks a run: neither allocates nor throws, and waits precisely until that time. Does not wait
     /// if it has passed. After a failure, read() says why.
     virtual ReportFile::Outcome readUntil (std::span<std::uint8_t>, ReportFile::Clock::time_point) noexcept

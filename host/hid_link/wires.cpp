@@ -3,6 +3,7 @@
 #include "line_reader.hpp"
 #include "stale_datagrams.hpp"
 
+#include <host/hid/hid_model.hpp>
 #include <host/platform/device_file.hpp>
 #include <host/platform/failsafe.hpp>
 #include <tactus/file/file_lock.hpp>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -26,8 +28,11 @@ using Kind = Outcome::Kind;
 constexpr auto between_knocks = 100ms;
 constexpr auto until_answer = 200ms;
 constexpr auto until_gone = 1s;
-constexpr std::size_t times_at_the_end = 3;   // a datagram may be lost, and nobody sends it again when this program is dead
-constexpr std::size_t line_keeps = 4095;      // bytes that Linux keeps of a serial line
+constexpr auto until_late = 20ms;                               // without an answer: the device has missed a byte, or its answer was lost
+constexpr auto until_settled = 5ms;                             // for a second answer after a doubt
+constexpr int most_unanswered = 50, most_without_filler = 10;   // reports, after which a device that only answers counts as gone: about a second
+constexpr std::size_t times_at_the_end = 3;                     // a datagram may be lost, and nobody sends it again when this program is dead
+constexpr std::size_t line_keeps = 4095;                        // bytes that Linux keeps of a serial line
 
 Message systemError (int error) { return transferError (std::generic_category().message (error)); }
 
@@ -85,7 +90,7 @@ private:
     std::optional<Failsafe> failsafe;
 };
 
-class SerialTransport final : public WireTransport
+class SerialTransport : public WireTransport
 {
 public:
     SerialTransport (WireFile f, FileLock l, std::string name, const Profile& p)
@@ -102,14 +107,7 @@ public:
         return lines.read (file, into, until);
     }
 
-private:
-    Bytes onTheWire (std::span<const std::uint8_t> report) const override
-    {
-        Bytes bytes (longestFrame (framing, report.size()));
-        bytes.resize (writeFrame (framing, report, bytes));
-        return bytes;
-    }
-
+protected:
     int put (std::span<const std::uint8_t> report) override
     {
         if (const int error = finish(); error != 0) return error;
@@ -131,11 +129,141 @@ private:
         return unsent.empty() ? 0 : std::max (sent.error, EAGAIN);
     }
 
+    Bytes onTheWire (std::span<const std::uint8_t> report) const override
+    {
+        Bytes bytes (longestFrame (framing, report.size()));
+        bytes.resize (writeFrame (framing, report, bytes));
+        return bytes;
+    }
+
+private:
     FileLock lock;   // only one driver uses the line
     const Framing framing;
     LineReader lines;   // [reader]
     const std::size_t kept;
     Bytes room, unsent;   // [writer]
+};
+
+/// A line whose device speaks only when it is spoken to: it answers each report with one, in order. Nothing tells where one begins, and which report an
+/// answer belongs to. So a report that pushes waits for the answer to the one before, and what nobody has asked for is dropped. One that brings to rest does
+/// not wait: fillers go before it, which end whatever the device may have missed a part of. While nothing is sent, the neutral report asks.
+class AskedTransport final : public SerialTransport
+{
+public:
+    AskedTransport (WireFile f, FileLock l, std::string name, const Profile& p, const HidSystem& s)
+        : SerialTransport (std::move (f), std::move (l), std::move (name), p), system (s), id (p.outputs.front().id),
+          has_filler (p.wires.serial->filler.has_value()), last_word (system.now())
+    {
+        HidModel model (std::make_shared<const Profile> (p));
+        const auto report = model.neutral (0);
+        neutral.assign (report.begin() + (usesIds (p) ? 0 : 1), report.end());
+        if (has_filler) afresh.assign (neutral.size() - 1, *p.wires.serial->filler);
+        afresh.insert (afresh.end(), neutral.begin(), neutral.end());
+    }
+
+    bool canReadUntil() const noexcept override { return false; }   // whoever reads also writes, and may wait for the writing thread
+
+    bool awaitsAnswer() const noexcept override
+    {
+        const std::lock_guard lock (speaking);
+        return due > 0 || system.now() < settled;
+    }
+
+    Outcome readUntil (std::span<std::uint8_t> into, Clock::time_point until) noexcept override
+    {
+        for (;;)
+        {
+            const auto got = SerialTransport::readUntil (into, std::min (until, Clock::now() + std::max<Clock::duration> (untilNextWord(), 1ms)));
+            if (got.what == Kind::failure) return got;
+            const std::lock_guard lock (speaking);
+            const auto now = system.now();
+            if (got.what == Kind::report)
+            {
+                if (due == 0) continue;   // the answer has come too late, or is none
+                if (--due == 0 && std::exchange (is_afresh, false)) settled = now + until_settled;
+                unanswered = 0;
+                is_pausing = false;
+                return got;
+            }
+            if (now >= nextWord()) speak (now);
+            if (unanswered >= (has_filler ? most_unanswered : most_without_filler)) return { .what = Kind::failure, .error = ETIMEDOUT };
+            if (Clock::now() >= until) return {};
+        }
+    }
+
+private:
+    /// For the guardian, who does not know what the device waits for.
+    Bytes onTheWire (std::span<const std::uint8_t> report) const override
+    {
+        return SerialTransport::onTheWire (std::ranges::equal (report, neutral) ? std::span<const std::uint8_t> (afresh) : report);
+    }
+
+    int put (std::span<const std::uint8_t> report) override
+    {
+        const std::lock_guard lock (speaking);
+        const bool rests = std::ranges::equal (report, neutral);
+        if (! isAsked (report) || (due == 0 && (rests || system.now() >= settled))) return say (report);
+        return rests ? sayAfresh() : EAGAIN;
+    }
+
+    /// False for a step of `init` or `exit`, which is not answered.
+    bool isAsked (std::span<const std::uint8_t> report) const noexcept { return report.size() == neutral.size() && (! id || report.front() == *id); }
+
+    /// [with `speaking` held]
+    int say (std::span<const std::uint8_t> report)
+    {
+        const int error = SerialTransport::put (report);
+        if (error == 0) last_word = system.now();
+        if (error == 0 && isAsked (report)) ++due;
+        return error;
+    }
+
+    /// Says the neutral report to a device that may have missed a part of the last one. It may answer both. [with `speaking` held]
+    int sayAfresh()
+    {
+        const int error = SerialTransport::put (afresh);
+        last_word = system.now();   // if the line takes nothing, that is tried again when the answer is late
+        if (error != 0) return error;
+        due = 1;
+        is_afresh = true;
+        is_pausing = false;
+        return 0;
+    }
+
+    /// Nothing has been said for a while. [with `speaking` held]
+    void speak (Clock::time_point now)
+    {
+        last_word = now;
+        if (due == 0)
+        {
+            static_cast<void> (say (neutral));   // if the line takes nothing, it is said later
+            return;
+        }
+        if (! has_filler && ! std::exchange (is_pausing, true)) return;
+        ++unanswered;
+        static_cast<void> (sayAfresh());
+    }
+
+    /// [with `speaking` held]
+    Clock::time_point nextWord() const noexcept { return last_word + (due > 0 && ! is_pausing ? until_late : between_knocks); }
+
+    Clock::duration untilNextWord() const noexcept
+    {
+        const std::lock_guard lock (speaking);
+        return nextWord() - system.now();
+    }
+
+    const HidSystem& system;
+    const std::optional<std::uint8_t> id;
+    const bool has_filler;
+    Bytes neutral, afresh;
+
+    mutable std::mutex speaking;   // protects what follows, and writing
+    int due = 0;                   // answers
+    int unanswered = 0;            // reports in a row
+    bool is_afresh = false;        // the last report followed fillers
+    bool is_pausing = false;       // without a filler, only a pause makes the device forget what it has missed a part of
+    Clock::time_point last_word, settled {};
 };
 
 class UdpTransport final : public WireTransport
@@ -195,7 +323,7 @@ Message notOpened (const ConnectedDevice& device, std::string why)
     return Message::error (device.wire == Wire::serial && isForbidden (device.path) ? "hid/not_permitted" : "hid/not_opened", device.path, std::move (why));
 }
 
-Result<std::unique_ptr<Transport>> openSerial (const ConnectedDevice& device, const Profile& profile)
+Result<std::unique_ptr<Transport>> openSerial (const ConnectedDevice& device, const Profile& profile, const HidSystem& system)
 {
     auto alone = FileLock::takeExisting (device.path);
     std::error_code unseen;
@@ -204,6 +332,8 @@ Result<std::unique_ptr<Transport>> openSerial (const ConnectedDevice& device, co
     auto line = WireFile::openSerial (device.path, profile.wires.serial->baud);
     if (! line) return notOpened (device, line.error().text);
     if (! alone) return notOpened (device, "it cannot be locked");
+    if (profile.wires.serial->framing == Framing::answer)
+        return std::make_unique<AskedTransport> (std::move (*line), std::move (*alone), device.path, profile, system);
     return std::make_unique<SerialTransport> (std::move (*line), std::move (*alone), device.path, profile);
 }
 
@@ -223,12 +353,12 @@ Result<std::unique_ptr<Transport>> openUdp (const ConnectedDevice& device, const
 
 Result<std::unique_ptr<Transport>> HidSystem::reach (const ConnectedDevice& device, const Profile& profile)
 {
-    return device.wire == Wire::hid ? open (device) : openWire (device, profile);
+    return device.wire == Wire::hid ? open (device) : openWire (device, profile, *this);
 }
 
-Result<std::unique_ptr<Transport>> openWire (const ConnectedDevice& device, const Profile& profile)
+Result<std::unique_ptr<Transport>> openWire (const ConnectedDevice& device, const Profile& profile, const HidSystem& system)
 {
-    if (device.wire == Wire::serial && profile.wires.serial) return openSerial (device, profile);
+    if (device.wire == Wire::serial && profile.wires.serial) return openSerial (device, profile, system);
     if (device.wire == Wire::udp && profile.wires.udp) return openUdp (device, profile);
     return notOpened (device, "its profile " + profile.id + " does not know this wire");
 }

@@ -19,8 +19,13 @@ namespace tactus::host::hid
 /// after each 100 ms of silence. It counts as gone if it does not answer within 200 ms of being opened, or is silent for a second (unless its
 /// profile says that it reports only changes). A datagram with an earlier number than the last one is dropped.
 ///
+/// A device that only answers (framing `answer`) gets one report at a time that pushes. If no answer comes within 20 ms, the device may have missed a part
+/// of the report: it gets fillers, which end it, and the neutral report; without a filler in its profile, it gets the neutral report after a pause of 100 ms.
+/// After about a second without an answer, it counts as gone. While nothing is sent, the neutral report asks it every 100 ms. These times are those of the
+/// system, which must outlive the transport.
+///
 /// Ids: hid/not_permitted, hid/not_opened; the text is the reason. [main thread, or the reading thread of a port]
-Result<std::unique_ptr<Transport>> openWire (const ConnectedDevice&, const Profile&);
+Result<std::unique_ptr<Transport>> openWire (const ConnectedDevice&, const Profile&, const HidSystem&);
 
 /// A name of a serial port that stays the same when the port is plugged in again: that of the link in `by_id` that leads to it if there is one,
 /// else the name itself.

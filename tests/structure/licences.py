@@ -14,8 +14,8 @@ import pathlib
 import re
 import sys
 
-MIT_ROOMS = ["audio", "check_plugin", "command_line", "device_plugins", "evdev", "fitting", "fuse", "fuse_llvm", "generate", "guardian", "haply", "hid", "hid_link",
-             "live", "platform", "plugins", "profiles", "sessions"]
+MIT_ROOMS = ["audio", "bhaptics", "check_plugin", "command_line", "device_plugins", "evdev", "fitting", "fuse", "fuse_llvm", "generate", "guardian", "haply",
+             "hid", "hid_link", "live", "platform", "plugins", "profiles", "sessions", "websocket"]
 GPL_ROOMS = ["app", "bench", "cli", "packaging"]
 MIXED = ["assets", "io", "osc"]
 CARDS = "host/audio/juce_cards.cpp"

@@ -263,12 +263,28 @@ private:
         const auto isFeature = [] (const auto& list) { return std::ranges::any_of (list, [] (const auto& s) { return s.kind != Step::Kind::output; }); };
         if (isFeature (p.init) || isFeature (p.exit) || std::ranges::any_of (p.outputs, &OutputReport::is_feature))
             in.error ("wires", "profile/wire", "feature reports exist only in HID", "make them output reports, or leave \"wires\" out");
-        if (! p.wires.serial || p.wires.serial->framing != Framing::none) return;
+        const auto framing = p.wires.serial ? p.wires.serial->framing : Framing::cobs;
+        if (framing == Framing::answer) answers();
+        if (framing != Framing::none && framing != Framing::answer) return;
         for (const auto& report : p.inputs)
-            if (report.length != report.longest || std::ranges::none_of (report.fields, [] (const auto& f) { return f.expect.has_value(); }))
+            if (report.length != report.longest || (! report.id && std::ranges::none_of (report.fields, [] (const auto& f) { return f.expect.has_value(); })))
                 in.error ("wires", "profile/wire",
-                          "without framing, nothing tells where a report begins, unless it has a fixed length and a field with \"expect\"",
+                          "without framing, nothing tells where a report begins, unless it has a fixed length, and an id or a field with \"expect\"",
                           "choose the framing cobs or length, or give each input report such a field and no \"longest\"");
+    }
+
+    /// Checks that a device that only answers is asked often enough, and by one report.
+    void answers()
+    {
+        if (p.inputs.size() != 1 || p.outputs.size() != 1)
+            in.error ("wires", "profile/wire", "a device that only answers needs one input report and one output report, which it answers",
+                      "choose another framing, or keep one of each");
+        if (std::ranges::any_of (p.outputs, [] (const auto& r) { return r.keepalive > 0.0 || r.stream || ! r.sequences.empty(); }))
+            in.error ("outputs", "profile/wire",
+                      "a device that only answers is asked by its output report in each tick, so this can have no keepalive, no stream and no sequence number",
+                      "leave them out");
+        if (p.rate > 0.0)
+            in.error ("rate", "profile/wire", "a device that only answers cannot tick a run, because it waits for the run", "leave \"rate\" out");
     }
 
     void golden (const GoldenSample& sample)

@@ -83,7 +83,7 @@ bool isConstant (const OutputReport& report, std::size_t byte)
 
 std::size_t longestFrame (Framing framing, std::size_t report) noexcept
 {
-    if (framing == Framing::none) return report;
+    if (framing == Framing::none || framing == Framing::answer) return report;
     const auto summed = report + crc_size;
     return framing == Framing::length ? length_size + summed : 2 + summed + 1 + summed / longest_run;
 }
@@ -137,6 +137,7 @@ std::optional<std::span<const std::uint8_t>> FrameReader::next() noexcept
     case Framing::length:
         return nextWithLength();
     case Framing::none:
+    case Framing::answer:
         break;
     }
     return nextPlain();
@@ -189,7 +190,7 @@ const FrameReader::Shape* FrameReader::shapeAt (std::size_t offset) const noexce
 }
 
 /// Without framing, the marks tell where a report begins. They may also occur within one, so after any doubt two reports in a row must have
-/// them.
+/// them. There are no two in a row if the next one comes only when it is asked for.
 FrameReader::Report FrameReader::nextPlain() noexcept
 {
     while (begin < end)
@@ -203,7 +204,7 @@ FrameReader::Report FrameReader::nextPlain() noexcept
         }
         const auto size = shape->length;
         if (waiting().size() < size) return {};
-        if (! in_step)
+        if (! in_step && framing == Framing::none)
         {
             const auto* second = shapeAt (size);
             if (second == nullptr)

@@ -17,7 +17,7 @@ namespace tactus::host::hid
 std::size_t longestFrame (Framing, std::size_t report) noexcept;
 
 /// Writes a report as it goes on a line, and returns its size there; 0 if it does not fit.
-///  - none: the bytes of the report.
+///  - none, answer: the bytes of the report.
 ///  - cobs: 0, the report and its CRC-32 (little-endian) in COBS (Cheshire and Baker, 1999), 0. The first 0 ends what an earlier
 ///    frame may have left unfinished.
 ///  - length: the size of the report (u16, little-endian), the report, and the CRC-32 (little-endian) of both.
@@ -57,7 +57,7 @@ public:
     bool isWithin() const noexcept { return begin < end; }
 
     /// The line was silent for longer than within a report, so what has come of one is dropped, and the next byte begins another one.
-    /// Without framing, only this is certain to find the beginning again after a lost byte.
+    /// Without framing, and from a device that only answers, nothing else is certain to find the beginning again after a lost byte.
     void pause() noexcept;
 
     /// Forgets everything, for a line that has been opened again.

@@ -40,20 +40,21 @@ std::vector<std::string> linesOf (const std::string& log, const std::string& wha
 
 const std::string drives = "< 54 01 01 00", rests = "< 54 01 00 00";
 
-/// The board of the profile, played by the program, and what another program opens.
+/// The device of a profile, played by the program, and what another program opens.
 struct Fake
 {
-    explicit Fake (const std::string& wire)
-        : log (scratch.path ("log")), program (words (wire)), is_there (eventually ([this] { return program.out().find ('\n') != std::string::npos; }))
+    explicit Fake (const std::string& wire, const std::string& profile = "tactus_board")
+        : log (scratch.path ("log")), program (words (wire, profile)), is_there (eventually ([this] { return program.out().find ('\n') != std::string::npos; }))
     {
         const auto told = program.out();
         const auto at = told.find ("ROLE=");
         device = at == told.npos ? std::string() : told.substr (at + 5, told.find ('\n', at) - at - 5);
     }
 
-    std::vector<std::string> words (const std::string& wire) const
+    std::vector<std::string> words (const std::string& wire, const std::string& profile) const
     {
-        std::vector<std::string> all { "fake-device", "tactus_board", "--wire", wire, "--hand", "sim", "--log", log };
+        std::vector<std::string> all { "fake-device", profile, "--wire", wire, "--log", log };
+        all.insert (all.end(), { "--hand", scratch.write ("hand.json", R"({ "driver": "sim", "mass": "1000 kg" })") });   // it does not move away
         if (wire == "serial") all.insert (all.end(), { "--link", scratch.path ("board") });
         return all;
     }
@@ -83,6 +84,26 @@ TEST_CASE ("a program that is killed while it pushes leaves the device on a wire
     const auto ran = fake.program.stop();
     CHECK (ran.status == 0);
     CHECK (ran.out.find (" 0 refused") != std::string::npos);
+}
+
+TEST_CASE ("a program that is killed while it pushes an arm that only answers leaves it at rest", "[cli][wires][safety]")
+{
+    Fake fake { "serial", "haply_2diy" };
+    REQUIRE (fake.is_there);
+    auto sideways = std::string (pushing);
+    sideways.replace (sideways.find ("force.z"), 7, "force.x");
+    const auto graph = fake.scratch.write ("push.json", sideways);
+    Running play { { "play", graph, "--device", "stylus=" + fake.device, "--session", "off", "--osc", "off" } };
+    REQUIRE (play.says ("Ctrl-C stops"));
+    const std::string at_rest = "< 02 05 00 00 00 00 00 00 00 00";
+    const auto isPushed = [&] {
+        const auto heard = linesOf (fake.log, "< 02 05");
+        return heard.size() > 100 && heard.back() != at_rest;
+    };
+    REQUIRE (eventually (isPushed));
+    play.signal (SIGKILL);
+    CHECK (eventually ([&] { return linesOf (fake.log, "< 02 05").back() == at_rest; }));
+    CHECK (fake.program.stop().status == 0);
 }
 
 TEST_CASE ("a program that is frozen while it pushes leaves the device on a wire at rest", "[cli][wires][safety]")

@@ -28,7 +28,7 @@ bad = {
         (["outputs", 0, "fields", 2, "name"], None), (["outputs", 0, "crc32", "at"], None), (["position"], ["x", "y"]), (["position", 0], 3),
         (["limits", "max_forse"], "3 N"), (["limits", "max_force"], [3]), (["sources"], []), (["samples", 0, "input"], []), (["samples", 0, "input"], ["0"]),
         (["axes"], ["x", "y", "up"]), (["colour"], "red"),
-        (["wires"], {}), (["wires", "smoke"], {}), (["wires", "serial", "framing"], None), (["wires", "serial", "framing"], "slip"),
+        (["wires"], {}), (["wires", "smoke"], {}), (["wires", "serial", "filler"], -1), (["wires", "serial", "framing"], None), (["wires", "serial", "framing"], "slip"),
         (["wires", "serial", "baud"], "fast"), (["wires", "udp"], 9750),
         (["alarms", 0, "field"], None), (["alarms", 0, "means"], "smoke"), (["alarms", 0, "means"], None), (["alarms", 2, "is"], -1), (["alarms", 0, "if"], 1),
     ],

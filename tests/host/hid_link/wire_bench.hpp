@@ -20,8 +20,10 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace tactus::test::wires
@@ -158,6 +160,49 @@ struct Bench
     std::unique_ptr<HidDevice> device;   // ends before the fake
     std::vector<Bytes> sent, heard;
     std::size_t sequence = 0;   // the index of the axis
+};
+
+/// A device in a run without a wire: the reports of a log, and the answers after encoding. A device rests before it pushes, on its first tick unless it
+/// `has_rested`.
+struct OffTheWire final : Device
+{
+    OffTheWire (std::shared_ptr<const Profile> p, std::span<const Bytes> r, bool has_rested = false)
+        : model (std::move (p)), reports (r), resting (has_rested ? 0 : 1)
+    {
+    }
+
+    void prepare (double) override {}
+
+    Reading read() noexcept override
+    {
+        model.decode (reports[tick++]);
+        auto reading = model.reading();
+        reading.valid = reading.valid && tick > resting;
+        reading.unrendered_force = force - model.renderedForce();
+        reading.unrendered_torque = torque - model.renderedTorque();
+        for (std::size_t i = 0; i < model.axisNames().size(); ++i)
+            reading.axes.set (static_cast<int> (i), model.sample().axes[i]);
+        return reading;
+    }
+
+    void write (const Effort& guarded) noexcept override
+    {
+        force = guarded.force;
+        torque = guarded.torque;
+        HidEffort effort { force, torque, model.restEfforts() };
+        model.take (guarded.axes, effort);
+        const auto bytes = model.encodeValues (0, model.drive (effort, 1e-3));
+        answers.emplace_back (bytes.begin() + (usesIds (model.profile()) ? 0 : 1), bytes.end());
+    }
+
+    DeviceLayout layout() const override { return layoutOf (model); }
+
+    HidModel model;
+    std::span<const Bytes> reports;
+    const std::size_t resting;   // ticks without a valid reading
+    std::size_t tick = 0;
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+    std::vector<Bytes> answers;
 };
 
 }   // namespace tactus::test::wires

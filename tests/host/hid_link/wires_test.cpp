@@ -8,7 +8,6 @@
 #include "support/temporary_folder.hpp"
 
 #include <host/hid_link/fake_device.hpp>
-#include <host/hid_link/hid_device.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/hid_link/stale_datagrams.hpp>
 #include <host/hid_link/wires.hpp>
@@ -17,7 +16,6 @@
 #include <tactus/file/graph_file.hpp>
 #include <tactus/file/text_file.hpp>
 #include <tactus/node/catalogue.hpp>
-#include <tactus/run/device/make_device.hpp>
 #include <tactus/run/engine.hpp>
 #include <tactus/text/json_text.hpp>
 
@@ -77,47 +75,6 @@ struct OnTheBench final : Device
     std::optional<std::size_t> first;   // of the reports that the run has seen
 };
 
-/// The same without a wire: the reports of the log, and the answers after encoding.
-struct OffTheWire final : Device
-{
-    OffTheWire (std::shared_ptr<const Profile> p, std::span<const Bytes> r) : model (std::move (p)), reports (r) {}
-
-    void prepare (double) override {}
-
-    Reading read() noexcept override
-    {
-        model.decode (reports[tick++]);
-        auto reading = model.reading();
-        reading.valid = reading.valid && tick > 1;   // a device rests before it pushes
-        reading.unrendered_force = force - model.renderedForce();
-        reading.unrendered_torque = torque - model.renderedTorque();
-        for (std::size_t i = 0; i < model.axisNames().size(); ++i)
-            reading.axes.set (static_cast<int> (i), model.sample().axes[i]);
-        return reading;
-    }
-
-    void write (const Effort& guarded) noexcept override
-    {
-        force = guarded.force;
-        torque = guarded.torque;
-        HidEffort effort { force, torque, model.restEfforts() };
-        model.take (guarded.axes, effort);
-        const auto bytes = model.encodeValues (0, model.drive (effort, 1e-3));
-        answers.emplace_back (bytes.begin() + 1, bytes.end());
-    }
-
-    DeviceLayout layout() const override { return layoutOf (model); }
-
-    HidModel model;
-    std::span<const Bytes> reports;
-    std::size_t tick = 0;
-    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-    std::vector<Bytes> answers;
-};
-}   // namespace
-
-namespace
-{
 struct Way
 {
     Wire wire;
