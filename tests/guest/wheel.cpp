@@ -62,11 +62,8 @@ public:
         ask (UI_DEV_CREATE, nullptr);
     }
 
-    ~Wheel()
-    {
-        ::ioctl (fd, UI_DEV_DESTROY);
-        ::close (fd);
-    }
+    /// Closing destroys the device. UI_DEV_DESTROY would do so under a lock that an upload which is under way waits for, for ever (Linux 6.1).
+    ~Wheel() { ::close (fd); }
 
     Wheel (const Wheel&) = delete;
     Wheel& operator= (const Wheel&) = delete;
