@@ -85,6 +85,7 @@ void MainView::connectRun()
 
     scopes.onHint = patching.onHint;
 
+    scopes.selectedPorts = [this] { return patching.commands().selectedPorts(); };
     layers.onHint = patching.onHint;
     layers.onSelect = [this] (const std::string& patch, graph::Id node) { patching.show (patch, node); };
     layers.onAdded = [this] (const std::string& patch, graph::Id node) { showAdded (patch, node); };
