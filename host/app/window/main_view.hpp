@@ -175,7 +175,7 @@ private:
     void openExample (const std::string& type);
     void saveClipAs (const std::filesystem::path&);
     void chooseOwnFile (const std::string& name, std::function<void (const std::filesystem::path&)>);
-    void writeClip (const Clip&, Messages notes, const std::filesystem::path& to);
+    void writeClip (const Clip&, Messages notes, std::optional<double> gain, const std::filesystem::path& to);
     void recall (int snapshot);
     void store (int snapshot);
     juce::PopupMenu::Item menuItem (const juce::String& text, const juce::String& keys, std::function<void()> act, bool is_ticked = false);
