@@ -106,10 +106,10 @@ void Files::create()
     });
 }
 
-void Files::openGraph (graph::Graph g, const std::string& step, std::function<void()> then)
+void Files::openGraph (graph::Graph g, const std::string& step, bool is_work, std::function<void()> then)
 {
-    whenSaved (TRANS ("Save changes to '%1' before opening another graph?"), [this, g = std::move (g), step, then = std::move (then)] {
-        show (g, {}, step, true, false);
+    whenSaved (TRANS ("Save changes to '%1' before opening another graph?"), [this, g = std::move (g), step, is_work, then = std::move (then)] {
+        show (g, { .is_changed = is_work }, step, true, false);
         if (then) then();
     });
 }
