@@ -188,6 +188,7 @@ private:
     void findAction();
     void reveal (Tabs&, const juce::Component& panel);   ///< even if the tabs are folded
     void askForRecording();
+    void askForMissing (const Message&);
     void launchChooser (const juce::String& title, const juce::String& patterns, const juce::File& begin, int how,
                         std::function<void (const std::filesystem::path&)>);
     void askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
@@ -240,6 +241,7 @@ private:
     FitPanel fitting;
     Tour tour;
     Shade shade;
+    std::unique_ptr<juce::KeyListener> path_keys;   // of the chooser's field
     std::unique_ptr<juce::FileChooser> chooser;
     juce::File recordings;                                   // the folder of the last recording that was chosen
     juce::Component::SafePointer<juce::Component> focused;   // the component with the focus, whose keys are listened to

@@ -76,6 +76,7 @@ void MainView::connectRun()
 {
     strip.onProblems = strip.limitLight().onClick = [this] { reveal (bottom, problems); };
     problems.onShow = [this] (const ProblemLocation& c) { patching.show (c.patch, c.id); };
+    problems.onChooseFile = [this] (const Message& m) { askForMissing (m); };
     live.limits = &limits;
 
     hand.onHint = patching.onHint;
@@ -84,8 +85,8 @@ void MainView::connectRun()
     hand.film().onLength = [this] { rememberFilmLength(); };
 
     scopes.onHint = patching.onHint;
-
     scopes.selectedPorts = [this] { return patching.commands().selectedPorts(); };
+
     layers.onHint = patching.onHint;
     layers.onSelect = [this] (const std::string& patch, graph::Id node) { patching.show (patch, node); };
     layers.onAdded = [this] (const std::string& patch, graph::Id node) { showAdded (patch, node); };
