@@ -3,7 +3,9 @@
 #include <tactus/plan/flat/grouped.hpp>
 #include <tactus/plan/values.hpp>
 
+#include <algorithm>
 #include <bit>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -105,6 +107,7 @@ public:
         for (const auto& a : flat.assignments)
             assignment (a);
         multiply();
+        linkProducts();
         nameQuantities();
         return result();
     }
@@ -116,7 +119,7 @@ private:
     std::vector<Quantity> quantity;
     std::vector<bool> generic;   // by port: true if it takes its quantity from its wires
 
-    /// Two ports that carry the same quantity: joined by a wire, or by a generic node.
+    /// Two ports that carry the same quantity: joined by a wire, by a generic node, or by a factor without a unit.
     struct Link
     {
         int a, b;
@@ -150,7 +153,7 @@ private:
             for (const auto& row : n.ports (role))
             {
                 const int v = std::exchange (next, next + PortNumbers::entries (n, row));
-                if (row.unit.kind != UnitRule::Kind::fixed && row.unit.kind != UnitRule::Kind::product)
+                if (row.unit.kind != UnitRule::Kind::fixed)
                     std::fill_n (generic.begin() + v, PortNumbers::entries (n, row), true);
                 if (row.unit.kind == UnitRule::Kind::fixed)
                 {
@@ -278,6 +281,18 @@ private:
                     done[i] = changed = true;
                 }
             }
+        }
+    }
+
+    /// A product carries the quantity of its only factor that has a unit: a force times a ratio is a force.
+    void linkProducts()
+    {
+        for (const auto& p : products)
+        {
+            const auto isRatio = [this] (int f) { return dimensions.dimension (f) == Dimension {}; };
+            const auto only = std::ranges::find_if_not (p.factors, isRatio);
+            if (only == p.factors.end() || ! dimensions.dimension (*only)) continue;
+            if (std::all_of (std::next (only), p.factors.end(), isRatio)) links.push_back ({ *only, p.out, nullptr });
         }
     }
 

@@ -206,13 +206,19 @@ juce::Point<float> CanvasCommands::pointerOrCentre() const
     return canvas.view().toCanvas ((canvas.getLocalBounds().contains (pointer) ? pointer : canvas.getLocalBounds().getCentre()).toFloat());
 }
 
-void CanvasCommands::probeSelection()
+std::vector<std::string> CanvasCommands::selectedPorts() const
 {
     std::vector<std::string> ports;
     for (const auto& w : patchShown().wires)
         if (canvas.selection().contains (w.id)) ports.push_back (canvas.address (graph::toText (w.from)));
     for (const auto* n : selectedNodes())
         if (! n->face->outputs.empty()) ports.push_back (canvas.address (n->name + '.' + n->face->outputs.front().id));
+    return ports;
+}
+
+void CanvasCommands::probeSelection()
+{
+    auto ports = selectedPorts();
     if (! ports.empty() && canvas.onProbe) canvas.onProbe (std::move (ports));
 }
 

@@ -72,6 +72,7 @@ public:
     void recolourNotes();
     void editNote (std::size_t);
     void probeSelection();
+    std::vector<std::string> selectedPorts() const;   ///< of the selected wires and nodes, as scopes name them
     void saveClipOfSelection();
     void wireFromSelection();
     void exposeFromSelection();

@@ -5,6 +5,7 @@
 #include <host/app/model/clip_graph.hpp>
 #include <host/app/model/fragment.hpp>
 #include <host/app/text/filled.hpp>
+#include <tactus/text/number_text.hpp>
 
 #include <algorithm>
 
@@ -49,7 +50,8 @@ std::vector<const NodeType*> layerTypes (const Catalogue& catalogue, bool vector
 namespace
 {
 /// A layer with a node of this type. A clip is played over and over, so its inputs stay unwired.
-Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, const std::string& type, const std::string& clip)
+Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, const std::string& type, const std::string& clip,
+                             std::optional<double> gain)
 {
     const auto* mixer = findMixer (g, at);
     const auto* patch = mixing::patchOf (g, at.patch);
@@ -73,6 +75,7 @@ Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const 
     node.type = type;
     node.params = firstParams (type);
     if (! clip.empty()) playClip (node, clip);
+    if (gain) node.params["gain"] = numberText (*gain) + " N";
     const auto name = node.name;
     const auto id = node.id;
     batch.name = filled (TRANS ("add the layer %1"), name).toStdString();
@@ -93,12 +96,12 @@ Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const 
 
 Result<AddedLayer> addLayer (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, const std::string& type)
 {
-    return addLayer (g, at, catalogue, type, {});
+    return addLayer (g, at, catalogue, type, {}, {});
 }
 
-Result<AddedLayer> addClipLayer (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, const std::string& file)
+Result<AddedLayer> addClipLayer (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, const std::string& file, std::optional<double> gain)
 {
-    return addLayer (g, at, catalogue, std::string (clip_type), file);
+    return addLayer (g, at, catalogue, std::string (clip_type), file, gain);
 }
 
 bool isGated (const graph::Graph& g, const MixerPlace& at, int layer)

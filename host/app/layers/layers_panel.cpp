@@ -218,7 +218,7 @@ void LayersPanel::addMixerNow()
         });
 }
 
-void LayersPanel::addClip (const std::filesystem::path& file)
+void LayersPanel::addClip (const std::filesystem::path& file, std::optional<double> gain)
 {
     const auto say = [this] (const juce::String& text) {
         if (onHint) onHint (text);
@@ -237,7 +237,7 @@ void LayersPanel::addClip (const std::filesystem::path& file)
         place = made.front();
         batch.commands.push_back (std::move (mixer->command));
     }
-    auto layer = addClipLayer (with_mixer, place, catalogue, pathFrom (file, graph.folder));
+    auto layer = addClipLayer (with_mixer, place, catalogue, pathFrom (file, graph.folder), gain);
     if (! layer) return say (juce::String (messageText (layer.error())));
     batch.commands.push_back (std::move (layer->command));
     if (! document.perform (std::move (batch))) return;

@@ -32,8 +32,8 @@ public:
     void add (const std::string& type);   ///< adds a layer with a node of that type, "" for an empty one; adds a mixer first if there is none
     void addMixerNow();
 
-    /// Adds a layer that plays a clip file. Without a mixer, adds one first, in the same step.
-    void addClip (const std::filesystem::path& file);
+    /// Adds a layer that plays a clip file, with this gain in N, or a gentle one. Without a mixer, adds one first, in the same step.
+    void addClip (const std::filesystem::path& file, std::optional<double> gain = {});
 
     bool isInterestedInFileDrag (const juce::StringArray&) override;
     void fileDragEnter (const juce::StringArray&, int, int) override;

@@ -66,8 +66,9 @@ struct AddedLayer
 /// If the mixer has only one layer and nothing is wired to it, this layer is filled. Ids: mixer/gone, mixer/full, mixer/type.
 Result<AddedLayer> addLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, const std::string& type = {});
 
-/// Adds a layer that plays a clip in a loop, as a vibration. `file` is the path as the graph contains it. Ids: as addLayer.
-Result<AddedLayer> addClipLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, const std::string& file);
+/// Adds a layer that plays a clip in a loop, as a vibration, with this gain in N, or a gentle one. `file` is the path as the graph contains it.
+/// Ids: as addLayer.
+Result<AddedLayer> addClipLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, const std::string& file, std::optional<double> gain = {});
 
 /// The kinds of layers that the desk adds with one click.
 struct LayerKind

@@ -93,9 +93,9 @@ bool Document::isChanged() const
     return *differs;
 }
 
-Messages Document::save (const std::filesystem::path& file)
+Messages Document::save (const std::filesystem::path& file, const graph::Graph& written)
 {
-    if (auto done = saveGraph (edits.graph(), file); ! done) return { std::move (done).error() };
+    if (auto done = saveGraph (written, file); ! done) return { std::move (done).error() };
     const auto text = writeGraph (edits.graph());
     for (const auto& o : origins)   // the same file may have been opened more than once
         if (o->source.file == file) o->saved = text;

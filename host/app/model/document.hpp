@@ -92,7 +92,8 @@ public:
     const std::string& savedText() const noexcept { return origin().saved; }
 
     /// Writes the graph to a file, which becomes its file. [errors: those of saveGraph]
-    Messages save (const std::filesystem::path&);
+    Messages save (const std::filesystem::path& file) { return save (file, graph()); }
+    Messages save (const std::filesystem::path&, const graph::Graph& written);   ///< as it is written in that folder, see carriedTo()
 
     void add (Listener& l) { listeners.push_back (&l); }
     void remove (Listener& l) { std::erase (listeners, &l); }

@@ -4,12 +4,15 @@
 #include <host/app/canvas/actions.hpp>
 #include <host/app/model/obvious_wires.hpp>
 #include <host/app/model/patch.hpp>
+#include <host/app/text/file_path.hpp>
 #include <host/app/text/filled.hpp>
 #include <tactus/node/catalogue.hpp>
 #include <tactus/run/device/make_device.hpp>
 #include <tactus/text/closest_match.hpp>
+#include <tactus/text/json_text.hpp>
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 namespace tactus::host
@@ -105,6 +108,9 @@ ProblemLocation locationOf (const graph::Graph& g, const Message& m)
             location.id = node->id;
             location.node = node->name;
             if (parts.size() > 3 && parts[2] == "params") location.param = parts[3];
+            if (parts.size() > 3 && parts[2] == "settings") location.setting = parts[3];
+            for (std::size_t i = 4; i < parts.size() && ! location.setting.empty(); ++i)
+                location.within += "/" + pointerPart (parts[i]);
         }
     if (parts[0] == "wires" && ! parts[1].empty() && std::ranges::all_of (parts[1], [] (char c) { return c >= '0' && c <= '9'; }))
         if (const auto i = std::strtoull (parts[1].c_str(), nullptr, 10); i < patch->wires.size()) location.id = patch->wires[i].id;
@@ -127,7 +133,7 @@ std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
     if (m.id == "graph/hand_unwired" || m.id == "graph/motor_unwired" || m.id == "node/no_input")
         return wireUp (g, location, filled (TRANS ("Wire %1"), location.node));
     if (m.severity != Message::Severity::error) return std::nullopt;
-    const auto& [patch, id, node, param, role] = location;
+    const auto& [patch, id, node, param, role, setting, within] = location;
     if (wire != nullptr)
         return Fix { TRANS ("Remove the wire").toStdString(), graph::Batch { NEEDS_TRANS ("remove wire"), { graph::RemoveWire { patch, id } } } };
     if (! param.empty())
@@ -147,6 +153,71 @@ std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
         return Fix { filled (TRANS ("Change to %1"), type).toStdString(),
                      graph::Batch { NEEDS_TRANS ("change type"), { graph::SetNodeKey { patch, node, "type", Json (type) } } } };
     return Fix { TRANS ("Remove the node").toStdString(), graph::Batch { NEEDS_TRANS ("remove node"), { graph::RemoveNode { patch, node } } } };
+}
+
+namespace
+{
+/// The kind of file that a part of a setting names; empty if it names none.
+std::optional<SettingSheet::Kind> fileKindAt (const SettingSheet& sheet, std::span<const std::string> within)
+{
+    using Kind = SettingSheet::Kind;
+    const auto inField = [&] (std::size_t place) -> std::optional<Kind> {
+        const auto field = place < within.size() ? std::ranges::find (sheet.fields, within[place], &SettingSheet::id) : sheet.fields.end();
+        return field == sheet.fields.end() ? std::nullopt : fileKindAt (*field, within.subspan (place + 1));
+    };
+    switch (sheet.kind)
+    {
+    case Kind::signal:
+    case Kind::image:
+    case Kind::table:
+        return within.empty() ? std::optional (sheet.kind) : std::nullopt;
+    case Kind::surface:
+        return within.size() == 1 && within[0] == "mesh" ? std::optional (sheet.kind) : std::nullopt;
+    case Kind::record:
+        return inField (0);
+    case Kind::records:
+        return inField (1);   // after the number of the record
+    default:
+        return std::nullopt;
+    }
+}
+}   // namespace
+
+std::optional<MissingFile> missingFileOf (const graph::Graph& g, const Message& m)
+{
+    auto at = locationOf (g, m);
+    if (m.id == "clip/no_file") at.setting = "clip";
+    const auto* patch = findPatch (g, at.patch);
+    const auto* node = patch == nullptr ? nullptr : patch->find (at.node);
+    const auto* type = node == nullptr ? nullptr : catalogue().find (node->type);
+    if (type == nullptr || at.setting.empty()) return std::nullopt;
+    const auto sheet = std::ranges::find (type->settings, at.setting, &SettingSheet::id);
+    const auto kind = sheet == type->settings.end() ? std::nullopt : fileKindAt (*sheet, partsOf (at.within));
+    if (! kind) return std::nullopt;
+
+    const JsonPointer place ("/" + pointerPart (at.setting) + at.within);
+    const auto* named = node->settings.contains (place) ? &node->settings.at (place) : nullptr;
+    if (named == nullptr && ! at.within.empty()) return std::nullopt;
+    if (named == nullptr || (named->is_string() && named->asString().empty())) return MissingFile { std::move (at), *kind, {} };
+    if (! named->is_string()) return std::nullopt;
+    std::filesystem::path expected = resolved (named->asString(), g.folder);
+    std::error_code failed;
+    if (std::filesystem::exists (expected, failed)) return std::nullopt;
+    return MissingFile { std::move (at), *kind, std::move (expected) };
+}
+
+graph::Command useFile (const graph::Graph& g, const MissingFile& missing, const std::filesystem::path& chosen)
+{
+    const auto& at = missing.at;
+    const auto* patch = findPatch (g, at.patch);
+    const auto* node = patch == nullptr ? nullptr : patch->find (at.node);
+    auto value = node == nullptr || ! node->settings.contains (at.setting) ? Json() : node->settings[at.setting];
+    const Json path (pathFrom (chosen, g.folder));
+    if (at.within.empty())
+        value = path;
+    else
+        value[JsonPointer (at.within)] = path;
+    return graph::SetSetting { at.patch, at.node, at.setting, std::move (value) };
 }
 
 }   // namespace tactus::host

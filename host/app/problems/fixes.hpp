@@ -2,8 +2,10 @@
 #pragma once
 
 #include <tactus/graph/edit.hpp>
+#include <tactus/node/catalogue.hpp>
 #include <tactus/text/message.hpp>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -17,6 +19,8 @@ struct ProblemLocation
     graph::Id id = 0;          ///< id of the node or wire; 0 if the message is about neither
     std::string node;          ///< name of the node, if the message is about one
     std::string param, role;   ///< name of the param or device role, if the message is about one
+    std::string setting;       ///< name of the setting, if the message is about one
+    std::string within;        ///< JSON pointer to the part of that setting
 };
 
 ProblemLocation locationOf (const graph::Graph&, const Message&);
@@ -30,5 +34,19 @@ struct Fix
 
 /// Empty if only the user can decide what to do.
 std::optional<Fix> fixOf (const graph::Graph&, const Message&);
+
+/// A file that a setting needs: one that is not where the setting says, or that it does not name yet.
+struct MissingFile
+{
+    ProblemLocation at;
+    SettingSheet::Kind kind;
+    std::filesystem::path expected;   ///< where the file should be; empty if the setting names none
+};
+
+/// Empty if the message is about something else.
+std::optional<MissingFile> missingFileOf (const graph::Graph&, const Message&);
+
+/// Lets the setting name a file that the user has chosen.
+graph::Command useFile (const graph::Graph&, const MissingFile&, const std::filesystem::path& chosen);
 
 }   // namespace tactus::host

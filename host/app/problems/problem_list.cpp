@@ -26,9 +26,11 @@ public:
         setMouseCursor (juce::MouseCursor::PointingHandCursor);
         setTooltip (text + (remedy.isEmpty() ? "" : "\n" + remedy));   // with the whole of a shortened path
         const auto fix = fixOf (list.document.graph(), message);
-        if (! fix) return;
-        button = std::make_unique<juce::TextButton> (fromUtf8 (fix->label));
-        button->onClick = [this] {
+        const bool lacks_file = ! fix && missingFileOf (list.document.graph(), message);
+        if (! fix && ! lacks_file) return;
+        button = std::make_unique<juce::TextButton> (fix ? fromUtf8 (fix->label) : TRANS ("Choose file ..."));
+        button->onClick = [this, lacks_file] {
+            if (lacks_file && list.onChooseFile) return list.onChooseFile (message);
             // The graph may have changed since the button was made.
             if (auto now = fixOf (list.document.graph(), message)) list.document.perform (std::move (now->command));
         };

@@ -14,7 +14,7 @@ namespace tactus::host
 {
 
 /// The errors and warnings of the graph, and the limits of the devices that it breaks, each with its remedy and, if there is an
-/// obvious fix, a button that applies it. A click on a message shows its location.
+/// obvious fix, a button that applies it; if a file is missing, the button asks for it. A click on a message shows its location.
 class ProblemList final : public juce::Component
 {
 public:
@@ -25,6 +25,7 @@ public:
     const Messages& messages() const noexcept { return shown; }
 
     std::function<void (const ProblemLocation&)> onShow;
+    std::function<void (const Message&)> onChooseFile;   ///< asks for the file that is missing, see missingFileOf()
 
     void paint (juce::Graphics&) override;
     void resized() override;

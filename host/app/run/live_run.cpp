@@ -29,7 +29,7 @@ std::vector<std::pair<std::string, Json>> withoutGuards (std::vector<std::pair<s
 Message stopped() { return Message::error ("run/stopped", {}, "nothing is running in the window", "press START in the window"); }
 }   // namespace
 
-LiveRun::LiveRun (Document& d, const Catalogue& c, Sound* s) : document (d), catalogue (c), sound (s)
+LiveRun::LiveRun (Document& d, const Catalogue& c, Sound* s) : document (d), catalogue (c), sound (s), hand_of (d.identity())
 {
     document.add (*this);
     probes.onWanted = scene_feed.onWanted = port_feed.onWanted = [this] {
@@ -82,6 +82,13 @@ void LiveRun::moveBy (Hand who)
 {
     moved_by = std::move (who);
     restart();
+}
+
+void LiveRun::moveTool (std::string role)
+{
+    chosen_role = std::move (role);
+    hand_of = document.identity();
+    if (wanted) restart();
 }
 
 void LiveRun::startAgain() { restart(); }
@@ -207,6 +214,7 @@ void LiveRun::begin()
     end();
     begins = false;
     const auto& graph = document.graph();
+    run_of = document.identity();
     run_devices = withoutGuards (graph.devices);
     if (setup != nullptr) run_session = setup->session().session;
     graph_rate_hz = graph.rate_hz;
@@ -215,7 +223,7 @@ void LiveRun::begin()
     rig->setLenient (true);
     const Hardware hardware { setup != nullptr ? setup->system() : hid::thisComputer(),
                               [this]() -> const hid::LoadedProfiles& { return setup != nullptr ? setup->profiles() : deviceProfiles(); }, rig.get() };
-    hand_role = handRoleOf (needed);
+    setHandRole();
     session = std::make_unique<LiveSession> (catalogue, hardware, sessionOptions());
     said = session->load (graph);
     std::ranges::move (of_sound, std::back_inserter (said));
@@ -226,7 +234,7 @@ void LiveRun::begin()
     }
 
     note (session->engine().newest());
-    hand_role = handRoleOf (needed);
+    setHandRole();
     probes.clear();
     std::ranges::move (session->openDevices(), std::back_inserter (said));
     if (lacksPluginDevice())
@@ -295,12 +303,13 @@ void LiveRun::showScene()
 
 void LiveRun::takeOver()
 {
-    bool has_first_hand = false;   // and the run had none
+    bool has_other_hand = false;   // such as the first one, or one whose role has another name now
     auto edited = session->edit (document.graph(), LiveSession::EditPolicy::errors, [&] (const Plan& plan) {
-        has_first_hand = hand_role.empty() && ! handRoleOf (needsOf (plan)).empty();
-        return ! has_first_hand;
+        const auto role = handRoleOf (needsOf (plan));
+        has_other_hand = ! role.empty() && role != hand_role;
+        return ! has_other_hand;
     });
-    if (has_first_hand) return restart();
+    if (has_other_hand) return restart();
     said = std::move (edited.messages);
     if (! edited.is_taken_over) return;
     note (session->engine().newest());
@@ -335,7 +344,11 @@ void LiveRun::rearm() noexcept
 
 bool LiveRun::isStoppedForGood() const { return isRunning() && isLatched(); }
 
-std::optional<RunStatus> LiveRun::status() const { return isLive() ? std::optional (session->run().live().status()) : std::nullopt; }
+std::optional<RunStatus> LiveRun::status() const
+{
+    const bool is_of_this_graph = isRunning() || run_of == document.identity();
+    return isLive() && is_of_this_graph ? std::optional (session->run().live().status()) : std::nullopt;
+}
 
 /// If a sound card ticks the run, all ticks of a block use the same reading, which adds the length of a block.
 std::optional<std::int64_t> LiveRun::delay() const

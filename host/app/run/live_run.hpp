@@ -35,7 +35,7 @@ class DeviceSetup;
 class LiveRun final : private Document::Listener, private RunListener
 {
 public:
-    /// What moves the tool of the first role.
+    /// What moves the tool of the hand, see handRole().
     struct Hand
     {
         enum class Kind
@@ -52,7 +52,7 @@ public:
         bool operator== (const Hand&) const = default;
     };
 
-    /// Plays the force on the first role's tool through `sound`, if that is not null. The sound must outlive this object.
+    /// Plays the force on the hand's tool through `sound`, if that is not null. The sound must outlive this object.
     LiveRun (Document&, const Catalogue&, Sound* = nullptr);
     ~LiveRun() override;
 
@@ -73,6 +73,9 @@ public:
     void start (Hand);
     void startOther (Hand);   ///< another graph was opened, so the limits are those that it asks for
     void moveBy (Hand);       ///< another hand moves the tool; no limit becomes looser
+
+    /// From now on, the hand moves the tool of this role, such as another finger, until another graph is opened. No limit becomes looser.
+    void moveTool (std::string role);
 
     void startAgain();   ///< after something else ran; no limit becomes looser
 
@@ -100,7 +103,7 @@ public:
     bool isWanted() const noexcept { return wanted; }   ///< started and not stopped since; it may still fail to compile
     const Hand& hand() const noexcept { return moved_by; }
 
-    /// The gesture or recording that the first role follows; null if there is none that can be paused.
+    /// The gesture or recording that the hand's role follows; null if there is none that can be paused.
     const std::shared_ptr<TransportPath>& transport() const noexcept { return transported; }
 
     const graph::Graph& edited() const { return document.graph(); }
@@ -108,7 +111,7 @@ public:
     /// Errors and warnings about the current graph.
     const Messages& messages() const noexcept { return said; }
 
-    std::optional<RunStatus> status() const;
+    std::optional<RunStatus> status() const;   ///< of the run, even if it is over, unless another graph was opened since
 
     /// What the graph needs from its roles, as of the last successful compile.
     const std::vector<RoleNeeds>& needs() const noexcept { return needed; }
@@ -144,14 +147,15 @@ public:
     /// Sets the position that the mouse points at, in m. No effect unless the mouse moves the tool.
     void point (const Vec3&);
 
-    /// The tool of the first role, as its device measures it, and the force on it.
+    /// The tool of the hand, as its device measures it, and the force on it.
     struct Tool
     {
         Vec3 position = Vec3::Zero();   ///< in m
         Vec3 force = Vec3::Zero();      ///< on the tool, in N
     };
-    const std::string& handRole() const noexcept { return hand_role; }   ///< the role of that tool; empty before the first run
-    std::optional<Tool> tool() const;                                    ///< empty while nothing runs
+    std::string handRole() const { return handRoleOf (needed); }   ///< the role of that tool; empty if the graph has none
+    std::vector<std::string> toolRoles() const;                    ///< the roles whose tool the hand can move
+    std::optional<Tool> tool() const;                              ///< empty while nothing runs
 
     /// The values of the ports that are being watched.
     Traces& traces() noexcept { return probes; }
@@ -162,7 +166,7 @@ public:
     /// What a picture of the scene shows.
     SceneFeed& scene() noexcept { return scene_feed; }
 
-    /// The last seconds of the scene and of the tool of the first role.
+    /// The last seconds of the scene and of the hand's tool.
     FilmTape& film() noexcept { return film_tape; }
 
     /// The costs of the nodes measured so far, the most expensive first.
@@ -212,6 +216,7 @@ private:
     LiveSession::Options sessionOptions();
     Compiled check (const graph::Graph&);
     std::string handRoleOf (const std::vector<RoleNeeds>&) const;
+    void setHandRole();
     bool isSoundCard (const std::string& role) const;
     void takeOver();
     void showScene();
@@ -247,9 +252,12 @@ private:
     bool wanted = false;                                     // started and not stopped: the run begins as soon as the graph compiles
     std::vector<std::pair<std::string, Json>> run_devices;   // the graph's devices at the start of the run
     const DeviceSetup* setup = nullptr;
-    DeviceSession run_session;    // the session at the start of the run
-    double graph_rate_hz = 0.0;   // the graph's rate at the start of the run
-    std::string hand_role;
+    DeviceSession run_session;        // the session at the start of the run
+    double graph_rate_hz = 0.0;       // the graph's rate at the start of the run
+    const void* run_of = nullptr;     // identity of the graph at the start of the run
+    std::string hand_role;            // of the run; written only while nothing runs
+    std::string chosen_role;          // by moveTool(); may not be in the graph any more
+    const void* hand_of;              // identity of the graph that these two belong to
     std::filesystem::path log_next;   // of the next run; empty: none
     std::string log_program;
     bool is_logged = false;      // this run writes a log

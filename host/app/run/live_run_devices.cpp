@@ -11,6 +11,7 @@
 #include <tactus/run/device/trace.hpp>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace tactus::host
@@ -23,13 +24,40 @@ constexpr double hover = 5e-3;
 
 // For a hand that the graph does not describe.
 constexpr double usual_stiffness = 400.0, usual_damping = 4.0;   // N/m, N s/m
+
+/// True if the graph reads where the tool is.
+bool isRead (const DeviceParts& parts) { return parts.position || parts.rotation || parts.truth; }
 }   // namespace
 
-/// The first role that is not a sound card. Its tool is the one that is drawn and heard, and that the mouse can move.
+/// The role whose tool is drawn and heard, and that the mouse can move. The user may have chosen it. Otherwise a role whose place the graph reads comes
+/// first, then one with axes or motors, and not one that only shakes; of equals the one of the run so far, so that a new role does not take the hand away.
 std::string LiveRun::handRoleOf (const std::vector<RoleNeeds>& roles) const
 {
-    const auto hand = std::ranges::find_if (roles, [this] (const auto& needs) { return ! isSoundCard (needs.role); });
-    return hand == roles.end() ? std::string {} : hand->role;
+    const bool is_same_graph = hand_of == document.identity();
+    const auto rank = [&] (const RoleNeeds& r) {
+        const bool is_chosen = is_same_graph && r.role == chosen_role, is_kept = is_same_graph && r.role == hand_role;
+        const bool is_moved = r.parts.force || r.parts.torque || ! r.parts.others.axes.empty() || ! r.parts.others.efforts.empty();
+        return std::tuple (is_chosen, isRead (r.parts), is_moved, is_kept);
+    };
+    const RoleNeeds* hand = nullptr;
+    for (const auto& r : roles)
+        if (! isSoundCard (r.role) && (hand == nullptr || rank (r) > rank (*hand))) hand = &r;
+    return hand == nullptr ? std::string {} : hand->role;
+}
+
+/// Call while nothing runs.
+void LiveRun::setHandRole()
+{
+    hand_role = handRoleOf (needed);
+    if (std::exchange (hand_of, document.identity()) != document.identity()) chosen_role.clear();
+}
+
+std::vector<std::string> LiveRun::toolRoles() const
+{
+    std::vector<std::string> all;
+    for (const auto& [role, parts] : needed)
+        if (isRead (parts) && ! isSoundCard (role)) all.push_back (role);
+    return all;
 }
 
 bool LiveRun::isSoundCard (const std::string& role) const
@@ -53,7 +81,7 @@ bool LiveRun::lacksPluginDevice() const
     });
 }
 
-/// Puts the chosen hand on the tool of the first role.
+/// Puts the chosen hand on its tool.
 void LiveRun::adopt (const std::string& role, Run::RoleDevice& opened, const Workspace& in, Messages& messages)
 {
     if (role != hand_role) return;
@@ -71,7 +99,7 @@ void LiveRun::adopt (const std::string& role, Run::RoleDevice& opened, const Wor
         opened.device = std::make_unique<WorkspaceDevice> (std::move (hand), in);
 }
 
-/// The simulated tool of the first role, held by the chosen hand; null if the described device should be used.
+/// The simulated tool of the hand's role, held by the chosen hand; null if the described device should be used.
 std::unique_ptr<Device> LiveRun::chosenHand (const SimulatedDevice* described, double& damping, Messages& messages)
 {
     auto what = described != nullptr ? described->simulation() : Simulation {};

@@ -34,6 +34,12 @@ void Playback::moveBy (LiveRun::Hand hand)
     live_run.moveBy (std::move (hand));
 }
 
+void Playback::moveTool (std::string role)
+{
+    before_run();
+    live_run.moveTool (std::move (role));
+}
+
 void Playback::stop() noexcept
 {
     resumes = false;

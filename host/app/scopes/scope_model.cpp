@@ -4,10 +4,7 @@
 namespace tactus::host
 {
 
-namespace
-{
 bool holdsProbes (const ScopeSpec& s) { return s.kind == ScopeKind::time || s.kind == ScopeKind::spectrum || s.kind == ScopeKind::spectrogram; }
-}   // namespace
 
 bool ScopeModel::shows (const std::string& port) const
 {

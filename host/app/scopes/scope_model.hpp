@@ -91,6 +91,9 @@ struct ScopeModel
     bool shows (const std::string& port) const;
 };
 
+/// True if a scope shows ports as traces.
+bool holdsProbes (const ScopeSpec&);
+
 /// All ports that a scope reads, including those it only computes with.
 std::vector<std::string> portsOf (const ScopeSpec&, const std::vector<std::string>& energies);
 

@@ -260,7 +260,14 @@ void ScopePanel::reveal (const ScopeView& v)
 
 ScopeView& ScopePanel::add (ScopeKind kind)
 {
-    model.scopes.push_back (std::make_unique<ScopeSpec> (suggestedScope (kind, document.graph(), catalogue)));
+    auto made = std::make_unique<ScopeSpec> (suggestedScope (kind, document.graph(), catalogue));
+    if (const auto selected = selectedPorts ? selectedPorts() : std::vector<std::string>(); holdsProbes (*made) && ! selected.empty())
+    {
+        made->ports.clear();
+        for (const auto& port : selected)
+            made->addPort (port);
+    }
+    model.scopes.push_back (std::move (made));
     showView (*model.scopes.back());
     model.active = model.scopes.back().get();
     requestPorts();

@@ -27,7 +27,8 @@ public:
     bool probe (const std::string& port);
     bool isProbed (const std::string& port) const { return model.shows (port); }
 
-    ScopeView& add (ScopeKind);
+    ScopeView& add (ScopeKind);   ///< with the selected ports, if it shows traces and there are any
+    std::function<std::vector<std::string>()> selectedPorts;
     void freezeAll (bool);
     bool isFrozen() const;
 

@@ -17,16 +17,19 @@ struct ScopePort
     graph::Id node = 0;
     std::string type;   ///< the node's type in the catalogue
     FacePort port;
+    std::string first;           ///< its name in the first instances: "finger[0]/drag.force"; the same as the name if there is only one
+    std::size_t instances = 1;   ///< how many ports have this name
 };
 
 /// All ports of a graph and its subgraphs that can be probed, node by node in the order of the file, outputs first.
 std::vector<ScopePort> scopePorts (const graph::Graph&, const Catalogue&);
 
 /// The scopes for a newly opened graph: motor force over time, force against displacement, and energy. Leaves out
-/// scopes for which the graph has no ports, and the one for energy if more than most_energies ports report one.
+/// scopes for which the graph has no ports, and the one for energy if more than most_energies ports report one, or if there are several
+/// instances of the hand, whose energies cannot be told apart.
 std::vector<ScopeSpec> suggestedScopes (const graph::Graph&, const Catalogue&);
 
-/// A scope of a kind, with suitable ports of the graph.
+/// A scope of a kind, with suitable ports of the graph; of the first instance, if it can show only one.
 ScopeSpec suggestedScope (ScopeKind, const graph::Graph&, const Catalogue&);
 
 /// The ports of all nodes that report stored or dissipated energy.

@@ -64,7 +64,8 @@ std::string writeAutosave (const AutosavedDocument& d)
         { "preset", d.preset.string() },
         { "changed", d.changed },
         { "at", d.at_s },
-        { "graph", d.graph }
+        { "graph", d.graph },
+        { "folder", d.folder.string() }
     };
     return json.dump (2) + '\n';
 }
@@ -75,6 +76,7 @@ Result<AutosavedDocument> readAutosave (const std::string& text)
     const bool is_whole = json.is_object() && textAt (json, "format") == "tactus-kept" && json.contains ("graph") && json["graph"].is_string();
     if (! is_whole) return Message::error ("recovery/damaged", {}, TRANS ("the file is damaged").toStdString());
     AutosavedDocument d { textAt (json, "file"), textAt (json, "preset"), json.value ("changed", Json (true)) == true, 0.0, json["graph"].get<std::string>() };
+    d.folder = textAt (json, "folder");
     if (const auto at = json.find ("at"); at != json.end() && at->is_number()) d.at_s = at->get<double>();
     return d;
 }
@@ -86,7 +88,7 @@ RestoredGraph restore (const AutosavedDocument& d)
     const auto error = std::ranges::find (read.messages, Message::Severity::error, &Message::severity);
     if (error != read.messages.end()) restored.problem = error->text;
     auto& graph = restored.graph = std::move (read.graph);
-    graph.folder = (d.file.empty() ? d.preset : d.file).parent_path().string();
+    graph.folder = (d.folder.empty() ? (d.file.empty() ? d.preset : d.file).parent_path() : d.folder).string();
     const auto include = [&] (const graph::Patch& patch) {
         for (const auto& node : patch.nodes)
         {

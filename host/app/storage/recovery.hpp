@@ -20,6 +20,7 @@ struct AutosavedDocument
     bool changed = false;                 ///< true if the document has changes that its file does not have
     double at_s = 0.0;                    ///< when it was autosaved, in s since 1970
     std::string graph;                    ///< text of a graph file
+    std::filesystem::path folder {};      ///< base of the relative paths in it; empty: that of the file or preset
 };
 
 std::string writeAutosave (const AutosavedDocument&);

@@ -11,6 +11,7 @@
 #include <tactus/text/read_number.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace tactus::host
@@ -25,6 +26,15 @@ double secondsIn (const juce::String& text, double before)
 {
     const auto number = text.trim().upToFirstOccurrenceOf ("s", false, true).trim();
     return number.containsOnly ("0123456789.,") ? wholeNumber (number.replaceCharacter (',', '.').toStdString()).value_or (before) : before;
+}
+
+/// The gain with which signal.clip plays the recorded values again: clipOfStretch() divides by it.
+double gainOf (const Stretch& stretch)
+{
+    double most = 1.0;
+    for (const double v : stretch.values)
+        if (std::isfinite (v)) most = std::max (most, std::abs (v));
+    return most;
 }
 }   // namespace
 
@@ -188,7 +198,8 @@ void TakePanel::makeClip()
         if (! read) return refuse (read.error());
         Messages notes;
         const auto made = clipOfStretch (*read, notes);
-        if (onChoose && onClip) onChoose ("take.wav", [this, made, notes] (const std::filesystem::path& to) { onClip (made, notes, to); });
+        const auto gain = read->unit == "N" ? std::optional (gainOf (*read)) : std::nullopt;
+        if (onChoose && onClip) onChoose ("take.wav", [this, made, notes, gain] (const std::filesystem::path& to) { onClip (made, notes, gain, to); });
     });
 }
 
@@ -204,9 +215,22 @@ void TakePanel::makeGesture()
             if (onSaid)
                 onSaid (filled (TRANS ("Saved %1"), printableName (to.filename().string())),
                         TRANS ("To let a simulated hand follow it, drop the file on the panel of the hand at the lower left."),
-                        [this, to] { playback.moveBy ({ LiveRun::Hand::Kind::path, to.string() }); });
+                        [this, to] { useGesture (to); });
         });
     });
+}
+
+/// The hand that moved the tool before comes back by undo.
+void TakePanel::useGesture (const std::filesystem::path& file)
+{
+    const auto moveBy = [safe = SafePointer (this)] (const LiveRun::Hand& hand) {
+        return [safe, hand] {
+            if (safe != nullptr) safe->playback.moveBy (hand);
+        };
+    };
+    const LiveRun::Hand earlier = playback.run().hand(), now { LiveRun::Hand::Kind::path, file.string() };
+    playback.moveBy (now);
+    document.addWindowStep (filled (TRANS ("move the hand by %1"), printableName (file.filename().string())).toStdString(), moveBy (earlier), moveBy (now));
 }
 
 void TakePanel::makeTest()

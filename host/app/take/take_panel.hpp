@@ -35,7 +35,9 @@ public:
 
     /// Asks for a file to write; `name` is the suggested name.
     std::function<void (const std::string& name, std::function<void (const std::filesystem::path&)>)> onChoose;
-    std::function<void (const Clip&, Messages, const std::filesystem::path&)> onClip;   ///< writes a clip, and reports what was lost
+
+    /// Writes a clip, and reports what was lost. A recorded force has the gain in N with which it is played as strongly again.
+    std::function<void (const Clip&, Messages, std::optional<double> gain, const std::filesystem::path&)> onClip;
 
     /// Shows a result or a problem. `use`, unless it is null, uses at once what was saved.
     std::function<void (const juce::String& title, const juce::String& text, std::function<void()> use)> onSaid;
@@ -61,6 +63,7 @@ private:
     void fillPorts();
     void showLatest();
     void runTest (const std::filesystem::path&);
+    void useGesture (const std::filesystem::path&);
     void listPorts();
     void showMark();
     void applyFields();

@@ -106,10 +106,10 @@ void Files::create()
     });
 }
 
-void Files::openGraph (graph::Graph g, const std::string& step, std::function<void()> then)
+void Files::openGraph (graph::Graph g, const std::string& step, bool is_work, std::function<void()> then)
 {
-    whenSaved (TRANS ("Save changes to '%1' before opening another graph?"), [this, g = std::move (g), step, then = std::move (then)] {
-        show (g, {}, step, true, false);
+    whenSaved (TRANS ("Save changes to '%1' before opening another graph?"), [this, g = std::move (g), step, is_work, then = std::move (then)] {
+        show (g, { .is_changed = is_work }, step, true, false);
         if (then) then();
     });
 }
@@ -216,18 +216,14 @@ void Files::saveTo (const fs::path& file, const std::function<void()>& then)
     const bool is_shipped = ! presetFolder().empty() && fs::equivalent (file.parent_path(), presetFolder(), failed);
     if (is_shipped && file != document.file() && fs::exists (file, failed))
         return saveElsewhere (filled (TRANS ("%1 ships with Tactus. Choose another name or folder."), file.filename().string()), then);
-    const auto not_carried = carryFiles (document.graph(), file.parent_path());
     const bool is_renamed = rename (file);
-    const auto messages = document.save (file);
+    const auto messages = document.save (file, carriedTo (file.parent_path(), document.graph()));
     if (! messages.empty() && is_renamed) document.undo();
     if (! messages.empty()) return saveElsewhere (errorList (messages, file).trimEnd(), then);
     autosave();
     settings.noteRecent (file);
     callbacks.onSettings();
-    if (not_carried.empty())
-        callbacks.notify (filled (TRANS ("Saved %1"), file.string()));
-    else
-        callbacks.notify (filled (TRANS ("Saved, but %1, which the graph uses, was not copied. Copy it next to the saved file."), not_carried.front()));
+    callbacks.notify (filled (TRANS ("Saved %1"), file.string()));
     if (then) then();
 }
 
@@ -291,7 +287,7 @@ void Files::autosaveSoon()
 {
     is_dirty = ! autosaver->isIdle();
     if (is_dirty) return;
-    autosaver->write ({ { document.file(), document.preset(), true, clock(), {} }, document.graph(), document.savedText() });
+    autosaver->write ({ { document.file(), document.preset(), true, clock(), {}, document.graph().folder }, document.graph(), document.savedText() });
 }
 
 void Files::finishAutosave()
@@ -308,7 +304,8 @@ bool Files::autosave()
     if (! session) return false;
     is_dirty = false;
     autosaver->finish();
-    const auto saved = session->autosave ({ document.file(), document.preset(), document.isChanged(), clock(), writeGraph (document.graph()) });
+    const auto& graph = document.graph();
+    const auto saved = session->autosave ({ document.file(), document.preset(), document.isChanged(), clock(), writeGraph (graph), graph.folder });
     if (! saved) callbacks.notify (autosaveFailed (saved.error()));
     return saved.has_value();
 }

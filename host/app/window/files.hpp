@@ -40,8 +40,8 @@ public:
     void open();                                ///< asks the user for the file
     void open (const std::filesystem::path&);   ///< opens a graph, or makes a graph that plays a clip
     void openCopy (const std::filesystem::path& preset, bool by_pointer);
-    /// Opens a graph that has no file; `then` is called once it is open.
-    void openGraph (graph::Graph, const std::string& step, std::function<void()> then = {});
+    /// Opens a graph that has no file; `then` is called once it is open. A graph that is work of the user, such as a fit, is an unsaved change.
+    void openGraph (graph::Graph, const std::string& step, bool is_work, std::function<void()> then = {});
     void save (std::function<void()> then = {});
     void saveAs (std::function<void()> then = {});
 

@@ -182,7 +182,7 @@ private:
     void openExample (const std::string& type);
     void saveClipAs (const std::filesystem::path&);
     void chooseOwnFile (const std::string& name, std::function<void (const std::filesystem::path&)>);
-    void writeClip (const Clip&, Messages notes, const std::filesystem::path& to);
+    void writeClip (const Clip&, Messages notes, std::optional<double> gain, const std::filesystem::path& to);
     void recall (int snapshot);
     void store (int snapshot);
     juce::PopupMenu::Item menuItem (const juce::String& text, const juce::String& keys, std::function<void()> act, bool is_ticked = false);
@@ -195,6 +195,7 @@ private:
     void findAction();
     void reveal (Tabs&, const juce::Component& panel);   ///< even if the tabs are folded
     void askForRecording();
+    void askForMissing (const Message&);
     void launchChooser (const juce::String& title, const juce::String& patterns, const juce::File& begin, int how,
                         std::function<void (const std::filesystem::path&)>);
     void askForSetting (const juce::String& patterns, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
@@ -250,6 +251,7 @@ private:
     FitPanel fitting;
     Tour tour;
     Shade shade;
+    std::unique_ptr<juce::KeyListener> path_keys;   // of the chooser's field
     std::unique_ptr<juce::FileChooser> chooser;
     juce::File recordings;                                   // the folder of the last recording that was chosen
     juce::Component::SafePointer<juce::Component> focused;   // the component with the focus, whose keys are listened to

@@ -169,7 +169,7 @@ void MainView::openExample (const std::string& type)
     for (const auto& p : presets.shipped())
         if (p.problem.empty() && p.types.contains (type) && (smallest == nullptr || p.types.size() < smallest->types.size())) smallest = &p;
     if (smallest != nullptr) return files.openCopy (smallest->file, false);
-    if (const auto* known = catalogue.find (type)) files.openGraph (exampleOf (*known, catalogue), filled (TRANS ("example of %1"), type).toStdString());
+    if (const auto* known = catalogue.find (type)) files.openGraph (exampleOf (*known, catalogue), filled (TRANS ("example of %1"), type).toStdString(), false);
 }
 
 void MainView::recall (int number)

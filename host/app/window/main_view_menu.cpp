@@ -4,6 +4,7 @@
 #include "file_dialog_parts.hpp"
 #include "main_view.hpp"
 
+#include <host/app/inspector/settings/file_text.hpp>
 #include <host/app/look/fitted_text.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/look/key_text.hpp>
@@ -29,6 +30,27 @@ juce::String folderText (const std::filesystem::path& file)
 }
 
 constexpr const char* graphs_and_clips = "*.json;*.haptic;*.ahap;*.hjif;*.wav";
+
+/// One Return on the path of a file chooses the file. JUCE only goes to its folder, and wants a second one.
+class PathKeys final : public juce::KeyListener
+{
+public:
+    explicit PathKeys (juce::FileBrowserComponent& b) : browser (b) {}
+
+    bool keyPressed (const juce::KeyPress& key, juce::Component* field) override
+    {
+        auto* name = dynamic_cast<juce::TextEditor*> (field);
+        if (name == nullptr || key != juce::KeyPress::returnKey || ! name->getText().containsChar (juce::File::getSeparatorChar())) return false;
+        const auto file = browser.getRoot().getChildFile (name->getText());
+        if (file.isDirectory() || ! file.getParentDirectory().isDirectory()) return false;
+        browser.setRoot (file.getParentDirectory());
+        name->setText (file.getFileName(), false);
+        return false;   // the field acts on the key, too
+    }
+
+private:
+    juce::FileBrowserComponent& browser;
+};
 
 /// What may be a clip. Of the .json, only those that are: others are graphs, which may be in the same folder.
 class ClipFilter final : public juce::WildcardFileFilter
@@ -200,6 +222,19 @@ void MainView::askForRecording()
                    });
 }
 
+/// Asks for the file that a setting needs.
+void MainView::askForMissing (const Message& m)
+{
+    const auto missing = missingFileOf (edited.graph(), m);
+    if (! missing) return;
+    auto begin = missing->expected.empty() ? std::filesystem::path (edited.graph().folder) : missing->expected.parent_path();
+    if (std::error_code failed; ! std::filesystem::is_directory (begin, failed)) begin = ownFolder();
+    launchChooser (TRANS ("Choose a file"), patternsOf (missing->kind), juce::File (begin.string()),
+                   juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this, m] (const std::filesystem::path& file) {
+                       if (const auto now = missingFileOf (edited.graph(), m)) edited.perform (useFile (edited.graph(), *now, file));
+                   });
+}
+
 void MainView::launchChooser (const juce::String& title, const juce::String& patterns, const juce::File& begin, int how,
                               std::function<void (const std::filesystem::path&)> chosen)
 {
@@ -218,6 +253,11 @@ void MainView::launchChooser (const juce::String& title, const juce::String& pat
     auto* dialog = dynamic_cast<juce::FileChooserDialogBox*> (getCurrentlyModalComponent());
     auto* name = dialog == nullptr ? nullptr : nameField (*dialog);
     if (name == nullptr) return;
+    if (auto* browser = browserIn (*dialog))
+    {
+        path_keys = std::make_unique<PathKeys> (*browser);
+        name->addKeyListener (path_keys.get());
+    }
     name->onEscapeKey = [dialog] { dialog->exitModalState (0); };   // the field would keep the key
     takeFocus (*name);
     name->selectAll();

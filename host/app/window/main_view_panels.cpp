@@ -116,7 +116,7 @@ void MainView::fitRecordingIn (const std::filesystem::path& file) { fitting.open
 
 void MainView::openFitted (const FittedGraph& made)
 {
-    files.openGraph (made.preset, filled (TRANS ("fit %1"), made.preset.name).toStdString(), [this] { fitting.close(); });
+    files.openGraph (made.preset, filled (TRANS ("fit %1"), made.preset.name).toStdString(), true, [this] { fitting.close(); });
 }
 
 void MainView::insertFitted (const FittedGraph& made)

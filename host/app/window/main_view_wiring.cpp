@@ -85,6 +85,7 @@ void MainView::connectRun()
         turnTo (patching);
         patching.show (c.patch, c.id);
     };
+    problems.onChooseFile = [this] (const Message& m) { askForMissing (m); };
     live.limits = &limits;
 
     hand.onHint = patching.onHint;
@@ -94,6 +95,7 @@ void MainView::connectRun()
     hand.film().onChoose = [this] (const std::filesystem::path& begin, auto chosen) { chooseFile (true, begin, std::move (chosen)); };
 
     scopes.onHint = patching.onHint;
+    scopes.selectedPorts = [this] { return patching.commands().selectedPorts(); };
 
     layers.onHint = patching.onHint;
     layers.onSelect = [this] (const std::string& patch, graph::Id node) {
@@ -107,7 +109,9 @@ void MainView::connectRun()
 
     takes.onHint = patching.onHint;
     takes.onChoose = [this] (const std::string& name, auto chosen) { chooseOwnFile (name, std::move (chosen)); };
-    takes.onClip = [this] (const Clip& clip, Messages notes, const std::filesystem::path& to) { writeClip (clip, std::move (notes), to); };
+    takes.onClip = [this] (const Clip& clip, Messages notes, std::optional<double> gain, const std::filesystem::path& to) {
+        writeClip (clip, std::move (notes), gain, to);
+    };
     takes.onSaid = [this] (const juce::String& title, const juce::String& text, std::function<void()> use) { tell (title, text, std::move (use)); };
 }
 

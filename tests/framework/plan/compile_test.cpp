@@ -351,6 +351,23 @@ TEST_CASE ("the quantity of a generic port does not depend on the order of wires
     }
 }
 
+TEST_CASE ("a force times a ratio is a force, so its components can be summed; a product of two units is not", "[plan]")
+{
+    const auto summed = [] (const char* vector, const char* factor, const char* times) {
+        auto sketch = Sketch {}.node ("hand", "device.position").node ("drag", "friction.elasto_plastic").node ("touch", "contact.window");
+        sketch.node ("wall", "deform.plane").node ("felt", "vector.scale").node ("again", "vector.scale").node ("sum", "signal.gain");
+        sketch.wire (std::string (vector) + " -> felt.in").wire (std::string (factor) + " -> felt.gain");
+        sketch.wire ("felt.out -> again.in").wire (std::string (times) + " -> again.gain");
+        for (const char axis : { 'x', 'y', 'z' })
+            sketch.wire (std::string ("again.out.") + axis + " -> sum.in");
+        return problems (sketch);
+    };
+    CHECK (summed ("drag.force", "touch.gain", "touch.gain").empty());
+    CHECK (summed ("wall.normal", "wall.resistance", "touch.gain").empty());
+    CHECK (has (summed ("drag.deflection", "touch.gain", "touch.gain"), "wire/two_into_one"));   // a length
+    CHECK (has (summed ("drag.force", "wall.resistance", "touch.gain"), "wire/two_into_one"));
+}
+
 TEST_CASE ("feeds keep their order in the presence of a placeholder, and its ports are recorded as 0", "[plan]")
 {
     auto sketch = Sketch {}.node ("who", "acme.magic").node ("amp", "signal.gain");

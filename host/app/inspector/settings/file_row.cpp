@@ -26,21 +26,6 @@ juce::Image thumbnail (const Grid& grid, int most)
     return image;
 }
 
-const char* patternsOf (SettingSheet::Kind kind)
-{
-    switch (kind)
-    {
-    case SettingSheet::Kind::signal:
-        return "*.wav";
-    case SettingSheet::Kind::image:
-        return "*.png;*.jpg;*.jpeg";
-    case SettingSheet::Kind::table:
-        return "*.csv";
-    default:
-        return "*.obj;*.off;*.ply;*.stl";
-    }
-}
-
 class FileRow final : public Block, public juce::FileDragAndDropTarget
 {
 public:

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tactus::host
 {
@@ -87,6 +88,11 @@ HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (st
     source.setTooltip (TRANS ("What moves the tool. The device of the graph is the one bound in the Devices panel, or else the one described in the graph. "
                               "Drop a recording (CSV with t,x,y,z) here to play it."));
     source.onChange = [this] { choose(); };
+    tools.setTitle (TRANS ("Which tool the hand moves"));
+    tools.setTooltip (TRANS ("Which tool the hand moves, such as a finger. The others are moved by their own devices, gestures or recordings."));
+    tools.onChange = [this] {
+        if (const auto i = tools.getSelectedItemIndex(); i >= 0) playback.moveTool (tool_roles[static_cast<std::size_t> (i)]);
+    };
 
     play->onClick = [this] {
         if (transport != nullptr) transport->play (play->getToggleState());
@@ -121,6 +127,7 @@ HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (st
     addAndMakeVisible (surface);
     addAndMakeVisible (source);
     addAndMakeVisible (*listen);
+    addChildComponent (tools);
     for (auto* c : std::initializer_list<juce::Component*> { play.get(), &position, &speed })
         addChildComponent (c);
 }
@@ -199,6 +206,7 @@ void HandPanel::refresh()
     if (film_button.leastWidth() != film_width) resized();
     listen->setToggleState (sound.isOn(), juce::dontSendNotification);
     showSource (run.hand());
+    showTools();
     showTransport (run);
     if (auto text = noteFor (run); text != note)
     {
@@ -221,6 +229,26 @@ void HandPanel::showSource (const LiveRun::Hand& hand)
         source.indexOfItemId (by_recording) < 0 ? source.addItem (name, by_recording) : source.changeItemText (by_recording, name);
     }
     if (source.getSelectedId() != id) source.setSelectedId (id, juce::dontSendNotification);
+}
+
+/// The list of tools is there only if there is a choice.
+void HandPanel::showTools()
+{
+    const auto& run = playback.run();
+    if (auto roles = run.toolRoles(); roles != tool_roles)
+    {
+        tool_roles = std::move (roles);
+        tools.clear (juce::dontSendNotification);
+        for (int id = 1; const auto& role : tool_roles)
+            tools.addItem (fromUtf8 (role), id++);
+        tools.setVisible (tool_roles.size() > 1);
+        shown_tool.clear();
+        resized();
+        repaint();
+    }
+    // Only when it has changed: what the user has just chosen arrives later.
+    if (const auto now = run.handRole(); now != std::exchange (shown_tool, now))
+        tools.setSelectedItemIndex (static_cast<int> (std::ranges::find (tool_roles, now) - tool_roles.begin()), juce::dontSendNotification);
 }
 
 void HandPanel::showTransport (const LiveRun& run)
@@ -269,17 +297,18 @@ void HandPanel::paint (juce::Graphics& g)
     if (transport != nullptr) return;
     g.setFont (look.font (12.0f));
     g.setColour (look.theme().dim);
-    g.drawFittedText (note, getLocalBounds().removeFromBottom (bar_height).reduced (margin, 0), juce::Justification::centredLeft, 2, 1.0f);
+    const int left = tools.isVisible() ? tools.getRight() : 0;
+    g.drawFittedText (note, getLocalBounds().removeFromBottom (bar_height).withLeft (left).reduced (margin, 0), juce::Justification::centredLeft, 2, 1.0f);
 }
 
-/// The width at which each of the usual sources can be read.
-int HandPanel::wantedSourceWidth() const
+/// The width at which each item of a list can be read, except the name of a recording.
+int HandPanel::wantedWidth (const juce::ComboBox& list) const
 {
     constexpr int around_text = 32;   // the border and the arrow
     const auto font = lookOf (*this).font (12.0f);
     float widest = 0.0f;
-    for (int i = 0; i < source.getNumItems(); ++i)
-        if (source.getItemId (i) != by_recording) widest = std::max (widest, font.getStringWidthFloat (source.getItemText (i)));
+    for (int i = 0; i < list.getNumItems(); ++i)
+        if (list.getItemId (i) != by_recording || &list != &source) widest = std::max (widest, font.getStringWidthFloat (list.getItemText (i)));
     return static_cast<int> (std::ceil (widest)) + around_text;
 }
 
@@ -297,14 +326,19 @@ void HandPanel::resized()
     }
     film_width = film_button.leastWidth();
     const bool is_narrow = getWidth() < least_width_for_one_row;
-    const int room_for_film = is_narrow ? head.getWidth() : head.getWidth() - 6 - wantedSourceWidth();
+    const int room_for_film = is_narrow ? head.getWidth() : head.getWidth() - 6 - wantedWidth (source);
     film_button.setBounds (head.removeFromLeft (std::clamp (room_for_film, film_width, std::max (film_width, film_button.wantedWidth()))));
     head.removeFromLeft (2);
     if (is_narrow)
         source.setBounds (area.removeFromTop (bar_height).reduced (margin, 2));
     else
-        source.setBounds (head.removeFromRight (std::min (std::max (200, wantedSourceWidth()), head.getWidth() - 4)));
+        source.setBounds (head.removeFromRight (std::min (std::max (200, wantedWidth (source)), head.getWidth() - 4)));
     auto low = area.removeFromBottom (bar_height).reduced (margin, 4);
+    if (tools.isVisible())
+    {
+        tools.setBounds (low.removeFromLeft (std::min (wantedWidth (tools), low.getWidth() / 3)));
+        low.removeFromLeft (4);
+    }
     play->setBounds (low.removeFromLeft (24));
     low.removeFromLeft (4);
     speed.setBounds (low.removeFromRight (72));

@@ -10,7 +10,7 @@
 namespace tactus::host
 {
 
-/// The hand: what moves the tool, the surface it moves on, and the transport of a gesture or recording.
+/// The hand: what moves the tool, which tool if there are several, the surface it moves on, and the transport of a gesture or recording.
 class HandPanel final : public juce::Component, public juce::FileDragAndDropTarget
 {
 public:
@@ -47,12 +47,13 @@ private:
 
     void choose();
     void showSource (const LiveRun::Hand&);
+    void showTools();
     void showTransport (const LiveRun&);
     juce::String noteFor (const LiveRun&) const;
     bool showsBoth() const noexcept { return is_large && getWidth() >= least_width_for_both; }
     void connectScene();
     void watchScene();
-    int wantedSourceWidth() const;
+    int wantedWidth (const juce::ComboBox&) const;
 
     static constexpr int least_width_for_both = 760;
 
@@ -65,7 +66,9 @@ private:
     FilmButton film_button { playback, space };
     bool is_scene = false, is_large = false, is_seen = true, is_watching = false;
     int film_width = 0;   // that the label of the button needed at the last layout
-    juce::ComboBox source;
+    juce::ComboBox source, tools;
+    std::vector<std::string> tool_roles;   // those in the list of tools
+    std::string shown_tool;                // the one that is selected in it
     std::unique_ptr<juce::Button> play, listen;
     juce::Slider position, speed;
     std::shared_ptr<TransportPath> transport;   // as of the last refresh(); its run may have ended since then

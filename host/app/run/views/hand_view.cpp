@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tactus::host
 {
@@ -28,6 +29,10 @@ void HandView::refresh()
     held = held && by_pointer;
     tool = run.tool();
     if (tool && ! (isFinite (tool->position) && isFinite (tool->force))) tool.reset();   // an unstable loop may throw the tool anywhere
+    const auto status = run.status();
+    const auto ticks = status ? status->ticks : 0;
+    if (ticks < std::exchange (last_tick, ticks)) trail.clear();   // another run, perhaps of another tool
+    if (by_pointer && (pressed || held)) moveTool();               // a run that began meanwhile does not know where the pointer is
     if (tool)
     {
         trail.push_back (tool->position);

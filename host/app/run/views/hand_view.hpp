@@ -55,6 +55,7 @@ private:
     Vec3 target = Vec3::Zero();
     std::optional<LiveRun::Tool> tool;
     std::deque<Vec3> trail;
+    std::uint64_t last_tick = 0;   // of the run, at the last refresh
 };
 
 }   // namespace tactus::host

@@ -47,4 +47,19 @@ TEST_CASE ("fit panel: Cancel at the question about unsaved changes keeps the fi
     CHECK_FALSE (panel.isOpen());
     CHECK (w.view->document().identity() != before);
     CHECK (w.graph().root.find ("drag")->params.at ("mu").get<double>() == Approx (0.4).epsilon (0.05));
+
+    // The fit has no file yet, so nothing throws it away without a question.
+    const auto* fitted = w.view->document().identity();
+    bool is_closed = false;
+    const std::vector<std::function<void()>> acts { [&] { w.key ("ctrl + n"); },
+                                                    [&] { w.view->open (TACTUS_SOURCE_DIR "/graphs/soft_pad.json"); },
+                                                    [&] { w.view->closeWhenSaved ([&] { is_closed = true; }); } };
+    for (const auto& act : acts)
+    {
+        act();
+        REQUIRE (w.view->asked().isOpen());
+        w.key ("escape");
+        CHECK (w.view->document().identity() == fitted);
+    }
+    CHECK_FALSE (is_closed);
 }

@@ -184,6 +184,11 @@ TEST_CASE ("a layer is sent to another device through a bus with a gain for each
         CHECK (wood.hasWire ("drag.force." + std::string (component) + " -> to_shaker.in[1]"));
     CHECK (wood.compiles());
 
+    wood.perform (addSend (graph(), wood.mixer, catalogue(), 2, "shaker"));   // behind a product
+    CHECK (wood.hasWire ("grain_felt.out.x -> to_shaker.in[2]"));
+    CHECK (wood.compiles());
+    wood.perform (removeSend (graph(), sendsOf (graph(), wood.mixer, catalogue(), 2)[0], catalogue()));
+
     const auto sends = sendsOf (graph(), wood.mixer, catalogue(), 1);
     REQUIRE (sends.size() == 1);
     CHECK (sends[0].to.name == "shaker");

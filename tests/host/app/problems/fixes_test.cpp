@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/problems/fixes.hpp>
 #include <host/app/problems/unfelt.hpp>
+#include <host/assets/file_assets.hpp>
 
 #include <tactus/file/graph_file.hpp>
 #include <tactus/graph/endpoint_text.hpp>
@@ -189,6 +190,41 @@ TEST_CASE ("what is there but cannot be felt is a problem\\, and a click wires i
                 "expose":{"inputs":{"position":"wall.position"},"outputs":{"force":"wall.force"}}}})");
         CHECK (unfeltIn (g).empty());
     }
+}
+
+TEST_CASE ("a file that is missing is found in every kind of setting\\, and a chosen one takes its place", "[app][problems]")
+{
+    struct Case
+    {
+        const char *node, *within;
+        SettingSheet::Kind kind;
+    };
+    const auto c = GENERATE (Case { R"("signal.clip","settings":{"clip":"gone/x.haptic"})", "", SettingSheet::Kind::table },
+                             Case { R"("vibration.wavetable","settings":{"table":{"wav":"gone/x.wav"}})", "/wav", SettingSheet::Kind::signal },
+                             Case { R"("deform.surface","settings":{"surface":{"mesh":"gone/x.obj"}})", "/mesh", SettingSheet::Kind::surface });
+    auto g = graphOf (R"("nodes":{"a":{"type":)" + std::string (c.node) + R"(}},"wires":[])");
+    g.folder = TACTUS_SOURCE_DIR "/graphs";
+    FileAssets assets;
+    const auto messages = compile (g, catalogue(), { .assets = &assets }).messages;
+    const auto lost = std::ranges::find (messages, std::string ("setting/value"), &Message::id);
+    REQUIRE (lost != messages.end());
+    INFO (lost->where << ": " << lost->text);
+    const auto missing = missingFileOf (g, *lost);
+    REQUIRE (missing.has_value());
+    CHECK (missing->kind == c.kind);
+    CHECK (missing->at.within == c.within);
+    CHECK (missing->expected.parent_path() == TACTUS_SOURCE_DIR "/graphs/gone");
+    REQUIRE (graph::apply (g, useFile (g, *missing, TACTUS_SOURCE_DIR "/graphs/assets/liver.obj")).has_value());
+    CHECK (g.root.find ("a")->settings.flatten().items().front().second == "assets/liver.obj");
+    CHECK_FALSE (missingFileOf (g, *lost).has_value());   // it exists
+
+    auto silent = graphOf (R"("nodes":{"buzz":{"type":"signal.clip"}},"wires":[])");
+    const auto unset = unfeltIn (silent);
+    const auto no_file = std::ranges::find (unset, std::string ("clip/no_file"), &Message::id);
+    REQUIRE (no_file != unset.end());
+    CHECK (missingFileOf (silent, *no_file).has_value());
+    for (const auto& m : errorsOf (graphOf (R"("nodes":{"a":{"type":"signal.clip","settings":{"lowest":"gone"}}},"wires":[])")))
+        CHECK_FALSE (missingFileOf (silent, m).has_value());   // no file at all
 }
 
 TEST_CASE ("every preset can be felt as a whole", "[app][problems]")

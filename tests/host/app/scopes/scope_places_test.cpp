@@ -13,6 +13,24 @@ using tactus::host::test::Bench;
 using tactus::host::test::Stage;
 using tactus::host::test::WindowRig;
 
+namespace
+{
+template <typename F>
+bool waitFor (F&& isSo)
+{
+    for (int i = 0; i < 1000 && ! isSo(); ++i)
+        WindowRig::settle (10);
+    return isSo();
+}
+
+ScopePanel& scopes (WindowRig& w)
+{
+    auto* panel = dynamic_cast<ScopePanel*> (w.titled ("Scopes"));
+    REQUIRE (panel != nullptr);
+    return *panel;
+}
+}   // namespace
+
 TEST_CASE ("on a small screen and at twice the size\\, at least 120 pixels of each plot are in view", "[app][scopes]")
 {
     WindowRig w ("dry_wood.json", 1024, 700);
@@ -97,4 +115,40 @@ TEST_CASE ("the numbers of the axes are whole in a scope of any size", "[app][sc
                     CHECK_FALSE ((has_digit && t.is_cut));
                 }
         }
+}
+
+TEST_CASE ("a new graph shows no values of the run before\\, and a new spectrum shows the selected wire", "[app][scopes]")
+{
+    WindowRig w ("dry_wood.json", 1280, 720, false);
+    const auto isSeen = [&] (const juce::String& text) {
+        return std::ranges::any_of (host::test::readTexts (*w.view), [&] (const auto& t) { return t.text.contains (text); });
+    };
+    const auto& wires = w.graph().root.wires;
+    w.view->canvas().select ({ wires.front().id });
+    w.click ("+ Spectrum");
+    const auto* made = scopes (w).scopes().scopes.back().get();
+    CHECK (made->kind == ScopeKind::spectrum);
+    CHECK (made->ports == std::vector<std::string> { "hand.position" });
+    w.view->canvas().select ({});
+    w.click ("+ Spectrum");
+    CHECK (scopes (w).scopes().scopes.back()->ports == std::vector<std::string> { "motor.force" });
+
+    REQUIRE (waitFor ([&] { return isSeen ("peak"); }));
+    w.key ("ctrl + n");
+    if (w.view->asked().isOpen()) w.click ("Don't save");
+    REQUIRE (w.graph().root.nodes.empty());
+    CHECK (waitFor ([&] { return ! isSeen ("peak") && ! isSeen ("late ticks"); }));
+    w.key ("ctrl + z");   // the graph of that run
+    CHECK (waitFor ([&] { return isSeen ("peak"); }));
+}
+
+TEST_CASE ("two fingers open without a word about scopes that do not fit", "[app][scopes]")
+{
+    WindowRig w ("two_fingers.json", 1280, 720, false);
+    auto& run = w.view->run();
+    REQUIRE (waitFor ([&] { return run.isRunning() && ! run.traces().of ("finger/motor.force").empty(); }));
+    WindowRig::settle (100);
+    CHECK (scopes (w).warning().isEmpty());
+    CHECK (run.traces().of ("finger[0]/skin.state").size() == 1);
+    run.letGo();
 }

@@ -70,6 +70,38 @@ TEST_CASE ("scopes: every preset has suggested scopes, with ports that exist", "
     }
 }
 
+TEST_CASE ("scopes: those that are suggested for a preset can all be recorded at once", "[app][scopes]")
+{
+    for (const auto& entry : std::filesystem::directory_iterator (folder))
+    {
+        if (entry.path().extension() != ".json") continue;
+        INFO (entry.path().filename().string());
+        const auto loaded = loadGraph (entry.path());
+        FileAssets assets;
+        CompileOptions options { .assets = &assets };
+        const auto energies = energyPorts (scopePorts (loaded.graph, catalogue()));
+        for (const auto& s : suggestedScopes (loaded.graph, catalogue()))
+            for (const auto& p : portsOf (s, energies))
+                if (std::ranges::count (options.records, p) == 0) options.records.push_back (p);
+        const auto compiled = compile (loaded.graph, catalogue(), options);
+        REQUIRE (compiled.plan);
+        CHECK (compiled.plan->taps().size() <= ProbeRing::most);
+    }
+}
+
+TEST_CASE ("scopes: of several instances, a scope that can show only one shows the first", "[app][scopes]")
+{
+    const auto all = suggestedScopes (load ("two_fingers"), catalogue());
+    CHECK (of (all, ScopeKind::time).ports == std::vector<std::string> { "finger/motor.force" });
+    const auto& over = of (all, ScopeKind::over);
+    CHECK (over.x == "finger[0]/hand.position");
+    CHECK (over.y == "finger[0]/skin.force");
+    CHECK (over.state == "finger[0]/skin.state");
+    CHECK (stateFor ("finger[1]/skin.force", scopePorts (load ("two_fingers"), catalogue())) == "finger[1]/skin.state");
+    CHECK (suggestedScope (ScopeKind::tool, load ("two_fingers"), catalogue()).node == "finger[0]/skin");
+    CHECK (std::ranges::count (all, ScopeKind::energy, &ScopeSpec::kind) == 0);
+}
+
 TEST_CASE ("scopes: for Dry wood, motor force, friction against displacement, and energy are suggested", "[app][scopes]")
 {
     const auto all = suggestedScopes (load ("dry_wood"), catalogue());

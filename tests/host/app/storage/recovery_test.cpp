@@ -235,6 +235,17 @@ TEST_CASE ("a link or a folder that another user can change is not a crashed ses
     CHECK (fs::exists (home / "sessions/open/kept.json"));
 }
 
+TEST_CASE ("a recovered graph has the folder that its paths are relative to, which need not be that of its file")
+{
+    AutosavedDocument document { "/mine/one.json", {}, true, 0.0, writeGraph ({}) };
+    CHECK (restore (document).graph.folder == "/mine");
+    document.folder = "/presets";
+    const auto read = readAutosave (writeAutosave (document));
+    REQUIRE (read);
+    CHECK (read->folder == "/presets");
+    CHECK (restore (*read).graph.folder == "/presets");
+}
+
 TEST_CASE ("without a home folder, nothing is autosaved in the current folder")
 {
     const TemporaryFolder folder;

@@ -47,6 +47,20 @@ TEST_CASE ("a take shows its curve while it records\\, and Stop ends the take an
     w.click ("Use now");
     CHECK (run.hand().kind == LiveRun::Hand::Kind::path);
     CHECK (run.hand().path == (w.home / "gesture.csv").string());
+    w.key ("ctrl + z");   // the hand of before moves the tool again; the take stays
+    CHECK (run.hand().kind == LiveRun::Hand::Kind::described);
+    WindowRig::settle (200);
+    CHECK_FALSE (w.view->asked().isOpen());
+    CHECK (panel.take().state() == Take::State::ready);
+    CHECK (panel.plot().length() > 0.05);
+    w.key ("ctrl + z");   // and then the take
+    CHECK (panel.take().state() == Take::State::empty);
+    WindowRig::settle (200);
+    CHECK_FALSE (w.view->asked().isOpen());
+    w.key ("ctrl + y");
+    w.key ("ctrl + y");
+    CHECK (run.hand().path == (w.home / "gesture.csv").string());
+    REQUIRE (waitFor ([&] { return panel.take().state() == Take::State::ready && panel.plot().length() > 0.05; }));
 
     w.click ("Make a test...");
     REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
@@ -57,10 +71,15 @@ TEST_CASE ("a take shows its curve while it records\\, and Stop ends the take an
 
     w.click ("Make a clip...");
     REQUIRE (waitFor ([&] { return w.view->asked().isOpen(); }));
+    const auto named = w.view->asked().getDescription().fromFirstOccurrenceOf ("set the gain of signal.clip to ", false, false);
     w.click ("Use now");
     const auto clip = std::ranges::find (w.graph().root.nodes, "signal.clip", &graph::Node::type);
     REQUIRE (clip != w.graph().root.nodes.end());
     CHECK (clip->settings.at ("clip").asString().ends_with ("take.wav"));
+    const auto gain = clip->params.at ("gain").asString();   // as strong as it was recorded
+    INFO (gain << " | " << named);
+    CHECK (gain.ends_with (" N"));
+    CHECK ((named.isEmpty() ? gain == "1 N" : named.startsWith (juce::String (gain).dropLastCharacters (2))));
     run.letGo();
     unsetenv ("TACTUS_GRAPHS");
 }
