@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pads that drivers of the kernel drive: what they get when they rumble.
+// A pad that a driver of the kernel drives: what it gets when it rumbles.
 #include "uhid.hpp"
 
 #include <csignal>
@@ -80,64 +80,6 @@ int dualSense (const std::vector<std::string>& args)
         device.serve (due, heard);
         ++report[1];     // the left stick moves
         report[8] = 8;   // nothing is pressed
-        device.input (report);
-    }
-    device.serve (now() + 0.05, heard);
-    writeLog (args, log.lines);
-    return 0;
-}
-
-/// A Switch Pro controller over Bluetooth, which answers subcommands: --seconds S --log FILE
-int switchPro (const std::vector<std::string>& args)
-{
-    std::signal (SIGTERM, [] (int) { ended = 1; });
-    Log log;
-    Uhid device ("Test Pro Controller", "11:12:13:14:15:16", 0x057e, 0x2009, descriptorOf (0x30, 48, 1, 48), 5);
-    std::array<std::uint8_t, 49> report {};
-    const auto state = [&] (std::uint8_t id) {
-        report = {};
-        report[0] = id;
-        report[2] = 0x8e;   // battery and connection
-        // Both sticks in the middle: two numbers of 12 bits each.
-        for (const std::size_t at : { 6u, 9u })
-        {
-            report[at] = 0x00;
-            report[at + 1] = 0x08;
-            report[at + 2] = 0x80;
-        }
-    };
-    const auto heard = [&] (std::span<const std::uint8_t> r) {
-        log.add (r);
-        if (r.size() < 11 || r[0] != 0x01) return;   // no subcommand
-        state (0x21);
-        report[13] = 0x80;    // done
-        report[14] = r[10];   // the subcommand
-        if (r[10] == 0x02)    // asks what it is
-        {
-            report[17] = 3;   // a Pro controller
-            for (std::uint8_t i = 0; i < 6; ++i)
-                report[19 + i] = static_cast<std::uint8_t> (0x11 + i);
-        }
-        if (r[10] == 0x10 && r.size() >= 16)   // reads its flash: where, how much, what is there
-        {
-            report[13] = 0x90;
-            std::copy_n (r.begin() + 11, 5, report.begin() + 15);
-            std::fill (report.begin() + 20, report.end(), std::uint8_t { 0xff });   // empty, so the kernel uses its defaults
-            // The scales of its accelerometer and of its gyroscope, after their offsets of 0.
-            if (r[11] == 0x20 && r[12] == 0x60)
-                for (std::size_t i = 0; i < 24; ++i)
-                    report[20 + i] = i / 6 % 2 != 0 && i % 2 != 0 ? 0x40 : 0;
-        }
-        device.input (report);
-    };
-    const double end = now() + option (args, "seconds", 10.0);
-    std::uint8_t moves = 0;
-    for (double due = now(); now() < end && ended == 0; due += 15e-3)
-    {
-        device.serve (due, heard);
-        state (0x30);
-        report[1] = ++moves;
-        report[7] = static_cast<std::uint8_t> (0x08 ^ (moves & 0x01));
         device.input (report);
     }
     device.serve (now() + 0.05, heard);

@@ -61,7 +61,7 @@ class Uhid final : public VirtualDevice
 public:
     static constexpr std::uint16_t usb = 3;
 
-    Uhid (const char* name, const char* serial, std::uint16_t vid, std::uint16_t pid, std::span<const std::uint8_t> descriptor, std::uint16_t bus = usb)
+    Uhid (const char* name, const char* serial, std::uint16_t vid, std::uint16_t pid, std::span<const std::uint8_t> descriptor)
     {
         fd = ::open ("/dev/uhid", O_RDWR | O_CLOEXEC);
         if (fd < 0)
@@ -76,7 +76,7 @@ public:
         std::snprintf (reinterpret_cast<char*> (c.uniq), sizeof c.uniq, "%s", serial);
         std::memcpy (c.rd_data, descriptor.data(), descriptor.size());
         c.rd_size = static_cast<std::uint16_t> (descriptor.size());
-        c.bus = bus;
+        c.bus = usb;
         c.vendor = vid;
         c.product = pid;
         tell (e);
@@ -216,6 +216,5 @@ int spaceMouse (const std::vector<std::string>& args);
 int joystick (const std::vector<std::string>& args);
 int wheel (const std::vector<std::string>& args);
 int dualSense (const std::vector<std::string>& args);
-int switchPro (const std::vector<std::string>& args);
 
 }   // namespace tactus::guest
