@@ -119,7 +119,7 @@ TEST_CASE ("the numbers of the axes are whole in a scope of any size", "[app][sc
 
 TEST_CASE ("a new graph shows no values of the run before\\, and a new spectrum shows the selected wire", "[app][scopes]")
 {
-    WindowRig w ("dry_wood.json", 1280, 720, false);
+    WindowRig w ("dry_wood.json", 1920, 1080, false);
     const auto isSeen = [&] (const juce::String& text) {
         return std::ranges::any_of (host::test::readTexts (*w.view), [&] (const auto& t) { return t.text.contains (text); });
     };

@@ -53,6 +53,14 @@ std::string clipOf (const graph::Graph& g)
     return node->settings["clip"].get<std::string>();
 }
 
+/// JUCE delivers what was dropped in a message of its own.
+void dropOnClip (WindowRig& w, const fs::path& file)
+{
+    const auto before = clipOf (w.graph());
+    w.stage->drop (file.string(), placeOf (w, "clip"));
+    REQUIRE (waitFor ([&] { return clipOf (w.graph()) != before; }));
+}
+
 /// Loads a saved graph as another program does. Returns the path of its clip.
 std::string clipIn (const fs::path& file)
 {
@@ -75,9 +83,8 @@ TEST_CASE ("a graph that is saved elsewhere finds its clip again\\, also one tha
         WindowRig w;
         w.key ("ctrl + n");
         w.click ("Clip");
-        w.stage->drop ((mine / "heart.haptic").string(), placeOf (w, "clip"));
-        const auto written = clipOf (w.graph());   // relative to the folder of the template
-        REQUIRE (written != "heart.haptic");
+        dropOnClip (w, mine / "heart.haptic");
+        CHECK (clipOf (w.graph()) != "heart.haptic");   // relative to the folder of the template
         saveAs (w, mine / "one.json");
         CHECK (clipIn (mine / "one.json") == "heart.haptic");
         CHECK_FALSE (w.view->document().isChanged());
@@ -89,7 +96,7 @@ TEST_CASE ("a graph that is saved elsewhere finds its clip again\\, also one tha
         CHECK (clipIn (mine / "one.json") == "assets/pulse.haptic");   // a copy
         CHECK (fs::exists (mine / "assets/pulse.haptic"));
 
-        w.stage->drop ((mine / "heart.haptic").string(), placeOf (w, "clip"));
+        dropOnClip (w, mine / "heart.haptic");
         w.key ("ctrl + s");
         CHECK (clipIn (mine / "one.json") == "heart.haptic");
         w.view->open (mine / "one.json");
