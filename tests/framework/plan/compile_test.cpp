@@ -355,6 +355,7 @@ TEST_CASE ("a force times a ratio is a force, so its components can be summed; a
 {
     const auto summed = [] (const char* vector, const char* factor, const char* times) {
         auto sketch = Sketch {}.node ("hand", "device.position").node ("drag", "friction.elasto_plastic").node ("touch", "contact.window");
+        sketch.node ("unit", "vector.normalize").wire ("hand.position -> unit.in");
         sketch.node ("wall", "deform.plane").node ("felt", "vector.scale").node ("again", "vector.scale").node ("sum", "signal.gain");
         sketch.wire (std::string (vector) + " -> felt.in").wire (std::string (factor) + " -> felt.gain");
         sketch.wire ("felt.out -> again.in").wire (std::string (times) + " -> again.gain");
@@ -363,7 +364,7 @@ TEST_CASE ("a force times a ratio is a force, so its components can be summed; a
         return problems (sketch);
     };
     CHECK (summed ("drag.force", "touch.gain", "touch.gain").empty());
-    CHECK (summed ("wall.normal", "wall.resistance", "touch.gain").empty());
+    CHECK (summed ("unit.out", "wall.resistance", "touch.gain").empty());
     CHECK (has (summed ("drag.deflection", "touch.gain", "touch.gain"), "wire/two_into_one"));   // a length
     CHECK (has (summed ("drag.force", "wall.resistance", "touch.gain"), "wire/two_into_one"));
 }
