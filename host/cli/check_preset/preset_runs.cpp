@@ -85,7 +85,8 @@ private:
 
     static void play (Run& run, const ByRole& most, Played& p)
     {
-        const auto ticks = static_cast<std::size_t> (p.lasts_s * run.rate()), window = std::max<std::size_t> (1, std::lround (run.rate() * 1e-3));
+        const auto ticks = static_cast<std::size_t> (p.lasts_s * run.rate());
+        const auto window = std::max<std::size_t> (1, static_cast<std::size_t> (std::lround (run.rate() * 1e-3)));
         auto& engine = run.engine();
         std::vector<std::vector<Vec3>> forces (engine.roleCount());
         for (std::size_t k = 0; k < ticks && p.stop.why == Guard::Stop::none; ++k)
