@@ -69,7 +69,7 @@ bool MainView::keyPressed (const juce::KeyPress& key)
     }
     // Elsewhere, Tab goes to the next field.
     if (key.isKeyCode (juce::KeyPress::tabKey) && ! hasKeyboardFocus (false) && ! patching.hasKeyboardFocus (true)) return false;
-    const bool is_hidden = ! patching.isShowing();   // you would not see what you edit
+    const bool is_hidden = ! patching.isVisible();   // you would not see what you edit
     return scopes.keyPressed (key) || (! is_hidden && patching.keyPressed (key));
 }
 
