@@ -44,6 +44,14 @@ SECTIONS = {
     "Decisions": ("Why things are as they are, and what was measured.", ["decisions/index"]),
 }
 
+# Words of the glossary that have other meanings, too. They become links only where a page links them to the glossary, or has them in bold.
+EVERYDAY = set("binding bypass check claim clock control engine feed fused hit instance limit passive port probe rate reading record run section session setting stable "
+               "stop tap trace wire".split())
+PLURALS = {"quantum": "quanta"}
+# What stays as it is when words become links: code, headings, links, markup, and names of buttons.
+FIXED = re.compile(r"^ *```.*?^ *```|^#.*?$|^ {4,}.*?$|(?<!\*)\*(?!\*)[^*\n]+\*(?!\*)|"
+                   r"!?\[(?:[^\[\]]|\[[^\]]*\])*\]\([^)\s]+\)|\{term\}`[^`]+`|`[^`\n]+`|<[^>\n]+>", re.M | re.S)
+
 GESTURES = ("stroke", "circle", "press", "tap", "cut")   # tags of presets, and the parts of the gallery
 
 
@@ -99,6 +107,8 @@ class Site:
         here = pathlib.PurePosixPath(name).parent
         if str(path) == NOTEBOOK:
             return f"{picture}[{text}]({os.path.relpath('tutorials/notebook.ipynb', here)})"
+        if str(path) == "docs/glossary.md" and not anchor and (term := self.term(text)):
+            return term
         if str(path) in PAGES:
             return f"{picture}[{text}]({os.path.relpath(PAGES[str(path)] + '.md', here)}{'#' + anchor if anchor else ''})"
         if path.suffix == ".webm":
@@ -123,26 +133,54 @@ class Site:
         return PART.sub(lambda link: self.moved(link, of, name), text)
 
     def words(self):
-        """The words of the glossary."""
-        return re.findall(r"^- \*\*(.*?)\*\*: ", (ROOT / "docs/glossary.md").read_text(encoding="utf-8"), re.M)
+        """The words of the glossary, each with its spellings."""
+        words = re.findall(r"^- \*\*(.*?)\*\*: ", (ROOT / "docs/glossary.md").read_text(encoding="utf-8"), re.M)
+        return {spelling: word for word in words for spelling in (word, PLURALS.get(word, word + "s"))}
 
-    def linked(self, text):
-        """Bold words that the glossary has become links to it."""
-        for word in self.words():
-            text = re.sub(rf"\*\*({re.escape(word)})\*\*", r"{term}`\1`", text)
-        return text
+    def term(self, text):
+        """A link to a word of the glossary, or None if the text is none."""
+        word = self.words().get(text.lower())
+        return word and (f"{{term}}`{text}`" if text == word else f"{{term}}`{text} <{word}>`")
+
+    def linked(self, text, done=()):
+        """The first use of each word of the glossary in a text becomes a link to it, except for the words in `done`."""
+        spellings, done = self.words(), set(done)
+        either = "|".join(sorted(map(re.escape, spellings), key=len, reverse=True))
+        use = re.compile(rf"\*\*({either})\*\*|(?<![\w/.-])({either})(?![\w/-]|\.\w)", re.I)
+
+        def link(match):
+            found = match[1] or match[2]
+            word = spellings[found.lower()]
+            if word in done or (match[2] and word in EVERYDAY):
+                return match.group()
+            done.update(word.split() + [word])
+            return self.term(found)
+
+        parts, end = [], 0
+        for fixed in FIXED.finditer(text):
+            parts.append(use.sub(link, text[end:fixed.start()]))
+            end = fixed.end()
+            if named := re.match(r"\{term\}`(?:[^`]*<)?([^`>]+)>?`", fixed.group()):
+                done.add(named[1])
+            parts.append(fixed.group())
+        return "".join(parts) + use.sub(link, text[end:])
 
     def pages(self):
         for of, name in PAGES.items():
             text = self.page(of, name)
-            if name == "concepts" or name.startswith("tutorials/"):
-                text = self.linked(text)
             if name == "glossary":
-                head, terms = text.split("\n- ", 1)
-                text = head + "\n\n:::{glossary}\n" + "\n\n".join(re.sub(r"\*\*(.*?)\*\*: ", r"\1\n  ", term.rstrip()) for term in terms.split("\n- ")) + "\n:::\n"
+                text = self.glossary(text)
+            elif name not in ("changelog", "preset_table", "instructions"):   # lists; and presets have everyday words
+                text = self.linked(text)
             if name == "playground":
                 text = text.replace("\n\n", "\n\n<a href=\"playground/index.html\">Open the playground</a>\n\n", 1)
             self.write(name, text)
+
+    def glossary(self, text):
+        """The glossary, in which each entry links the words that it uses."""
+        head, *entries = text.rstrip().split("\n- ")
+        terms = (re.fullmatch(r"\*\*(.*?)\*\*: (.*)", entry.rstrip(), re.S).groups() for entry in entries)
+        return f"{head}\n\n:::{{glossary}}\n" + "\n\n".join(f"{word}\n  {self.linked(meaning, [word])}" for word, meaning in terms) + "\n:::\n"
 
     def page_film(self):
         """The film at the top of the README."""
